@@ -1,0 +1,15 @@
+# One interface target carries how every Glissade target is compiled; it is not installed.
+add_library(glissade_compile_settings INTERFACE)
+target_compile_features(glissade_compile_settings INTERFACE cxx_std_20)
+target_compile_options(glissade_compile_settings INTERFACE
+  # Same input, same bytes: no fused multiply-add that one machine has and the next has not.
+  -ffp-contract=off
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual)
+if(GLISSADE_WARNINGS_AS_ERRORS)
+  target_compile_options(glissade_compile_settings INTERFACE -Werror)
+endif()
+if(GLISSADE_SANITIZE)
+  target_compile_options(glissade_compile_settings INTERFACE
+    -fsanitize=${GLISSADE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(glissade_compile_settings INTERFACE -fsanitize=${GLISSADE_SANITIZE})
+endif()

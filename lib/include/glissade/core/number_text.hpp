@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+namespace glissade {
+
+/// @return the shortest decimal text that reads back as exactly `value`, independent of locale;
+///         "nan", "inf", "-inf" where it is not finite
+[[nodiscard]] std::string exact_text(double value);
+
+/// @param digits  significant digits; 1 to 17
+/// @return `value` rounded to `digits` significant digits, without trailing zeros, in plain notation where
+/// the
+///         exponent lies within -5 to 9; independent of locale
+[[nodiscard]] std::string rounded_text(double value, int digits);
+
+/// @return a length for people, in the unit that suits its size: "0.35 mm", "412 mm", "5.4 m", "1.2 km"
+[[nodiscard]] std::string length_text(double metres, int digits = 4);
+
+/// @return an angle for people: "17 deg"
+[[nodiscard]] std::string angle_text(double radians, int digits = 4);
+
+}  // namespace glissade

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <compare>
+#include <numbers>
+
+namespace glissade {
+
+/// An angle as a type, so that degrees and radians cannot be mixed up.
+///
+/// Regular value; holds radians. Slope angles count from the horizontal, positive downhill.
+class Angle {
+ public:
+  constexpr Angle() = default;
+
+  [[nodiscard]] static constexpr Angle from_radians(double radians) { return Angle(radians); }
+  [[nodiscard]] static constexpr Angle from_degrees(double degrees) {
+    return Angle(degrees * (std::numbers::pi / 180.0));
+  }
+
+  [[nodiscard]] constexpr double radians() const { return radians_; }
+  [[nodiscard]] constexpr double degrees() const { return radians_ * (180.0 / std::numbers::pi); }
+
+  friend constexpr auto operator<=>(const Angle&, const Angle&) = default;
+
+ private:
+  explicit constexpr Angle(double radians) : radians_(radians) {}
+  double radians_ = 0.0;
+};
+
+/// Dry (Coulomb) friction between body and track: friction coefficient mu = tan(friction angle).
+///
+/// Regular value; the default is frictionless.
+class Friction {
+ public:
+  constexpr Friction() = default;
+
+  /// @param angle  friction angle delta; 0 <= delta < 90 deg
+  /// @throws InputError if the angle is not in that range
+  [[nodiscard]] static Friction from_angle(Angle angle);
+
+  /// @param mu  friction coefficient [-]; finite, >= 0
+  /// @throws InputError if mu is negative or not finite
+  [[nodiscard]] static Friction from_coefficient(double mu);
+
+  /// @return mu [-]; exactly the value given to from_coefficient
+  [[nodiscard]] constexpr double coefficient() const { return coefficient_; }
+  /// @return delta = atan(mu)
+  [[nodiscard]] Angle angle() const;
+
+  friend constexpr auto operator<=>(const Friction&, const Friction&) = default;
+
+ private:
+  explicit constexpr Friction(double mu) : coefficient_(mu) {}
+  double coefficient_ = 0.0;
+};
+
+/// Gravity that is taken where none is given [m/s^2].
+inline constexpr double kDefaultGravity = 9.81;
+
+}  // namespace glissade

@@ -1,0 +1,43 @@
+#include "glissade/core/number_text.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace glissade {
+
+std::string exact_text(double value) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string rounded_text(double value, int digits) {
+  if (!std::isfinite(value)) return exact_text(value);
+  std::array<char, 64> buffer;
+  const auto scientific = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                        std::chars_format::scientific, digits - 1)
+                              .ptr;
+  double rounded = 0.0;
+  std::from_chars(buffer.data(), scientific, rounded);
+  const double size = std::fabs(rounded);
+  const bool plain = size == 0.0 || (size >= 1e-5 && size < 1e10);
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded,
+                                 plain ? std::chars_format::fixed : std::chars_format::scientific)
+                       .ptr;
+  return {buffer.data(), end};
+}
+
+std::string length_text(double metres, int digits) {
+  const double size = std::fabs(metres);
+  if (size != 0.0 && size < 1.0) return rounded_text(metres * 1e3, digits) + " mm";
+  if (size >= 1e4) return rounded_text(metres * 1e-3, digits) + " km";
+  return rounded_text(metres, digits) + " m";
+}
+
+std::string angle_text(double radians, int digits) {
+  return rounded_text(radians * (180.0 / std::numbers::pi), digits) + " deg";
+}
+
+}  // namespace glissade

@@ -1,0 +1,33 @@
+#include "glissade/core/number_text.hpp"
+
+#include "support/catch.hpp"
+
+#include <cstdlib>
+#include <limits>
+
+using namespace glissade;
+
+TEST_CASE("exact text reads back as the same double") {
+  for (const double value : {0.1, 1.0 / 3.0, 6.02214076e23, -5e-324, 9.81, 1e22, 0.0}) {
+    CHECK(std::strtod(exact_text(value).c_str(), nullptr) == value);
+  }
+  CHECK(exact_text(0.1) == "0.1");
+  CHECK(exact_text(std::numeric_limits<double>::infinity()) == "inf");
+}
+
+TEST_CASE("rounded text keeps significant digits and drops trailing zeros") {
+  CHECK(rounded_text(2.14712546857048, 6) == "2.14713");
+  CHECK(rounded_text(2.5, 6) == "2.5");
+  CHECK(rounded_text(0.99999999, 3) == "1");
+  CHECK(rounded_text(-1234.5678, 6) == "-1234.57");
+  CHECK(rounded_text(1.5e-9, 3) == "1.5e-09");
+  CHECK(rounded_text(0.0, 3) == "0");
+}
+
+TEST_CASE("lengths are shown in the unit that suits their size") {
+  CHECK(length_text(0.00035) == "0.35 mm");
+  CHECK(length_text(0.4) == "400 mm");
+  CHECK(length_text(5.4) == "5.4 m");
+  CHECK(length_text(12000) == "12 km");
+  CHECK(angle_text(0.29670597283903605) == "17 deg");
+}
