@@ -1,0 +1,92 @@
+#pragma once
+
+#include "glissade/core/vec.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace glissade {
+
+/// A closed interval of which either side may be left out.
+struct Range {
+  std::optional<double> lowest;   ///< value >= lowest
+  std::optional<double> highest;  ///< value <= highest
+
+  /// @return the range that holds `value` alone
+  [[nodiscard]] static constexpr Range fixed(double value) { return {value, value}; }
+  [[nodiscard]] constexpr bool limited() const { return lowest.has_value() || highest.has_value(); }
+
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// One side of a straight line that the track must stay on.
+///
+/// Frame: plane of the centerline, Vec2 = (run, drop), drop positive DOWN.
+struct HalfPlane {
+  Vec2 point;              ///< on the line [m]
+  Vec2 forbidden;          ///< direction square to the line, towards the forbidden side; any length > 0
+  double clearance = 0.0;  ///< dot(track - point, forbidden/|forbidden|) <= -clearance [m]; >= 0
+
+  friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
+};
+
+/// A beam, a duct, a machine: the track passes wholly above or wholly below it.
+enum class Passage { either, above, below };
+
+struct KeepOut {
+  std::vector<Vec2> outline;          ///< simple polygon (run, drop) [m], either winding, at least 3 corners
+  double clearance = 0.0;             ///< distance from the track to the polygon >= clearance [m]; >= 0
+  Passage passage = Passage::either;  ///< either: both are tried, the faster one is taken
+
+  friend bool operator==(const KeepOut&, const KeepOut&) = default;
+};
+
+/// A line of ground or of a roof: (run, drop) with ascending run [m], at least two points. It limits the
+/// track over its own runs only.
+struct Profile {
+  std::vector<Vec2> line;
+  double clearance = 0.0;  ///< distance from the track to the line >= clearance, on the free side [m]; >= 0
+
+  friend bool operator==(const Profile&, const Profile&) = default;
+};
+
+/// What a job asks of a track. Every limit is optional; each holds at every point of the track, not only at
+/// the optimiser's own, and at every friction of Problem's range.
+///
+/// Units: SI, radians. Frame: plane of the centerline, drop positive DOWN, slope angle positive downhill.
+struct Limits {
+  Range entry_slope_angle;  ///< of zeta(0) [rad]; within (-pi, pi)
+  Range exit_slope_angle;   ///< of zeta(S) [rad]; within (-pi, pi)
+  Range slope_angle;        ///< of zeta(s) for every s [rad]; within (-pi, pi)
+
+  std::optional<double> smallest_valley_radius;  ///< kappa <= 1/radius where kappa > 0 [m]; > 0
+  std::optional<double> smallest_crest_radius;   ///< -kappa <= 1/radius where kappa < 0 [m]; > 0
+  std::optional<double> highest_curvature_rate;  ///< |d kappa/ds| <= rate [1/m^2]; > 0
+  bool concave = false;                          ///< kappa >= 0: no crest at all
+
+  std::optional<double> highest_normal_load;  ///< N = g cos(zeta) + kappa u^2 <= value [m/s^2]
+  /// N >= value [m/s^2]. 0 keeps the body in contact. Without a value the body is held from both sides (a
+  /// pipe, a rail).
+  std::optional<double> lowest_normal_load = 0.0;
+  std::optional<double> highest_curvature_load;  ///< kappa u^2 <= value [m/s^2]; > 0
+
+  Range speed;  ///< of u(s) [m/s]; `lowest` from `lowest_speed_from` on, `highest` everywhere
+  double lowest_speed_from = 0.0;  ///< arc length from which speed.lowest holds [m]; >= 0
+  Range exit_speed;                ///< of u(S) [m/s]
+  Range arc_length;                ///< of S [m]
+
+  double lead_in = 0.0;   ///< the track starts with a straight exactly this long [m]; >= 0
+  double lead_out = 0.0;  ///< the track ends with a straight exactly this long [m]; >= 0
+
+  std::vector<HalfPlane> half_planes;
+  std::vector<KeepOut> keep_outs;
+  std::vector<Profile> stay_above;  ///< terrain, floors: drop(x) + clearance lies above the line
+  std::vector<Profile> stay_below;  ///< roofs, ceilings
+
+  std::vector<Vec2> waypoints;  ///< points (run, drop) that the track passes through, in this order [m]
+
+  friend bool operator==(const Limits&, const Limits&) = default;
+};
+
+}  // namespace glissade

@@ -1,0 +1,155 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/core/progress.hpp"
+#include "glissade/core/units.hpp"
+#include "glissade/motion/motion.hpp"
+#include "glissade/optimize/limits.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace glissade {
+
+/// Where the track may end.
+enum class FinishKind {
+  point,          ///< at Endpoints
+  vertical_line,  ///< at run = Endpoints::run, drop within Finish::free_range
+  level           ///< at drop = Endpoints::drop, run within Finish::free_range
+};
+
+struct Finish {
+  FinishKind kind = FinishKind::point;
+  Range free_range;  ///< of the coordinate that is free [m]; unlimited where left out
+};
+
+enum class ObjectiveKind {
+  travel_time,  ///< least T
+  exit_speed,   ///< greatest u(S)
+  blend         ///< least T - exit_speed_weight * u(S)
+};
+
+struct Objective {
+  ObjectiveKind kind = ObjectiveKind::travel_time;
+  double exit_speed_weight = 0.0;  ///< of `blend`: seconds given for one m/s of exit speed [s/(m/s)]; >= 0
+  bool worst_case = false;         ///< at the highest friction of the range instead of the body's own
+};
+
+/// What is asked: a body, two ends, and the limits between them.
+struct Problem {
+  Endpoints endpoints;  ///< run != 0; a run < 0 is a track to the left, limits mirrored too
+  Finish finish;
+  Body body;                              ///< body.friction is the nominal friction
+  std::optional<Friction> low_friction;   ///< <= body.friction; limits hold there too
+  std::optional<Friction> high_friction;  ///< >= body.friction; limits hold there too
+  double gravity = kDefaultGravity;       ///< [m/s^2]; > 0
+  Limits limits;
+  Objective objective;
+};
+
+struct OptimizeOptions {
+  int pieces = 32;                ///< clothoids at the finest level; 8 <= pieces <= 200
+  double tolerance = 1e-7;        ///< of the first-order residual, relative; 1e-12 <= tolerance <= 1e-3
+  double limit_tolerance = 1e-7;  ///< greatest violation of a limit, of its scale; 1e-10 <= value <= 1e-4
+  double time_budget = 60.0;      ///< [s]; > 0; ends with the best track so far
+};
+
+enum class OptimizeStatus {
+  optimal,                 ///< every limit holds, first-order conditions met
+  feasible_not_converged,  ///< every limit holds, but the search ended early (message says why)
+  infeasible,              ///< the limits contradict each other; see conflict
+  no_track_found           ///< the search ended early before any track held every limit
+};
+
+/// @return "optimal", "feasible, not converged", "infeasible", "no track found"
+[[nodiscard]] std::string_view to_text(OptimizeStatus status);
+
+/// A limit that holds the optimum back, where, and what it costs.
+struct ActiveLimit {
+  std::string limit;   ///< key as in the design file: "slope_angle.highest", "keep_outs[0]", ...
+  double value = 0.0;  ///< the bound, SI
+  double from = 0.0;   ///< stretch of the track on which it is active, arc length [m]
+  double to = 0.0;     ///< >= from
+  /// Objective gained per unit by which the limit is relaxed, in seconds (of exit_speed: m/s) per `unit`;
+  /// >= 0; the first-order multiplier, summed over all stretches of the same limit.
+  double price = 0.0;
+  std::string unit;  ///< "rad", "m", "m/s^2", "m/s", "1/m^2"; of friction-range limits the same
+};
+
+/// How well the referee finds one limit kept.
+struct LimitCheck {
+  std::string limit;
+  double value = 0.0;      ///< the bound, SI
+  double reached = 0.0;    ///< the worst value that the referee found, SI
+  double violation = 0.0;  ///< by which it breaks the bound [unit]; 0 where kept
+  double scale = 1.0;      ///< what a violation is measured against [unit]; > 0
+  double where = 0.0;      ///< arc length of the worst value [m]
+  std::string unit;
+};
+
+/// The smallest change of one limit, all others kept, that would make the problem solvable.
+struct Relaxation {
+  std::string limit;
+  double value = 0.0;   ///< the bound now, SI
+  double needed = 0.0;  ///< the bound that would do, SI
+  std::string unit;
+};
+
+/// Why there is no track.
+struct Conflict {
+  std::vector<std::string> limits;      ///< those that cannot be met together
+  std::vector<Relaxation> relaxations;  ///< each of them alone would do; empty if no single change helps
+};
+
+struct OptimizeReport {
+  OptimizeStatus status = OptimizeStatus::no_track_found;
+  std::string message;  ///< one sentence on how the search ended
+
+  double travel_time = 0.0;  ///< by the referee, at nominal friction [s]
+  double exit_speed = 0.0;   ///< by the referee, at nominal friction [m/s]
+  std::optional<double>
+      unlimited_travel_time;  ///< exact optimum without limits, where the theory applies [s]
+  /// Norm of the gradient of the Lagrangian over that of the objective; dimensionless.
+  double first_order_residual = 0.0;
+  std::vector<LimitCheck> checks;   ///< one for each limit, sampled by the referee ten times finer
+  std::vector<ActiveLimit> active;  ///< by price, dearest first
+  Conflict conflict;                ///< of an infeasible problem
+
+  int iterations = 0;    ///< outer rounds: meshes, working sets, restarts
+  int evaluations = 0;   ///< of objective and limits with gradients
+  double seconds = 0.0;  ///< wall clock; the only field that differs between two runs
+
+  /// @return a few lines for people
+  [[nodiscard]] std::string brief() const;
+};
+
+struct Optimum {
+  CenterlinePtr centerline;  ///< the track; empty where status is infeasible or no_track_found
+  OptimizeReport report;
+};
+
+/// The fastest track that keeps every limit.
+///
+/// Method: docs/optimization.md. The track is a clothoid spline; curvature at its knots, entry slope angle
+/// and
+///   length are the unknowns; gradients are exact; NLopt's SLSQP minimises, coarse to fine. All of it in
+///   units of chord and sqrt(chord/gravity), so that tracks of any size take the same path. Needs no guess,
+///   is deterministic but for the time budget.
+/// Accuracy: without limits kOptimizeAccuracy relative in travel time at the default pieces, never below the
+///   exact optimum by more than kOptimizeUndershoot.
+/// Identity: every number in the report comes from Motion on the centerline returned.
+/// @param stop  asks the search to end with the best track so far
+/// @throws InputError if a field of problem or options breaks its stated bound
+[[nodiscard]] Optimum optimize(const Problem& problem, const OptimizeOptions& options = {},
+                               const std::stop_token& stop = {}, const Progress& progress = {});
+
+/// Greatest relative excess of travel time over the exact optimum without limits, mu 0 to 1, H/L from 1.02 mu
+/// to 5, default options.
+inline constexpr double kOptimizeAccuracy = 1e-6;
+/// Greatest relative deficit.
+inline constexpr double kOptimizeUndershoot = 1e-9;
+
+}  // namespace glissade
