@@ -13,39 +13,55 @@ namespace glissade {
 ///
 /// The output of sweep() always has: closed, manifold, oriented outward, one component, no self-intersection,
 /// no degenerate facet, the Euler characteristic of its cross-section.
+/// Accuracy: counts are exact (predicates decide in exact arithmetic where doubles do not suffice); volume
+/// and area as kMeshMeasureAccuracy.
 struct MeshFacts {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  std::size_t components = 0;             ///< connected pieces of the surface
+  std::size_t components = 0;             ///< pieces of the surface, each joined through edges
   std::size_t boundary_edges = 0;         ///< edges with one facet only; 0 = closed
   std::size_t non_manifold_edges = 0;     ///< edges with three facets or more, or two of opposite winding
   std::size_t non_manifold_vertices = 0;  ///< vertices whose facets are not one fan
-  std::size_t degenerate_facets = 0;      ///< of zero area, or with a vertex twice
-  std::size_t duplicate_vertices = 0;     ///< positions that occur more than once
+  std::size_t degenerate_facets = 0;      ///< corners on one line, or the same vertex twice
+  std::size_t duplicate_vertices = 0;     ///< vertices at the position of an earlier one
   std::size_t unused_vertices = 0;
-  std::size_t self_intersections =
-      0;                          ///< pairs of facets that meet elsewhere than in a shared edge or vertex
-  bool oriented_outward = false;  ///< every closed piece encloses positive volume
+  /// Pairs of facets that meet elsewhere than in a common edge or vertex (common: of equal position).
+  /// Degenerate facets are left out, they are a fault of their own.
+  std::size_t self_intersections = 0;
+  /// False: the search stopped at a limit of its work (100,000 pairs found, or 200 pairs of overlapping boxes
+  /// a facet tested), `self_intersections` is a lower bound and the mesh is not proven.
+  bool self_intersections_complete = true;
+  /// Closed and every piece encloses its volume from outside; a piece within another faces the other way (a
+  /// cavity).
+  bool oriented_outward = false;
   long long euler_characteristic = 0;  ///< V - E + F; 2 for a sphere-like solid, 0 for a pipe
-  double volume = 0.0;                 ///< enclosed [m^3], positive where oriented outward
-  double area = 0.0;                   ///< [m^2]
-  double smallest_angle = 0.0;         ///< of any facet [rad]
-  double shortest_edge = 0.0;          ///< [m]
-  Vec3 lower;                          ///< bounding box [m]
+  double volume = 0.0;  ///< enclosed [m^3], positive where oriented outward; meaningless unless closed
+  double area = 0.0;    ///< [m^2]
+  double smallest_angle = 0.0;  ///< of any facet [rad]; 0 if one is degenerate
+  double shortest_edge = 0.0;   ///< [m]
+  Vec3 lower;                   ///< bounding box [m]
   Vec3 upper;
 
   [[nodiscard]] bool closed() const { return triangles > 0 && boundary_edges == 0; }
   [[nodiscard]] bool manifold() const { return non_manifold_edges == 0 && non_manifold_vertices == 0; }
   /// closed and manifold: a slicer knows inside from outside
   [[nodiscard]] bool watertight() const { return closed() && manifold(); }
-  /// watertight, outward, free of self-intersection and of degenerate facets
+  /// watertight, outward, proven free of self-intersection, without degenerate facet or duplicate vertex
   [[nodiscard]] bool valid() const;
   /// @return every fault in plain words with its number, empty if valid()
   [[nodiscard]] std::vector<std::string> faults() const;
 };
 
+/// Stated bound of the relative error of MeshFacts' area, and of its volume relative to area times the
+/// diagonal of the bounding box.
+inline constexpr double kMeshMeasureAccuracy = 1e-14;
+
+/// Coordinates beyond this are refused [m]: their products would leave the range of a double.
+inline constexpr double kLargestMeshCoordinate = 1e60;
+
 /// Measures a mesh; never throws for a faulty one: that is what the facts are for.
-/// @throws InputError if a triangle names a vertex that does not exist or a coordinate is not finite
+/// @throws InputError if a triangle names a vertex that does not exist, a coordinate is not finite or beyond
+///         kLargestMeshCoordinate, or there are 2^32 - 1 vertices or triangles or more
 [[nodiscard]] MeshFacts measure(const TriangleMesh& mesh);
 
 }  // namespace glissade

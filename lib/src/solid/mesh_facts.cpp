@@ -1,0 +1,412 @@
+#include "glissade/solid/mesh_facts.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "solid/position_index.hpp"
+#include "solid/self_intersections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace glissade {
+namespace {
+
+constexpr std::uint32_t kNone = UINT32_MAX;
+
+std::size_t next_corner(std::size_t corner) {
+  return corner == 2 ? 0 : corner + 1;
+}
+
+void check_sizes(const TriangleMesh& mesh) {
+  if (mesh.vertices.size() >= kNone || mesh.triangles.size() >= kNone) {
+    throw InputError({"mesh",
+                      std::to_string(mesh.vertices.size()) + " vertices and " +
+                          std::to_string(mesh.triangles.size()) + " triangles are too many",
+                      "Each must stay below 4294967295.", "a coarser tolerance"});
+  }
+}
+
+void check_vertices(const std::vector<Vec3>& vertices) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec3& p = vertices[i];
+    const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    if (std::isfinite(p.x + p.y + p.z) && largest <= kLargestMeshCoordinate) continue;
+    throw InputError({"mesh, vertex " + std::to_string(i),
+                      "coordinates (" + rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " +
+                          rounded_text(p.z, 6) + ") m cannot be measured",
+                      "Every coordinate must be a finite number of at most " +
+                          rounded_text(kLargestMeshCoordinate, 3) + " m.",
+                      ""});
+  }
+}
+
+void check_triangles(const TriangleMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t vertex : mesh.triangles[i]) {
+      if (vertex < mesh.vertices.size()) continue;
+      throw InputError(
+          {"mesh, triangle " + std::to_string(i), "vertex " + std::to_string(vertex) + " does not exist",
+           "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.", ""});
+    }
+  }
+}
+
+/// A sum that carries along what each addition rounds away (Neumaier).
+class CompensatedSum {
+ public:
+  void add(double term) {
+    const double total = total_ + term;
+    lost_ += std::fabs(total_) >= std::fabs(term) ? (total_ - total) + term : (term - total) + total_;
+    total_ = total;
+  }
+  [[nodiscard]] double value() const { return total_ + lost_; }
+
+ private:
+  double total_ = 0.0;
+  double lost_ = 0.0;
+};
+
+/// Which facets belong together; sets of facets that grow by joining (union-find).
+class FacetGroups {
+ public:
+  explicit FacetGroups(std::size_t facets) : parent_(facets) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+
+  [[nodiscard]] std::uint32_t root(std::uint32_t facet) {
+    while (parent_[facet] != facet) {
+      parent_[facet] = parent_[parent_[facet]];
+      facet = parent_[facet];
+    }
+    return facet;
+  }
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t first = root(a);
+    const std::uint32_t second = root(b);
+    // The lower number leads, so that groups do not depend on the order of joining.
+    parent_[std::max(first, second)] = std::min(first, second);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// The facets around every vertex, as one array with an offset per vertex.
+class Incidence {
+ public:
+  Incidence(std::size_t vertices, const std::vector<FacetCorners>& facets)
+      : start_(vertices + 1, 0), facet_(3 * facets.size()) {
+    for (const FacetCorners& facet : facets) {
+      for (const std::uint32_t vertex : facet) ++start_[vertex + 1];
+    }
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<std::size_t> free(start_.begin(), start_.end() - 1);
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+      for (const std::uint32_t vertex : facets[i]) facet_[free[vertex]++] = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  [[nodiscard]] const std::uint32_t* begin(std::size_t vertex) const {
+    return facet_.data() + start_[vertex];
+  }
+  [[nodiscard]] const std::uint32_t* end(std::size_t vertex) const {
+    return facet_.data() + start_[vertex + 1];
+  }
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<std::uint32_t> facet_;
+};
+
+/// One end of an edge seen from a vertex: the vertex at its other end and the facet it bounds.
+struct Spoke {
+  std::uint32_t neighbour = 0;
+  std::uint32_t facet = 0;
+  std::uint32_t wedge = 0;  ///< of the facet among those around the vertex
+  bool outgoing = false;    ///< the facet runs through the edge away from the vertex
+};
+
+struct Topology {
+  std::size_t edges = 0;
+  std::size_t boundary_edges = 0;
+  std::size_t non_manifold_edges = 0;
+  std::size_t non_manifold_vertices = 0;
+  std::size_t used_vertices = 0;
+};
+
+/// Walks once around every vertex; an edge is counted at its vertex of lower number.
+class TopologyCount {
+ public:
+  TopologyCount(std::size_t vertices, const std::vector<FacetCorners>& facets)
+      : facets_(facets), incidence_(vertices, facets), groups_(facets.size()) {
+    for (std::size_t vertex = 0; vertex < vertices; ++vertex) visit(static_cast<std::uint32_t>(vertex));
+  }
+
+  [[nodiscard]] const Topology& topology() const { return topology_; }
+  [[nodiscard]] FacetGroups& groups() { return groups_; }
+
+ private:
+  void visit(std::uint32_t vertex) {
+    gather_spokes(vertex);
+    if (spokes_.empty()) return;
+    ++topology_.used_vertices;
+    is_fan_ = true;
+    for (std::size_t first = 0; first < spokes_.size();) {
+      std::size_t last = first + 1;
+      while (last < spokes_.size() && spokes_[last].neighbour == spokes_[first].neighbour) ++last;
+      visit_edge(vertex, first, last);
+      first = last;
+    }
+    if (!is_fan_ || wedge_count() != 1) ++topology_.non_manifold_vertices;
+  }
+
+  void gather_spokes(std::uint32_t vertex) {
+    spokes_.clear();
+    wedges_.clear();
+    for (const std::uint32_t* facet = incidence_.begin(vertex); facet != incidence_.end(vertex); ++facet) {
+      const FacetCorners& corners = facets_[*facet];
+      const std::size_t here = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+      const std::size_t after = next_corner(here);
+      const auto wedge = static_cast<std::uint32_t>(wedges_.size());
+      wedges_.push_back(wedge);
+      spokes_.push_back({corners[after], *facet, wedge, true});
+      spokes_.push_back({corners[next_corner(after)], *facet, wedge, false});
+    }
+    std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
+      return a.neighbour != b.neighbour ? a.neighbour < b.neighbour : a.facet < b.facet;
+    });
+  }
+
+  /// Spokes [first, last) are all facets at one edge.
+  void visit_edge(std::uint32_t vertex, std::size_t first, std::size_t last) {
+    const std::size_t facets_here = last - first;
+    if (facets_here > 2) is_fan_ = false;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      wedges_[wedge_root(spokes_[i].wedge)] = wedge_root(spokes_[first].wedge);
+    }
+    if (vertex > spokes_[first].neighbour) return;
+
+    ++topology_.edges;
+    for (std::size_t i = first + 1; i < last; ++i) groups_.join(spokes_[first].facet, spokes_[i].facet);
+    if (facets_here == 1) ++topology_.boundary_edges;
+    const bool is_flipped = facets_here == 2 && spokes_[first].outgoing == spokes_[first + 1].outgoing;
+    if (facets_here > 2 || is_flipped) ++topology_.non_manifold_edges;
+  }
+
+  [[nodiscard]] std::uint32_t wedge_root(std::uint32_t wedge) {
+    while (wedges_[wedge] != wedge) {
+      wedges_[wedge] = wedges_[wedges_[wedge]];
+      wedge = wedges_[wedge];
+    }
+    return wedge;
+  }
+
+  [[nodiscard]] std::size_t wedge_count() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < wedges_.size(); ++i) count += wedges_[i] == i ? 1 : 0;
+    return count;
+  }
+
+  const std::vector<FacetCorners>& facets_;
+  Incidence incidence_;
+  FacetGroups groups_;
+  Topology topology_;
+  std::vector<Spoke> spokes_;
+  std::vector<std::uint32_t> wedges_;
+  bool is_fan_ = true;
+};
+
+/// Every vertex that shares its position with an earlier one stands for that one.
+struct Welding {
+  std::vector<std::uint32_t> leader;
+  std::size_t duplicates = 0;
+};
+
+Welding weld(const std::vector<Vec3>& vertices) {
+  Welding welding{.leader = std::vector<std::uint32_t>(vertices.size())};
+  PositionIndex index(vertices, vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto vertex = static_cast<std::uint32_t>(i);
+    welding.leader[i] = index.enter(vertices[i], vertex);
+    if (welding.leader[i] != vertex) ++welding.duplicates;
+  }
+  return welding;
+}
+
+void measure_bounds(const std::vector<Vec3>& vertices, MeshFacts& facts) {
+  if (vertices.empty()) return;
+  facts.lower = facts.upper = vertices.front();
+  for (const Vec3& p : vertices) {
+    facts.lower = {std::min(facts.lower.x, p.x), std::min(facts.lower.y, p.y), std::min(facts.lower.z, p.z)};
+    facts.upper = {std::max(facts.upper.x, p.x), std::max(facts.upper.y, p.y), std::max(facts.upper.z, p.z)};
+  }
+}
+
+/// @return cotangent of the smallest angle of a triangle with these squared sides and twice this area
+double largest_cotangent(double ab, double bc, double ca, double double_area) {
+  // The smallest angle faces the shortest side.
+  const double shortest = std::min({ab, bc, ca});
+  return (ab + bc + ca - 2.0 * shortest) / (2.0 * double_area);
+}
+
+void measure_shape(const TriangleMesh& mesh, MeshFacts& facts) {
+  double shortest_squared = std::numeric_limits<double>::infinity();
+  double cotangent = 0.0;
+  CompensatedSum double_area;
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const Vec3 a = mesh.vertices[ia];
+    const Vec3 ab = mesh.vertices[ib] - a;
+    const Vec3 ac = mesh.vertices[ic] - a;
+    const Vec3 bc = mesh.vertices[ic] - mesh.vertices[ib];
+    const Vec3 normal = cross(ab, ac);
+    const double facet_double_area = std::sqrt(dot(normal, normal));
+    double_area.add(facet_double_area);
+    shortest_squared = std::min({shortest_squared, dot(ab, ab), dot(bc, bc), dot(ac, ac)});
+    cotangent =
+        std::max(cotangent, largest_cotangent(dot(ab, ab), dot(bc, bc), dot(ac, ac), facet_double_area));
+  }
+  facts.area = 0.5 * double_area.value();
+  facts.shortest_edge = mesh.triangles.empty() ? 0.0 : std::sqrt(shortest_squared);
+  const bool has_angle = !mesh.triangles.empty() && facts.degenerate_facets == 0;
+  facts.smallest_angle = has_angle ? std::atan2(1.0, cotangent) : 0.0;
+}
+
+/// Volume of every piece by the divergence theorem about the middle of the bounding box, which keeps the
+/// terms small; pieces in the order of their lowest facet.
+std::vector<double> piece_volumes(const std::vector<Vec3>& vertices, const std::vector<FacetCorners>& facets,
+                                  FacetGroups& groups, Vec3 centre) {
+  std::vector<std::uint32_t> piece(facets.size());
+  std::vector<CompensatedSum> volumes;
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    const std::uint32_t root = groups.root(static_cast<std::uint32_t>(i));
+    if (root == i) {
+      piece[i] = static_cast<std::uint32_t>(volumes.size());
+      volumes.emplace_back();
+    } else {
+      piece[i] = piece[root];
+    }
+    const Vec3 a = vertices[facets[i][0]] - centre;
+    const Vec3 b = vertices[facets[i][1]] - centre;
+    const Vec3 c = vertices[facets[i][2]] - centre;
+    volumes[piece[i]].add(dot(a, cross(b - a, c - a)));
+  }
+  std::vector<double> result;
+  result.reserve(volumes.size());
+  for (const CompensatedSum& volume : volumes) result.push_back(volume.value() / 6.0);
+  return result;
+}
+
+void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>& facets, MeshFacts& facts) {
+  TopologyCount count(mesh.vertices.size(), facets);
+  const Topology& topology = count.topology();
+  facts.boundary_edges = topology.boundary_edges;
+  facts.non_manifold_edges = topology.non_manifold_edges;
+  facts.non_manifold_vertices = topology.non_manifold_vertices;
+  facts.unused_vertices = mesh.vertices.size() - topology.used_vertices;
+  facts.euler_characteristic = static_cast<long long>(topology.used_vertices) -
+                               static_cast<long long>(topology.edges) + static_cast<long long>(facets.size());
+
+  const Vec3 centre = 0.5 * (facts.lower + facts.upper);
+  const std::vector<double> volumes = piece_volumes(mesh.vertices, facets, count.groups(), centre);
+  CompensatedSum total;
+  for (const double volume : volumes) total.add(volume);
+  facts.components = volumes.size();
+  facts.volume = total.value();
+  const bool all_positive =
+      std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; });
+  facts.oriented_outward = facts.closed() && facts.non_manifold_edges == 0 && all_positive;
+}
+
+bool has_repeated_vertex(const FacetCorners& facet) {
+  return facet[0] == facet[1] || facet[1] == facet[2] || facet[2] == facet[0];
+}
+
+std::vector<FacetCorners> facets_of_three_vertices(const TriangleMesh& mesh) {
+  std::vector<FacetCorners> facets;
+  facets.reserve(mesh.triangles.size());
+  for (const FacetCorners& facet : mesh.triangles) {
+    if (!has_repeated_vertex(facet)) facets.push_back(facet);
+  }
+  return facets;
+}
+
+std::vector<FacetCorners> proper_facets(const TriangleMesh& mesh, const Welding& welding) {
+  std::vector<FacetCorners> facets;
+  facets.reserve(mesh.triangles.size());
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const FacetCorners facet{welding.leader[ia], welding.leader[ib], welding.leader[ic]};
+    if (has_repeated_vertex(facet)) continue;
+    if (are_collinear(mesh.vertices[facet[0]], mesh.vertices[facet[1]], mesh.vertices[facet[2]])) continue;
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
+std::string counted(std::size_t count, const char* singular, const char* plural) {
+  return std::to_string(count) + ' ' + (count == 1 ? singular : plural);
+}
+
+}  // namespace
+
+bool MeshFacts::valid() const {
+  return watertight() && oriented_outward && degenerate_facets == 0 && duplicate_vertices == 0 &&
+         self_intersections == 0 && self_intersections_complete;
+}
+
+std::vector<std::string> MeshFacts::faults() const {
+  std::vector<std::string> faults;
+  if (triangles == 0) return {"no facets"};
+  const auto report = [&faults](std::size_t count, const char* singular, const char* plural) {
+    if (count > 0) faults.push_back(counted(count, singular, plural));
+  };
+  report(boundary_edges, "edge with one facet only: the surface is open",
+         "edges with one facet only: the surface is open");
+  report(non_manifold_edges, "edge where three or more facets meet, or two of opposite winding",
+         "edges where three or more facets meet, or two of opposite winding");
+  report(non_manifold_vertices, "vertex whose facets are not one fan",
+         "vertices whose facets are not one fan");
+  report(degenerate_facets, "facet without area", "facets without area");
+  report(duplicate_vertices, "vertex at the position of another", "vertices at the position of another");
+  if (!self_intersections_complete) {
+    faults.push_back(
+        "at least " +
+        counted(self_intersections, "pair of facets that intersect", "pairs of facets that intersect") +
+        "; the search stopped at its limit");
+  } else {
+    report(self_intersections, "pair of facets that intersect", "pairs of facets that intersect");
+  }
+  if (closed() && non_manifold_edges == 0 && !oriented_outward) {
+    faults.emplace_back("facets face inward: a closed piece encloses negative volume");
+  }
+  return faults;
+}
+
+MeshFacts measure(const TriangleMesh& mesh) {
+  check_sizes(mesh);
+  check_vertices(mesh.vertices);
+  check_triangles(mesh);
+
+  MeshFacts facts;
+  facts.vertices = mesh.vertices.size();
+  facts.triangles = mesh.triangles.size();
+  measure_bounds(mesh.vertices, facts);
+  {
+    const Welding welding = weld(mesh.vertices);
+    facts.duplicate_vertices = welding.duplicates;
+    const std::vector<FacetCorners> facets = proper_facets(mesh, welding);
+    facts.degenerate_facets = mesh.triangles.size() - facets.size();
+    const SelfIntersections found =
+        find_self_intersections(mesh.vertices, facets, SelfIntersectionLimits::for_facets(facets.size()));
+    facts.self_intersections = found.pairs;
+    facts.self_intersections_complete = found.complete;
+  }
+  measure_shape(mesh, facts);
+  measure_topology(mesh, facets_of_three_vertices(mesh), facts);
+  return facts;
+}
+
+}  // namespace glissade
