@@ -1,0 +1,13 @@
+# Every C++ file is as clang-format writes it; run by ctest, see CMakeLists.txt beside this file.
+set(files "")
+foreach(folder lib app tests bench)
+  file(GLOB_RECURSE found ${SOURCE_DIR}/${folder}/*.hpp ${SOURCE_DIR}/${folder}/*.cpp)
+  list(APPEND files ${found})
+endforeach()
+execute_process(COMMAND ${CLANG_FORMAT} --dry-run -Werror ${files} RESULT_VARIABLE result ERROR_VARIABLE output)
+if(NOT result EQUAL 0)
+  string(REGEX MATCHALL "[^\n]*: error: code should be clang-formatted" places "${output}")
+  list(LENGTH places count)
+  string(SUBSTRING "${output}" 0 2000 output)
+  message(FATAL_ERROR "${count} places are not as clang-format writes them; mend: clang-format -i FILE\n${output}")
+endif()

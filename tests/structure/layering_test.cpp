@@ -1,0 +1,166 @@
+// Who may include whom (docs/development.md, layers), held against the sources as they are.
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, std::set<std::string>> kMayInclude = {
+    {"core", {}},
+    {"centerline", {"core"}},
+    {"motion", {"core", "centerline"}},
+    {"optimize", {"core", "centerline", "motion"}},
+    {"solid", {"core", "centerline"}},
+    {"design", {"core"}},
+    {"io", {"core", "centerline", "solid", "design"}},
+    {"pipeline", {"core", "centerline", "motion", "optimize", "solid", "design", "io"}},
+    {"report", {"core", "centerline", "motion", "optimize", "solid", "design", "io", "pipeline"}},
+};
+
+/// Third parties by the start of their include path, and the modules whose .cpp files and private headers may
+/// name them.
+const std::map<std::string, std::set<std::string>> kThirdParties = {
+    {"CGAL/", {"solid"}},
+    {"nlopt", {"centerline", "optimize"}},
+    {"yaml-cpp/", {"design"}},
+    {"boost/", {"core", "centerline", "motion", "optimize", "solid"}},
+    {"fmt/", {"core", "io", "design", "solid", "pipeline", "report"}},
+    {"nlohmann/", {"report"}},
+    {"tbb/", {"solid", "io"}},
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> includes_of(const std::string& text) {
+  static const std::regex kInclude(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">])re");
+  std::vector<std::string> names;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), kInclude); match != std::sregex_iterator();
+       ++match) {
+    names.push_back((*match)[1]);
+  }
+  return names;
+}
+
+/// @return the module that a path below lib/ or an include path belongs to; empty if none
+std::string module_of(const std::string& path) {
+  static const std::regex kModule(R"re(^(?:lib/include/|lib/src/)?(?:glissade/)?([a-z_]+)(?:\.hpp$|/))re");
+  std::smatch match;
+  if (!std::regex_search(path, match, kModule)) return "";
+  return kMayInclude.contains(match[1]) ? std::string(match[1]) : "";
+}
+
+/// @return what breaks the layers in one file of lib/; `path` is relative to the project
+std::vector<std::string> violations(const std::string& path, const std::string& text) {
+  std::vector<std::string> found;
+  const std::string module = module_of(path);
+  if (module.empty()) return {path + " belongs to no module that kMayInclude knows"};
+  const bool is_public = path.starts_with("lib/include/");
+  for (const std::string& include : includes_of(text)) {
+    const std::string other = module_of(include);
+    if (!other.empty() && other != module && !kMayInclude.at(module).contains(other)) {
+      found.push_back(path + " includes " + include + ", but " + module + " may not know " + other);
+    }
+    for (const auto& [prefix, modules] : kThirdParties) {
+      if (!include.starts_with(prefix)) continue;
+      if (is_public) found.push_back(path + " is public and includes " + include);
+      if (!modules.contains(module)) found.push_back(path + " includes " + include);
+    }
+  }
+  return found;
+}
+
+std::vector<fs::path> sources_below(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLISSADE_SOURCE_DIR) / folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (entry.is_regular_file() && (extension == ".hpp" || extension == ".cpp"))
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string relative_name(const fs::path& file) {
+  return fs::relative(file, GLISSADE_SOURCE_DIR).generic_string();
+}
+
+}  // namespace
+
+TEST_CASE("a file that reaches into a layer above it is found out") {
+  CHECK(violations("lib/src/motion/ride.cpp", "#include \"glissade/centerline/centerline.hpp\"\n").empty());
+  CHECK(violations("lib/src/motion/ride.cpp", "#include \"optimize/knots.hpp\"\n").size() == 1);
+  CHECK(violations("lib/include/glissade/core/vec.hpp", "#include \"glissade/pipeline.hpp\"\n").size() == 1);
+  CHECK(violations("lib/src/solid/facts.cpp", "#include <CGAL/Surface_mesh.h>\n").empty());
+  CHECK(violations("lib/include/glissade/solid/facts.hpp", "#include <CGAL/Surface_mesh.h>\n").size() == 1);
+  CHECK(violations("lib/src/motion/ride.cpp", "#include <nlopt.hpp>\n").size() == 1);
+  CHECK(violations("lib/src/gadgets/ride.cpp", "").size() == 1);
+}
+
+TEST_CASE("every file of the library includes only what its layer may know") {
+  std::vector<std::string> found;
+  const std::vector<fs::path> files = sources_below("lib");
+  for (const fs::path& file : files) {
+    for (const std::string& violation : violations(relative_name(file), text_of(file))) {
+      found.push_back(violation);
+    }
+  }
+  CHECK(files.size() >= 20);
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("no third party's name appears in a public header") {
+  static const std::regex kForeignNamespace(R"(\b(CGAL|nlopt|YAML|boost|fmt|nlohmann|tbb)::)");
+  std::vector<std::string> found;
+  for (const fs::path& file : sources_below("lib/include")) {
+    if (std::regex_search(text_of(file), kForeignNamespace)) found.push_back(relative_name(file));
+  }
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("the program sees nothing of the library but its public headers") {
+  std::vector<std::string> found;
+  for (const fs::path& file : sources_below("app")) {
+    for (const std::string& include : includes_of(text_of(file))) {
+      const bool is_private = !include.starts_with("glissade/") && !module_of(include).empty();
+      if (is_private) found.push_back(relative_name(file) + " includes " + include);
+    }
+  }
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("no file of the project names a path of one machine") {
+  // Put together here so that this file does not name one either.
+  static const std::regex kMachinePath(std::string(R"((^|[^A-Za-z0-9_.\]})/]))") + "/(wor" + "k|roo" +
+                                       "t|hom" + "e|tm" + "p|Users)/");
+  static const std::set<std::string> kSkipped = {"build", "out", ".git", "node_modules"};
+  static const std::set<std::string> kText = {".hpp", ".cpp",  ".txt", ".cmake", ".in",
+                                              ".md",  ".yaml", ".yml", ".sh",    ".json",
+                                              ".csv", ".scad", ".ts",  ".js",    ""};
+  std::vector<std::string> found;
+  auto entry = fs::recursive_directory_iterator(GLISSADE_SOURCE_DIR);
+  for (; entry != fs::recursive_directory_iterator(); ++entry) {
+    if (kSkipped.contains(entry->path().filename().string())) {
+      if (entry->is_directory()) entry.disable_recursion_pending();
+    } else if (entry->is_regular_file() && kText.contains(entry->path().extension().string())) {
+      const std::string text = text_of(entry->path());
+      if (text.size() < 2'000'000 && std::regex_search(text, kMachinePath)) {
+        found.push_back(relative_name(entry->path()));
+      }
+    }
+  }
+  CHECK(found == std::vector<std::string>{});
+}
