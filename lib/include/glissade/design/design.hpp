@@ -17,8 +17,12 @@ namespace glissade {
 /// SI units and radians throughout; the file itself gives every dimensional value with its unit.
 
 struct TrackDesign {
-  Vec3 start;   ///< [m], z up
-  Vec3 finish;  ///< [m]; below the start
+  Vec3 start;  ///< [m], z up
+  /// [m]; below the start, unless the body enters fast enough. For `segments` without a finish in the file it
+  /// is where they end, towards +x; for `points` without one it is the start, and the profile leads towards
+  /// +x.
+  Vec3 finish;
+  bool finish_given = true;  ///< false only for `segments` and `points` whose file leaves the finish out
 };
 
 struct BodyDesign {
@@ -27,7 +31,16 @@ struct BodyDesign {
   double drag_per_metre = 0.0;  ///< [1/m]; >= 0
 };
 
+enum class LengthUnit { millimetre, metre };
+
 enum class CenterlineKind { fastest, constant_speed, straight, cycloid, no_curvature_load, segments, points };
+
+/// @return the word that a design file uses, e.g. "constant-speed"
+[[nodiscard]] std::string_view word(CenterlineKind kind);
+/// @return the kind that the word names, none if it names none
+[[nodiscard]] std::optional<CenterlineKind> centerline_kind(std::string_view word);
+/// @return every kind, in the order of the enumeration
+[[nodiscard]] const std::vector<CenterlineKind>& centerline_kinds();
 
 /// One piece of a `segments` centerline; curvature is linear in between.
 struct SegmentDesign {
@@ -41,15 +54,23 @@ struct CenterlineDesign {
   std::optional<double> constant_speed_p;  ///< P of the constant-speed track [m^2/s^2]; none: the fastest P
   Angle entry_slope_angle;                 ///< of `segments`
   std::vector<SegmentDesign> segments;
-  std::filesystem::path points_file;  ///< CSV of a measured profile, for `points`
+  /// CSV of a measured profile, for `points`; relative paths are taken from the design file's directory.
+  std::filesystem::path points_file;
+  /// Names of the CSV's columns of horizontal distance and of height (positive up).
+  std::string points_distance_column = "x";
+  std::string points_height_column = "z";
+  LengthUnit points_unit = LengthUnit::metre;  ///< of the CSV's numbers
 };
 
 enum class CrossSectionKind { slab, u_channel, trapezoid, half_pipe, pipe, polygon };
 
+/// @return the word that a design file uses, e.g. "u-channel"
+[[nodiscard]] std::string_view word(CrossSectionKind kind);
+
 /// Inside measures [m]; which of them count is said in docs/design-file.md and cross_section.hpp.
 struct CrossSectionDesign {
   CrossSectionKind kind = CrossSectionKind::u_channel;
-  double width = 0.0;
+  double width = 0.0;  ///< of a `trapezoid` its floor, of a `pipe` its inner diameter
   double wall_height = 0.0;
   double thickness = 0.0;
   Angle wall_angle;          ///< of `trapezoid`, from upright
@@ -63,10 +84,12 @@ struct MeshDesign {
 };
 
 enum class ExportFormat { stl, stl_ascii, off, scad, csv };
-enum class LengthUnit { millimetre, metre };
+
+/// @return the word that a design file uses, e.g. "stl-ascii"
+[[nodiscard]] std::string_view word(ExportFormat format);
 
 struct ExportDesign {
-  std::vector<ExportFormat> formats;
+  std::vector<ExportFormat> formats = {ExportFormat::stl, ExportFormat::off, ExportFormat::scad};
   LengthUnit unit = LengthUnit::millimetre;
 };
 
@@ -85,11 +108,14 @@ struct Design {
   /// Where each key stood, by its path, e.g. {"body.friction_angle", "chute.yaml:7:19"}.
   std::map<std::string, std::string, std::less<>> locations;
 
-  /// @return the location of `key_path`, of its nearest parent that has one, or the file's name
+  /// @param key_path  names joined by dots, list items by their number: "centerline.segments.0.length"
+  /// @return the location of `key_path`, of its nearest parent that has one, or the file's name; `key_path`
+  ///         itself for a design that was not read from a file
   [[nodiscard]] std::string where(std::string_view key_path) const;
 };
 
-/// A value that replaces one of the file's, as `--set body.friction_angle=19deg` gives it.
+/// A value that replaces one of the file's, as `--set body.friction_angle=19deg` gives it. The value is read
+/// as YAML; a friction angle replaces the file's friction coefficient and the other way round.
 struct Override {
   std::string key_path;
   std::string value;
@@ -98,6 +124,8 @@ struct Override {
 /// Reads and checks a design file.
 /// @throws FileError if the file cannot be read or is larger than 4 MiB
 /// @throws InputError with every problem of the file at once: syntax, unknown or missing keys, units, bounds
+/// @throws InfeasibleError if nothing is wrong but that no track can reach the finish (docs/theory.md, reach
+/// theorem)
 [[nodiscard]] Design read_design(const std::filesystem::path& file,
                                  const std::vector<Override>& overrides = {});
 
@@ -105,8 +133,14 @@ struct Override {
 [[nodiscard]] Design parse_design(std::string_view text, const std::filesystem::path& file,
                                   const std::vector<Override>& overrides = {});
 
-/// Checks that need more than one value, and those of a design that was not read from a file.
-/// @return every problem; empty if the design can be built
+/// Checks of a design whatever it comes from: bounds of single values, and what values must be to each other.
+/// @return every problem, that of reach included; empty if the design can be built
 [[nodiscard]] std::vector<Issue> check(const Design& design);
+
+/// Whether friction lets any track at all arrive (docs/theory.md, reach theorem): a start from rest needs a
+/// mean slope steeper than the friction angle. `segments` and `points` are not asked: their ride tells where
+/// it stalls.
+/// @return the problem, none if there is none or the body enters with speed
+[[nodiscard]] std::optional<Issue> check_reach(const Design& design);
 
 }  // namespace glissade

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string_view>
+
+namespace glissade {
+
+/// What a value measures. Its units are listed in docs/design-file.md.
+enum class Dimension {
+  number,           ///< plain, or with %
+  length,           ///< [m]
+  angle,            ///< [rad]
+  speed,            ///< [m/s]
+  acceleration,     ///< [m/s^2]; the unit g is standard gravity, 9.80665 m/s^2
+  per_length,       ///< curvature, drag [1/m]
+  per_area,         ///< rate of curvature along the track [1/m^2]
+  specific_energy,  ///< energy per mass, the square of a speed [m^2/s^2]
+};
+
+/// Reads a value as design files and options write it: a decimal number, then the unit: "5.4 m", "19deg".
+///
+/// @param text  independent of locale; neither hexadecimal, nor nan or infinity
+/// @param name  what the value is called in messages, e.g. "friction_angle" or "--drop"
+/// @return the value in SI units and radians; finite
+/// @throws InputError if the number is malformed or out of the range of a double, the unit is missing,
+///         unknown or of another dimension; the message lists the units that fit
+[[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension, std::string_view name);
+
+}  // namespace glissade

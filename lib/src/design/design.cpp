@@ -1,0 +1,43 @@
+#include "glissade/design/design.hpp"
+
+#include "design/check.hpp"
+#include "design/findings.hpp"
+
+#include <utility>
+
+namespace glissade {
+namespace {
+
+Issue located(const Design& design, design_file::Finding finding) {
+  finding.issue.where = design.where(finding.key_paths.front());
+  return std::move(finding.issue);
+}
+
+}  // namespace
+
+std::string Design::where(std::string_view key_path) const {
+  if (file.empty()) return std::string(key_path);
+  for (std::string_view path = key_path; !path.empty(); path = design_file::parent_path(path)) {
+    const auto found = locations.find(path);
+    if (found != locations.end()) return found->second;
+  }
+  return file.string();
+}
+
+std::vector<Issue> check(const Design& design) {
+  std::vector<Issue> issues;
+  for (design_file::Finding& finding : design_file::check_values(design)) {
+    issues.push_back(located(design, std::move(finding)));
+  }
+  if (!issues.empty()) return issues;
+  if (std::optional<Issue> unreachable = check_reach(design)) issues.push_back(*std::move(unreachable));
+  return issues;
+}
+
+std::optional<Issue> check_reach(const Design& design) {
+  std::optional<design_file::Finding> finding = design_file::find_unreachable(design);
+  if (!finding) return {};
+  return located(design, *std::move(finding));
+}
+
+}  // namespace glissade

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "glissade/core/error.hpp"
+#include "glissade/design/design.hpp"
+
+#include "design/yaml_tree.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace glissade::design_file {
+
+/// One problem, with the values that it is about by their key paths; the first is the one to point at.
+struct Finding {
+  std::vector<std::string> key_paths;
+  Issue issue;
+};
+
+/// What a reading has collected: problems, and where each key stands.
+class Findings {
+ public:
+  Findings(std::filesystem::path file, const std::vector<Override>& overrides)
+      : file_(std::move(file)), overrides_(overrides) {}
+
+  void set_position(const std::string& key_path, Position position) { positions_[key_path] = position; }
+  /// @return position of the key path or of its nearest parent that has one
+  [[nodiscard]] Position position(std::string_view key_path) const;
+  [[nodiscard]] std::string where(Position position) const;
+  [[nodiscard]] std::map<std::string, std::string, std::less<>> locations() const;
+
+  void add(Position position, std::string key_path, Issue issue);
+  /// Adds a problem between values, unless one of them has a problem of its own already.
+  void add_unless_spoiled(Finding finding);
+
+  [[nodiscard]] bool empty() const { return problems_.empty(); }
+  /// @return every problem, by position, with `where` filled in
+  [[nodiscard]] std::vector<Issue> issues() const;
+
+ private:
+  struct Problem {
+    Position at;
+    std::string key_path;
+    Issue issue;
+  };
+
+  [[nodiscard]] bool spoiled(std::string_view key_path) const;
+
+  std::filesystem::path file_;
+  const std::vector<Override>& overrides_;
+  std::map<std::string, Position, std::less<>> positions_;
+  std::vector<Problem> problems_;
+};
+
+/// @return the key path without its last part; empty for a top-level key
+[[nodiscard]] std::string_view parent_path(std::string_view key_path);
+
+}  // namespace glissade::design_file

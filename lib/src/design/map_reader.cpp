@@ -1,0 +1,185 @@
+#include "design/map_reader.hpp"
+
+#include "design/quantity_reading.hpp"
+#include "design/words.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace glissade::design_file {
+namespace {
+
+std::string_view kind_of(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::null:
+      return "empty";
+    case Node::Kind::scalar:
+      return "a single value";
+    case Node::Kind::sequence:
+      return "a list";
+    case Node::Kind::map:
+      return "a group of keys";
+  }
+  return "";
+}
+
+std::string child_path(std::string_view parent, std::string_view key) {
+  return parent.empty() ? std::string(key) : std::string(parent).append(".").append(key);
+}
+
+void add_wrong_type(const Value& value, std::string_view wanted, std::string_view example,
+                    Findings& findings) {
+  const std::string name = value.key.empty() ? "the design" : value.key;
+  std::string what = name + " is " + std::string(kind_of(*value.node)) + ", not " + std::string(wanted);
+  findings.add(value.node->at, value.key_path, {"", std::move(what), "", std::string(example)});
+}
+
+}  // namespace
+
+std::optional<double> as_quantity(const Value& value, Dimension dimension, Findings& findings) {
+  if (value.node->kind != Node::Kind::scalar) {
+    add_wrong_type(value, "a single value", "", findings);
+    return {};
+  }
+  std::variant<double, Issue> reading = read_quantity(value.node->scalar, dimension, value.key);
+  if (const double* number = std::get_if<double>(&reading)) return *number;
+  findings.add(value.node->at, value.key_path, std::get<Issue>(std::move(reading)));
+  return {};
+}
+
+std::optional<std::string> as_text(const Value& value, Findings& findings) {
+  if (value.node->kind == Node::Kind::scalar) return value.node->scalar;
+  add_wrong_type(value, "a text", "", findings);
+  return {};
+}
+
+std::optional<bool> as_flag(const Value& value, Findings& findings) {
+  if (value.node->kind == Node::Kind::scalar) {
+    if (value.node->scalar == "true") return true;
+    if (value.node->scalar == "false") return false;
+  }
+  const std::string text =
+      value.node->kind == Node::Kind::scalar ? value.key + ": " + shown(value.node->scalar) : value.key;
+  findings.add(value.node->at, value.key_path,
+               {"", text + " is neither true nor false", "", value.key + ": true"});
+  return {};
+}
+
+std::vector<Value> as_list(const Value& value, std::string_view example, Findings& findings) {
+  if (value.node->kind != Node::Kind::sequence) {
+    add_wrong_type(value, "a list", example, findings);
+    return {};
+  }
+  std::vector<Value> values;
+  for (const Node& item : value.node->items) {
+    const std::string index = std::to_string(values.size());
+    values.push_back({&item, value.key + "[" + index + "]", child_path(value.key_path, index)});
+    findings.set_position(values.back().key_path, item.at);
+  }
+  return values;
+}
+
+MapReader::MapReader(const Value& value, std::string_view noun, std::string_view example, Findings& findings)
+    : key_path_(value.key_path), noun_(noun), findings_(findings) {
+  if (value.node->kind != Node::Kind::map) {
+    add_wrong_type(value, "a group of keys", example, findings);
+    return;
+  }
+  node_ = value.node;
+  refuse_duplicates();
+}
+
+void MapReader::refuse_duplicates() {
+  const std::vector<Entry>& entries = node_->entries;
+  std::map<std::string_view, Position> seen;
+  for (const Entry& entry : entries) {
+    const auto [first, is_new] = seen.emplace(entry.key, entry.key_at);
+    if (is_new) continue;
+    findings_.add(entry.key_at, path_of(entry.key),
+                  {"", shown(entry.key) + " is given twice",
+                   "It stands already at " + findings_.where(first->second) + ".", "one of the two"});
+  }
+}
+
+std::string MapReader::path_of(std::string_view key) const {
+  return child_path(key_path_, key);
+}
+
+bool MapReader::has(std::string_view key) const {
+  if (node_ == nullptr) return false;
+  return std::any_of(node_->entries.begin(), node_->entries.end(),
+                     [&](const Entry& entry) { return entry.key == key; });
+}
+
+std::optional<Value> MapReader::find(std::string_view key) {
+  known_.push_back(key);
+  if (node_ == nullptr) return {};
+  for (const Entry& entry : node_->entries) {
+    if (entry.key != key) continue;
+    Value value{&entry.value, entry.key, path_of(key)};
+    const bool is_inline = entry.value.kind == Node::Kind::scalar;
+    findings_.set_position(value.key_path, is_inline ? entry.value.at : entry.key_at);
+    if (entry.value.kind != Node::Kind::null) return value;
+    findings_.add(entry.key_at, value.key_path,
+                  {"", entry.key + " has no value", "", "a value after the colon, or no such key"});
+    return {};
+  }
+  return {};
+}
+
+std::optional<Value> MapReader::need(std::string_view key, std::string_view example) {
+  if (readable() && !has(key)) {
+    findings_.add(
+        findings_.position(key_path_), path_of(key),
+        {"", std::string(key) + " is missing", std::string(noun_) + " needs it.", std::string(example)});
+    findings_.set_position(path_of(key), findings_.position(key_path_));
+  }
+  return find(key);
+}
+
+std::optional<double> MapReader::quantity(std::string_view key, Dimension dimension) {
+  const std::optional<Value> value = find(key);
+  return value ? as_quantity(*value, dimension, findings_) : std::nullopt;
+}
+
+std::optional<double> MapReader::needed_quantity(std::string_view key, Dimension dimension,
+                                                 std::string_view example) {
+  const std::optional<Value> value = need(key, example);
+  return value ? as_quantity(*value, dimension, findings_) : std::nullopt;
+}
+
+std::optional<std::size_t> MapReader::choose(const Value& value, const std::vector<std::string_view>& words) {
+  const std::optional<std::string> text = as_text(value, findings_);
+  if (!text) return {};
+  const auto found = std::find(words.begin(), words.end(), *text);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  const std::string_view near = nearest_word(*text, words);
+  findings_.add(value.node->at, value.key_path,
+                {"", value.key + ": " + shown(*text) + " is not known",
+                 "It is one of " + listed(words, "or") + ".", std::string(near)});
+  return {};
+}
+
+Issue MapReader::unknown_key(const std::string& key) const {
+  const std::vector<std::string_view>& keys = known_;
+  Issue issue{"", "unknown key " + shown(key), std::string(noun_) + " has the keys " + listed(keys) + ".",
+              ""};
+  for (const auto& [stranger, belongs_to] : strangers_) {
+    if (stranger != key) continue;
+    issue.hint = std::string(belongs_to);
+    return issue;
+  }
+  const std::string_view near = nearest_word(key, keys);
+  if (!near.empty()) issue.hint = std::string(near);
+  return issue;
+}
+
+void MapReader::refuse_unknown_keys() {
+  if (node_ == nullptr) return;
+  for (const Entry& entry : node_->entries) {
+    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    findings_.add(entry.key_at, path_of(entry.key), unknown_key(entry.key));
+  }
+}
+
+}  // namespace glissade::design_file

@@ -1,0 +1,197 @@
+#include "glissade/design/quantity.hpp"
+
+#include "design/quantity_reading.hpp"
+#include "design/words.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace glissade {
+namespace design_file {
+namespace {
+
+constexpr double kStandardGravity = 9.80665;
+
+/// One spelling of a unit. Its size in SI units is multiply / divide: of the two one is 1 wherever a decimal
+/// fraction would round, so that 400 mm is the double nearest to 0.4.
+struct Unit {
+  std::string_view text;
+  Dimension dimension;
+  double multiply;
+  double divide;
+  bool listed;  ///< named in messages; further spellings are accepted silently
+};
+
+constexpr std::array kUnits = {
+    Unit{"%", Dimension::number, 1.0, 100.0, true},
+    Unit{"m", Dimension::length, 1.0, 1.0, true},
+    Unit{"mm", Dimension::length, 1.0, 1e3, true},
+    Unit{"cm", Dimension::length, 1.0, 1e2, true},
+    Unit{"km", Dimension::length, 1e3, 1.0, true},
+    Unit{"um", Dimension::length, 1.0, 1e6, true},
+    Unit{"\u00b5m", Dimension::length, 1.0, 1e6, false},
+    Unit{"\u03bcm", Dimension::length, 1.0, 1e6, false},
+    Unit{"in", Dimension::length, 254.0, 1e4, true},
+    Unit{"ft", Dimension::length, 3048.0, 1e4, true},
+    Unit{"deg", Dimension::angle, std::numbers::pi / 180.0, 1.0, true},
+    Unit{"\u00b0", Dimension::angle, std::numbers::pi / 180.0, 1.0, false},
+    Unit{"rad", Dimension::angle, 1.0, 1.0, true},
+    Unit{"m/s", Dimension::speed, 1.0, 1.0, true},
+    Unit{"km/h", Dimension::speed, 10.0, 36.0, true},
+    Unit{"mm/s", Dimension::speed, 1.0, 1e3, true},
+    Unit{"ft/s", Dimension::speed, 3048.0, 1e4, true},
+    Unit{"m/s^2", Dimension::acceleration, 1.0, 1.0, true},
+    Unit{"m/s2", Dimension::acceleration, 1.0, 1.0, false},
+    Unit{"m/s\u00b2", Dimension::acceleration, 1.0, 1.0, false},
+    Unit{"ft/s^2", Dimension::acceleration, 3048.0, 1e4, true},
+    Unit{"g", Dimension::acceleration, kStandardGravity, 1.0, true},
+    Unit{"1/m", Dimension::per_length, 1.0, 1.0, true},
+    Unit{"1/mm", Dimension::per_length, 1e3, 1.0, true},
+    Unit{"1/km", Dimension::per_length, 1.0, 1e3, true},
+    Unit{"1/ft", Dimension::per_length, 1e4, 3048.0, true},
+    Unit{"1/m^2", Dimension::per_area, 1.0, 1.0, true},
+    Unit{"1/mm^2", Dimension::per_area, 1e6, 1.0, true},
+    Unit{"1/m2", Dimension::per_area, 1.0, 1.0, false},
+    Unit{"1/m\u00b2", Dimension::per_area, 1.0, 1.0, false},
+    Unit{"m^2/s^2", Dimension::specific_energy, 1.0, 1.0, true},
+    Unit{"m2/s2", Dimension::specific_energy, 1.0, 1.0, false},
+    Unit{"m\u00b2/s\u00b2", Dimension::specific_energy, 1.0, 1.0, false},
+    Unit{"J/kg", Dimension::specific_energy, 1.0, 1.0, true},
+};
+
+std::string_view noun(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::number:
+      return "plain number";
+    case Dimension::length:
+      return "length";
+    case Dimension::angle:
+      return "angle";
+    case Dimension::speed:
+      return "speed";
+    case Dimension::acceleration:
+      return "acceleration";
+    case Dimension::per_length:
+      return "value per length";
+    case Dimension::per_area:
+      return "value per area";
+    case Dimension::specific_energy:
+      return "squared speed";
+  }
+  throw InternalError({"", "a dimension without a name", "", ""});
+}
+
+std::string with_article(Dimension dimension) {
+  const bool vowel = dimension == Dimension::angle || dimension == Dimension::acceleration;
+  return std::string(vowel ? "an " : "a ").append(noun(dimension));
+}
+
+std::vector<std::string_view> units_of(Dimension dimension) {
+  std::vector<std::string_view> texts;
+  for (const Unit& unit : kUnits) {
+    if (unit.dimension == dimension && unit.listed) texts.push_back(unit.text);
+  }
+  return texts;
+}
+
+const Unit* find_unit(std::string_view text) {
+  for (const Unit& unit : kUnits) {
+    if (unit.text == text) return &unit;
+  }
+  return nullptr;
+}
+
+std::string units_that_fit(Dimension dimension) {
+  if (dimension == Dimension::number) return "It takes a plain number, or one with %.";
+  return "It takes " + with_article(dimension) + " with its unit: " + listed(units_of(dimension), "or") + ".";
+}
+
+std::string example(std::string_view number, Dimension dimension) {
+  if (dimension == Dimension::number) return std::string(number);
+  const std::vector<std::string_view> units = units_of(dimension);
+  std::string text = std::string(number).append(" ").append(units[0]);
+  if (dimension == Dimension::length) text.append(" or ").append(number).append(" ").append(units[1]);
+  return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string named(std::string_view name, std::string_view text) {
+  return std::string(name) + ": " + (text.empty() ? std::string("an empty text") : shown(text));
+}
+
+Issue not_a_number(std::string_view name, std::string_view text, Dimension dimension) {
+  Issue issue{"", named(name, text) + " is not a number", units_that_fit(dimension), ""};
+  issue.hint = example("1.5", dimension);
+  return issue;
+}
+
+Issue wrong_unit(std::string_view name, std::string_view text, std::string_view number,
+                 std::string_view unit_text, Dimension dimension) {
+  if (const Unit* unit = find_unit(unit_text)) {
+    return {"",
+            named(name, text) + " is " + with_article(unit->dimension) + ", not " + with_article(dimension),
+            units_that_fit(dimension), example(number, dimension)};
+  }
+  Issue issue{"", named(name, text) + " has the unknown unit " + shown(unit_text), units_that_fit(dimension),
+              example(number, dimension)};
+  if (unit_text.front() == ',') issue.hint = "a decimal point instead of the comma";
+  return issue;
+}
+
+Issue out_of_range(std::string_view name, std::string_view text) {
+  return {"", named(name, text) + " is beyond the range of numbers",
+          "Numbers reach from about 1e-308 to 1e308.", ""};
+}
+
+}  // namespace
+
+std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimension, std::string_view name) {
+  text = trimmed(text);
+  std::string_view digits = text;
+  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
+  double number = 0.0;
+  const char* const end = digits.data() + digits.size();
+  const auto [rest, error] = std::from_chars(digits.data(), end, number);
+  if (error == std::errc::result_out_of_range) return out_of_range(name, text);
+  if (error != std::errc{}) return not_a_number(name, text, dimension);
+  if (!std::isfinite(number)) {
+    return Issue{"", named(name, text) + " is not finite", units_that_fit(dimension),
+                 example("1.5", dimension)};
+  }
+
+  const std::string_view number_text(text.data(), static_cast<std::size_t>(rest - text.data()));
+  const std::string_view unit_text = trimmed({rest, static_cast<std::size_t>(end - rest)});
+  if (unit_text.empty() && dimension == Dimension::number) return number;
+  if (unit_text.empty()) {
+    return Issue{"", named(name, text) + " has no unit", units_that_fit(dimension),
+                 example(number_text, dimension)};
+  }
+  const Unit* const unit = find_unit(unit_text);
+  if (unit == nullptr || unit->dimension != dimension) {
+    return wrong_unit(name, text, number_text, unit_text, dimension);
+  }
+  const double value = number * unit->multiply / unit->divide;
+  if (!std::isfinite(value)) return out_of_range(name, text);
+  return value;
+}
+
+}  // namespace design_file
+
+double parse_quantity(std::string_view text, Dimension dimension, std::string_view name) {
+  const auto reading = design_file::read_quantity(text, dimension, name);
+  if (const Issue* issue = std::get_if<Issue>(&reading)) throw InputError(*issue);
+  return std::get<double>(reading);
+}
+
+}  // namespace glissade

@@ -1,0 +1,81 @@
+#include "design/schema_words.hpp"
+
+namespace glissade {
+namespace design_file {
+
+const Words<CenterlineKind>& centerline_words() {
+  static const Words<CenterlineKind> words = {
+      {"fastest", CenterlineKind::fastest},
+      {"constant-speed", CenterlineKind::constant_speed},
+      {"straight", CenterlineKind::straight},
+      {"cycloid", CenterlineKind::cycloid},
+      {"no-curvature-load", CenterlineKind::no_curvature_load},
+      {"segments", CenterlineKind::segments},
+      {"points", CenterlineKind::points},
+  };
+  return words;
+}
+
+const Words<CrossSectionKind>& cross_section_words() {
+  static const Words<CrossSectionKind> words = {
+      {"slab", CrossSectionKind::slab},           {"u-channel", CrossSectionKind::u_channel},
+      {"trapezoid", CrossSectionKind::trapezoid}, {"half-pipe", CrossSectionKind::half_pipe},
+      {"pipe", CrossSectionKind::pipe},           {"polygon", CrossSectionKind::polygon},
+  };
+  return words;
+}
+
+const Words<ExportFormat>& export_words() {
+  static const Words<ExportFormat> words = {
+      {"stl", ExportFormat::stl}, {"stl-ascii", ExportFormat::stl_ascii},
+      {"off", ExportFormat::off}, {"scad", ExportFormat::scad},
+      {"csv", ExportFormat::csv},
+  };
+  return words;
+}
+
+const Words<LengthUnit>& length_unit_words() {
+  static const Words<LengthUnit> words = {{"mm", LengthUnit::millimetre}, {"m", LengthUnit::metre}};
+  return words;
+}
+
+namespace {
+
+template <typename Meaning>
+std::string_view word_of(Meaning meaning, const Words<Meaning>& words) {
+  for (const auto& [text, value] : words) {
+    if (value == meaning) return text;
+  }
+  throw InternalError({"", "a value of the design schema without a word", "", ""});
+}
+
+}  // namespace
+}  // namespace design_file
+
+std::string_view word(CenterlineKind kind) {
+  return design_file::word_of(kind, design_file::centerline_words());
+}
+std::string_view word(CrossSectionKind kind) {
+  return design_file::word_of(kind, design_file::cross_section_words());
+}
+std::string_view word(ExportFormat format) {
+  return design_file::word_of(format, design_file::export_words());
+}
+
+std::optional<CenterlineKind> centerline_kind(std::string_view word) {
+  for (const auto& [text, kind] : design_file::centerline_words()) {
+    if (text == word) return kind;
+  }
+  return {};
+}
+
+const std::vector<CenterlineKind>& centerline_kinds() {
+  static const std::vector<CenterlineKind> kinds = [] {
+    std::vector<CenterlineKind> all;
+    for (const auto& [text, kind] : design_file::centerline_words()) all.push_back(kind);
+    return all;
+  }();
+  return kinds;
+}
+
+}  // namespace glissade

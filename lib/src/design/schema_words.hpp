@@ -1,0 +1,19 @@
+#pragma once
+
+#include "glissade/design/design.hpp"
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace glissade::design_file {
+
+template <typename Meaning>
+using Words = std::vector<std::pair<std::string_view, Meaning>>;
+
+[[nodiscard]] const Words<CenterlineKind>& centerline_words();
+[[nodiscard]] const Words<CrossSectionKind>& cross_section_words();
+[[nodiscard]] const Words<ExportFormat>& export_words();
+[[nodiscard]] const Words<LengthUnit>& length_unit_words();
+
+}  // namespace glissade::design_file

@@ -1,0 +1,26 @@
+#include "glissade/design/design.hpp"
+
+#include "support/catch.hpp"
+
+using namespace glissade;
+
+TEST_CASE("the grain chute reads as its file says, in SI units") {
+  const Design design = read_design(GLISSADE_DESIGNS "/grain_chute.yaml");
+  CHECK(design.name == "Grain chute, silo 3 to belt B");
+  CHECK(design.track.start == Vec3{0.0, 0.0, 6.2});
+  CHECK(design.track.finish == Vec3{5.4, 0.0, 1.1});
+  CHECK(design.body.friction == Friction::from_angle(Angle::from_degrees(17.0)));
+  CHECK(design.body.entry_speed == 0.0);
+  CHECK(design.gravity == 9.81);
+  CHECK(design.centerline.kind == CenterlineKind::fastest);
+  REQUIRE(design.cross_section);
+  CHECK(design.cross_section->kind == CrossSectionKind::u_channel);
+  CHECK(design.cross_section->width == 0.4);
+  CHECK(design.cross_section->wall_height == 0.25);
+  CHECK(design.cross_section->thickness == 0.004);
+  CHECK(design.mesh.tolerance == 0.0005);
+  CHECK(design.exports.formats == std::vector{ExportFormat::stl, ExportFormat::off, ExportFormat::scad});
+  CHECK(design.exports.unit == LengthUnit::millimetre);
+  CHECK(design.where("body.friction_angle") == std::string(GLISSADE_DESIGNS) + "/grain_chute.yaml:7:19");
+  CHECK(check(design).empty());
+}
