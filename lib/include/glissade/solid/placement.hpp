@@ -16,17 +16,24 @@ class Placement {
 
   /// @param start    position of the start [m]
   /// @param azimuth  direction of the run, counter-clockwise from +x seen from above
+  /// @throws InputError if a coordinate or the azimuth is not finite
   Placement(Vec3 start, Angle azimuth);
 
   /// The vertical plane through two points; for a finish straight below the start, the x-z plane.
+  /// @throws InputError if a coordinate is not finite
   [[nodiscard]] static Placement through(Vec3 start, Vec3 finish);
 
   [[nodiscard]] Vec3 start() const { return start_; }
+  /// @return direction of the run, counter-clockwise from +x seen from above; -180 to 180 deg
   [[nodiscard]] Angle azimuth() const;
 
   /// @param x,drop  coordinates in the plane of the centerline [m]
   /// @param across  distance to the left of that plane [m]
-  [[nodiscard]] Vec3 to_space(double x, double drop, double across) const;
+  [[nodiscard]] Vec3 to_space(double x, double drop, double across) const {
+    return {start_.x + (x * cos_ - across * sin_), start_.y + (x * sin_ + across * cos_), start_.z - drop};
+  }
+
+  friend bool operator==(const Placement&, const Placement&) = default;
 
  private:
   Vec3 start_;

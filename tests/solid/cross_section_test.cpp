@@ -1,0 +1,207 @@
+#include "glissade/solid/cross_section.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+using namespace glissade;
+
+namespace {
+
+using Polygon = CrossSection::Polygon;
+
+constexpr double kPi = std::numbers::pi;
+
+double area_of(const Polygon& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return 0.5 * twice;
+}
+
+// Integral of the height, by slicing each side's triangle with the origin.
+double moment_of(const Polygon& polygon) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i];
+    const Vec2 b = polygon[(i + 1) % polygon.size()];
+    sum += 0.5 * cross(a, b) * (a.y + b.y) / 3.0;
+  }
+  return sum;
+}
+
+std::string message_of(auto&& call) {
+  try {
+    static_cast<void>(call());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+std::vector<CrossSection> one_of_each() {
+  return {CrossSection::slab(0.4, 0.02),
+          CrossSection::slab(0.4, 0.02, 0.05, 0.03),
+          CrossSection::u_channel(0.4, 0.25, 0.004),
+          CrossSection::trapezoid(0.3, 0.2, Angle::from_degrees(30.0), 0.005),
+          CrossSection::half_pipe(0.5, 0.01),
+          CrossSection::half_pipe(0.5, 0.01, 0.1),
+          CrossSection::pipe(0.3, 0.006),
+          CrossSection::polygon({{0.0, 0.0}, {-0.2, 0.1}, {-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}})};
+}
+
+}  // namespace
+
+TEST_CASE("cross-section: outlines run counter-clockwise, bores clockwise, the floor touches the origin") {
+  for (const CrossSection& section : one_of_each()) {
+    INFO(section.kind());
+    const Polygon outline = section.outline(1e-4);
+    CHECK(area_of(outline) > 0.0);
+    const Polygon bore = section.bore(1e-4);
+    CHECK(bore.empty() == (section.kind() != "pipe"));
+    CHECK(area_of(bore) <= 0.0);
+    CHECK(static_cast<double>(outline.size() + bore.size()) == section.vertex_count(1e-4));
+    double low = 0.0;
+    double high = 0.0;
+    for (const Vec2 corner : outline) {
+      low = std::min(low, corner.y);
+      high = std::max(high, corner.y);
+    }
+    CHECK(low == section.lowest());
+    CHECK(high == Approx(section.highest()).epsilon(1e-15));
+  }
+}
+
+TEST_CASE("cross-section: area and first moment are the limits of the polygons', at order 2") {
+  for (const CrossSection& section : one_of_each()) {
+    INFO(section.kind());
+    double last_error = 0.0;
+    for (const double tolerance : {1e-4, 1e-6}) {
+      const double area = area_of(section.outline(tolerance)) + area_of(section.bore(tolerance));
+      const double moment = moment_of(section.outline(tolerance)) + moment_of(section.bore(tolerance));
+      const double error = std::fabs(area / section.area() - 1.0);
+      // Both arcs lose the same share of their area: the chords' (2/3) gap / radius.
+      CHECK(error <= 4.0 * tolerance / 0.15 + 1e-13);
+      CHECK(std::fabs(moment - section.first_moment()) <= 8.0 * tolerance * section.area() + 1e-15);
+      if (last_error > 1e-10) CHECK(error < 0.02 * last_error);
+      last_error = error;
+    }
+  }
+}
+
+TEST_CASE("cross-section: known areas and moments") {
+  CHECK(CrossSection::u_channel(0.4, 0.25, 0.004).area() ==
+        Approx(0.408 * 0.254 - 0.4 * 0.25).epsilon(1e-14));
+  CHECK(CrossSection::slab(2.0, 0.5).first_moment() == Approx(-0.25).epsilon(1e-14));
+  CHECK(CrossSection::pipe(0.3, 0.01).area() == Approx(kPi * (0.16 * 0.16 - 0.15 * 0.15)).epsilon(1e-14));
+  CHECK(CrossSection::pipe(0.3, 0.01).first_moment() ==
+        Approx(0.15 * kPi * (0.16 * 0.16 - 0.15 * 0.15)).epsilon(1e-14));
+}
+
+TEST_CASE("cross-section: a trapezoid's plates have their thickness measured square to them") {
+  const double lean = 30.0 * kPi / 180.0;
+  const Polygon corners = CrossSection::trapezoid(0.3, 0.2, Angle::from_radians(lean), 0.005).outline(1e-3);
+  REQUIRE(corners.size() == 8);
+  const Vec2 outward{std::cos(lean), -std::sin(lean)};
+  CHECK(dot(corners[2] - corners[3], outward) == Approx(0.005).epsilon(1e-12));
+  CHECK(dot(corners[1] - corners[4], outward) == Approx(0.005).epsilon(1e-12));
+  CHECK(corners[1].y == -0.005);
+  CHECK(CrossSection::trapezoid(0.3, 0.2, Angle(), 0.005).outline(1e-3) ==
+        CrossSection::u_channel(0.3, 0.2, 0.005).outline(1e-3));
+}
+
+TEST_CASE("cross-section: round outlines stay within the chord tolerance, vertices on the arc") {
+  for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
+    const CrossSection pipe = CrossSection::pipe(0.4, 0.02);
+    const Vec2 centre{0.0, 0.2};
+    for (const auto& [polygon, radius] :
+         {std::pair{pipe.outline(tolerance), 0.22}, {pipe.bore(tolerance), 0.2}}) {
+      double gap = 0.0;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        CHECK(norm(polygon[i] - centre) == Approx(radius).epsilon(1e-14));
+        gap = std::max(gap, radius - norm(0.5 * (polygon[i] + polygon[(i + 1) % polygon.size()]) - centre));
+      }
+      CHECK(gap <= tolerance);
+      CHECK(gap <= pipe.chord_error(tolerance) * (1.0 + 1e-9));
+    }
+    CHECK(pipe.chord_error(tolerance) <= tolerance);
+  }
+}
+
+TEST_CASE("cross-section: left and right are exact mirror images") {
+  for (const CrossSection& section :
+       {CrossSection::half_pipe(0.37, 0.011, 0.05), CrossSection::pipe(0.31, 0.007)}) {
+    const Polygon outline = section.outline(1e-4);
+    for (const Vec2 corner : outline) {
+      CHECK(std::find(outline.begin(), outline.end(), Vec2{-corner.x, corner.y}) != outline.end());
+    }
+  }
+}
+
+TEST_CASE("cross-section: the narrowest place of a section is its plate, or its curb") {
+  CHECK(CrossSection::u_channel(0.4, 0.25, 0.004).narrowest() == Approx(0.004));
+  CHECK(CrossSection::slab(0.4, 0.02, 0.05, 0.003).narrowest() == Approx(0.003));
+  CHECK(CrossSection::pipe(0.4, 0.02).narrowest() == 0.02);
+}
+
+TEST_CASE("cross-section: either winding of a polygon is the same section") {
+  const Polygon corners{{-0.2, 0.0}, {-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.0}};
+  const Polygon reversed(corners.rbegin(), corners.rend());
+  CHECK(CrossSection::polygon(corners).area() == CrossSection::polygon(reversed).area());
+  CHECK(CrossSection::polygon(corners) == CrossSection::polygon(corners));
+}
+
+TEST_CASE("cross-section: sizes that make no section are refused with their value and bound") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(message_of([] { return CrossSection::u_channel(0.4, 0.25, 0.45); }) ==
+        "thickness: 450 mm is wider than the channel, 400 mm (width)\n"
+        "      The plates of a channel are thinner than the channel is wide.\n"
+        "      Try: a thickness below 400 mm");
+  CHECK_THAT(message_of([] { return CrossSection::slab(0.0, 0.1); }),
+             Catch::Matchers::StartsWith("width: 0 m is not"));
+  CHECK_THAT(message_of([] { return CrossSection::slab(0.4, -0.1); }),
+             Catch::Matchers::StartsWith("thickness: -100 mm is not a size"));
+  CHECK_THAT(message_of([] { return CrossSection::u_channel(0.4, kNan, 0.004); }),
+             Catch::Matchers::StartsWith("wall_height: nan m"));
+  CHECK_THAT(message_of([] { return CrossSection::slab(0.4, 0.1, 0.1); }),
+             Catch::Matchers::StartsWith("curb_width: missing"));
+  CHECK_THAT(message_of([] { return CrossSection::trapezoid(0.4, 0.1, Angle::from_degrees(89.0), 0.01); }),
+             Catch::Matchers::StartsWith("wall_angle: 89 deg"));
+  CHECK_THAT(message_of([] { return CrossSection::half_pipe(0.4, 0.5); }),
+             Catch::Matchers::StartsWith("thickness: 500 mm"));
+  CHECK_THAT(message_of([] { return CrossSection::pipe(0.4, std::numeric_limits<double>::infinity()); }),
+             Catch::Matchers::StartsWith("thickness: inf"));
+}
+
+TEST_CASE("cross-section: outlines that are not simple are refused, naming the sides") {
+  CHECK_THAT(message_of([] {
+               return CrossSection::polygon({{0, 0}, {1, 0}});
+             }),
+             Catch::Matchers::StartsWith("outline: 2 vertices"));
+  CHECK_THAT(message_of([] {
+               return CrossSection::polygon({{-1, 0}, {-1, -1}, {1, 0}, {1, -1}});
+             }),
+             Catch::Matchers::StartsWith("outline: side 2 and side 4 cross"));
+  CHECK_THAT(message_of([] {
+               return CrossSection::polygon({{-1, 0}, {-1, -1}, {1, -1}, {1, -1}, {1, 0}});
+             }),
+             Catch::Matchers::StartsWith("outline: side 3 has no length"));
+  CHECK_THAT(message_of([] {
+               return CrossSection::polygon({{-1, 0}, {-1, -1}, {1, -1}, {1, 0}, {2, 0}, {0.5, 0}});
+             }),
+             contains_text("runs back along"));
+  CHECK_THAT(message_of([] {
+               return CrossSection::polygon({{-1, 1}, {-1, 0.5}, {1, 0.5}, {1, 1}});
+             }),
+             Catch::Matchers::StartsWith("outline: (0, 0) does not lie on it"));
+  CHECK_THAT(message_of([] {
+               return CrossSection::polygon({{-1, 1}, {-1, 0}, {1, 0}, {1, 1}});
+             }),
+             Catch::Matchers::StartsWith("outline: the side at (0, 0) does not face up"));
+}
