@@ -4,14 +4,15 @@
 #include "glissade/core/progress.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/solid/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/placement.hpp"
 #include "glissade/solid/sweep.hpp"
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,24 +20,47 @@ namespace glissade {
 
 /// The one way that data flow: design -> centerline -> motion -> solid -> files.
 
-/// A centerline with the ride down it and the two times that it is measured by.
-struct Track {
-  Endpoints endpoints;
-  CenterlinePtr centerline;
-  Motion motion;
-  /// Travel time of the same body on the straight line between the endpoints [s]; none if it does not arrive
-  /// there.
-  std::optional<double> straight_travel_time;
-  /// Least possible travel time from rest without drag (docs/theory.md, Coulomb brachistochrone) [s]; none
-  /// where that theory does not apply (entry speed or drag).
-  std::optional<double> optimum_travel_time;
-  double min_radius =
-      0.0;  ///< smallest radius of curvature, 0 at an unbounded start, infinity on a straight [m]
+/// How long work tells how far it is, and is asked to end.
+struct RunContext {
+  Progress progress;
+  std::stop_token stop;
 };
 
-/// Design to centerline and motion.
-/// @throws InputError, InfeasibleError, ConvergenceError with the location in the design file
-[[nodiscard]] Track solve(const Design& design);
+/// A centerline with the ride down it and the two rides that it is measured by.
+struct Track {
+  Endpoints endpoints;
+  Placement placement;
+  CenterlinePtr centerline;
+  Motion motion;
+  /// The same body on the straight line between the endpoints; none if it does not arrive there.
+  std::optional<Motion> straight;
+  /// The ride on the fastest track there is, which the theory gives from rest and without drag
+  /// (docs/theory.md, fastest track); none where it does not apply.
+  std::optional<Motion> optimum;
+  /// Travel time of `optimum` by its closed form, which shares nothing with Motion [s].
+  std::optional<double> optimum_travel_time;
+  /// Smallest radius of curvature [m]: 0 where the curvature is unbounded at the start, infinity on a
+  /// straight.
+  double min_radius = 0.0;
+
+  /// @return travel time on the straight line [s]; none if the body does not arrive there
+  [[nodiscard]] std::optional<double> straight_travel_time() const;
+};
+
+/// Where a design's track leads, in the plane of its centerline.
+[[nodiscard]] Endpoints endpoints_of(const Design& design);
+
+/// The curve that a design asks for.
+/// @throws InputError, InfeasibleError, ConvergenceError, FileError with the location in the design
+[[nodiscard]] CenterlinePtr make_centerline(const Design& design);
+
+/// Design to centerline and motion. A body that stalls or leaves the track is a result, not an error.
+/// @throws InputError with everything that check() finds; else as make_centerline()
+[[nodiscard]] Track solve(const Design& design, const RunContext& context = {});
+
+/// The outline that a design asks for.
+/// @throws InputError if the measures do not make a cross-section
+[[nodiscard]] CrossSection make_cross_section(const CrossSectionDesign& design);
 
 struct WrittenFile {
   std::filesystem::path path;
@@ -45,15 +69,22 @@ struct WrittenFile {
 
 struct Build {
   Track track;
-  Placement placement;
+  CrossSection section;
   Solid solid;
-  MeshFacts facts;  ///< of the mesh as written, and confirmed on the files read back
+  MeshFacts
+      facts;  ///< of the mesh as the least precise of the files holds it, confirmed on each file read back
   std::vector<WrittenFile> files;
 };
 
-/// Design to files in `directory` (made if missing). Nothing is left there unless everything succeeded.
-/// @throws as solve(); FileError if a file cannot be written; InternalError if a written mesh is faulty
+/// Design to files in `directory` (made if missing), each named after the design file. Either all of them
+/// appear, or the directory stays as it was, files of an earlier build included.
+/// @throws as solve(); InputError if the design has no cross_section or the section cannot follow the track;
+///         InfeasibleError if the body does not arrive; FileError if a file cannot be written;
+///         Interrupted if the context's stop token asks for it; InternalError if a mesh turns out faulty
 [[nodiscard]] Build build(const Design& design, const std::filesystem::path& directory,
-                          const Progress& progress = {});
+                          const RunContext& context = {});
+
+/// @return smallest radius of curvature along a centerline [m], see Track::min_radius
+[[nodiscard]] double min_radius(const Centerline& centerline);
 
 }  // namespace glissade

@@ -51,6 +51,11 @@ class FileError : public Error {
   using Error::Error;
 };
 
+/// Work was asked to end before it was done. Exit code 130.
+class Interrupted : public Error {
+  using Error::Error;
+};
+
 /// A promise of Glissade's own is broken: a defect to report, never a matter of input. Exit code 70.
 class InternalError : public Error {
   using Error::Error;
