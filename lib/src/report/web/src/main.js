@@ -1,0 +1,54 @@
+import "uplot/dist/uPlot.min.css";
+import "./page.css";
+import { readDocument } from "./data.js";
+import { element, select } from "./dom.js";
+import { plotSection } from "./plots.js";
+import { profileSection } from "./profile.js";
+import { Store } from "./store.js";
+import { summary } from "./summary.js";
+import { limitTable, stationTable } from "./tables.js";
+import { Units } from "./units.js";
+import { viewSection } from "./view3d.js";
+
+function header(doc, store, units) {
+  const theme = select("Theme", [["auto", "as the system"], ["light", "light"], ["dark", "dark"]], (value) => {
+    if (value === "auto") delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = value;
+    store.set("theme", value);
+  });
+  const system = select("Units", Units.systems().map((name) => [name, name]), (value) => {
+    units.system = value;
+    store.set("units", value);
+  });
+  return element("header", {},
+    element("div", {},
+      element("h1", {}, doc.design.name),
+      element("p", { class: "subtitle" }, `${doc.design.centerline} \u00b7 ${doc.generator.name} ${doc.generator.version}`)),
+    element("div", { class: "controls" }, system, theme));
+}
+
+function start() {
+  const doc = readDocument();
+  document.title = doc.design.name;
+  const units = new Units(doc.body.gravity_m_per_s2);
+  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto" });
+  const profile = profileSection(doc, store, units);
+  const plots = plotSection(doc, store, units);
+  const view = viewSection(doc, store, units);
+
+  const holder = element("div", {}, summary(doc, units));
+  store.on("units", () => holder.replaceChildren(summary(doc, units)));
+  document.getElementById("page").replaceChildren(
+    header(doc, store, units),
+    element("main", {}, holder, limitTable(doc) ?? "", profile.node, view?.node ?? "", plots.node, stationTable(doc, store, units)),
+    element("footer", {}, element("p", {}, `Made by ${doc.generator.name} ${doc.generator.version}. Every number comes from the `
+      + "document embedded in this page; the ride is re-integrated along the centerline that was built.")));
+
+  profile.draw();
+  plots.draw();
+  view?.draw();
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => store.set("theme", `auto-${event.matches}`));
+  document.documentElement.dataset.ready = "true";
+}
+
+start();

@@ -1,0 +1,186 @@
+import uPlot from "uplot";
+import { button, element, section, select, themeColour } from "./dom.js";
+import { number } from "./units.js";
+
+const SYNC = "glissade";
+
+const AXES = {
+  arc_length_m: ["arc length s", "length"],
+  x_m: ["run x", "length"],
+  time_s: ["time", "time"],
+};
+
+function energies(doc) {
+  const { stations, body } = doc;
+  const total = doc.body.gravity_m_per_s2;
+  const lowest = Math.max(...stations.drop_m);
+  return {
+    potential: stations.drop_m.map((drop) => total * (lowest - drop)),
+    kinetic: stations.speed_m_per_s.map((speed) => 0.5 * speed * speed),
+    friction: stations.friction_loss_j_per_kg,
+    drag: stations.drag_loss_j_per_kg,
+    hasDrag: body.drag_per_m > 0,
+  };
+}
+
+function charts(doc) {
+  const { stations } = doc;
+  const radius = stations.curvature_per_m.map((k) => (k === null ? 0 : k === 0 ? null : 1 / Math.abs(k)));
+  const energy = energies(doc);
+  return [
+    { id: "slope", title: "Slope angle", quantity: "angle", series: [["slope angle", stations.slope_angle_deg, "--series-1"]] },
+    { id: "speed", title: "Speed", quantity: "speed", series: [["speed", stations.speed_m_per_s, "--series-2"]] },
+    { id: "load", title: "Normal load", quantity: "load", series: [["normal load", stations.normal_load_m_per_s2, "--series-3"]] },
+    { id: "curvature", title: "Curvature", quantity: "curvature", clip: true, series: [["curvature", stations.curvature_per_m, "--series-4"]] },
+    { id: "radius", title: "Radius of curvature", quantity: "length", clip: true, series: [["radius", radius, "--series-5"]] },
+    {
+      id: "energy",
+      title: "Energy per mass, from the lowest point up",
+      quantity: "energy",
+      legend: true,
+      series: [
+        ["potential", energy.potential, "--series-1"],
+        ["kinetic", energy.kinetic, "--series-2"],
+        ["lost to friction", energy.friction, "--series-3"],
+        ...(energy.hasDrag ? [["lost to drag", energy.drag, "--series-4"]] : []),
+      ],
+    },
+  ];
+}
+
+function isAscending(column) {
+  return column.every((value, i) => i === 0 || value >= column[i - 1]);
+}
+
+// An unbounded end would flatten the rest of the curve: the axis ends where all but the outer 4 % of stations lie.
+function clippedRange(columns) {
+  const values = columns.flat().filter((v) => v !== null && Number.isFinite(v)).sort((a, b) => a - b);
+  if (values.length === 0) return [0, 1];
+  const low = values[Math.floor(0.02 * (values.length - 1))];
+  const high = values[Math.ceil(0.96 * (values.length - 1))];
+  const margin = 0.08 * (high - low || Math.abs(high) || 1);
+  return [Math.min(low - margin, 0), high + margin];
+}
+
+class Chart {
+  constructor(chart, doc, store, units) {
+    Object.assign(this, { chart, doc, store, units });
+    this.holder = element("div", { class: "chart-canvas" });
+    this.value = element("output", { class: "chart-value" });
+    const legend = chart.legend ? element("ul", { class: "legend" }, chart.series.map(([name, , colour]) =>
+      element("li", {}, element("span", { class: "swatch", style: `background: var(${colour})` }), name))) : null;
+    this.node = element("figure", {
+      class: "chart", id: `chart-${chart.id}`, tabindex: 0, role: "group",
+      "aria-label": `${chart.title}. Arrow keys move the cursor along the track.`,
+      onkeydown: (event) => this.key(event),
+    }, element("figcaption", {}, element("span", { class: "chart-title" }, chart.title), this.value), legend, this.holder);
+    store.on("station", (station) => this.show(station));
+  }
+
+  columns() {
+    const { units, chart } = this;
+    const axis = this.store.get("axis");
+    return [
+      this.doc.stations[axis].map((v) => units.convert(AXES[axis][1], v)),
+      ...chart.series.map(([, column]) => column.map((v) => units.convert(chart.quantity, v))),
+    ];
+  }
+
+  draw() {
+    this.plot?.destroy();
+    const { units, chart } = this;
+    const data = this.columns();
+    const [axisName, axisQuantity] = AXES[this.store.get("axis")];
+    const ink = themeColour("--ink-soft");
+    const grid = { stroke: themeColour("--grid"), width: 1 };
+    const font = "12px system-ui, sans-serif";
+    const tick = (_, values) => values.map((v) => (v === null ? "" : number(v, 4)));
+    const range = chart.clip ? clippedRange(data.slice(1)) : null;
+    this.plot = new uPlot({
+      width: Math.max(this.holder.clientWidth, 200),
+      height: 220,
+      legend: { show: false },
+      cursor: { sync: { key: SYNC, setSeries: false }, drag: { x: true, y: false }, y: false },
+      scales: { x: { time: false }, y: range ? { range: () => range } : {} },
+      axes: [
+        { label: `${axisName} [${units.unit(axisQuantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick },
+        { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 64 },
+      ],
+      series: [{}, ...chart.series.map(([name, , colour]) => ({
+        label: name, stroke: themeColour(colour), width: 2, points: { show: false },
+      }))],
+      hooks: {
+        setCursor: [(plot) => {
+          if (plot.cursor.idx !== null && plot.cursor.idx !== undefined && plot.cursor.left >= 0) {
+            this.store.set("station", plot.cursor.idx);
+          }
+        }],
+      },
+    }, data, this.holder);
+    this.show(this.store.get("station"));
+  }
+
+  resize() {
+    this.plot?.setSize({ width: Math.max(this.holder.clientWidth, 200), height: 220 });
+  }
+
+  resetZoom() {
+    const xs = this.plot.data[0];
+    this.plot.setScale("x", { min: xs[0], max: xs[xs.length - 1] });
+  }
+
+  show(station) {
+    const { units, chart } = this;
+    this.value.textContent = chart.series
+      .map(([name, column]) => (chart.series.length > 1 ? `${name} ` : "") + units.text(chart.quantity, column[station], 4))
+      .join("  ");
+    if (this.plot) {
+      const left = this.plot.valToPos(this.plot.data[0][station], "x");
+      this.plot.setCursor({ left, top: 10 }, false);
+    }
+  }
+
+  key(event) {
+    const last = this.doc.stations.arc_length_m.length - 1;
+    const step = event.shiftKey ? 10 : 1;
+    const now = this.store.get("station");
+    const next = { ArrowLeft: now - step, ArrowRight: now + step, Home: 0, End: last }[event.key];
+    if (next === undefined) return;
+    event.preventDefault();
+    this.store.set("station", Math.min(Math.max(next, 0), last));
+  }
+}
+
+function readout(doc, store, units) {
+  const { stations } = doc;
+  const list = element("dl", { class: "readout", id: "readout", "aria-label": "At the cursor" });
+  const fields = [
+    ["s", "length", "arc_length_m"], ["x", "length", "x_m"], ["z", "length", "z_m"], ["time", "time", "time_s"],
+    ["speed", "speed", "speed_m_per_s"], ["slope", "angle", "slope_angle_deg"], ["load", "load", "normal_load_m_per_s2"],
+  ];
+  const draw = () => {
+    const station = store.get("station");
+    list.replaceChildren(...fields.map(([name, quantity, key]) => element("div", {},
+      element("dt", {}, name), element("dd", { "data-field": key }, units.text(quantity, stations[key][station], 5)))));
+  };
+  draw();
+  store.on("station", draw);
+  store.on("units", draw);
+  return list;
+}
+
+export function plotSection(doc, store, units) {
+  const all = charts(doc).map((chart) => new Chart(chart, doc, store, units));
+  const axes = Object.entries(AXES).filter(([key]) => isAscending(doc.stations[key]));
+  const control = select("Against", axes.map(([key, [name]]) => [key, name]), (value) => store.set("axis", value));
+  const redraw = () => all.forEach((chart) => chart.draw());
+  for (const key of ["axis", "units", "theme"]) store.on(key, redraw);
+  new ResizeObserver(() => all.forEach((chart) => chart.resize())).observe(document.body);
+  const node = section("plots", "Along the track",
+    element("div", { class: "controls" }, control,
+      button("Whole track", () => all.forEach((chart) => chart.resetZoom()))),
+    readout(doc, store, units),
+    element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all; arrow keys move the cursor."),
+    element("div", { class: "charts" }, all.map((chart) => chart.node)));
+  return { node, draw: redraw };
+}

@@ -1,0 +1,289 @@
+import { button, element, section, svgElement } from "./dom.js";
+import { interpolate, stationAt } from "./data.js";
+import { number } from "./units.js";
+
+const MARGIN = { left: 62, right: 18, top: 14, bottom: 44 };
+
+function niceStep(span, count) {
+  const rough = span / count;
+  const decade = 10 ** Math.floor(Math.log10(rough));
+  return [1, 2, 5, 10].map((k) => k * decade).find((step) => step >= rough);
+}
+
+// Side view to scale: one length on x is the same length on z.
+class Profile {
+  constructor(doc, store, units) {
+    Object.assign(this, { doc, store, units });
+    this.svg = svgElement("svg", {
+      class: "profile", role: "img", tabindex: 0,
+      "aria-label": `Side view to scale: run ${number(doc.endpoints.run_m, 5)} m, drop ${number(doc.endpoints.drop_m, 5)} m`,
+    });
+    this.view = this.wholeView();
+    this.svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    this.svg.addEventListener("pointerdown", (event) => this.grab(event));
+    this.svg.addEventListener("pointermove", (event) => this.hover(event));
+    this.svg.addEventListener("keydown", (event) => this.key(event));
+    for (const key of ["units", "theme"]) store.on(key, () => this.draw());
+    store.on("station", () => this.moveCursor());
+  }
+
+  lines() {
+    const { doc } = this;
+    return [
+      ["straight line", doc.straight, "line-straight"],
+      ["exact optimum", doc.optimum, "line-optimum"],
+      ["this track", doc.stations, "line-track"],
+    ].filter(([, line]) => line !== null);
+  }
+
+  wholeView() {
+    let [x0, x1, z0, z1] = [Infinity, -Infinity, Infinity, -Infinity];
+    for (const [, line] of this.lines()) {
+      for (let i = 0; i < line.x_m.length; i += 1) {
+        x0 = Math.min(x0, line.x_m[i]);
+        x1 = Math.max(x1, line.x_m[i]);
+        z0 = Math.min(z0, line.z_m[i]);
+        z1 = Math.max(z1, line.z_m[i]);
+      }
+    }
+    const pad = 0.04 * Math.max(x1 - x0, z1 - z0);
+    return { x0: x0 - pad, x1: x1 + pad, z0: z0 - pad, z1: z1 + pad };
+  }
+
+  layout() {
+    const width = Math.max(this.svg.parentElement?.clientWidth ?? 0, 260);
+    const inner = width - MARGIN.left - MARGIN.right;
+    const spanX = this.view.x1 - this.view.x0;
+    const spanZ = this.view.z1 - this.view.z0;
+    const height = Math.min(Math.max((inner * spanZ) / spanX, 160), 560);
+    const scale = Math.min(inner / spanX, height / spanZ);
+    const offset = (inner - scale * spanX) / 2;
+    return {
+      width, height: height + MARGIN.top + MARGIN.bottom, scale,
+      px: (x) => MARGIN.left + offset + scale * (x - this.view.x0),
+      pz: (z) => MARGIN.top + scale * (this.view.z1 - z) + (height - scale * spanZ) / 2,
+      inner, plotHeight: height,
+    };
+  }
+
+  path(line) {
+    const { px, pz } = this.at;
+    return line.x_m.map((x, i) => `${i ? "L" : "M"}${px(x).toFixed(2)} ${pz(line.z_m[i]).toFixed(2)}`).join("");
+  }
+
+  axes() {
+    const { units, at } = this;
+    const unit = units.unit("length");
+    const nodes = [];
+    const right = MARGIN.left + at.inner;
+    const bottom = MARGIN.top + at.plotHeight;
+    const step = niceStep(Math.max(at.inner, at.plotHeight) / at.scale, 8);
+    const label = (k) => number(units.convert("length", k * step), 4);
+    const multiples = (low, high) => {
+      const first = Math.ceil(low / step);
+      return Array.from({ length: Math.max(Math.floor(high / step) - first + 1, 0) }, (_, i) => first + i);
+    };
+    for (const k of multiples((MARGIN.left - at.px(0)) / at.scale, (right - at.px(0)) / at.scale)) {
+      const x = at.px(k * step);
+      nodes.push(svgElement("line", { class: "grid", x1: x, x2: x, y1: MARGIN.top, y2: bottom }),
+        svgElement("text", { class: "tick", x, y: bottom + 16, "text-anchor": "middle" }, label(k)));
+    }
+    for (const k of multiples((at.pz(0) - bottom) / at.scale, (at.pz(0) - MARGIN.top) / at.scale)) {
+      const y = at.pz(k * step);
+      nodes.push(svgElement("line", { class: "grid", x1: MARGIN.left, x2: right, y1: y, y2: y }),
+        svgElement("text", { class: "tick", x: MARGIN.left - 8, y: y + 4, "text-anchor": "end" }, label(k)));
+    }
+    nodes.push(
+      svgElement("text", { class: "axis", x: (MARGIN.left + right) / 2, y: bottom + 36, "text-anchor": "middle" }, `run x [${unit}]`),
+      svgElement("text", { class: "axis", transform: `translate(14 ${(MARGIN.top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, `height z [${unit}]`));
+    return nodes;
+  }
+
+  draw() {
+    this.at = this.layout();
+    const { at, doc } = this;
+    const frame = { x: MARGIN.left, y: MARGIN.top, width: at.inner, height: at.plotHeight };
+    this.marker = svgElement("circle", { class: "cursor", r: 5 });
+    this.bodies = {
+      track: svgElement("circle", { class: "body body-track", r: 7, visibility: "hidden" }),
+      straight: svgElement("circle", { class: "body body-straight", r: 6, visibility: "hidden" }),
+    };
+    const clip = svgElement("clipPath", { id: "profile-clip" }, svgElement("rect", frame));
+    const curves = svgElement("g", { "clip-path": "url(#profile-clip)" },
+      doc.keep_outs.map((area) => svgElement(area.open ? "polyline" : "polygon", {
+        class: area.open ? "keep-out open" : "keep-out",
+        points: area.points_m.map(([x, z]) => `${at.px(x).toFixed(2)},${at.pz(z).toFixed(2)}`).join(" "),
+      }, svgElement("title", {}, area.name))),
+      this.lines().map(([name, line, style]) => svgElement("path", { class: `line ${style}`, d: this.path(line) }, svgElement("title", {}, name))),
+      this.marker, this.bodies.straight, this.bodies.track);
+    this.svg.setAttribute("viewBox", `0 0 ${at.width} ${at.height}`);
+    this.svg.setAttribute("width", at.width);
+    this.svg.setAttribute("height", at.height);
+    this.svg.replaceChildren(clip, ...this.axes(), svgElement("rect", { class: "frame", ...frame }), curves);
+    this.moveCursor();
+    this.moveBodies(this.clock ?? null);
+  }
+
+  moveCursor() {
+    if (!this.at) return;
+    const { stations } = this.doc;
+    const station = this.store.get("station");
+    this.marker.setAttribute("cx", this.at.px(stations.x_m[station]));
+    this.marker.setAttribute("cy", this.at.pz(stations.z_m[station]));
+  }
+
+  // Bodies at `seconds` after the start; null hides them.
+  moveBodies(seconds) {
+    this.clock = seconds;
+    for (const [name, line] of [["track", this.doc.stations], ["straight", this.doc.straight]]) {
+      const body = this.bodies[name];
+      const show = seconds !== null && line !== null;
+      body.setAttribute("visibility", show ? "visible" : "hidden");
+      if (!show) continue;
+      body.setAttribute("cx", this.at.px(interpolate(line.time_s, line.x_m, seconds)));
+      body.setAttribute("cy", this.at.pz(interpolate(line.time_s, line.z_m, seconds)));
+    }
+  }
+
+  zoom(factor, x, z) {
+    const { view } = this;
+    this.view = {
+      x0: x + factor * (view.x0 - x), x1: x + factor * (view.x1 - x),
+      z0: z + factor * (view.z0 - z), z1: z + factor * (view.z1 - z),
+    };
+    this.draw();
+  }
+
+  whole() {
+    this.view = this.wholeView();
+    this.draw();
+  }
+
+  pointer(event) {
+    const box = this.svg.getBoundingClientRect();
+    const origin = { x: this.at.px(0), z: this.at.pz(0) };
+    return {
+      x: (event.clientX - box.left - origin.x) / this.at.scale,
+      z: (origin.z - (event.clientY - box.top)) / this.at.scale,
+    };
+  }
+
+  wheel(event) {
+    if (!event.ctrlKey && document.activeElement !== this.svg) return;
+    event.preventDefault();
+    const { x, z } = this.pointer(event);
+    this.zoom(Math.exp(0.0015 * event.deltaY), x, z);
+  }
+
+  grab(event) {
+    if (event.button !== 0) return;
+    this.svg.setPointerCapture(event.pointerId);
+    let last = this.pointer(event);
+    const move = (next) => {
+      const now = this.pointer(next);
+      const { view } = this;
+      const dx = last.x - now.x;
+      const dz = last.z - now.z;
+      this.view = { x0: view.x0 + dx, x1: view.x1 + dx, z0: view.z0 + dz, z1: view.z1 + dz };
+      this.draw();
+      last = this.pointer(next);
+    };
+    const stop = () => {
+      this.svg.removeEventListener("pointermove", move);
+      this.svg.removeEventListener("pointerup", stop);
+    };
+    this.svg.addEventListener("pointermove", move);
+    this.svg.addEventListener("pointerup", stop);
+  }
+
+  hover(event) {
+    if (event.buttons !== 0) return;
+    const { x, z } = this.pointer(event);
+    const { x_m: xs, z_m: zs } = this.doc.stations;
+    let nearest = 0;
+    let least = Infinity;
+    for (let i = 0; i < xs.length; i += 1) {
+      const distance = (xs[i] - x) ** 2 + (zs[i] - z) ** 2;
+      if (distance < least) {
+        least = distance;
+        nearest = i;
+      }
+    }
+    this.store.set("station", nearest);
+  }
+
+  key(event) {
+    const last = this.doc.stations.x_m.length - 1;
+    const now = this.store.get("station");
+    const middle = [(this.view.x0 + this.view.x1) / 2, (this.view.z0 + this.view.z1) / 2];
+    const actions = {
+      ArrowLeft: () => this.store.set("station", Math.max(now - 1, 0)),
+      ArrowRight: () => this.store.set("station", Math.min(now + 1, last)),
+      Home: () => this.store.set("station", 0),
+      End: () => this.store.set("station", last),
+      "+": () => this.zoom(0.8, ...middle),
+      "-": () => this.zoom(1.25, ...middle),
+      0: () => this.whole(),
+    };
+    if (!actions[event.key]) return;
+    event.preventDefault();
+    actions[event.key]();
+  }
+}
+
+// Bodies let go together, one on the track and one on the straight line, in real time.
+class Ride {
+  constructor(doc, profile, store) {
+    Object.assign(this, { doc, profile, store });
+    this.duration = Math.max(doc.ride.travel_time_s ?? 0, doc.straight ? doc.straight.time_s.at(-1) : 0);
+    this.label = element("output", { class: "clock" });
+    this.toggle = button("Let go", () => (this.running ? this.stop() : this.start()), { class: "primary", id: "ride" });
+    this.slow = element("input", { type: "checkbox", id: "ride-slow" });
+  }
+
+  controls() {
+    return [this.toggle, element("label", { class: "control" }, this.slow, element("span", {}, "slow motion")), this.label];
+  }
+
+  start() {
+    this.running = true;
+    this.toggle.textContent = "Stop";
+    this.seconds = 0;
+    this.last = null;
+    requestAnimationFrame((now) => this.step(now));
+  }
+
+  stop() {
+    this.running = false;
+    this.toggle.textContent = "Let go";
+    this.profile.moveBodies(null);
+    this.label.textContent = "";
+  }
+
+  step(now) {
+    if (!this.running) return;
+    if (this.last !== null) this.seconds += ((now - this.last) / 1000) * (this.slow.checked ? 0.1 : 1);
+    this.last = now;
+    const clamped = Math.min(this.seconds, this.duration);
+    this.profile.moveBodies(clamped);
+    this.store.set("station", stationAt(this.doc.stations.time_s, clamped));
+    this.label.textContent = `${clamped.toFixed(2)} s`;
+    if (this.seconds > this.duration + 0.8) this.stop();
+    else requestAnimationFrame((next) => this.step(next));
+  }
+}
+
+export function profileSection(doc, store, units) {
+  const profile = new Profile(doc, store, units);
+  const ride = new Ride(doc, profile, store);
+  const legend = element("ul", { class: "legend" }, profile.lines().map(([name, , style]) =>
+    element("li", {}, element("span", { class: `swatch ${style}` }), name)));
+  const node = section("profile", "Profile, to scale",
+    element("div", { class: "controls" }, ride.controls(),
+      button("Zoom in", () => profile.key({ key: "+", preventDefault() {} })),
+      button("Zoom out", () => profile.key({ key: "-", preventDefault() {} })),
+      button("Whole track", () => profile.whole())),
+    legend, element("div", { class: "profile-holder" }, profile.svg));
+  new ResizeObserver(() => profile.draw()).observe(node);
+  return { node, draw: () => profile.draw() };
+}

@@ -1,0 +1,57 @@
+// Quantities and the units that a reader can switch between. The document is SI and degrees; only the
+// display converts.
+
+const SYSTEMS = {
+  "m, m/s": {
+    length: ["m", 1], curvature: ["1/m", 1], speed: ["m/s", 1], time: ["s", 1], angle: ["deg", 1],
+    load: ["g", null], energy: ["J/kg", 1],
+  },
+  "mm, m/s": {
+    length: ["mm", 1e3], curvature: ["1/m", 1], speed: ["m/s", 1], time: ["s", 1], angle: ["deg", 1],
+    load: ["g", null], energy: ["J/kg", 1],
+  },
+  "m, km/h": {
+    length: ["m", 1], curvature: ["1/m", 1], speed: ["km/h", 3.6], time: ["s", 1], angle: ["deg", 1],
+    load: ["m/s\u00b2", 1], energy: ["J/kg", 1],
+  },
+};
+
+export class Units {
+  constructor(gravity) {
+    this.gravity = gravity;
+    this.system = "m, m/s";
+  }
+
+  static systems() {
+    return Object.keys(SYSTEMS);
+  }
+
+  unit(quantity) {
+    return SYSTEMS[this.system][quantity][0];
+  }
+
+  convert(quantity, value) {
+    if (value === null || value === undefined) return null;
+    const factor = SYSTEMS[this.system][quantity][1];
+    return factor === null ? value / this.gravity : value * factor;
+  }
+
+  text(quantity, value, digits = 5) {
+    if (value === null || value === undefined) return "\u2013";
+    return `${number(this.convert(quantity, value), digits)}\u00a0${this.unit(quantity)}`;
+  }
+}
+
+export function number(value, digits = 5) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "\u2013";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e7 || size < 1e-4) return value.toExponential(digits - 1);
+  return String(Number(value.toPrecision(digits)));
+}
+
+export function bytesText(bytes) {
+  if (bytes < 1e3) return `${bytes} B`;
+  if (bytes < 1e6) return `${number(bytes / 1e3, 3)} kB`;
+  return `${number(bytes / 1e6, 3)} MB`;
+}

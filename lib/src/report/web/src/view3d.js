@@ -1,0 +1,290 @@
+import {
+  AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Mesh,
+  MeshLambertMaterial, PerspectiveCamera, Plane, Scene, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { decodeArray, interpolate } from "./data.js";
+import { button, element, section, select, themeColour } from "./dom.js";
+import { colourAt, stops } from "./colours.js";
+import { number } from "./units.js";
+
+const COLOURINGS = [
+  ["speed_m_per_s", "speed", "speed"],
+  ["normal_load_m_per_s2", "normal load", "load"],
+  ["slope_angle_deg", "slope angle", "angle"],
+];
+
+const DIRECTIONS = { "Three-quarter": [-0.75, -1.1, 0.75], Side: [0, -1, 0.02], Top: [0, -0.02, 1], "Along the track": [1, 0, 0.35] };
+
+// Vertices of the view in metres about the middle of the bounding box, and the arc length beside each.
+function unpack(view) {
+  const quantised = decodeArray(view.positions);
+  const count = quantised.length / 3;
+  const positions = new Float32Array(quantised.length);
+  for (let i = 0; i < count; i += 1) {
+    for (let axis = 0; axis < 3; axis += 1) {
+      const span = view.upper_m[axis] - view.lower_m[axis];
+      positions[3 * i + axis] = span * (quantised[3 * i + axis] / view.steps - 0.5);
+    }
+  }
+  const along = decodeArray(view.arc_length);
+  const arcLength = Float64Array.from(along, (a) => (a / view.steps) * view.length_m);
+  return { positions, indices: decodeArray(view.indices), arcLength };
+}
+
+function colouring(doc, arcLength, key) {
+  const { stations } = doc;
+  const column = stations[key];
+  const low = Math.min(...column);
+  const high = Math.max(...column);
+  const colours = new Float32Array(3 * arcLength.length);
+  for (let i = 0; i < arcLength.length; i += 1) {
+    const value = interpolate(stations.arc_length_m, column, arcLength[i]);
+    colours.set(colourAt(high > low ? (value - low) / (high - low) : 0.5), 3 * i);
+  }
+  return { colours, low, high };
+}
+
+class View {
+  constructor(doc, canvas, solid) {
+    this.doc = doc;
+    this.solid = solid;
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer.localClippingEnabled = true;
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
+    this.camera.up.set(0, 0, 1);
+    this.geometry = new BufferGeometry();
+    this.geometry.setAttribute("position", new BufferAttribute(solid.positions, 3));
+    this.geometry.setIndex(new BufferAttribute(solid.indices, 1));
+    this.plane = new Plane(new Vector3(0, 1, 0), 0);
+    this.material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, flatShading: true });
+    this.scene.add(new Mesh(this.geometry, this.material));
+    this.geometry.computeBoundingSphere();
+    this.radius = this.geometry.boundingSphere.radius;
+    this.box = new Box3().setFromBufferAttribute(this.geometry.getAttribute("position"));
+    this.frame = new Box3Helper(this.box, new Color(0x888888));
+    this.scene.add(this.frame, new AmbientLight(0xffffff, 1.4));
+    this.lamp = new DirectionalLight(0xffffff, 2.2);
+    this.scene.add(this.lamp);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => this.render());
+    this.look("Three-quarter");
+  }
+
+  colour(key) {
+    const { colours, low, high } = colouring(this.doc, this.solid.arcLength, key);
+    this.geometry.setAttribute("color", new BufferAttribute(colours, 3));
+    this.render();
+    return { low, high };
+  }
+
+  // Directions are told relative to the run: x along it, y to its left.
+  look(name) {
+    const [along, left, up] = DIRECTIONS[name];
+    const azimuth = (this.doc.placement.azimuth_deg * Math.PI) / 180;
+    const direction = new Vector3(
+      along * Math.cos(azimuth) - left * Math.sin(azimuth), along * Math.sin(azimuth) + left * Math.cos(azimuth), up).normalize();
+    const distance = this.radius / Math.sin(((this.camera.fov / 2) * Math.PI) / 180) / Math.min(this.camera.aspect, 1);
+    this.camera.position.copy(direction.multiplyScalar(1.05 * distance));
+    this.camera.near = distance / 1000;
+    this.camera.far = distance * 10;
+    this.camera.updateProjectionMatrix();
+    this.controls.target.set(0, 0, 0);
+    this.controls.update();
+    this.render();
+  }
+
+  // Cuts away what lies to the right of the plane at `fraction` of the width across the track; null: no cut.
+  cut(fraction) {
+    if (fraction === null) {
+      this.material.clippingPlanes = [];
+    } else {
+      const azimuth = (this.doc.placement.azimuth_deg * Math.PI) / 180;
+      const left = new Vector3(-Math.sin(azimuth), Math.cos(azimuth), 0);
+      const reach = this.reach(left);
+      this.plane.normal.copy(left);
+      this.plane.constant = -(reach.low + fraction * (reach.high - reach.low));
+      this.material.clippingPlanes = [this.plane];
+    }
+    this.material.needsUpdate = true;
+    this.render();
+  }
+
+  reach(direction) {
+    const { positions } = this.solid;
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = 0; i < positions.length; i += 3) {
+      const d = positions[i] * direction.x + positions[i + 1] * direction.y + positions[i + 2] * direction.z;
+      low = Math.min(low, d);
+      high = Math.max(high, d);
+    }
+    return { low, high };
+  }
+
+  resize(width, height) {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.render();
+  }
+
+  render() {
+    this.renderer.setClearColor(new Color(themeColour("--panel") || "#ffffff"));
+    this.lamp.position.copy(this.camera.position).add(new Vector3(0, 0, this.radius));
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  key(event) {
+    const turn = 0.12;
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const right = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    const actions = {
+      ArrowLeft: () => offset.applyAxisAngle(this.camera.up, -turn),
+      ArrowRight: () => offset.applyAxisAngle(this.camera.up, turn),
+      ArrowUp: () => offset.applyAxisAngle(right, -turn),
+      ArrowDown: () => offset.applyAxisAngle(right, turn),
+      "+": () => offset.multiplyScalar(0.85),
+      "-": () => offset.multiplyScalar(1 / 0.85),
+    };
+    if (!actions[event.key]) return;
+    event.preventDefault();
+    actions[event.key]();
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.render();
+  }
+}
+
+// Where there is no WebGL: one still picture, facets drawn from back to front.
+function stillPicture(doc, canvas, solid, key) {
+  const { colours, low, high } = colouring(doc, solid.arcLength, key);
+  const { positions, indices } = solid;
+  const azimuth = (doc.placement.azimuth_deg * Math.PI) / 180;
+  const [c, s] = [Math.cos(azimuth), Math.sin(azimuth)];
+  const count = positions.length / 3;
+  const [screenX, screenY, depth] = [new Float32Array(count), new Float32Array(count), new Float32Array(count)];
+  let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let i = 0; i < count; i += 1) {
+    const along = positions[3 * i] * c + positions[3 * i + 1] * s;
+    const left = -positions[3 * i] * s + positions[3 * i + 1] * c;
+    const up = positions[3 * i + 2];
+    screenX[i] = 0.86 * along + 0.5 * left;
+    screenY[i] = 0.82 * up + 0.3 * (0.86 * left - 0.5 * along);
+    depth[i] = 0.5 * along - 0.86 * left + 0.5 * up;
+    x0 = Math.min(x0, screenX[i]);
+    x1 = Math.max(x1, screenX[i]);
+    y0 = Math.min(y0, screenY[i]);
+    y1 = Math.max(y1, screenY[i]);
+  }
+  const order = Uint32Array.from({ length: indices.length / 3 }, (_, t) => t);
+  const far = (t) => depth[indices[3 * t]] + depth[indices[3 * t + 1]] + depth[indices[3 * t + 2]];
+  order.sort((a, b) => far(a) - far(b));
+  const scale = 0.94 * Math.min(canvas.width / (x1 - x0), canvas.height / (y1 - y0));
+  const px = (i) => canvas.width / 2 + scale * (screenX[i] - (x0 + x1) / 2);
+  const py = (i) => canvas.height / 2 - scale * (screenY[i] - (y0 + y1) / 2);
+  const context = canvas.getContext("2d");
+  context.fillStyle = themeColour("--panel");
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  for (const t of order) {
+    const [i, j, k] = [indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]];
+    const light = 0.65 + 0.35 * Math.abs(facing(positions, i, j, k));
+    context.fillStyle = context.strokeStyle =
+      `rgb(${[0, 1, 2].map((axis) => Math.round(255 * light * colours[3 * i + axis])).join(" ")})`;
+    context.beginPath();
+    context.moveTo(px(i), py(i));
+    context.lineTo(px(j), py(j));
+    context.lineTo(px(k), py(k));
+    context.closePath();
+    context.fill();
+    context.stroke();
+  }
+  return { low, high };
+}
+
+function facing(positions, i, j, k) {
+  const corner = (v) => new Vector3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
+  const normal = corner(j).sub(corner(i)).cross(corner(k).sub(corner(i))).normalize();
+  return normal.z;
+}
+
+function legend(units) {
+  const gradient = `linear-gradient(to right, ${stops().join(", ")})`;
+  const low = element("span");
+  const high = element("span");
+  const node = element("div", { class: "colour-legend" }, low,
+    element("span", { class: "ramp", style: `background: ${gradient}` }), high);
+  return { node, show: (quantity, range) => {
+    low.textContent = units.text(quantity, range.low, 4);
+    high.textContent = units.text(quantity, range.high, 4);
+  } };
+}
+
+export function viewSection(doc, store, units) {
+  if (doc.view === null) return null;
+  const canvas = element("canvas", { id: "view", tabindex: 0, role: "img",
+    "aria-label": "The solid in three dimensions. Arrow keys turn it, plus and minus zoom." });
+  const colours = legend(units);
+  const size = element("p", { class: "hint", id: "view-size" });
+  const controls = element("div", { class: "controls" });
+  const node = section("solid", "The solid", controls, element("div", { class: "view-holder" }, canvas), colours.node, size,
+    doc.view.note ? element("p", { class: "hint" }, doc.view.note) : null);
+
+  let key = COLOURINGS[0][0];
+  const quantity = () => COLOURINGS.find(([name]) => name === key)[2];
+  const describe = () => {
+    const [dx, dy, dz] = [0, 1, 2].map((axis) => doc.mesh.upper_m[axis] - doc.mesh.lower_m[axis]);
+    size.textContent = `Bounding box ${units.text("length", dx, 6)} (x) by ${units.text("length", dy, 6)} (y) by `
+      + `${units.text("length", dz, 6)} (z); ${number(doc.mesh.triangles, 9)} facets written.`;
+  };
+
+  const draw = () => {
+    const solid = unpack(doc.view);
+    let view = null;
+    try {
+      view = new View(doc, canvas, solid);
+    } catch {
+      node.dataset.still = "true";
+    }
+    const paint = () => {
+      const width = Math.max(canvas.parentElement.clientWidth, 200);
+      const height = Math.round(Math.min(Math.max(0.55 * width, 260), 620));
+      canvas.style.height = `${height}px`;
+      if (view === null) [canvas.width, canvas.height] = [width, height];
+      else view.resize(width, height);
+      colours.show(quantity(), view === null ? stillPicture(doc, canvas, solid, key) : view.colour(key));
+    };
+    controls.append(select("Colour by", COLOURINGS.map(([name, text]) => [name, text]), (value) => {
+      key = value;
+      paint();
+    }));
+    if (view !== null) {
+      const position = element("input", { type: "range", min: 0, max: 1, step: 0.01, value: 0.5, "aria-label": "Position of the section plane", disabled: true });
+      const cut = element("input", { type: "checkbox", id: "cut" });
+      const update = () => {
+        position.disabled = !cut.checked;
+        view.cut(cut.checked ? Number(position.value) : null);
+      };
+      cut.addEventListener("change", update);
+      position.addEventListener("input", update);
+      controls.append(select("Seen from", Object.keys(DIRECTIONS).map((name) => [name, name.toLowerCase()]), (name) => view.look(name)),
+        element("label", { class: "control" }, cut, element("span", {}, "cut lengthwise")), position,
+        button("Zoom in", () => view.key({ key: "+", preventDefault() {} })),
+        button("Zoom out", () => view.key({ key: "-", preventDefault() {} })));
+      canvas.addEventListener("keydown", (event) => view.key(event));
+    } else {
+      size.before(element("p", { class: "hint" }, "This browser offers no WebGL: a still picture instead."));
+    }
+    describe();
+    store.on("units", () => {
+      describe();
+      paint();
+    });
+    store.on("theme", paint);
+    new ResizeObserver(paint).observe(canvas.parentElement);
+    paint();
+  };
+  return { node, draw };
+}
