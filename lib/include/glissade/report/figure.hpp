@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace glissade {
+
+/// One line of a figure. A value that is not finite interrupts the line.
+struct FigureLine {
+  std::string name;        ///< for the legend; lines without a name stay out of it
+  std::vector<double> xs;  ///< in the unit that the figure's label names
+  std::vector<double> ys;  ///< as many as xs
+  bool dashed = false;
+};
+
+/// A closed area, filled; for keep-outs.
+struct FigureArea {
+  std::string name;
+  std::vector<double> xs;
+  std::vector<double> ys;
+};
+
+/// One panel: axes with round ticks, lines, a legend.
+struct Figure {
+  std::string title;
+  std::string x_label;  ///< with its unit, "run x [m]"
+  std::string y_label;
+  std::vector<FigureLine> lines;
+  std::vector<FigureArea> areas;
+  bool to_scale = false;  ///< one length on x is the same length on y
+};
+
+/// A drawing of panels one below the other; `width` in CSS pixels (96 per inch), each panel about 0.55 of it
+/// high (or as high as its scale needs, at most 1.4 of it). Text is escaped, colours read in grey print, line
+/// styles differ as well as colours; bytes depend on the arguments alone.
+/// @throws InputError if a panel has no finite point, or a line's xs and ys differ in number
+[[nodiscard]] std::string figures_svg(const std::vector<Figure>& figures, double width = 800.0);
+
+/// Draws an SVG into a PNG file at `scale` pixels per CSS pixel, on white.
+/// @throws InputError if the text is not an SVG drawing; FileError if the file cannot be written
+void write_png(const std::filesystem::path& file, const std::string& svg, double scale = 2.0);
+
+}  // namespace glissade

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/design/design.hpp"
+#include "glissade/motion/motion.hpp"
+#include "glissade/solid/cross_section.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+#include "glissade/solid/placement.hpp"
+#include "glissade/solid/sweep.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glissade {
+
+/// What was found about one property; a property that nobody looked at is `not_checked`, never a pass.
+enum class Verdict { pass, fail, not_checked };
+
+struct ReportCheck {
+  std::string name;
+  Verdict verdict = Verdict::not_checked;
+  std::string detail;  ///< the numbers behind it, one sentence
+};
+
+/// One limit of the design and what the track made of it.
+struct ReportLimit {
+  std::string name;             ///< "exit slope angle"
+  std::string bound;            ///< "at most 11 deg"
+  std::string reached;          ///< "11 deg"
+  std::string where;            ///< "s = 91.2 m"
+  std::string status;           ///< "kept", "active", "violated" or "not checked"
+  std::optional<double> price;  ///< travel time that one unit of the limit costs
+  std::string price_unit;       ///< "s per deg"
+};
+
+/// An area that the track stays out of; an open line where only one side is known.
+struct ReportKeepOut {
+  std::string name;
+  std::vector<Vec2> points;  ///< x run from the start, y height z [m]
+  bool open = false;
+};
+
+struct ReportFile {
+  std::string name;
+  std::uintmax_t bytes = 0;
+  std::string sha256;  ///< 64 hexadecimal digits
+};
+
+/// The solid as it was written.
+struct ReportSolid {
+  const Solid* solid = nullptr;
+  const MeshFacts* facts = nullptr;
+  const CrossSection* section = nullptr;
+};
+
+/// What a report is made from. Everything was computed elsewhere: a report measures nothing of its own.
+struct ReportInput {
+  const Design* design = nullptr;
+  Endpoints endpoints;
+  Placement placement;
+  const Motion* motion = nullptr;
+  const Motion* straight = nullptr;  ///< the same body on the straight line; null if it does not arrive there
+  const Motion* optimum =
+      nullptr;  ///< from rest on the exact optimum without limits; null where that does not apply
+  ReportSolid solid;
+  std::vector<ReportCheck> checks;
+  std::vector<ReportLimit> limits;
+  std::vector<ReportKeepOut> keep_outs;
+  std::vector<ReportFile> files;
+};
+
+/// The report's data as one JSON document, "glissade-report/1": docs/report-data.md describes each field.
+/// Bytes depend on the input alone. The view of a solid above kViewTriangles is swept anew at a coarser
+/// tolerance, and the document says so.
+[[nodiscard]] std::string report_json(const ReportInput& input);
+
+/// The report as one self-contained page: data, styles and scripts inside, no request to anywhere.
+[[nodiscard]] std::string report_html(const ReportInput& input);
+
+/// Most facets that the page's 3-D view holds.
+inline constexpr std::size_t kViewTriangles = 150'000;
+
+/// @return SHA-256 of a file's bytes as 64 hexadecimal digits
+/// @throws FileError if the file cannot be read
+[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
+
+}  // namespace glissade

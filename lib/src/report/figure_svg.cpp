@@ -1,0 +1,278 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/report/figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace glissade {
+namespace {
+
+// Lightness differs from one to the next, so that the lines stay apart in grey.
+constexpr std::array<const char*, 8> kColours = {"#0b6e99", "#b4531a", "#1a7f5a", "#6d3fa0",
+                                                 "#a3325f", "#52606d", "#8a7000", "#16202a"};
+constexpr std::array<const char*, 4> kDashes = {"", "8 4", "2 4", "10 3 2 3"};
+
+constexpr double kLeft = 74.0;
+constexpr double kRight = 20.0;
+constexpr double kTop = 38.0;
+constexpr double kBottom = 50.0;
+constexpr double kLegendLine = 20.0;
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  [[nodiscard]] double span() const { return high - low; }
+};
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return result;
+}
+
+double round_step(double span, double count) {
+  const double rough = span / count;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * decade >= rough) return factor * decade;
+  }
+  return 10.0 * decade;
+}
+
+std::string points_text(const std::vector<double>& xs, const std::vector<double>& ys, auto&& to_x,
+                        auto&& to_y) {
+  std::string path;
+  bool pen_down = false;
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    if (!std::isfinite(xs[i]) || !std::isfinite(ys[i])) {
+      pen_down = false;
+      continue;
+    }
+    path += fmt::format("{}{:.2f} {:.2f}", pen_down ? "L" : "M", to_x(xs[i]), to_y(ys[i]));
+    pen_down = true;
+  }
+  return path;
+}
+
+/// One panel, laid out for a given width; its top edge is at y = 0.
+class Panel {
+ public:
+  Panel(const Figure& figure, double width) : figure_(figure), width_(width) {
+    for (const FigureLine& line : figure.lines) include(line.xs, line.ys, line.name);
+    for (const FigureArea& area : figure.areas) include(area.xs, area.ys, area.name);
+    if (!(x_.low <= x_.high && y_.low <= y_.high)) {
+      throw InputError(
+          {figure.title, "the figure has no point to draw", "", "a track that the body can ride"});
+    }
+    widen(x_);
+    widen(y_);
+    inner_width_ = width - kLeft - kRight;
+    inner_height_ = 0.42 * width;
+    if (figure.to_scale) fit_scale();
+  }
+
+  [[nodiscard]] double height() const {
+    return kTop + inner_height_ + kBottom + kLegendLine * legend_rows() + 8.0;
+  }
+
+  [[nodiscard]] std::string svg(double top) const {
+    std::string text = fmt::format("<g transform=\"translate(0 {:.2f})\" role=\"group\" aria-label=\"{}\">\n",
+                                   top, escaped(figure_.title));
+    text +=
+        fmt::format("<text class=\"title\" x=\"{:.2f}\" y=\"22\">{}</text>\n", kLeft, escaped(figure_.title));
+    text += axes();
+    text += fmt::format(
+        "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" overflow=\"hidden\" "
+        "viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\">\n",
+        kLeft, kTop, inner_width_, inner_height_, kLeft, kTop, inner_width_, inner_height_);
+    const auto to_x = [this](double x) { return at_x(x); };
+    const auto to_y = [this](double y) { return at_y(y); };
+    for (const FigureArea& area : figure_.areas) {
+      text += fmt::format("<path class=\"area\" d=\"{}Z\"><title>{}</title></path>\n",
+                          points_text(area.xs, area.ys, to_x, to_y), escaped(area.name));
+    }
+    for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
+      const FigureLine& line = figure_.lines[i];
+      text += fmt::format("<path class=\"line\" {} d=\"{}\"><title>{}</title></path>\n", stroke(i),
+                          points_text(line.xs, line.ys, to_x, to_y), escaped(line.name));
+    }
+    return text + "</svg>\n" + legend() + "</g>\n";
+  }
+
+ private:
+  void include(const std::vector<double>& xs, const std::vector<double>& ys, const std::string& name) {
+    if (xs.size() != ys.size()) {
+      throw InputError({figure_.title,
+                        "line \"" + name + "\" has " + std::to_string(xs.size()) + " x and " +
+                            std::to_string(ys.size()) + " y values",
+                        "Each point needs both.", ""});
+    }
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      if (!std::isfinite(xs[i]) || !std::isfinite(ys[i])) continue;
+      x_.include(xs[i]);
+      y_.include(ys[i]);
+    }
+  }
+
+  static void widen(Range& range) {
+    const double margin =
+        range.span() > 0.0 ? 0.04 * range.span() : std::max(0.5 * std::fabs(range.low), 0.5);
+    range.low -= margin;
+    range.high += margin;
+  }
+
+  void fit_scale() {
+    const double natural = inner_width_ * y_.span() / x_.span();
+    inner_height_ = std::clamp(natural, 0.2 * width_, 1.2 * width_);
+    const double per_pixel = std::max(x_.span() / inner_width_, y_.span() / inner_height_);
+    grow(x_, per_pixel * inner_width_);
+    grow(y_, per_pixel * inner_height_);
+  }
+
+  static void grow(Range& range, double span) {
+    const double extra = 0.5 * (span - range.span());
+    range.low -= extra;
+    range.high += extra;
+  }
+
+  [[nodiscard]] double at_x(double x) const { return kLeft + inner_width_ * (x - x_.low) / x_.span(); }
+  [[nodiscard]] double at_y(double y) const { return kTop + inner_height_ * (y_.high - y) / y_.span(); }
+
+  [[nodiscard]] std::string axes() const {
+    const double right = kLeft + inner_width_;
+    const double bottom = kTop + inner_height_;
+    std::string text;
+    const double x_step = round_step(x_.span(), inner_width_ / 90.0);
+    for (double k = std::ceil(x_.low / x_step); k * x_step <= x_.high; ++k) {
+      const double x = at_x(k * x_step);
+      text += fmt::format(
+          "<path class=\"grid\" d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/><text x=\"{0:.2f}\" y=\"{3:.2f}\" "
+          "text-anchor=\"middle\">{4}</text>\n",
+          x, kTop, bottom, bottom + 18.0, rounded_text(k * x_step, 6));
+    }
+    const double y_step = round_step(y_.span(), inner_height_ / 50.0);
+    for (double k = std::ceil(y_.low / y_step); k * y_step <= y_.high; ++k) {
+      const double y = at_y(k * y_step);
+      text += fmt::format(
+          "<path class=\"grid\" d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/><text x=\"{3:.2f}\" y=\"{4:.2f}\" "
+          "text-anchor=\"end\">{5}</text>\n",
+          kLeft, y, right, kLeft - 8.0, y + 4.0, rounded_text(k * y_step, 6));
+    }
+    text +=
+        fmt::format("<rect class=\"frame\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>\n",
+                    kLeft, kTop, inner_width_, inner_height_);
+    text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>\n",
+                        0.5 * (kLeft + right), bottom + 40.0, escaped(figure_.x_label));
+    text +=
+        fmt::format("<text transform=\"translate(18 {:.2f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                    0.5 * (kTop + bottom), escaped(figure_.y_label));
+    return text;
+  }
+
+  [[nodiscard]] std::string stroke(std::size_t index) const {
+    const bool dashed = figure_.lines[index].dashed;
+    const std::size_t style = dashed ? 1 + index % 3 : (index / kColours.size()) % kDashes.size();
+    return fmt::format("stroke=\"{}\"{}", kColours[index % kColours.size()],
+                       style == 0 ? "" : fmt::format(" stroke-dasharray=\"{}\"", kDashes[style]));
+  }
+
+  [[nodiscard]] static double entry_width(const FigureLine& line) {
+    return 48.0 + 7.2 * static_cast<double>(line.name.size());
+  }
+
+  /// Places legend entries left to right, top to bottom; returns the rows, and calls `place` for each entry.
+  int lay_out_legend(auto&& place) const {
+    double x = 0.0;
+    int row = 0;
+    bool any = false;
+    for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
+      if (figure_.lines[i].name.empty()) continue;
+      const double needed = entry_width(figure_.lines[i]);
+      if (x > 0.0 && x + needed > inner_width_) {
+        x = 0.0;
+        ++row;
+      }
+      place(i, kLeft + x, row);
+      x += needed;
+      any = true;
+    }
+    return any ? row + 1 : 0;
+  }
+
+  [[nodiscard]] int legend_rows() const {
+    return lay_out_legend([](std::size_t, double, int) {});
+  }
+
+  [[nodiscard]] std::string legend() const {
+    std::string text;
+    const double top = kTop + inner_height_ + kBottom + 12.0;
+    lay_out_legend([&](std::size_t i, double x, int row) {
+      const double y = top + kLegendLine * row;
+      text += fmt::format(
+          "<path class=\"line\" {} d=\"M{:.2f} {:.2f}h28\"/><text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n",
+          stroke(i), x, y - 4.0, x + 34.0, y, escaped(figure_.lines[i].name));
+    });
+    return text;
+  }
+
+  const Figure& figure_;
+  double width_;
+  Range x_;
+  Range y_;
+  double inner_width_ = 0.0;
+  double inner_height_ = 0.0;
+};
+
+}  // namespace
+
+std::string figures_svg(const std::vector<Figure>& figures, double width) {
+  std::string body;
+  double height = 0.0;
+  for (const Figure& figure : figures) {
+    const Panel panel(figure, width);
+    body += panel.svg(height);
+    height += panel.height();
+  }
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
+             "{0:.0f} {1:.0f}\" "
+             "role=\"img\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\" fill=\"#16202a\">\n"
+             "<style>.title{{font-size:15px;font-weight:bold}}.grid{{stroke:#dfe4e8;fill:none}}.frame{{"
+             "stroke:#7b8794;fill:none}}"
+             ".line{{fill:none;stroke-width:2;stroke-linejoin:round}}.area{{fill:#c0282d;fill-opacity:.18;"
+             "stroke:#c0282d}}</style>\n"
+             "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+             width, std::ceil(height)) +
+         body + "</svg>\n";
+}
+
+}  // namespace glissade

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace glissade::page_assets {
+
+/// The committed bundle of the page (web/dist), as built from web/src.
+extern const std::string_view kScript;
+extern const std::string_view kStyle;
+extern const std::string_view kLicences;
+
+}  // namespace glissade::page_assets
