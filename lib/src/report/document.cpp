@@ -1,6 +1,6 @@
 #include "report/document.hpp"
 
-#include "glissade/version.hpp"
+#include "glissade/core/version.hpp"
 
 #include "report/view_mesh.hpp"
 
@@ -228,7 +228,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   const double height = design.track.start.z;
   Json document;
   document["schema"] = "glissade-report/1";
-  document["generator"] = {{"name", "Glissade"}, {"version", kVersion}};
+  document["generator"] = {{"name", "Glissade"}, {"version", version()}};
   document["design"] = {
       {"name", design.name.empty() ? "Untitled design" : design.name},
       {"stem", design.file.empty() ? "design" : design.file.stem().string()},
