@@ -7,21 +7,31 @@
 
 namespace glissade {
 
-/// A file that appears whole or not at all: bytes go to a sibling, commit() flushes and renames it over the
-/// target. Destruction without commit() removes the sibling and leaves the target as it was.
+/// A file that appears whole or not at all.
+///
+/// Bytes go to a sibling in the target's directory, commit() renames it over the target. Destruction without
+/// commit() removes the sibling and leaves the target as it was. Where the target is a symbolic link, the
+/// file it points to is replaced and the link stays. A new file gets the permissions that the umask leaves of
+/// 0666; a replaced one keeps those it had. A target that is write-protected, a directory, a device or a pipe
+/// is refused.
+///
+/// What it promises holds against exceptions, full disks and broken processes, not against a loss of power:
+/// nothing waits for the disk (no fsync), since every file of Glissade can be made again from its design.
 class AtomicFile {
  public:
-  /// @throws FileError if the sibling cannot be created (says which directory and why)
+  /// @throws FileError if the sibling cannot be created or the target is not replaceable; says why
   explicit AtomicFile(std::filesystem::path target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   /// @throws FileError if the bytes cannot be written, e.g. on a full disk
+  /// @throws InternalError after commit()
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
-  /// @throws FileError if flushing or renaming fails
+  /// @throws FileError if flushing, closing or renaming fails; the target is then untouched
+  /// @throws InternalError if called twice
   void commit();
 
  private:

@@ -1,0 +1,145 @@
+#include "glissade/io/atomic_file.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include "io/system_error.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace glissade {
+namespace {
+
+constexpr std::size_t kBufferSize = std::size_t{1} << 18U;
+constexpr mode_t kNewFileMode = 0666;
+constexpr mode_t kPermissionBits = 0777;
+
+/// @return the file that the target means: the target itself or what its symbolic links lead to
+std::filesystem::path without_links(const std::filesystem::path& target) {
+  constexpr int kMostLinks = 40;
+  std::filesystem::path file = target;
+  for (int i = 0; i < kMostLinks; ++i) {
+    std::error_code failure;
+    const std::filesystem::path next = std::filesystem::read_symlink(file, failure);
+    if (failure) return file;
+    file = next.is_absolute() ? next : file.parent_path() / next;
+  }
+  throw system_error(target, "cannot write", ELOOP);
+}
+
+/// @return permissions of the file that is about to be replaced; none if there is no such file
+std::optional<mode_t> replaceable_mode(const std::filesystem::path& target,
+                                       const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) {
+    if (errno == ENOENT) return std::nullopt;
+    throw system_error(target, "cannot write", errno);
+  }
+  if (S_ISDIR(status.st_mode)) throw system_error(target, "cannot write", EISDIR);
+  if (!S_ISREG(status.st_mode)) {
+    throw FileError({target.string(), "cannot write: not a regular file",
+                     "A device or pipe cannot be replaced in one step.", "the name of a file"});
+  }
+  if (::access(file.c_str(), W_OK) != 0) throw system_error(target, "cannot replace", errno);
+  return status.st_mode & kPermissionBits;
+}
+
+}  // namespace
+
+struct AtomicFile::State {
+  std::filesystem::path target;   ///< as the caller named it, for messages
+  std::filesystem::path file;     ///< what is replaced
+  std::filesystem::path sibling;  ///< what is written
+  std::optional<mode_t> mode;     ///< to give it before it takes its place
+  std::vector<char> buffer;
+  int descriptor = -1;
+
+  ~State() {
+    if (descriptor >= 0) ::close(descriptor);
+    if (!sibling.empty()) ::unlink(sibling.c_str());
+  }
+
+  void create_sibling() {
+    static std::atomic<unsigned> counter{0};
+    constexpr int kMostTries = 1000;
+    for (int i = 0; i < kMostTries; ++i) {
+      const std::string name =
+          ".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+      const std::filesystem::path path = file.parent_path() / name;
+      descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+      if (descriptor >= 0) {
+        sibling = path;
+        return;
+      }
+      if (errno != EEXIST && errno != EINTR) break;
+    }
+    throw system_error(target, "cannot create a file in its directory", errno);
+  }
+
+  void write_through(const char* bytes, std::size_t count) {
+    while (count > 0) {
+      const ssize_t written = ::write(descriptor, bytes, count);
+      if (written < 0) {
+        if (errno == EINTR) continue;
+        throw system_error(target, "cannot write", errno);
+      }
+      bytes += written;
+      count -= static_cast<std::size_t>(written);
+    }
+  }
+
+  void flush() {
+    write_through(buffer.data(), buffer.size());
+    buffer.clear();
+  }
+};
+
+AtomicFile::AtomicFile(std::filesystem::path target) : state_(std::make_unique<State>()) {
+  state_->target = std::move(target);
+  if (!state_->target.has_filename()) throw system_error(state_->target, "cannot write", EISDIR);
+  state_->file = without_links(state_->target);
+  state_->mode = replaceable_mode(state_->target, state_->file);
+  state_->buffer.reserve(kBufferSize);
+  state_->create_sibling();
+}
+
+AtomicFile::~AtomicFile() = default;
+
+void AtomicFile::write(const void* bytes, std::size_t count) {
+  if (state_->descriptor < 0)
+    throw InternalError({state_->target.string(), "written to after commit", "", ""});
+  const char* text = static_cast<const char*>(bytes);
+  if (state_->buffer.size() + count > kBufferSize) state_->flush();
+  if (count >= kBufferSize) {
+    state_->write_through(text, count);
+  } else {
+    state_->buffer.insert(state_->buffer.end(), text, text + count);
+  }
+}
+
+void AtomicFile::commit() {
+  if (state_->descriptor < 0) throw InternalError({state_->target.string(), "committed twice", "", ""});
+  state_->flush();
+  if (state_->mode && ::fchmod(state_->descriptor, *state_->mode) != 0) {
+    throw system_error(state_->target, "cannot give it the permissions that it had", errno);
+  }
+  if (::close(std::exchange(state_->descriptor, -1)) != 0) {
+    throw system_error(state_->target, "cannot write", errno);
+  }
+  if (::rename(state_->sibling.c_str(), state_->file.c_str()) != 0) {
+    throw system_error(state_->target, "cannot put the finished file in its place", errno);
+  }
+  state_->sibling.clear();
+}
+
+}  // namespace glissade

@@ -1,0 +1,243 @@
+#include "io/coordinates.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/io/mesh_file.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+
+#include "solid/position_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace glissade {
+namespace {
+
+constexpr double kLargestFloat = std::numeric_limits<float>::max();
+
+std::string vertex_name(std::size_t vertex) {
+  return "mesh, vertex " + std::to_string(vertex);
+}
+
+Vec3 to_vec(const FloatPosition& position) {
+  return {position[0], position[1], position[2]};
+}
+
+double largest_coordinate(Vec3 p) {
+  return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+}
+
+/// Adding +0 turns -0 into +0: files hold one zero.
+FloatPosition nearest(Vec3 p) {
+  return {static_cast<float>(p.x) + 0.0F, static_cast<float>(p.y) + 0.0F, static_cast<float>(p.z) + 0.0F};
+}
+
+/// @return the single-precision number next to the nearest, on the other side of `value`; the one above where
+///         that is exact
+float second_nearest(double value) {
+  const auto close = static_cast<float>(value);
+  const float towards =
+      close > value ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
+  return std::nextafter(close, towards) + 0.0F;
+}
+
+/// @return the other seven of the eight single-precision points around `p`, nearest first
+std::array<FloatPosition, 7> alternatives(Vec3 p) {
+  const FloatPosition first = nearest(p);
+  const FloatPosition second{second_nearest(p.x), second_nearest(p.y), second_nearest(p.z)};
+  std::array<FloatPosition, 7> points{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t choice = i + 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      points[i][axis] = ((choice >> axis) & 1U) != 0U ? second[axis] : first[axis];
+    }
+  }
+  std::stable_sort(points.begin(), points.end(), [p](const FloatPosition& a, const FloatPosition& b) {
+    const Vec3 to_a = to_vec(a) - p;
+    const Vec3 to_b = to_vec(b) - p;
+    return dot(to_a, to_a) < dot(to_b, to_b);
+  });
+  return points;
+}
+
+/// @param size  largest coordinate of the place in question, `feature` what must be told apart there; both in
+///              the file's unit
+InputError too_coarse(std::string where, std::string what, double size, double feature, LengthUnit unit) {
+  const double per_metre = units_per_metre(unit);
+  // A float of size X steps by 2^-23 X at most: the feature is then four steps or more.
+  const double size_that_works = feature * 0x1p21;
+  const auto single = static_cast<float>(size);
+  const double step = std::nextafter(single, std::numeric_limits<float>::infinity()) - single;
+  return InputError(
+      {std::move(where), std::move(what),
+       "The format holds coordinates in single precision; at " + length_text(size / per_metre, 3) +
+           " its steps are " + length_text(step / per_metre, 3) + ".",
+       "an origin so close that coordinates stay below " + length_text(size_that_works / per_metre, 2) +
+           ", or OFF or ASCII STL, which hold double precision"});
+}
+
+/// Positions in the file's unit and their roundings, one object for the steps of keeping them apart.
+class DistinctRounding {
+ public:
+  DistinctRounding(const std::vector<Vec3>& exact, std::vector<FloatPosition>& rounded, LengthUnit unit)
+      : exact_(exact), rounded_(rounded), unit_(unit), positions_(exact.size()) {
+    std::transform(rounded.begin(), rounded.end(), positions_.begin(), to_vec);
+  }
+
+  void keep_apart() {
+    if (!has_merged()) return;
+    PositionIndex taken(positions_, positions_.size());
+    PositionIndex originals(exact_, exact_.size());
+    std::vector<std::uint32_t> leader(exact_.size());
+    std::vector<std::uint32_t> homeless;
+    for (std::uint32_t i = 0; i < exact_.size(); ++i) {
+      leader[i] = originals.enter(exact_[i], i);
+      if (leader[i] == i && taken.enter(positions_[i], i) != i) homeless.push_back(i);
+    }
+    for (const std::uint32_t i : homeless) settle(i, taken);
+    for (std::uint32_t i = 0; i < exact_.size(); ++i) rounded_[i] = rounded_[leader[i]];
+  }
+
+ private:
+  [[nodiscard]] bool has_merged() const {
+    PositionIndex index(positions_, positions_.size());
+    for (std::uint32_t i = 0; i < positions_.size(); ++i) {
+      if (!(exact_[index.enter(positions_[i], i)] == exact_[i])) return true;
+    }
+    return false;
+  }
+
+  void settle(std::uint32_t vertex, PositionIndex& taken) {
+    const std::uint32_t rival = taken.enter(positions_[vertex], vertex);
+    for (const FloatPosition& point : alternatives(exact_[vertex])) {
+      positions_[vertex] = to_vec(point);
+      if (taken.enter(positions_[vertex], vertex) != vertex) continue;
+      rounded_[vertex] = point;
+      return;
+    }
+    const double distance = norm(exact_[vertex] - exact_[rival]);
+    throw too_coarse(vertex_name(vertex),
+                     "binary STL cannot keep it apart from vertex " + std::to_string(rival) + ", " +
+                         length_text(distance / units_per_metre(unit_), 3) + " away",
+                     largest_coordinate(exact_[vertex]), distance, unit_);
+  }
+
+  const std::vector<Vec3>& exact_;
+  std::vector<FloatPosition>& rounded_;
+  LengthUnit unit_;
+  std::vector<Vec3> positions_;
+};
+
+/// @throws InputError if rounding turns a facet by more than 45 deg: the shape is lost there
+void require_same_attitude(const TriangleMesh& mesh, const std::vector<FloatPosition>& rounded,
+                           LengthUnit unit) {
+  constexpr double kCosineOf45Deg = 0.5 * std::numbers::sqrt2;
+  const double per_metre = units_per_metre(unit);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [ia, ib, ic] = mesh.triangles[i];
+    const Vec3 a = mesh.vertices[ia];
+    const Vec3 ab = mesh.vertices[ib] - a;
+    const Vec3 ac = mesh.vertices[ic] - a;
+    const Vec3 before = cross(ab, ac);
+    const Vec3 origin = to_vec(rounded[ia]);
+    const Vec3 after = cross(to_vec(rounded[ib]) - origin, to_vec(rounded[ic]) - origin);
+    if (dot(before, after) >= kCosineOf45Deg * norm(before) * norm(after) && !(after == Vec3{})) continue;
+    if (before == Vec3{}) continue;
+    const double longest = std::max({norm(ab), norm(ac), norm(ac - ab)});
+    const double height = norm(before) / longest;
+    throw too_coarse("mesh, triangle " + std::to_string(i),
+                     "binary STL turns it by more than 45 deg; it is " + length_text(height, 3) + " high",
+                     per_metre * largest_coordinate(a), per_metre * height, unit);
+  }
+}
+
+TriangleMesh as_single_precision(const TriangleMesh& mesh, LengthUnit unit) {
+  const double per_metre = units_per_metre(unit);
+  const std::vector<FloatPosition> rounded = single_precision(mesh, unit);
+  TriangleMesh result{.vertices = {}, .triangles = mesh.triangles};
+  result.vertices.reserve(rounded.size());
+  for (const FloatPosition& p : rounded) {
+    result.vertices.push_back({p[0] / per_metre, p[1] / per_metre, p[2] / per_metre});
+  }
+  return result;
+}
+
+TriangleMesh as_double_precision(const TriangleMesh& mesh, LengthUnit unit) {
+  const double per_metre = units_per_metre(unit);
+  TriangleMesh result = mesh;
+  for (Vec3& p : result.vertices) {
+    p = {p.x * per_metre / per_metre + 0.0, p.y * per_metre / per_metre + 0.0,
+         p.z * per_metre / per_metre + 0.0};
+  }
+  return result;
+}
+
+}  // namespace
+
+double units_per_metre(LengthUnit unit) {
+  return unit == LengthUnit::millimetre ? 1000.0 : 1.0;
+}
+
+std::string_view unit_symbol(LengthUnit unit) {
+  return unit == LengthUnit::millimetre ? "mm" : "m";
+}
+
+void require_writable(const TriangleMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3& p = mesh.vertices[i];
+    const bool is_finite = std::isfinite(p.x + p.y + p.z);
+    if (is_finite && largest_coordinate(p) <= kLargestMeshCoordinate) continue;
+    throw InputError({vertex_name(i),
+                      "coordinates (" + rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " +
+                          rounded_text(p.z, 6) + ") m cannot be written",
+                      "Every coordinate must be a finite number of at most " +
+                          rounded_text(kLargestMeshCoordinate, 3) + " m.",
+                      ""});
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t vertex : mesh.triangles[i]) {
+      if (vertex < mesh.vertices.size()) continue;
+      throw InputError(
+          {"mesh, triangle " + std::to_string(i), "vertex " + std::to_string(vertex) + " does not exist",
+           "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.", ""});
+    }
+  }
+}
+
+std::vector<FloatPosition> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
+  const std::vector<Vec3>& vertices = mesh.vertices;
+  const double per_metre = units_per_metre(unit);
+  std::vector<FloatPosition> rounded(vertices.size());
+  bool is_exact = true;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec3 p = per_metre * vertices[i];
+    if (!(largest_coordinate(p) <= kLargestFloat)) {
+      throw InputError({vertex_name(i),
+                        "a coordinate of " + rounded_text(largest_coordinate(p), 3) + " " +
+                            std::string(unit_symbol(unit)) + " does not fit binary STL",
+                        "Single precision ends at 3.4e38.", "OFF or ASCII STL"});
+    }
+    rounded[i] = nearest(p);
+    const Vec3 back{rounded[i][0] / per_metre, rounded[i][1] / per_metre, rounded[i][2] / per_metre};
+    is_exact = is_exact && back == vertices[i];
+  }
+  // What came out of as_written() rounds to itself: vertices that are apart stay so without a look.
+  if (is_exact) return rounded;
+
+  std::vector<Vec3> exact(vertices.size());
+  std::transform(vertices.begin(), vertices.end(), exact.begin(),
+                 [per_metre](Vec3 p) { return per_metre * p; });
+  DistinctRounding(exact, rounded, unit).keep_apart();
+  require_same_attitude(mesh, rounded, unit);
+  return rounded;
+}
+
+TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit) {
+  require_writable(mesh);
+  return format == MeshFormat::stl_binary ? as_single_precision(mesh, unit) : as_double_precision(mesh, unit);
+}
+
+}  // namespace glissade
