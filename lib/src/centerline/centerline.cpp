@@ -4,18 +4,34 @@
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <utility>
+#include <optional>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
 namespace glissade {
 namespace {
 
-/// Panels per smooth piece that are looked at for the first crossing of a run. A piece that never overhangs
-/// needs but one; the others let a track that doubles back still give its first crossing.
-constexpr int kPanelsPerPiece = 32;
+// A cell of the search for a run: in one of these per smooth stretch the run has at most one extremum.
+constexpr int kCellsPerStretch = 8;
+
+/// Root of `function` between a and b, where it has opposite signs or vanishes, to the last bit.
+template <class Function>
+double root_between(const Function& function, double a, double b) {
+  const double at_a = function(a);
+  const double at_b = function(b);
+  if (at_a == 0.0) return a;
+  if (at_b == 0.0) return b;
+  std::uintmax_t iterations = 200;
+  const auto same = [](double low, double high) { return std::nextafter(low, high) >= high; };
+  const auto [low, high] = boost::math::tools::toms748_solve(function, a, b, at_a, at_b, same, iterations);
+  return std::fabs(function(low)) <= std::fabs(function(high)) ? low : high;
+}
+
+bool changes_sign(double a, double b) {
+  return (a < 0.0) != (b < 0.0);
+}
 
 }  // namespace
 
@@ -23,37 +39,53 @@ std::vector<double> Centerline::breaks() const {
   return {0.0, length()};
 }
 
-double Centerline::arc_length_at_run(double x) const {
-  const auto missing = [&](double s) { return at(s).x - x; };
-  const auto crossing = [&](double low, double missing_low, double high, double missing_high) {
-    std::uintmax_t iterations = 200;
-    const auto bracket =
-        boost::math::tools::toms748_solve(missing, low, high, missing_low, missing_high,
-                                          boost::math::tools::eps_tolerance<double>(52), iterations);
-    return std::min(bracket.first, bracket.second);
-  };
+Direction Centerline::direction(double s) const {
+  const CenterlinePoint point = at(s);
+  return {point.slope_angle, point.curvature};
+}
 
-  double low = 0.0;
-  double missing_low = missing(low);
-  if (missing_low == 0.0) return low;
-  const std::vector<double> pieces = breaks();
-  for (std::size_t piece = 1; piece < pieces.size() && missing_low < 0.0; ++piece) {
-    const double start = pieces[piece - 1];
-    const double end = pieces[piece];
-    for (int panel = 1; panel <= kPanelsPerPiece; ++panel) {
-      const double high = panel == kPanelsPerPiece ? end : start + (end - start) * panel / kPanelsPerPiece;
-      const double missing_high = missing(high);
-      if (missing_high == 0.0) return high;
-      if (missing_high > 0.0) return crossing(low, missing_low, high, missing_high);
-      low = high;
-      missing_low = missing_high;
+Endpoints Centerline::endpoints() const {
+  const CenterlinePoint finish = at(length());
+  return {finish.x, finish.drop};
+}
+
+void Centerline::require_on_track(double s) const {
+  if (s >= 0.0 && s <= length()) return;
+  throw InputError({"", "arc length " + exact_text(s) + " m is not on the track",
+                    "The track is " + exact_text(length()) + " m long.", ""});
+}
+
+double Centerline::arc_length_at_run(double x) const {
+  const auto excess = [&](double s) { return at(s).x - x; };
+  const auto advance = [&](double s) { return std::cos(slope_angle(s)); };
+  if (excess(0.0) == 0.0) return 0.0;
+
+  const auto crossing = [&](double a, double b) -> std::optional<double> {
+    if (excess(b) != 0.0 && !changes_sign(excess(a), excess(b))) return std::nullopt;
+    return root_between(excess, a, b);
+  };
+  const std::vector<double> stretches = breaks();
+  for (std::size_t i = 0; i + 1 < stretches.size(); ++i) {
+    for (int cell = 0; cell < kCellsPerStretch; ++cell) {
+      const double width = stretches[i + 1] - stretches[i];
+      const double a = stretches[i] + width * cell / kCellsPerStretch;
+      const double b = cell + 1 == kCellsPerStretch ? stretches[i + 1]
+                                                    : stretches[i] + width * (cell + 1) / kCellsPerStretch;
+      double from = a;
+      if (changes_sign(advance(a), advance(b))) {
+        const double turn = root_between(advance, a, b);
+        if (const auto found = crossing(a, turn)) return *found;
+        from = turn;
+      }
+      if (const auto found = crossing(from, b)) return *found;
     }
   }
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * length();
-  if (missing_low < 0.0 && missing_low >= -rounding) return length();
-  if (missing_low > 0.0 && missing_low <= rounding) return 0.0;
-  throw InputError(Issue{"", "x: no point of the track has a run of " + exact_text(x) + " m",
-                         "The track leads from 0 m to " + exact_text(at(length()).x) + " m.", ""});
+  // A run that is the start's or the finish's but for rounding belongs to them.
+  const double rounding = kRunAccuracy * length();
+  if (std::fabs(excess(0.0)) <= rounding) return 0.0;
+  if (std::fabs(excess(length())) <= rounding) return length();
+  throw InputError({"", "x: no point of the track has a run of " + exact_text(x) + " m",
+                    "The track leads from 0 m to " + exact_text(at(length()).x) + " m.", ""});
 }
 
 }  // namespace glissade

@@ -18,6 +18,20 @@ struct CenterlinePoint {
   double curvature = 0.0;    ///< kappa = -d zeta/ds, positive in a valley (concave side up) [1/m]
 };
 
+/// Where a centerline points and how it bends: the part of a CenterlinePoint that a sliding body feels.
+struct Direction {
+  double slope_angle = 0.0;  ///< zeta [rad], as in CenterlinePoint
+  double curvature = 0.0;    ///< kappa [1/m], as in CenterlinePoint
+};
+
+/// Where a track leads: the finish as seen from the start.
+struct Endpoints {
+  double run = 0.0;   ///< L, horizontal distance [m]; its sign is the side, positive to the right
+  double drop = 0.0;  ///< H, positive where the finish lies below the start [m]
+
+  friend bool operator==(const Endpoints&, const Endpoints&) = default;
+};
+
 /// A curve in the vertical plane, by arc length: what a body slides on and what a solid is built along.
 ///
 /// Curve: dx = cos(zeta) ds, dy = sin(zeta) ds (docs/theory.md, frame); position and slope angle are
@@ -43,6 +57,9 @@ class Centerline {
   /// Slope angle alone; the same number as at(s).slope_angle, cheaper where a kind can.
   [[nodiscard]] virtual double slope_angle(double s) const { return at(s).slope_angle; }
 
+  /// Slope angle and curvature alone; the same numbers as at(s) gives, cheaper where a kind can.
+  [[nodiscard]] virtual Direction direction(double s) const;
+
   /// @return ascending arc lengths [m] between which curvature is smooth; first 0, last length()
   [[nodiscard]] virtual std::vector<double> breaks() const;
 
@@ -50,26 +67,30 @@ class Centerline {
   [[nodiscard]] virtual bool unbounded_curvature_at_start() const noexcept { return false; }
 
   /// Arc length of the point at a given run: the way back from position to arc length.
-  /// @param x  run [m]; between 0 and the run of the finish
-  /// @return the smallest arc length s with at(s).x == x, to 4 units in the last place of length()
+  /// @param x  run [m]; one that the track passes, so 0 to the run of the finish, and more where it overhangs
+  /// @return the smallest arc length whose at(s).x is x to kRunAccuracy * length(). Where the track is
+  /// vertical
+  ///         its run says little about arc length: an error dx in x means dx / cos(zeta) in s.
   /// @throws InputError if no point of the track has that run
   [[nodiscard]] virtual double arc_length_at_run(double x) const;
 
+  /// @return run and drop of the finish [m]; the run as the curve sees it, so positive towards the finish
+  [[nodiscard]] Endpoints endpoints() const;
+
  protected:
+  /// For derived classes: the check that at() owes its caller.
+  /// @throws InputError unless 0 <= s <= length()
+  void require_on_track(double s) const;
+
   Centerline() = default;
   Centerline(const Centerline&) = default;
   Centerline& operator=(const Centerline&) = default;
 };
 
+/// Stated bound of |at(arc_length_at_run(x)).x - x| / length().
+inline constexpr double kRunAccuracy = 1e-15;
+
 /// How centerlines travel from one stage to the next.
 using CenterlinePtr = std::shared_ptr<const Centerline>;
-
-/// Where a track leads: the finish as seen from the start.
-struct Endpoints {
-  double run = 0.0;   ///< L, horizontal distance [m]; its sign is the side, positive to the right
-  double drop = 0.0;  ///< H, positive where the finish lies below the start [m]
-
-  friend bool operator==(const Endpoints&, const Endpoints&) = default;
-};
 
 }  // namespace glissade
