@@ -13,3 +13,8 @@ if(GLISSADE_SANITIZE)
     -fsanitize=${GLISSADE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(glissade_compile_settings INTERFACE -fsanitize=${GLISSADE_SANITIZE})
 endif()
+if(GLISSADE_BUILD_FUZZERS)
+  # Coverage that libFuzzer steers by, without its main().
+  target_compile_options(glissade_compile_settings INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(glissade_compile_settings INTERFACE -fsanitize=fuzzer-no-link)
+endif()

@@ -45,6 +45,11 @@ std::map<std::string, std::string, std::less<>> Findings::locations() const {
 }
 
 void Findings::add(Position position, std::string key_path, Issue issue) {
+  // A file with thousands of problems is not a design; there is no use in sorting and showing them all.
+  if (problems_.size() >= 10 * kMostReported) {
+    ++left_out_;
+    return;
+  }
   problems_.push_back({position, std::move(key_path), std::move(issue)});
 }
 
@@ -72,9 +77,12 @@ std::vector<Issue> Findings::issues() const {
   });
   std::vector<Issue> issues;
   for (const Problem* problem : sorted) {
+    if (issues.size() == kMostReported) break;
     issues.push_back(problem->issue);
     issues.back().where = where(problem->at);
   }
+  const std::size_t more = sorted.size() + left_out_ - issues.size();
+  if (more > 0) issues.push_back({file_.string(), "and " + std::to_string(more) + " more problems", "", ""});
   return issues;
 }
 

@@ -36,7 +36,8 @@ class Findings {
   void add_unless_spoiled(Finding finding);
 
   [[nodiscard]] bool empty() const { return problems_.empty(); }
-  /// @return every problem, by position, with `where` filled in
+  /// @return the problems by position, with `where` filled in; beyond kMostReported only how many more there
+  /// are
   [[nodiscard]] std::vector<Issue> issues() const;
 
  private:
@@ -46,12 +47,15 @@ class Findings {
     Issue issue;
   };
 
+  static constexpr std::size_t kMostReported = 100;
+
   [[nodiscard]] bool spoiled(std::string_view key_path) const;
 
   std::filesystem::path file_;
   const std::vector<Override>& overrides_;
   std::map<std::string, Position, std::less<>> positions_;
   std::vector<Problem> problems_;
+  std::size_t left_out_ = 0;
 };
 
 /// @return the key path without its last part; empty for a top-level key

@@ -112,7 +112,7 @@ bool MapReader::has(std::string_view key) const {
 }
 
 std::optional<Value> MapReader::find(std::string_view key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   if (node_ == nullptr) return {};
   for (const Entry& entry : node_->entries) {
     if (entry.key != key) continue;
@@ -171,6 +171,8 @@ Issue MapReader::unknown_key(const std::string& key) const {
   }
   const std::string_view near = nearest_word(key, keys);
   if (!near.empty()) issue.hint = std::string(near);
+  const bool after_comma = !key.empty() && key.front() >= '0' && key.front() <= '9';
+  if (after_comma) issue.hint = "a decimal point, if the comma before it was meant as one";
   return issue;
 }
 

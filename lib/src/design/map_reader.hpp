@@ -5,6 +5,7 @@
 #include "design/findings.hpp"
 #include "design/yaml_tree.hpp"
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,9 @@ class MapReader {
 
   /// Says so in later messages, once a kind is known.
   void rename(std::string_view noun) { noun_ = noun; }
+
+  /// Names the keys in the order in which messages list them; otherwise it is the order of asking.
+  void expect(std::initializer_list<std::string_view> keys) { known_ = keys; }
 
   /// @return false if the value is no map; every reading then returns none, without a problem of its own
   [[nodiscard]] bool readable() const { return node_ != nullptr; }

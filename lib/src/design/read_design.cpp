@@ -101,6 +101,7 @@ BodyDesign read_body(MapReader& top, Findings& findings) {
   const std::optional<Value> value = top.need("body", "body: {friction_angle: 17 deg}");
   if (!value) return body;
   MapReader map(*value, "A body", "{friction_angle: 17 deg}", findings);
+  map.expect({"friction_angle", "friction_coefficient", "entry_speed", "drag"});
   body.friction = read_friction(map, findings);
   body.entry_speed = map.quantity("entry_speed", Dimension::speed).value_or(0.0);
   body.drag_per_metre = map.quantity("drag", Dimension::per_length).value_or(0.0);
@@ -341,6 +342,13 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
+  top.expect(
+      {"glissade", "name", "track", "body", "gravity", "centerline", "cross_section", "mesh", "export"});
+  for (const std::string_view key : {"friction_angle", "friction_coefficient", "entry_speed", "drag"}) {
+    top.add_stranger(key, "two spaces before it, below body:");
+  }
+  for (const std::string_view key : {"start", "finish"})
+    top.add_stranger(key, "two spaces before it, below track:");
   read_version(top, findings);
   design.name = read_name(top, findings);
   design.centerline = read_centerline(top, file, findings);

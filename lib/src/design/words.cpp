@@ -47,7 +47,10 @@ std::string_view nearest_word(std::string_view word, const std::vector<std::stri
   std::string_view nearest;
   std::size_t least = std::max<std::size_t>(1, sought.size() / 3) + 1;
   for (const std::string_view candidate : candidates) {
-    const std::size_t distance = edit_distance(sought, plain(candidate));
+    const std::string whole = plain(candidate);
+    // A word broken off early is a slip too: "frictoin" is near the beginning of "friction_angle".
+    const std::size_t distance =
+        std::min(edit_distance(sought, whole), edit_distance(sought, whole.substr(0, sought.size())) + 1);
     if (distance >= least) continue;
     least = distance;
     nearest = candidate;

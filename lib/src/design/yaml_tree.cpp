@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
@@ -44,6 +46,7 @@ class Lines {
   explicit Lines(std::string_view text) : text_(text) {
     for (std::size_t offset = 0; offset < text.size(); ++offset) {
       if (text[offset] == '\n') starts_.push_back(offset + 1);
+      if (is_continuation(text[offset])) continuations_.push_back(offset);
     }
   }
 
@@ -53,27 +56,50 @@ class Lines {
     return {static_cast<int>(line), characters(starts_[line - 1], offset) + 1};
   }
 
-  [[nodiscard]] Position at_mark(const YAML::Mark& mark) const {
-    if (mark.line < 0 || mark.column < 0) return {1, 1};
+  [[nodiscard]] Position at_mark(const YAML::Mark& mark) const { return at_offset(offset_of(mark)); }
+
+  [[nodiscard]] std::size_t offset_of(const YAML::Mark& mark) const {
+    if (mark.line < 0 || mark.column < 0) return 0;
     const std::size_t line = std::min(static_cast<std::size_t>(mark.line), starts_.size() - 1);
-    const std::size_t start = starts_[line];
-    const std::size_t end = line + 1 < starts_.size() ? starts_[line + 1] : text_.size();
-    const std::size_t offset = std::min(start + static_cast<std::size_t>(mark.column), end);
-    return {static_cast<int>(line) + 1, characters(start, offset) + 1};
+    return std::min(starts_[line] + static_cast<std::size_t>(mark.column), text_.size());
   }
 
+  /// @param position  one that at_offset() gave
+  [[nodiscard]] std::size_t offset_of(Position position) const {
+    std::size_t offset = starts_[static_cast<std::size_t>(position.line) - 1];
+    for (int column = 1; column < position.column && offset < text_.size(); ++offset) {
+      if (offset + 1 == text_.size() || !is_continuation(text_[offset + 1])) ++column;
+    }
+    return offset;
+  }
+
+  [[nodiscard]] std::string_view text() const { return text_; }
+
  private:
+  static bool is_continuation(char letter) { return (static_cast<unsigned char>(letter) & 0xC0U) == 0x80U; }
+
+  [[nodiscard]] std::size_t continuations_before(std::size_t offset) const {
+    const auto bound = std::lower_bound(continuations_.begin(), continuations_.end(), offset);
+    return static_cast<std::size_t>(bound - continuations_.begin());
+  }
+
   [[nodiscard]] int characters(std::size_t from, std::size_t to) const {
-    const auto is_first_byte = [](char letter) {
-      return (static_cast<unsigned char>(letter) & 0xC0U) != 0x80U;
-    };
-    const std::string_view part = text_.substr(from, to - from);
-    return static_cast<int>(std::count_if(part.begin(), part.end(), is_first_byte));
+    return static_cast<int>((to - from) - (continuations_before(to) - continuations_before(from)));
   }
 
   std::string_view text_;
   std::vector<std::size_t> starts_{0};
+  std::vector<std::size_t> continuations_;  // offsets of the bytes that continue a character
 };
+
+Issue nested_too_deep() {
+  return {"", "nested deeper than " + std::to_string(kMaxDepth) + " levels", "No design needs that.", ""};
+}
+
+Issue not_closed(bool map, std::string why) {
+  return {"", std::string("not valid YAML: this ") + (map ? "{" : "[") + " is not closed", std::move(why),
+          map ? "a closing }" : "a closing ]"};
+}
 
 /// Builds the tree from the parser's events, and stops it before it recurses or grows beyond the limits.
 class TreeBuilder : public YAML::EventHandler {
@@ -82,6 +108,11 @@ class TreeBuilder : public YAML::EventHandler {
 
   [[nodiscard]] Node take() { return std::move(root_); }
   [[nodiscard]] bool has_content() const { return root_.kind != Node::Kind::null; }
+  /// @return where the innermost list or map that is still open began; none if all are closed
+  [[nodiscard]] std::optional<Position> open_since() const {
+    if (open_.empty()) return {};
+    return open_.back()->at;
+  }
 
   void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
   void OnDocumentEnd() override {}
@@ -102,6 +133,7 @@ class TreeBuilder : public YAML::EventHandler {
                 const std::string& value) override {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
+    refuse_open_quote(mark, tag);
     add({Node::Kind::scalar, value, lines_.at_mark(mark), {}, {}});
   }
 
@@ -136,6 +168,33 @@ class TreeBuilder : public YAML::EventHandler {
                          "the value without it, or in quotes if it starts with !"});
   }
 
+  /// The parser takes a bracket that is not closed in the last line for the beginning of a key.
+  [[nodiscard]] Issue not_a_key(const Node& node) const {
+    const bool map = node.kind == Node::Kind::map;
+    const std::string_view rest = lines_.text().substr(lines_.offset_of(node.at));
+    const bool is_open =
+        rest.starts_with(map ? '{' : '[') && rest.find(map ? '}' : ']') == std::string_view::npos;
+    if (is_open) return not_closed(map, "It is still open at the end of the text.");
+    return {"", "a key is missing, or is not a plain word", "Every entry is \"key: value\".",
+            "brackets, commas and colons near here"};
+  }
+
+  /// The parser takes a quoted text that the end of the file cuts off.
+  void refuse_open_quote(const YAML::Mark& mark, const std::string& tag) const {
+    const std::size_t start = lines_.offset_of(mark);
+    const std::string_view rest = lines_.text().substr(start);
+    if (tag != "!" || rest.empty() || (rest[0] != '"' && rest[0] != '\'')) return;
+    for (std::size_t index = 1; index < rest.size(); ++index) {
+      if (rest[0] == '"' && rest[index] == '\\') {
+        ++index;
+      } else if (rest[index] == rest[0]) {
+        return;
+      }
+    }
+    throw SyntaxProblem(lines_.at_mark(mark),
+                        {"", std::string("not valid YAML: this ") + rest[0] + " is not closed", "", ""});
+  }
+
   void refuse_excess(Position at) {
     if (++nodes_ <= kMaxNodes) return;
     throw SyntaxProblem(at, {"", "more than " + std::to_string(kMaxNodes) + " values",
@@ -162,11 +221,7 @@ class TreeBuilder : public YAML::EventHandler {
       entry.value = std::move(node);
       return &entry.value;
     }
-    if (node.kind != Node::Kind::scalar) {
-      throw SyntaxProblem(node.at,
-                          {"", "a key is missing, or is not a plain word", "Every entry is \"key: value\".",
-                           "brackets, commas and colons near here"});
-    }
+    if (node.kind != Node::Kind::scalar) throw SyntaxProblem(node.at, not_a_key(node));
     has_key_.back() = true;
     parent.entries.push_back({std::move(node.scalar), node.at, {}});
     return nullptr;
@@ -177,8 +232,7 @@ class TreeBuilder : public YAML::EventHandler {
     refuse_tag(mark, tag);
     const Position at = lines_.at_mark(mark);
     if (open_.size() >= static_cast<std::size_t>(kMaxDepth)) {
-      throw SyntaxProblem(at, {"", "nested deeper than " + std::to_string(kMaxDepth) + " levels",
-                               "No design needs that.", ""});
+      throw SyntaxProblem(at, nested_too_deep());
     }
     open_.push_back(add({kind, {}, at, {}, {}}));
     has_key_.push_back(false);
@@ -214,6 +268,32 @@ std::string hint_for(const std::string& message) {
   return "indentation, closing brackets and quotes near here; quotes around a text with \": \" or \" #\"";
 }
 
+SyntaxProblem explained(const YAML::Exception& problem, const Lines& lines, const TreeBuilder& builder) {
+  const Position at = lines.at_mark(problem.mark);
+  const bool is_open =
+      problem.msg == YAML::ErrorMsg::END_OF_MAP_FLOW || problem.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW;
+  const std::optional<Position> since = builder.open_since();
+  if (!is_open || !since) return {at, {"", "not valid YAML: " + problem.msg, "", hint_for(problem.msg)}};
+  const bool map = problem.msg == YAML::ErrorMsg::END_OF_MAP_FLOW;
+  const bool at_end = std::pair(at.line, at.column) <= std::pair(since->line, since->column);
+  const std::string place = "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
+  return {*since, not_closed(map, at_end ? "It is still open at the end of the text."
+                                         : "What first does not fit into it stands in " + place + ".")};
+}
+
+/// The parser takes minutes over a million open brackets before it reports the depth. Brackets in texts and
+/// comments count too: a design has no thousand of them either.
+void refuse_hopeless_nesting(std::string_view text, const Lines& lines) {
+  constexpr int kMostOpen = 1000;
+  int open = 0;
+  for (std::size_t offset = 0; offset < text.size(); ++offset) {
+    const char letter = text[offset];
+    if (letter == '[' || letter == '{') ++open;
+    if (letter == ']' || letter == '}') --open;
+    if (open > kMostOpen) throw SyntaxProblem(lines.at_offset(offset), nested_too_deep());
+  }
+}
+
 void parse_document(std::string_view text, const Lines& lines, TreeBuilder& builder) {
   std::istringstream stream{std::string(text)};
   YAML::Parser parser(stream);
@@ -232,12 +312,12 @@ Node parse_tree(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const Lines lines(text);
   refuse_what_is_not_text(text, lines);
+  refuse_hopeless_nesting(text, lines);
   TreeBuilder builder(lines);
   try {
     parse_document(text, lines, builder);
   } catch (const YAML::Exception& problem) {
-    throw SyntaxProblem(lines.at_mark(problem.mark),
-                        {"", "not valid YAML: " + problem.msg, "", hint_for(problem.msg)});
+    throw explained(problem, lines, builder);
   }
   return builder.take();
 }

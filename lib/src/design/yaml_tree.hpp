@@ -51,6 +51,6 @@ class SyntaxProblem : public Error {
 [[nodiscard]] Node parse_tree(std::string_view text);
 
 inline constexpr int kMaxDepth = 32;
-inline constexpr int kMaxNodes = 200'000;
+inline constexpr int kMaxNodes = 50'000;
 
 }  // namespace glissade::design_file

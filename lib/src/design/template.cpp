@@ -1,0 +1,207 @@
+#include "glissade/design/template.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include "design/words.hpp"
+
+namespace glissade {
+namespace {
+
+constexpr std::string_view kHead =
+    R"(# A design file of Glissade. Every value has its unit; docs/design-file.md lists all keys.
+glissade: 1
+)";
+
+constexpr std::string_view kChute = R"(name: Grain chute
+track:                                 # the two ends of the floor; z counts upwards, y is optional
+  start: {x: 0 m, z: 6.2 m}
+  finish: {x: 5.4 m, z: 1.1 m}
+body:                                  # what slides
+  friction_angle: 17 deg               # or friction_coefficient: 0.306
+  # entry_speed: 0.5 m/s               # 0 if left out: a start from rest
+  # drag: 0.001 1/m                    # air density x drag coefficient x frontal area / (2 x mass)
+# gravity: 9.81 m/s^2
+centerline: {kind: fastest}            # or constant-speed, straight, cycloid, segments, points
+cross_section:                         # or slab, trapezoid, half-pipe, pipe, polygon
+  kind: u-channel
+  width: 400 mm                        # inside
+  wall_height: 250 mm                  # inside
+  thickness: 4 mm
+mesh: {tolerance: 0.5 mm}              # how far the mesh may depart from the exact shape
+export: [stl, off, scad]               # also stl-ascii and csv
+)";
+
+constexpr std::string_view kRamp = R"(name: Ski ramp
+track:
+  start: {x: 0 m, z: 45.79 m}
+  finish: {x: 83.48 m, z: 0 m}
+body:
+  friction_coefficient: 0.03
+centerline: {kind: fastest}
+cross_section:
+  kind: slab                           # a flat ramp; the curbs are optional
+  width: 2.6 m
+  thickness: 200 mm
+  curb_height: 500 mm
+  curb_width: 100 mm
+mesh: {tolerance: 5 mm}
+export: [stl, scad, csv]
+)";
+
+constexpr std::string_view kToboggan = R"(name: Toboggan run
+track:                                 # points in space: the run may lead in any direction
+  start: {x: 10 m, y: 4 m, z: 652 m}
+  finish: {x: 94 m, y: 67 m, z: 628 m}
+body:
+  friction_coefficient: 0.06
+centerline: {kind: fastest}
+cross_section:
+  kind: half-pipe
+  width: 1.4 m                         # inside diameter of the round floor
+  wall_height: 400 mm                  # optional: the sides go on straight up
+  thickness: 60 mm
+mesh: {tolerance: 5 mm}
+export: [stl, csv]
+)";
+
+constexpr std::string_view kPipe = R"(name: Powder pipe
+track:                                 # the lowest line of the bore
+  start: {x: 0 mm, z: 2350 mm}
+  finish: {x: 950 mm, z: 1100 mm}
+body:
+  friction_angle: 24 deg
+centerline: {kind: fastest}
+cross_section: {kind: pipe, inner_diameter: 150 mm, thickness: 2 mm}
+mesh: {tolerance: 0.2 mm}
+export: [stl, scad]
+)";
+
+constexpr std::string_view kMarbleRun = R"(name: Marble run
+track:
+  start: {x: 0 mm, z: 120 mm}
+  finish: {x: 200 mm, z: 0 mm}
+body:
+  friction_coefficient: 0.02
+centerline: {kind: fastest}
+cross_section:
+  kind: polygon                        # [across, height]; [0 mm, 0 mm] is the centerline, on the floor
+  outline:
+    - [-12 mm, -3 mm]
+    - [12 mm, -3 mm]
+    - [12 mm, 5 mm]
+    - [10 mm, 5 mm]
+    - [3 mm, 0 mm]
+    - [-3 mm, 0 mm]
+    - [-10 mm, 5 mm]
+    - [-12 mm, 5 mm]
+mesh: {tolerance: 0.02 mm}
+export: {formats: [stl], unit: mm}
+)";
+
+constexpr std::string_view kConstantSpeed = R"(name: Constant-speed chute
+track:
+  start: {x: 0 m, z: 3 m}
+  finish: {x: 3 m, z: 0 m}
+body:
+  friction_angle: 17 deg
+centerline:
+  kind: constant-speed                 # a body fed at sqrt(p) keeps that speed: constant depth, even wear
+  # p: 100 m^2/s^2                     # if left out: the one with the least travel time from rest
+cross_section: {kind: trapezoid, width: 400 mm, wall_height: 200 mm, wall_angle: 20 deg, thickness: 4 mm}
+mesh: {tolerance: 0.5 mm}
+export: [stl, off, scad]
+)";
+
+constexpr std::string_view kSegments = R"(name: Chute on the drawing
+track:
+  start: {x: 0 m, z: 3 m}              # no finish: it follows from the segments
+body:
+  friction_angle: 17 deg
+centerline:
+  kind: segments
+  entry_slope_angle: 55 deg            # below the horizontal
+  segments:
+    - {length: 2 m}                    # straight
+    - {length: 0.2 m, entry_curvature: 0 1/m, exit_curvature: 0.5 1/m}   # eases into the arc
+    - {length: 1 m, radius: 2 m}       # a valley; a crest has a negative radius
+cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}
+mesh: {tolerance: 0.5 mm}
+export: [stl, csv]
+)";
+
+constexpr std::string_view kPoints = R"(name: Chute as measured
+track:
+  start: {x: 0 m, z: 2.4 m}            # no finish: it follows from the profile
+body:
+  friction_angle: 17 deg
+centerline:
+  kind: points
+  file: profile.csv                    # beside this file
+  columns: [x, z]                      # horizontal distance and height
+  unit: m
+cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}
+mesh: {tolerance: 0.5 mm}
+export: [stl, csv]
+)";
+
+// Points of a quarter-like bow, 2 m across and 1.9 m down, with readings to the millimetre.
+constexpr std::string_view kProfile = R"(x,z
+0.000,2.400
+0.200,1.940
+0.400,1.588
+0.600,1.305
+0.800,1.073
+1.000,0.886
+1.200,0.739
+1.400,0.630
+1.600,0.555
+1.800,0.513
+2.000,0.500
+)";
+
+struct Source {
+  DesignTemplate entry;
+  std::string_view text;
+};
+
+const std::vector<Source>& sources() {
+  static const std::vector<Source> all = {
+      {{"chute", "a U-channel for bulk material, the fastest track"}, kChute},
+      {{"ramp", "a flat ramp with curbs, such as a ski in-run"}, kRamp},
+      {{"toboggan", "a half-pipe between two points in space"}, kToboggan},
+      {{"pipe", "a closed pipe"}, kPipe},
+      {{"marble-run", "a section of your own outline, for a 3-D printer"}, kMarbleRun},
+      {{"constant-speed", "a chute that keeps a body at its speed"}, kConstantSpeed},
+      {{"segments", "a track of straights, arcs and clothoids as drawn"}, kSegments},
+      {{"points", "a measured profile from a CSV file"}, kPoints},
+  };
+  return all;
+}
+
+}  // namespace
+
+const std::vector<DesignTemplate>& design_templates() {
+  static const std::vector<DesignTemplate> entries = [] {
+    std::vector<DesignTemplate> all;
+    for (const Source& source : sources()) all.push_back(source.entry);
+    return all;
+  }();
+  return entries;
+}
+
+std::string design_template(std::string_view kind) {
+  std::vector<std::string_view> kinds;
+  for (const Source& source : sources()) {
+    if (source.entry.kind == kind) return std::string(kHead).append(source.text);
+    kinds.push_back(source.entry.kind);
+  }
+  throw InputError({"", "there is no template named " + design_file::shown(kind),
+                    "There are " + design_file::listed(kinds) + ".",
+                    std::string(design_file::nearest_word(kind, kinds))});
+}
+
+std::string_view design_template_profile() {
+  return kProfile;
+}
+
+}  // namespace glissade

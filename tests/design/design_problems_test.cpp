@@ -1,0 +1,289 @@
+#include "glissade/design/design.hpp"
+
+#include "design/design_text.hpp"
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+using namespace glissade;
+using namespace glissade::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("the design that the other tests break is sound") {
+  CHECK(problems_of(kSoundDesign).empty());
+}
+
+TEST_CASE("an unknown key is refused where it stands, with the key that was meant") {
+  CHECK(problems_with("wall_height", "wall_hight") ==
+        "d.yaml:9:1: wall_height is missing\n"
+        "      A cross_section of kind u-channel needs it.\n"
+        "      Try: wall_height: 250 mm\n"
+        "d.yaml:9:49: unknown key wall_hight\n"
+        "      A cross_section of kind u-channel has the keys kind, width, wall_height and thickness.\n"
+        "      Try: wall_height");
+  CHECK_THAT(problems_with("name:", "nmae:"),
+             Contains("d.yaml:2:1: unknown key nmae") && Contains("Try: name"));
+  CHECK_THAT(problems_with("tolerance", "Tolerance"), Contains("Try: tolerance"));
+}
+
+TEST_CASE("a key of another kind is refused with the kind that has it") {
+  CHECK_THAT(problems_with("thickness: 4 mm", "thickness: 4 mm, inner_diameter: 10 mm"),
+             StartsWith("d.yaml:9:87: unknown key inner_diameter") && Contains("Try: kind: pipe"));
+  CHECK_THAT(problems_with("{kind: fastest}", "{kind: fastest, p: 100 m^2/s^2}"),
+             StartsWith("d.yaml:8:29: unknown key p") && Contains("Try: kind: constant-speed"));
+  CHECK_THAT(problems_with("  friction_angle", "friction_angle"),
+             Contains("d.yaml:7:1: unknown key friction_angle") && Contains("below body:"));
+}
+
+TEST_CASE("a key that is missing is asked for with an example") {
+  CHECK_THAT(problems_with("  friction_angle: 17 deg", "  entry_speed: 0 m/s"),
+             Contains("friction_angle is missing") && Contains("or friction_coefficient: 0.306"));
+  CHECK_THAT(problems_with(", z: 1.1 m", ""),
+             StartsWith("d.yaml:5:3: z is missing\n      A finish needs it."));
+  CHECK_THAT(problems_of("name: x"),
+             Contains("glissade is missing") && Contains("track is missing") && Contains("body is missing"));
+}
+
+TEST_CASE("a key given twice is refused") {
+  CHECK_THAT(problems_with("tolerance: 0.5 mm", "tolerance: 0.5 mm, tolerance: 1 mm"),
+             StartsWith("d.yaml:10:27: tolerance is given twice\n      It stands already at d.yaml:10:8."));
+}
+
+TEST_CASE("a value of the wrong type is refused") {
+  CHECK_THAT(problems_with("{kind: fastest}", "fastest"),
+             StartsWith("d.yaml:8:13: centerline is a single value, not a group of keys") &&
+                 Contains("Try: {kind: fastest}"));
+  CHECK_THAT(problems_with("17 deg", "[17 deg]"),
+             StartsWith("d.yaml:7:19: friction_angle is a list, not a single value"));
+  CHECK_THAT(problems_with("[stl, off, scad]", "stl"), Contains("export is a single value, not a list"));
+  CHECK_THAT(problems_with("6.2 m", ""), Contains("z has no value"));
+  CHECK_THAT(problems_of("[1, 2]"), Contains("the design is a list, not a group of keys"));
+}
+
+TEST_CASE("a missing or wrong unit is refused where the value stands") {
+  CHECK_THAT(problems_with("400 mm", "400"), StartsWith("d.yaml:9:41: width: 400 has no unit"));
+  CHECK_THAT(problems_with("17 deg", "17 mm"),
+             StartsWith("d.yaml:7:19: friction_angle: 17 mm is a length, not an angle"));
+  CHECK_THAT(problems_with("5.4 m", "nan m"), Contains("x: nan m is not finite"));
+  CHECK_THAT(
+      problems_with("5.4 m", "5,4 m"),
+      Contains("x: 5 has no unit") && Contains("a decimal point, if the comma before it was meant as one"));
+}
+
+TEST_CASE("a kind that is not known is refused with the one that was meant") {
+  CHECK_THAT(problems_with("fastest", "fastst"),
+             StartsWith("d.yaml:8:20: kind: fastst is not known\n      It is one of fastest, constant-speed, "
+                        "straight, cycloid, no-curvature-load, segments or points.\n      Try: fastest"));
+  CHECK_THAT(problems_with("off", "obj"), Contains("d.yaml:11:15: export[1]: obj is not known"));
+}
+
+TEST_CASE("another version of design files is refused") {
+  CHECK_THAT(problems_with("glissade: 1", "glissade: 2"),
+             StartsWith("d.yaml:1:11: glissade: 2 is not a version"));
+}
+
+TEST_CASE("friction is given once, and within its range") {
+  CHECK_THAT(problems_with("17 deg", "17 deg\n  friction_coefficient: 0.3"),
+             Contains("both friction_angle and friction_coefficient are given"));
+  CHECK_THAT(problems_with("17 deg", "95 deg"),
+             StartsWith("d.yaml:7:19: friction angle 95 deg is out of range"));
+  CHECK_THAT(problems_with("friction_angle: 17 deg", "friction_coefficient: -0.1"),
+             StartsWith("d.yaml:7:25: friction coefficient -0.1 is out of range"));
+}
+
+TEST_CASE("start and finish are two points, the finish below") {
+  CHECK_THAT(problems_with("{x: 5.4 m, z: 1.1 m}", "{x: 0 m, z: 6.2 m}"),
+             StartsWith("d.yaml:5:3: start and finish are the same point"));
+  CHECK_THAT(
+      problems_with("z: 1.1 m", "z: 7 m"),
+      StartsWith("d.yaml:5:25: the finish lies 0.8 m above the start") && Contains("z counts upwards"));
+  CHECK_THAT(problems_with("z: 1.1 m", "z: 6.2 m"), Contains("the finish lies level with the start"));
+  CHECK_THAT(problems_with("x: 5.4 m", "x: 2e6 m"),
+             Contains("d.yaml:5:3: start and finish are 2000 km apart"));
+  CHECK_THAT(problems_with("x: 5.4 m", "x: 2e9 m"), Contains("x: 2000000000 m is too far from the origin"));
+}
+
+TEST_CASE("friction steeper than the mean slope is infeasible, with what would do") {
+  CHECK(
+      problems_with("17 deg", "48 deg") ==
+      "infeasible: d.yaml:7:19: friction_angle: 48 deg is steeper than the mean slope from start to finish, "
+      "43.36 deg (drop 5.1 m over 5.4 m)\n"
+      "      From rest, no track between these points reaches the finish, whatever its shape "
+      "(docs/theory.md, reach theorem).\n"
+      "      Try: a friction_angle of at most 43.32 deg, a drop of at least 6.003 m, or an entry_speed");
+  CHECK_THAT(problems_with("friction_angle: 17 deg", "friction_coefficient: 0.95"),
+             StartsWith("infeasible: d.yaml:7:25: friction_coefficient: 0.95 (43.53 deg) is steeper"));
+}
+
+TEST_CASE("what the reach message says to try is feasible indeed") {
+  CHECK(problems_with("17 deg", "43.32 deg").empty());
+  CHECK(problems_with("17 deg", "48 deg\n  entry_speed: 1 m/s").empty());
+  std::string lower = sound_design_with("17 deg", "48 deg");
+  lower.replace(lower.find("z: 6.2 m"), 8, "z: 7.103 m");
+  CHECK(problems_of(lower).empty());
+}
+
+TEST_CASE("reach is an equality at the friction angle itself: a mean slope equal to it is not enough") {
+  const std::string level_slope = sound_design_with("friction_angle: 17 deg", "friction_coefficient: 0.5");
+  std::string equal = level_slope;
+  equal.replace(equal.find("{x: 5.4 m, z: 1.1 m}"), 20, "{x: 8 m, z: 2.2 m}");
+  CHECK_THAT(problems_of(equal), StartsWith("infeasible"));
+}
+
+TEST_CASE("sizes are positive") {
+  CHECK_THAT(problems_with("400 mm", "0 mm"), StartsWith("d.yaml:9:41: width: 0 m is not positive"));
+  CHECK_THAT(problems_with("250 mm", "-250 mm"),
+             StartsWith("d.yaml:9:62: wall_height: -250 mm is not positive"));
+  CHECK_THAT(problems_with("4 mm", "0 mm"), Contains("thickness: 0 m is not positive"));
+  CHECK_THAT(problems_with("400 mm", "400 km"), Contains("width: 400 km is out of range"));
+  CHECK_THAT(problems_with("17 deg", "17 deg\n  entry_speed: -1 m/s"),
+             Contains("entry_speed: -1 m/s is out of range"));
+  CHECK_THAT(problems_with("17 deg", "17 deg\n  drag: -1 1/m"), Contains("drag: -1 1/m is negative"));
+  CHECK_THAT(problems_with("17 deg", "17 deg\ngravity: 0 m/s^2"),
+             Contains("gravity: 0 m/s^2 is out of range"));
+}
+
+TEST_CASE("a plate wider than the channel is refused") {
+  CHECK(problems_with("4 mm", "500 mm") ==
+        "d.yaml:9:81: thickness: 500 mm is wider than the channel, 400 mm\n"
+        "      A plate is thinner than the width that it encloses.\n"
+        "      Try: the units of both");
+}
+
+TEST_CASE("a tolerance that no mesh can have is refused, with the size that it would need") {
+  CHECK_THAT(problems_with("0.5 mm", "0 mm"), StartsWith("d.yaml:10:19: tolerance: 0 mm is not positive"));
+  CHECK_THAT(problems_with("0.5 mm", "1e-9 mm"),
+             StartsWith("d.yaml:10:19: tolerance: 1e-09 mm needs more than 8.1e+10 triangles, some 4900 GB"));
+  CHECK_THAT(problems_with("0.5 mm", "20 m"), Contains("tolerance: 20 m is larger than the track, 7.428 m"));
+}
+
+TEST_CASE("all problems of a file are told at once, in its order") {
+  const std::string text = problems_of(R"(glissade: 2
+nme: x
+track: {start: {x: 0, z: 1 m}, finish: {x: 2 m, z: 5 deg}}
+body: {friction_angle: 3 m}
+cross_section: {kind: slab, width: -1 m}
+)");
+  std::size_t last = 0;
+  for (const char* part :
+       {"1:11: glissade: 2", "2:1: unknown key nme", "3:20: x: 0 has no unit", "3:52: z: 5 deg is an angle",
+        "4:24: friction_angle: 3 m is a length", "5:1: thickness is missing", "5:36: width: -1 m"}) {
+    INFO(part << " in\n" << text);
+    const std::size_t at = text.find(part);
+    REQUIRE(at != std::string::npos);
+    CHECK(at >= last);
+    last = at;
+  }
+}
+
+TEST_CASE("a file of a thousand problems shows a hundred and counts the rest") {
+  std::string text(kSoundDesign);
+  for (int index = 0; index < 1500; ++index) text += "key" + std::to_string(index) + ": 1\n";
+  CHECK_THAT(problems_of(text), Catch::Matchers::EndsWith("d.yaml: and 1400 more problems"));
+}
+
+TEST_CASE("an outline is simple and passes through the centerline") {
+  const auto outline = [](const std::string& corners) {
+    return problems_with("{kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}",
+                         "{kind: polygon, outline: " + corners + "}");
+  };
+  CHECK(outline("[[-2 m, 0 m], [-2 m, -1 m], [2 m, -1 m], [2 m, 0 m]]").empty());
+  CHECK_THAT(outline("[[-2 m, 1 m], [-2 m, -1 m], [2 m, -1 m], [2 m, 1 m]]"),
+             Contains("does not pass through [0 mm, 0 mm]"));
+  CHECK_THAT(outline("[[-2 m, 0 m], [2 m, -1 m], [-2 m, -1 m], [2 m, 0 m]]"),
+             Contains("the edges after corners 0 and 2 meet"));
+  CHECK_THAT(outline("[[-2 m, 0 m], [2 m, 0 m]]"), Contains("outline: 2 corners"));
+  CHECK_THAT(outline("[[-2 m, 0 m], [-2 m, 0 m], [2 m, -1 m], [2 m, 0 m]]"),
+             Contains("corners 0 and 1 are the same point"));
+  CHECK_THAT(outline("[[-2 m, 0 m, 0 m], [-2 m, -1 m], [2 m, 0 m]]"),
+             Contains("outline[0] has 3 values instead of 2"));
+  CHECK_THAT(outline("[[-2 m, 0], [-2 m, -1 m], [2 m, 0 m]]"), Contains("outline[0][1]: 0 has no unit"));
+}
+
+TEST_CASE("curbs have a height and a width, and leave a floor between them") {
+  const auto slab = [](const std::string& keys) {
+    return problems_with("{kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}",
+                         "{kind: slab, width: 400 mm, thickness: 20 mm, " + keys + "}");
+  };
+  CHECK(slab("curb_height: 50 mm, curb_width: 20 mm").empty());
+  CHECK_THAT(slab("curb_height: 50 mm"), Contains("curb_height stands alone"));
+  CHECK_THAT(slab("curb_height: 50 mm, curb_width: 200 mm"), Contains("leave no floor in a width of 400 mm"));
+}
+
+namespace {
+
+std::string segments(const std::string& list, const std::string& entry = "40 deg") {
+  std::string text = sound_design_with(
+      "{kind: fastest}", "{kind: segments, entry_slope_angle: " + entry + ", segments: " + list + "}");
+  return text.erase(text.find("  finish"), std::string_view("  finish: {x: 5.4 m, z: 1.1 m}\n").size());
+}
+
+}  // namespace
+
+TEST_CASE("the finish of segments follows from them") {
+  // A straight at 30 deg: 3 m fall 1.5 m.
+  const Design straight = parse_design(segments("[{length: 3 m}]", "30 deg"), "d.yaml");
+  CHECK_FALSE(straight.track.finish_given);
+  CHECK(straight.track.finish.x == Approx(3.0 * std::cos(0.52359877559829887)).epsilon(1e-15));
+  CHECK(straight.track.finish.z == Approx(6.2 - 1.5).epsilon(1e-15));
+  // A quarter circle of 2 m from straight down to level: 2 m across, 2 m down.
+  const Design arc =
+      parse_design(segments("[{length: 3.141592653589793 m, radius: 2 m}]", "90 deg"), "d.yaml");
+  CHECK(arc.track.finish.x == Approx(2.0).epsilon(1e-14));
+  CHECK(arc.track.finish.z == Approx(4.2).epsilon(1e-14));
+}
+
+TEST_CASE("segments that miss the finish of the file, overhang or bend in two ways are refused") {
+  CHECK_THAT(problems_with("{kind: fastest}",
+                           "{kind: segments, entry_slope_angle: 40 deg, segments: [{length: 3 m}]}"),
+             Contains("d.yaml:5:3: the segments miss the finish by 4.436 m"));
+  CHECK_THAT(problems_of(segments("[{length: 3 m}, {length: 2 m, radius: -1 m}]")),
+             Contains("segments[1] overhangs: its slope angle reaches 154.6 deg"));
+  CHECK_THAT(problems_of(segments("[{length: 3 m, radius: 2 m, curvature: 1 1/m}]")),
+             Contains("segments[0] is bent in more than one way"));
+  CHECK_THAT(problems_of(segments("[{length: 3 m, radius: 0 m}]")),
+             Contains("radius: 0 m bends without bound"));
+  CHECK_THAT(problems_of(segments("[]")), Contains("segments: the list is empty"));
+  CHECK_THAT(problems_of(segments("[{length: -3 m}]")),
+             Contains("d.yaml:7:77: length: -3 m is out of range"));
+}
+
+TEST_CASE("a given track is not asked for reach: its ride tells where it stalls") {
+  CHECK(problems_of(segments("[{length: 3 m}]", "10 deg")).empty());
+}
+
+TEST_CASE("the file of a profile is found beside the design file") {
+  const std::string text =
+      sound_design_with("{kind: fastest}", "{kind: points, file: p.csv, columns: [s, h], unit: mm}");
+  const Design design = parse_design(text, "some/where/d.yaml");
+  CHECK(design.centerline.points_file == "some/where/p.csv");
+  CHECK(design.centerline.points_distance_column == "s");
+  CHECK(design.centerline.points_height_column == "h");
+  CHECK(design.centerline.points_unit == LengthUnit::millimetre);
+  CHECK_THAT(problems_with("{kind: fastest}", "{kind: points, file: p.csv, columns: [s]}"),
+             Contains("columns: 1 names instead of 2"));
+  CHECK_THAT(problems_with("{kind: fastest}", "{kind: points}"), Contains("file is missing"));
+}
+
+TEST_CASE("a design that was not read from a file is checked too, by key paths") {
+  Design design = parse_design(kSoundDesign, "d.yaml");
+  design.file.clear();
+  design.locations.clear();
+  CHECK(check(design).empty());
+  design.cross_section->width = std::numeric_limits<double>::quiet_NaN();
+  design.mesh.tolerance = 0.0;
+  const std::vector<Issue> issues = check(design);
+  REQUIRE(issues.size() == 2);
+  CHECK(issues[0].where == "cross_section.width");
+  CHECK(issues[1].where == "mesh.tolerance");
+}
+
+TEST_CASE("the location of a key that is not in the file is that of its parent") {
+  const Design design = parse_design(kSoundDesign, "d.yaml");
+  CHECK(design.where("body.entry_speed") == "d.yaml:6:1");
+  CHECK(design.where("track.finish.z") == "d.yaml:5:25");
+  CHECK(design.where("gravity") == "d.yaml");
+}

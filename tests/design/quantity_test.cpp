@@ -1,0 +1,94 @@
+#include "glissade/design/quantity.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include "support/catch.hpp"
+
+#include <numbers>
+#include <string>
+#include <string_view>
+
+using namespace glissade;
+
+namespace {
+
+std::string refusal(std::string_view text, Dimension dimension) {
+  try {
+    static_cast<void>(parse_quantity(text, dimension, "width"));
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a length in any unit is the double nearest to its value in metres") {
+  CHECK(parse_quantity("400 mm", Dimension::length, "") == 0.4);
+  CHECK(parse_quantity("0.1 mm", Dimension::length, "") == 0.0001);
+  CHECK(parse_quantity("41 cm", Dimension::length, "") == 0.41);
+  CHECK(parse_quantity("5.4 m", Dimension::length, "") == 5.4);
+  CHECK(parse_quantity("1.5 km", Dimension::length, "") == 1500.0);
+  CHECK(parse_quantity("7 um", Dimension::length, "") == 7e-6);
+  CHECK(parse_quantity("7 \u00b5m", Dimension::length, "") == 7e-6);
+  CHECK(parse_quantity("1 in", Dimension::length, "") == 0.0254);
+  CHECK(parse_quantity("10 ft", Dimension::length, "") == 3.048);
+}
+
+TEST_CASE("every dimension has its units") {
+  CHECK(parse_quantity("180 deg", Dimension::angle, "") == std::numbers::pi);
+  CHECK(parse_quantity("0.5 rad", Dimension::angle, "") == 0.5);
+  CHECK(parse_quantity("90\u00b0", Dimension::angle, "") == std::numbers::pi / 2);
+  CHECK(parse_quantity("3 m/s", Dimension::speed, "") == 3.0);
+  CHECK(parse_quantity("36 km/h", Dimension::speed, "") == 10.0);
+  CHECK(parse_quantity("9.81 m/s^2", Dimension::acceleration, "") == 9.81);
+  CHECK(parse_quantity("2 g", Dimension::acceleration, "") == 2 * 9.80665);
+  CHECK(parse_quantity("0.0013 1/m", Dimension::per_length, "") == 0.0013);
+  CHECK(parse_quantity("2 1/mm", Dimension::per_length, "") == 2000.0);
+  CHECK(parse_quantity("0.1 1/m^2", Dimension::per_area, "") == 0.1);
+  CHECK(parse_quantity("100 m^2/s^2", Dimension::specific_energy, "") == 100.0);
+  CHECK(parse_quantity("100 J/kg", Dimension::specific_energy, "") == 100.0);
+  CHECK(parse_quantity("0.306", Dimension::number, "") == 0.306);
+  CHECK(parse_quantity("30 %", Dimension::number, "") == 0.3);
+}
+
+TEST_CASE("the blank before a unit may be left out, and a plus sign or an exponent be there") {
+  CHECK(parse_quantity("19deg", Dimension::angle, "") == parse_quantity("19 deg", Dimension::angle, ""));
+  CHECK(parse_quantity("  +5e-1 m ", Dimension::length, "") == 0.5);
+  CHECK(parse_quantity("-2.5m", Dimension::length, "") == -2.5);
+}
+
+TEST_CASE("a value without a unit is refused with the units that fit") {
+  CHECK(refusal("400", Dimension::length) ==
+        "width: 400 has no unit\n"
+        "      It takes a length with its unit: m, mm, cm, km, um, in or ft.\n"
+        "      Try: 400 m or 400 mm");
+  CHECK_THAT(refusal("0", Dimension::angle), Catch::Matchers::Contains("0 has no unit"));
+}
+
+TEST_CASE("a value of another dimension is refused by its name") {
+  CHECK(refusal("17 mm", Dimension::angle) ==
+        "width: 17 mm is a length, not an angle\n"
+        "      It takes an angle with its unit: deg or rad.\n"
+        "      Try: 17 deg");
+  CHECK_THAT(refusal("3 deg", Dimension::number), Catch::Matchers::Contains("an angle, not a plain number"));
+  CHECK_THAT(
+      refusal("4 furlong", Dimension::length),
+      Catch::Matchers::Contains("has the unknown unit furlong") && Catch::Matchers::Contains("Try: 4 m"));
+}
+
+TEST_CASE("only finite decimal numbers are numbers") {
+  for (const char* text : {"nan m", "inf m", "-inf m", "infinity m"}) {
+    INFO(text);
+    CHECK_THAT(refusal(text, Dimension::length), Catch::Matchers::Contains("is not finite"));
+  }
+  CHECK_THAT(refusal("1e999 m", Dimension::length), Catch::Matchers::Contains("beyond the range of numbers"));
+  CHECK_THAT(refusal("1e306 km", Dimension::length),
+             Catch::Matchers::Contains("beyond the range of numbers"));
+  CHECK_THAT(refusal("0x10 m", Dimension::length), Catch::Matchers::Contains("unknown unit x10 m"));
+  CHECK_THAT(refusal("wide", Dimension::length), Catch::Matchers::Contains("width: wide is not a number"));
+  CHECK_THAT(refusal("", Dimension::length), Catch::Matchers::Contains("an empty text is not a number"));
+  CHECK_THAT(refusal("+-5 m", Dimension::length), Catch::Matchers::Contains("is not a number"));
+  CHECK_THAT(refusal("5,4 m", Dimension::length),
+             Catch::Matchers::Contains("a decimal point instead of the comma"));
+}
