@@ -1,0 +1,61 @@
+#include "io/byte_source.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include "io/system_error.hpp"
+
+#include <cerrno>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace glissade {
+namespace {
+
+/// @return size of the regular file behind `descriptor`
+std::uint64_t size_of_regular(const std::filesystem::path& file, int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) throw system_error(file, "cannot read", errno);
+  if (S_ISDIR(status.st_mode)) throw system_error(file, "cannot read", EISDIR);
+  if (!S_ISREG(status.st_mode)) {
+    throw FileError({file.string(), "cannot read: not a regular file",
+                     "The size of a device or pipe is not known beforehand.", "to save it as a file first"});
+  }
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+}  // namespace
+
+FileSource::FileSource(std::filesystem::path file) : file_(std::move(file)) {
+  // Without O_NONBLOCK the opening of a pipe would wait for its writer.
+  descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0) throw system_error(file_, "cannot read", errno);
+  try {
+    size_ = size_of_regular(file_, descriptor_);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+FileSource::~FileSource() {
+  ::close(descriptor_);
+}
+
+std::size_t FileSource::read(char* buffer, std::size_t count) {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t got = ::read(descriptor_, buffer + done, count - done);
+    if (got == 0) break;
+    if (got > 0) {
+      done += static_cast<std::size_t>(got);
+    } else if (errno != EINTR) {
+      throw system_error(file_, "cannot read", errno);
+    }
+  }
+  return done;
+}
+
+}  // namespace glissade

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace glissade {
+
+/// Bytes in order, of a known number: a file, or memory in tests.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+
+  /// @return bytes in all
+  [[nodiscard]] virtual std::uint64_t size() const = 0;
+  /// @return bytes put into `buffer`; fewer than `count` only at the end
+  /// @throws FileError if the system refuses
+  [[nodiscard]] virtual std::size_t read(char* buffer, std::size_t count) = 0;
+
+ protected:
+  ByteSource() = default;
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+};
+
+class FileSource final : public ByteSource {
+ public:
+  /// @throws FileError if the file cannot be opened or is a directory, a device or a pipe
+  explicit FileSource(std::filesystem::path file);
+  ~FileSource() override;
+
+  [[nodiscard]] std::uint64_t size() const override { return size_; }
+  [[nodiscard]] std::size_t read(char* buffer, std::size_t count) override;
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+class MemorySource final : public ByteSource {
+ public:
+  explicit MemorySource(std::string_view bytes) : rest_(bytes), size_(bytes.size()) {}
+
+  [[nodiscard]] std::uint64_t size() const override { return size_; }
+  [[nodiscard]] std::size_t read(char* buffer, std::size_t count) override {
+    const std::size_t taken = rest_.copy(buffer, count);
+    rest_.remove_prefix(taken);
+    return taken;
+  }
+
+ private:
+  std::string_view rest_;
+  std::uint64_t size_;
+};
+
+}  // namespace glissade
