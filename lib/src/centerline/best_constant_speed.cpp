@@ -6,7 +6,6 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <string>
@@ -18,8 +17,9 @@ namespace glissade {
 namespace {
 
 constexpr double kSweepStep = 0.5;
-/// A track with P = e^14 P_min is straight to about one part in 10^6; the least travel time lies well below.
-constexpr double kSweepEnd = 14.0;
+/// P = e^36 P_min is the straight line to one rounding. From rest the least travel time lies far below; a
+/// body that enters fast may do best on the straight line.
+constexpr double kSweepEnd = 36.0;
 /// Relative change of P below which the travel time, flat at its least, has no digits left to tell.
 constexpr double kRelativeStep = 1e-9;
 constexpr int kMostEvaluations = 500;
@@ -47,17 +47,44 @@ class TravelTimeOfP {
   double smallest_p_;
 };
 
-double minimise(const TravelTimeOfP& travel_time, double low, double start, double high) {
+/// low < inside < high, with the travel time less inside than at either end.
+struct Bracket {
+  double low = 0.0;
+  double inside = 0.0;
+  double high = 0.0;
+};
+
+/// A body on a long, flat track does best close to P_min, where a step must be small to see it. A Nelder-Mead
+/// search that starts on a bound stays there, so the bracket must hold a point inside.
+constexpr double kSmallestStep = 1e-9;
+
+Bracket sweep(const TravelTimeOfP& travel_time) {
+  const double time_at_smallest = travel_time(0.0);
+  double best = 0.0;
+  double least = time_at_smallest;
+  for (double q = kSweepStep; q <= kSweepEnd; q += kSweepStep) {
+    const double time = travel_time(q);
+    if (time >= least) continue;
+    least = time;
+    best = q;
+  }
+  if (best > 0.0) return {best - kSweepStep, best, best + kSweepStep};
+  double inside = kSweepStep / 2.0;
+  while (inside > kSmallestStep && travel_time(inside) >= time_at_smallest) inside /= 2.0;
+  return {0.0, inside, 2.0 * inside};
+}
+
+double minimise(const TravelTimeOfP& travel_time, Bracket bracket) {
   nlopt::opt search(nlopt::LN_NELDERMEAD, 1);
   search.set_min_objective([](const std::vector<double>& q, std::vector<double>&,
                               void* data) { return (*static_cast<const TravelTimeOfP*>(data))(q.front()); },
                            const_cast<TravelTimeOfP*>(&travel_time));
-  search.set_lower_bounds(low);
-  search.set_upper_bounds(high);
-  search.set_initial_step(kSweepStep / 4.0);
+  search.set_lower_bounds(bracket.low);
+  search.set_upper_bounds(bracket.high);
+  search.set_initial_step((bracket.high - bracket.low) / 8.0);
   search.set_xtol_abs(kRelativeStep);
   search.set_maxeval(kMostEvaluations);
-  std::vector<double> q{start};
+  std::vector<double> q{bracket.inside};
   double least = 0.0;
   std::string failure;
   try {
@@ -93,17 +120,8 @@ ConstantSpeedCurve ConstantSpeedCurve::fastest(Endpoints endpoints, Friction fri
               "theorem).",
               "a lower friction angle or a larger drop; or, with an entry speed, a p of its square"});
   }
-  const double end =
-      kSweepEnd + std::max(0.0, std::log(entry_speed * entry_speed / travel_time.smallest_p()));
-  double best = 0.0;
-  double least = travel_time(0.0);
-  for (double q = kSweepStep; q < end; q += kSweepStep) {
-    const double time = travel_time(q);
-    if (time >= least) continue;
-    least = time;
-    best = q;
-  }
-  return travel_time.curve(minimise(travel_time, std::max(0.0, best - kSweepStep), best, best + kSweepStep));
+  const Bracket bracket = sweep(travel_time);
+  return travel_time.curve(minimise(travel_time, bracket));
 }
 
 }  // namespace glissade

@@ -348,31 +348,39 @@ double ConstantSpeedCurve::travel_time(double entry_speed) const {
 
   const double entry_v = square(entry_speed);
   const double exit_v = speed_squared(length_, entry_speed);
-  const auto slowness = [&](double s) {
-    return 1.0 / std::sqrt(speed_squared(std::min(s, length_), entry_speed));
-  };
-
-  // One panel a length 1/k, on which 1/u is analytic with room to spare, up to where it is constant.
   const double flat_after = (kFlatAfter + std::max(0.0, std::log(p_ / exit_v))) / rate_;
   const double curved_length = std::min(length_, flat_after);
-  const double panels = std::max(1.0, std::ceil(curved_length * rate_));
-  const double width = curved_length / panels;
-  double time = (length_ - curved_length) / std::sqrt(exit_v);
 
-  double first = 0.0;
-  if (psi_entry_ > 0.0 && entry_v < p_ / 4.0) {
+  // Every integrand and interval below is made of order one, which the quadrature's tolerance counts on.
+  const auto slowness = [&](double s) {
+    return std::sqrt(exit_v / speed_squared(std::min(s, length_), entry_speed));
+  };
+  const auto panel_from_start = [&](double width) {
     // From rest u grows like sqrt(s). Take z = sqrt(v_0 + v_0' s) for s: z/u is smooth.
-    const double gain = 2.0 * friction_.coefficient() * rate_ * std::sin(psi_entry_) * (p_ - entry_v);
-    const auto smooth = [&](double z) {
-      return 2.0 * z / gain * slowness((z - entry_speed) * (z + entry_speed) / gain);
+    const double gain = 2.0 * friction_.coefficient() * rate_ * std::sin(psi_entry_) * (p_ - entry_v) * width;
+    const double rise = gain / (std::sqrt(entry_v + gain) + entry_speed);
+    const auto smooth = [&](double part) {
+      const double z = entry_speed + rise * part;
+      return 2.0 * z * rise / gain * slowness(rise * part * (z + entry_speed) / gain * width);
     };
-    time += Quadrature::integrate(smooth, entry_speed, std::sqrt(entry_v + gain * width), kDepth, kTolerance);
-    first = 1.0;
+    return width * Quadrature::integrate(smooth, 0.0, 1.0, kDepth, kTolerance);
+  };
+  const auto panel = [&](double start, double width) {
+    const auto smooth = [&](double part) { return slowness(start + part * width); };
+    return width * Quadrature::integrate(smooth, 0.0, 1.0, kDepth, kTolerance);
+  };
+
+  // 1/u tends to a constant like e^(-k s): panels may grow. Behind the last one it is that constant.
+  double time = length_ - curved_length;
+  double start = 0.0;
+  for (const double edge : {1.0, 3.0, 8.0, 20.0, std::numeric_limits<double>::infinity()}) {
+    const double end = std::min(edge / rate_, curved_length);
+    const bool slow_start = start == 0.0 && psi_entry_ > 0.0 && entry_v < p_ / 4.0;
+    time += slow_start ? panel_from_start(end) : panel(start, end - start);
+    start = end;
+    if (end == curved_length) break;
   }
-  for (double panel = first; panel < panels; panel += 1.0) {
-    time += Quadrature::integrate(slowness, panel * width, (panel + 1.0) * width, kDepth, kTolerance);
-  }
-  return time;
+  return time / std::sqrt(exit_v);
 }
 
 double ConstantSpeedCurve::travel_time_at_constant_speed() const noexcept {
