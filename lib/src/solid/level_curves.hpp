@@ -1,0 +1,115 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/core/vec.hpp"
+
+#include "solid/stations.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace glissade {
+
+/// A stretch of stations that a level curve leaves out, and the one point that takes its place.
+struct Trim {
+  enum class Kind { start_face, crease, finish_face };
+  Kind kind;
+  double from = 0.0;  ///< arc lengths between which no station carries the level [m]
+  double to = 0.0;
+  Vec2 point;  ///< (x, z): on the end face, or where the two branches of the level meet
+};
+
+/// Why a level curve does not lead from the start face to the finish face.
+struct Obstacle {
+  enum class Kind { start_face, finish_face, reach };
+  Kind kind = Kind::reach;
+  double s = 0.0;  ///< where along the track [m]
+};
+
+struct Trims {
+  std::vector<Trim> cuts;  ///< in the order of the track
+  std::optional<Obstacle> obstacle;
+};
+
+/// A point of a trimmed level curve. A station carries it (from == to), or it stands for a trim.
+struct LevelNode {
+  Vec2 point;  ///< (x, z) [m]
+  double from = 0.0;
+  double to = 0.0;
+  bool trim = false;
+};
+
+/// One level curve from the start face to the finish face.
+struct LevelCurve {
+  std::vector<LevelNode> nodes;
+  bool trimmed = false;
+};
+
+/// The level curves of the signed distance to a centerline, between its two end faces (docs/solid.md).
+///
+/// The level at height n is the offset curve c(s) + n N(s) without the parts whose true distance to the
+/// centerline is less than |n| (they fold over), and without those behind the planes square to the track at
+/// start and finish. A station's "room" is the height up to which its normal meets neither: level n is
+/// carried by the stations whose room is at least |n|.
+class LevelCurves {
+ public:
+  /// @param below,above  heights of interest on either side [m]; >= 0
+  LevelCurves(const Centerline& centerline, std::vector<Station> stations, double below, double above);
+
+  [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
+
+  /// @return what the level at `height` leaves out; -below <= height <= above
+  [[nodiscard]] Trims trims(double height) const;
+
+  /// @param height  one whose trims meet no obstacle
+  /// @param shortest  nodes closer together than this are left out where they are not needed [m]
+  [[nodiscard]] LevelCurve level(double height, double shortest) const;
+
+  /// @return the length by which the ideal level at `height` is shorter than the untrimmed offset curve [m]
+  [[nodiscard]] double missing_length(double height) const;
+
+  /// @return the greatest height up to which no level on that side meets an obstacle [m]
+  /// @param side  +1 above the floor, -1 below
+  [[nodiscard]] double largest_height(int side) const;
+
+  /// @return the least room on that side [m]; infinite where nothing is trimmed
+  [[nodiscard]] double least_room(int side) const { return side > 0 ? least_above_ : least_below_; }
+
+  /// @return the signed distance of a point to the centerline: its height above the floor [m]
+  [[nodiscard]] double height_of(Vec2 point) const;
+
+ private:
+  struct Box {
+    Vec2 low;
+    Vec2 high;
+  };
+
+  void build_boxes(std::size_t node, std::size_t begin, std::size_t end);
+  void search(std::size_t node, std::size_t begin, std::size_t end, Vec2 point, double& best,
+              std::size_t& nearest) const;
+  [[nodiscard]] std::vector<double> face_rooms(int side, double reach) const;
+  void shrink_to_free_balls(int side, std::vector<double>& rooms) const;
+  [[nodiscard]] bool faces_alone_trim() const;
+  [[nodiscard]] const std::vector<double>& rooms(double height) const {
+    return height >= 0.0 ? rooms_above_ : rooms_below_;
+  }
+  [[nodiscard]] double beyond_start(double s, double height) const;
+  [[nodiscard]] double beyond_finish(double s, double height) const;
+  [[nodiscard]] std::optional<Trim> start_trim(double height, std::size_t last_cut) const;
+  [[nodiscard]] std::optional<Trim> finish_trim(double height, std::size_t first_cut) const;
+  [[nodiscard]] std::optional<Trim> crease(double height, std::size_t first_cut, std::size_t last_cut) const;
+  [[nodiscard]] double room_place(double height, std::size_t first, std::size_t last) const;
+
+  const Centerline& centerline_;
+  std::vector<Station> stations_;
+  std::vector<Box> boxes_;
+  std::vector<double> rooms_above_;  // empty: nothing is trimmed on that side
+  std::vector<double> rooms_below_;
+  double below_ = 0.0;
+  double above_ = 0.0;
+  double least_above_ = 0.0;
+  double least_below_ = 0.0;
+};
+
+}  // namespace glissade

@@ -1,0 +1,634 @@
+#include "glissade/solid/sweep.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "solid/cap_triangulation.hpp"
+#include "solid/level_curves.hpp"
+#include "solid/stations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace {
+
+using Polygon = CrossSection::Polygon;
+
+// Steps are planned for this share of the tolerance: one step beside a trim may be that much longer.
+constexpr double kPlannedShare = 0.75;
+// A plate is never meshed coarser than this share of its thickness, whatever the tolerance: its two faces
+// must not meet.
+constexpr double kShareOfPlate = 0.25;
+// Facets at the narrowest side of a section are at most about this many times longer than wide.
+constexpr double kLongestAspect = 8.0;
+// Distances below this share of the track's size are lost in the single precision of a binary STL.
+constexpr double kShortestShare = 1e-6;
+// Coordinates carry differences down to about this share of their size.
+constexpr double kCoordinateShare = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr int kMostRefinements = 24;
+constexpr double kBytesPerVertex = sizeof(Vec3);
+constexpr double kBytesPerTriangle = sizeof(std::array<std::uint32_t, 3>);
+
+double distance_to_line(Vec2 point, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double length = norm(along);
+  return length > 0.0 ? std::fabs(cross(along, point - a)) / length : norm(point - a);
+}
+
+double distance_to_side(Vec2 point, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double t = std::clamp(dot(point - a, along) / dot(along, along), 0.0, 1.0);
+  return norm(point - (a + t * along));
+}
+
+// ---- how fine, decided before anything is made
+// --------------------------------------------------------------
+
+struct Fineness {
+  double outline_tolerance = 0.0;  // of round outlines
+  double chord_tolerance = 0.0;    // of the level curves
+  double longest_step = 0.0;       // between stations
+  double steps = 0.0;              // how many of them
+  double side_piece = 0.0;         // length that the sides of the section are cut into
+  double section_vertices = 0.0;   // how many that gives
+
+  [[nodiscard]] double triangles() const { return 2.0 * section_vertices * (steps + 1.0); }
+};
+
+class Planner {
+ public:
+  Planner(const Centerline& centerline, const CrossSection& section, const SweepOptions& options)
+      : centerline_(centerline), section_(section), options_(options) {}
+
+  [[nodiscard]] Fineness fineness(double tolerance) const {
+    Fineness fineness;
+    const double finest = std::min(tolerance, kShareOfPlate * section_.narrowest());
+    const bool round = section_.chord_error(finest) > 0.0;
+    const double track_share = round ? 0.5 * finest : finest;
+    fineness.outline_tolerance = 0.5 * finest;
+    fineness.chord_tolerance = kPlannedShare * track_share;
+    const double corners = section_.vertex_count(fineness.outline_tolerance);
+    fineness.section_vertices = corners;
+    fineness.steps = 1.0;
+    if (fineness.triangles() > limit()) return fineness;
+
+    const Sides sides = sides_of(section_, fineness.outline_tolerance);
+    const double length = centerline_.length();
+    const double budget = std::min(static_cast<double>(options_.shape_triangles), 0.5 * limit());
+    fineness.longest_step =
+        std::max({std::min(kLongestAspect * sides.shortest, sides.longest),
+                  std::sqrt(2.0 * length * sides.total / budget), 2.0 * length * corners / budget});
+    fineness.steps = StationPlan(centerline_, limits(fineness)).steps();
+    const double spare = 0.5 * budget / fineness.steps - corners;
+    const double step = length / fineness.steps;
+    fineness.side_piece =
+        spare > 0.0 ? std::max(step, sides.total / spare) : std::numeric_limits<double>::infinity();
+    fineness.section_vertices = corners + sides.total / fineness.side_piece;
+    return fineness;
+  }
+
+  [[nodiscard]] StationLimits limits(const Fineness& fineness) const {
+    return {fineness.chord_tolerance, -section_.lowest(), section_.highest(), fineness.longest_step};
+  }
+
+  void require_room(double triangles) const {
+    if (triangles <= limit()) return;
+    const double bytes = triangles * (kBytesPerTriangle + 0.5 * kBytesPerVertex);
+    Issue issue;
+    issue.what = "tolerance: " + length_text(options_.tolerance) + " needs " + count_text(triangles) +
+                 " triangles, " + bytes_text(bytes) + " of memory";
+    issue.why = "A mesh may have at most " + count_text(limit()) + " triangles.";
+    const double fitting = fitting_tolerance();
+    issue.hint = fitting > 0.0 ? "a tolerance of " + length_text(fitting) + " or coarser"
+                               : "a higher limit: no tolerance makes this section and track fit";
+    throw InputError(issue);
+  }
+
+  [[nodiscard]] double limit() const { return static_cast<double>(options_.max_triangles); }
+
+ private:
+  struct Sides {
+    double total = 0.0;
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0.0;
+  };
+
+  static Sides sides_of(const CrossSection& section, double tolerance) {
+    Sides sides;
+    for (const Polygon& loop : {section.outline(tolerance), section.bore(tolerance)}) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const double side = norm(loop[(i + 1) % loop.size()] - loop[i]);
+        sides.total += side;
+        sides.shortest = std::min(sides.shortest, side);
+        sides.longest = std::max(sides.longest, side);
+      }
+    }
+    return sides;
+  }
+
+  static std::string count_text(double count) {
+    if (count >= 1e9) return rounded_text(count * 1e-9, 3) + " billion";
+    if (count >= 1e6) return rounded_text(count * 1e-6, 3) + " million";
+    return rounded_text(count, 3);
+  }
+
+  static std::string bytes_text(double bytes) {
+    if (bytes >= 1e9) return rounded_text(bytes * 1e-9, 3) + " GB";
+    return rounded_text(bytes * 1e-6, 3) + " MB";
+  }
+
+  // The finest tolerance with two digits that leaves the limit some air, 0 if there is none.
+  [[nodiscard]] double fitting_tolerance() const {
+    constexpr double kAir = 0.8;
+    const auto fits = [this](double tolerance) { return fineness(tolerance).triangles() <= kAir * limit(); };
+    double coarse = options_.tolerance;
+    do {
+      coarse *= 4.0;
+      if (coarse > 1e3 * centerline_.length()) return 0.0;
+    } while (!fits(coarse));
+    double fine = 0.25 * coarse;
+    while (coarse > 1.02 * fine) {
+      const double middle = std::sqrt(fine * coarse);
+      (fits(middle) ? coarse : fine) = middle;
+    }
+    const double unit = std::pow(10.0, std::floor(std::log10(coarse)) - 1.0);
+    return std::ceil(coarse / unit) * unit;
+  }
+
+  const Centerline& centerline_;
+  const CrossSection& section_;
+  const SweepOptions& options_;
+};
+
+// ---- stations
+// -----------------------------------------------------------------------------------------------
+
+// Greatest distance between the chord of two stations and the level curves of `heights` halfway between them.
+double chord_deviation(const Station& a, const Station& middle, const Station& b,
+                       const std::array<double, 3>& heights) {
+  double worst = 0.0;
+  for (const double height : heights) {
+    const auto folds = [height](const Station& at) { return height != 0.0 && at.kappa * height >= 1.0; };
+    if (folds(a) || folds(middle) || folds(b)) continue;
+    worst = std::max(worst, distance_to_line(offset(middle, height), offset(a, height), offset(b, height)));
+  }
+  return worst;
+}
+
+struct CheckedStations {
+  std::vector<Station> stations;
+  double deviation = 0.0;
+};
+
+// Measures every step and halves those that miss the tolerance: the plan only estimates.
+CheckedStations check_steps(const Centerline& centerline, std::vector<Station> planned, double tolerance,
+                            const std::array<double, 3>& heights, double limit) {
+  CheckedStations checked;
+  checked.stations.reserve(planned.size());
+  std::vector<Station> ahead(planned.rbegin(), planned.rend());
+  checked.stations.push_back(ahead.back());
+  ahead.pop_back();
+  while (!ahead.empty()) {
+    const Station& from = checked.stations.back();
+    const Station middle = station_at(centerline, 0.5 * (from.s + ahead.back().s));
+    const double deviation = chord_deviation(from, middle, ahead.back(), heights);
+    const bool splits = middle.s > from.s && middle.s < ahead.back().s;
+    if (deviation > tolerance && splits && static_cast<double>(checked.stations.size()) < limit) {
+      ahead.push_back(middle);
+      continue;
+    }
+    checked.deviation = std::max(checked.deviation, deviation);
+    checked.stations.push_back(ahead.back());
+    ahead.pop_back();
+  }
+  return checked;
+}
+
+// ---- the section's loops, each vertex with its level curve
+// ------------------------------------------------------
+
+struct Level {
+  LevelCurve curve;
+  bool checked = false;
+};
+
+using Levels = std::map<double, Level>;
+
+struct SectionVertex {
+  Vec2 at;  // (across, height)
+  Levels::iterator level;
+};
+
+using Loop = std::vector<SectionVertex>;
+
+// Cuts a side into equal pieces, counted from its lower end: mirrored sides get the same heights.
+Polygon subdivided(const Polygon& corners, double piece) {
+  Polygon points;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 a = corners[i];
+    const Vec2 b = corners[(i + 1) % corners.size()];
+    const auto pieces = static_cast<std::size_t>(std::max(1.0, std::round(norm(b - a) / piece)));
+    const bool rises = a.y <= b.y;
+    const Vec2 low = rises ? a : b;
+    const Vec2 high = rises ? b : a;
+    points.push_back(a);
+    for (std::size_t k = 1; k < pieces; ++k) {
+      const std::size_t from_low = rises ? k : pieces - k;
+      const double part = static_cast<double>(from_low) / static_cast<double>(pieces);
+      points.push_back(low + part * (high - low));
+    }
+  }
+  return points;
+}
+
+// Walks the band between two level curves from the start face to the finish face: at each step the branch
+// goes on whose next node comes first along the track, at a tie the one that gives the shorter diagonal.
+// `emit(i, k, on_first)`: a triangle of nodes i and k and the next node of the first or of the second curve.
+template <typename Emit>
+void zip(const std::vector<LevelNode>& first, const std::vector<LevelNode>& second, Emit emit) {
+  std::size_t i = 0;
+  std::size_t k = 0;
+  while (i + 1 < first.size() || k + 1 < second.size()) {
+    bool on_first = k + 1 >= second.size();
+    if (!on_first && i + 1 < first.size()) {
+      const double next_first = first[i + 1].from;
+      const double next_second = second[k + 1].from;
+      on_first = next_first < next_second;
+      if (next_first == next_second) {
+        const Vec2 forward = first[i + 1].point - second[k].point;
+        const Vec2 backward = second[k + 1].point - first[i].point;
+        on_first = dot(forward, forward) <= dot(backward, backward);
+      }
+    }
+    emit(i, k, on_first);
+    ++(on_first ? i : k);
+  }
+}
+
+class Sweeper {
+ public:
+  Sweeper(const Centerline& centerline, const CrossSection& section, const Placement& placement,
+          const Planner& planner, const Fineness& fineness, double tolerance)
+      : centerline_(centerline),
+        section_(section),
+        placement_(placement),
+        planner_(planner),
+        fineness_(fineness),
+        tolerance_(tolerance),
+        shortest_(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance)) {}
+
+  [[nodiscard]] Solid sweep() {
+    make_levels();
+    make_loops();
+    refine_at_trims();
+    check_levels_at_trims();
+    Solid solid;
+    emit(solid);
+    solid.max_deviation = deviation_ + section_.chord_error(fineness_.outline_tolerance);
+    solid.expected_euler = loops_.size() == 1 ? 2 : 0;
+    solid.exact_volume = volume();
+    for (const Station& station : curves_->stations()) solid.stations.push_back(station.s);
+    for (const auto& [height, level] : levels_) solid.trimmed = solid.trimmed || level.curve.trimmed;
+    return solid;
+  }
+
+ private:
+  void make_levels() {
+    const std::array<double, 3> heights{section_.lowest(), 0.0, section_.highest()};
+    CheckedStations checked =
+        check_steps(centerline_, StationPlan(centerline_, planner_.limits(fineness_)).stations(),
+                    fineness_.chord_tolerance / kPlannedShare, heights, planner_.limit());
+    deviation_ = checked.deviation;
+    curves_ = std::make_unique<LevelCurves>(centerline_, std::move(checked.stations), -section_.lowest(),
+                                            section_.highest());
+  }
+
+  Levels::iterator level_at(double height) {
+    const auto found = levels_.find(height);
+    if (found != levels_.end()) return found;
+    if (curves_->trims(height).obstacle) refuse(height);
+    return levels_.emplace(height, Level{curves_->level(height, shortest_), false}).first;
+  }
+
+  void make_loops() {
+    // The extremes first: what cannot work at all is refused before the rest is made.
+    for (const double height : {section_.highest(), section_.lowest()}) {
+      if (curves_->trims(height).obstacle) refuse(height);
+    }
+    for (const Polygon& corners :
+         {section_.outline(fineness_.outline_tolerance), section_.bore(fineness_.outline_tolerance)}) {
+      if (corners.empty()) continue;
+      Loop loop;
+      for (const Vec2 at : subdivided(corners, fineness_.side_piece)) loop.push_back({at, level_at(at.y)});
+      loops_.push_back(std::move(loop));
+    }
+  }
+
+  // Distance of the facets beside trims from the ideal surface over one side of the section.
+  [[nodiscard]] double deviation_at_trims(const SectionVertex& a, const SectionVertex& b) const {
+    const std::vector<LevelNode>& first = a.level->second.curve.nodes;
+    const std::vector<LevelNode>& second = b.level->second.curve.nodes;
+    double worst = 0.0;
+    const auto measure = [&](Vec2 point, double across) {
+      worst = std::max(worst, distance_to_side({across, curves_->height_of(point)}, a.at, b.at));
+    };
+    zip(first, second, [&](std::size_t i, std::size_t k, bool on_first) {
+      const LevelNode& next = on_first ? first[i + 1] : second[k + 1];
+      if (!first[i].trim && !second[k].trim && !next.trim) return;
+      const Vec2 corner = next.point;
+      const double across = on_first ? a.at.x : b.at.x;
+      measure(0.5 * (first[i].point + second[k].point), 0.5 * (a.at.x + b.at.x));
+      measure(0.5 * (first[i].point + corner), 0.5 * (a.at.x + across));
+      measure(0.5 * (second[k].point + corner), 0.5 * (b.at.x + across));
+      measure((1.0 / 3.0) * (first[i].point + second[k].point + corner), (a.at.x + b.at.x + across) / 3.0);
+    });
+    return worst;
+  }
+
+  // Halves slanted sides whose facets beside a trim miss the tolerance.
+  void refine_at_trims() {
+    const double allowed = fineness_.chord_tolerance / kPlannedShare;
+    for (Loop& loop : loops_) {
+      Loop refined;
+      for (std::size_t j = 0; j < loop.size(); ++j) {
+        refined.push_back(loop[j]);
+        refine_side(refined, loop[(j + 1) % loop.size()], allowed, 0);
+      }
+      loop = std::move(refined);
+    }
+  }
+
+  void refine_side(Loop& refined, const SectionVertex& end, double allowed, int depth) {
+    const SectionVertex begin = refined.back();
+    const bool slanted = begin.at.x != end.at.x && begin.at.y != end.at.y;
+    const bool trimmed = begin.level->second.curve.trimmed || end.level->second.curve.trimmed;
+    if (!slanted || !trimmed) return;
+    const double deviation = deviation_at_trims(begin, end);
+    if (deviation <= allowed || depth >= kMostRefinements) {
+      deviation_ = std::max(deviation_, deviation);
+      return;
+    }
+    const Vec2 low = begin.at.y <= end.at.y ? begin.at : end.at;
+    const Vec2 high = begin.at.y <= end.at.y ? end.at : begin.at;
+    const Vec2 middle = low + 0.5 * (high - low);
+    const SectionVertex half{middle, level_at(middle.y)};
+    refine_side(refined, half, allowed, depth + 1);
+    refined.push_back(half);
+    refine_side(refined, end, allowed, depth + 1);
+  }
+
+  // The steps beside trims are not those that check_steps() measured.
+  void check_levels_at_trims() {
+    for (const auto& [height, level] : levels_) {
+      const std::vector<LevelNode>& nodes = level.curve.nodes;
+      for (std::size_t i = 0; level.curve.trimmed && i + 1 < nodes.size(); ++i) {
+        if (!nodes[i].trim && !nodes[i + 1].trim) continue;
+        const double there = curves_->height_of(0.5 * (nodes[i].point + nodes[i + 1].point));
+        deviation_ = std::max(deviation_, std::fabs(there - height));
+      }
+    }
+  }
+
+  void emit(Solid& solid) const {
+    std::vector<std::vector<std::size_t>> first_vertex;
+    std::size_t vertices = 0;
+    std::size_t corners = 0;
+    for (const Loop& loop : loops_) {
+      first_vertex.emplace_back();
+      for (const SectionVertex& vertex : loop) {
+        first_vertex.back().push_back(vertices);
+        vertices += vertex.level->second.curve.nodes.size();
+      }
+      corners += loop.size();
+    }
+    // Euler: a closed surface has two facets a vertex, but for the handles.
+    const std::size_t triangles = 2 * vertices - (loops_.size() == 1 ? 4 : 0);
+    planner_.require_room(static_cast<double>(triangles));
+
+    TriangleMesh& mesh = solid.mesh;
+    mesh.vertices.reserve(vertices);
+    mesh.triangles.reserve(triangles);
+    for (const Loop& loop : loops_) {
+      for (const SectionVertex& vertex : loop) {
+        for (const LevelNode& node : vertex.level->second.curve.nodes) {
+          mesh.vertices.push_back(placement_.to_space(node.point.x, -node.point.y, vertex.at.x));
+        }
+      }
+    }
+    for (std::size_t l = 0; l < loops_.size(); ++l) {
+      const Loop& loop = loops_[l];
+      for (std::size_t j = 0; j < loop.size(); ++j) {
+        const std::size_t next = (j + 1) % loop.size();
+        emit_band(loop[j], first_vertex[l][j], loop[next], first_vertex[l][next], mesh);
+      }
+    }
+    emit_face(curves_->stations().front(), false, first_vertex, mesh);
+    emit_face(curves_->stations().back(), true, first_vertex, mesh);
+  }
+
+  static void emit_band(const SectionVertex& a, std::size_t first_a, const SectionVertex& b,
+                        std::size_t first_b, TriangleMesh& mesh) {
+    zip(a.level->second.curve.nodes, b.level->second.curve.nodes,
+        [&](std::size_t i, std::size_t k, bool on_first) {
+          const auto at_a = static_cast<std::uint32_t>(first_a + i);
+          const auto at_b = static_cast<std::uint32_t>(first_b + k);
+          mesh.triangles.push_back({at_a, at_b, on_first ? at_a + 1 : at_b + 1});
+        });
+  }
+
+  void emit_face(const Station& station, bool finish,
+                 const std::vector<std::vector<std::size_t>>& first_vertex, TriangleMesh& mesh) const {
+    std::vector<std::vector<Vec2>> outlines;
+    std::vector<std::uint32_t> corners;
+    for (std::size_t l = 0; l < loops_.size(); ++l) {
+      outlines.emplace_back();
+      for (std::size_t j = 0; j < loops_[l].size(); ++j) {
+        const SectionVertex& vertex = loops_[l][j];
+        const std::vector<LevelNode>& nodes = vertex.level->second.curve.nodes;
+        const LevelNode& node = finish ? nodes.back() : nodes.front();
+        const double along = node.trim ? dot(node.point - station.point, station.normal) : vertex.at.y;
+        outlines.back().push_back({vertex.at.x, along});
+        corners.push_back(static_cast<std::uint32_t>(first_vertex[l][j] + (finish ? nodes.size() - 1 : 0)));
+      }
+    }
+    for (const auto& [a, b, c] : triangulate_loops(outlines)) {
+      if (finish) {
+        mesh.triangles.push_back({corners[a], corners[b], corners[c]});
+      } else {
+        mesh.triangles.push_back({corners[a], corners[c], corners[b]});
+      }
+    }
+  }
+
+  [[nodiscard]] double volume() const;
+  [[noreturn]] void refuse(double height) const;
+
+  const Centerline& centerline_;
+  const CrossSection& section_;
+  const Placement& placement_;
+  const Planner& planner_;
+  Fineness fineness_;
+  double tolerance_;
+  double shortest_;
+  double deviation_ = 0.0;
+  std::unique_ptr<LevelCurves> curves_;
+  Levels levels_;
+  std::vector<Loop> loops_;
+};
+
+// ---- volume
+// -------------------------------------------------------------------------------------------------
+
+// How much of a line at `height` lies inside the loops.
+double width_at(const std::vector<Polygon>& loops, double height) {
+  double width = 0.0;
+  for (const Polygon& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 a = loop[i];
+      const Vec2 b = loop[(i + 1) % loop.size()];
+      if ((a.y <= height) == (b.y <= height)) continue;
+      const double across = a.x + (height - a.y) / (b.y - a.y) * (b.x - a.x);
+      width += b.y > a.y ? across : -across;
+    }
+  }
+  return width;
+}
+
+// V = A S - M dphi, less the integral of width(n) times the length that level n loses (coarea formula, |grad
+// d| = 1).
+double Sweeper::volume() const {
+  const double turn = curves_->stations().front().slope - curves_->stations().back().slope;
+  double volume = section_.area() * centerline_.length() - section_.first_moment() * turn;
+  constexpr double kOutlineShare = 1e-6;
+  constexpr double kPanels = 64.0;
+  constexpr std::array<double, 3> kNodes{-0.7745966692414834, 0.0, 0.7745966692414834};
+  constexpr std::array<double, 3> kWeights{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  const double size = section_.highest() - section_.lowest();
+  const std::vector<Polygon> outlines{section_.outline(kOutlineShare * size),
+                                      section_.bore(kOutlineShare * size)};
+  for (const int side : {1, -1}) {
+    const double least = curves_->least_room(side);
+    const double reach = side > 0 ? section_.highest() : -section_.lowest();
+    if (!(least < reach)) continue;
+    std::vector<double> heights{least, reach};
+    for (const Polygon& outline : outlines) {
+      for (const Vec2 corner : outline) {
+        if (side * corner.y > least && side * corner.y < reach) heights.push_back(side * corner.y);
+      }
+    }
+    std::sort(heights.begin(), heights.end());
+    for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+      const double span = heights[i + 1] - heights[i];
+      const double panels = std::ceil(kPanels * span / (reach - least));
+      for (double panel = 0.0; panel < panels; ++panel) {
+        const double half = 0.5 * span / panels;
+        const double centre = heights[i] + (2.0 * panel + 1.0) * half;
+        for (std::size_t k = 0; k < kNodes.size(); ++k) {
+          const double height = side * (centre + kNodes[k] * half);
+          volume -= kWeights[k] * half * width_at(outlines, height) * curves_->missing_length(height);
+        }
+      }
+    }
+  }
+  return volume;
+}
+
+// ---- refusals
+// -------------------------------------------------------------------------------------------------
+
+std::string place_text(const Station& station) {
+  return "arc length " + length_text(station.s) + " (" + length_text(station.point.x) + " along, " +
+         length_text(-station.point.y) + " down)";
+}
+
+std::string radius_text(double curvature) {
+  const double bend = std::fabs(curvature);
+  if (bend == 0.0) return "the track is straight there";
+  if (!std::isfinite(bend)) return "its radius is 0 there";
+  return "its radius is " + length_text(1.0 / bend) + " there";
+}
+
+void Sweeper::refuse(double height) const {
+  const Obstacle obstacle = *curves_->trims(height).obstacle;
+  const Station station = station_at(centerline_, obstacle.s);
+  const int side = height > 0.0 ? 1 : -1;
+  const double reach = side > 0 ? section_.highest() : -section_.lowest();
+  const std::string direction = side > 0 ? "above the floor" : "below the floor";
+  double largest = curves_->largest_height(side);
+  const double unit = std::pow(10.0, std::floor(std::log10(largest)) - 2.0);
+  while (largest > 0.0 && curves_->trims(side * largest).obstacle.has_value()) largest -= unit;
+  largest = largest > 0.0 ? std::floor(0.999 * largest / unit) * unit : 0.0;
+
+  Issue issue;
+  issue.what = "cross_section: it reaches " + length_text(reach) + " " + direction +
+               ", further than the track has room for at " + place_text(station) + "; " +
+               radius_text(station.kappa);
+  switch (obstacle.kind) {
+    case Obstacle::Kind::start_face:
+      issue.why = "That part of the section lies behind the start face, or bends back over it, all the way.";
+      break;
+    case Obstacle::Kind::finish_face:
+      issue.why = "That part of the section lies beyond the finish face, or bends back over it, all the way.";
+      break;
+    case Obstacle::Kind::reach:
+      issue.why = "Another part of the track comes within the section's reach there.";
+      break;
+  }
+  issue.hint = largest > 0.0 ? "a section that reaches at most " + length_text(largest) + " " + direction
+                             : "a track that does not meet itself";
+  throw InputError(issue);
+}
+
+void check_options(const Centerline& centerline, const CrossSection& section, const Placement& placement,
+                   const SweepOptions& options) {
+  if (!(std::isfinite(options.tolerance) && options.tolerance > 0.0)) {
+    throw InputError({"", "tolerance: " + length_text(options.tolerance) + " is not a distance",
+                      "The mesh stays within the tolerance of the ideal solid; it is finite and above zero.",
+                      "0.5 mm for a sheet-metal chute"});
+  }
+  if (options.max_triangles < 1000) {
+    throw InputError({"", "max_triangles: " + std::to_string(options.max_triangles) + " is too few",
+                      "The limit is at least 1000.", ""});
+  }
+  const Vec3 start = placement.start();
+  const double size = std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) +
+                      centerline.length() + section.highest() - section.lowest();
+  const double finest = kCoordinateShare * size;
+  if (options.tolerance >= finest && kShareOfPlate * section.narrowest() >= finest) return;
+  const bool plate = options.tolerance >= finest;
+  throw InputError(
+      {"",
+       plate ? "cross_section: its narrowest place, " + length_text(section.narrowest()) + ", is too thin"
+             : "tolerance: " + length_text(options.tolerance) + " is finer than the coordinates can carry",
+       "Coordinates as large as " + length_text(size) + " are rounded to about " + length_text(finest) + ".",
+       plate ? "a thicker section, or a start nearer the origin"
+             : "a tolerance of " + length_text(2.0 * finest, 1)});
+}
+
+}  // namespace
+
+Solid sweep(const Centerline& centerline, const CrossSection& section, const Placement& placement,
+            const SweepOptions& options) {
+  check_options(centerline, section, placement, options);
+  const Planner planner(centerline, section, options);
+  constexpr int kAttempts = 6;
+  double tolerance = options.tolerance;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const Fineness fineness = planner.fineness(tolerance);
+    planner.require_room(fineness.triangles());
+    Solid solid = Sweeper(centerline, section, placement, planner, fineness, options.tolerance).sweep();
+    if (solid.max_deviation <= options.tolerance) return solid;
+    tolerance *= 0.6;
+  }
+  throw InternalError({"", "the sweep misses its tolerance of " + length_text(options.tolerance), "", ""});
+}
+
+}  // namespace glissade
