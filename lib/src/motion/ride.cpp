@@ -1,0 +1,371 @@
+#include "ride.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+namespace glissade {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// A panel is fine enough when the last Chebyshev coefficients of push and pace are below this, relative to
+// their largest values; the terms left out are smaller again by orders of magnitude.
+constexpr double kTailTolerance = 1e-14;
+// The load enters no speed or time; its own integral is the friction loss.
+constexpr double kLoadTailTolerance = 1e-13;
+// A tail that halving does not shrink any more is rounding of the centerline's own, if it is below this.
+constexpr double kNoise = 1e-10;
+constexpr double kNoShrink = 0.5;
+// A load is negative, a squared speed at the finish distinct from rest, only beyond what rounding can do to
+// it.
+constexpr double kLoadRounding = 1e-12;
+constexpr double kRestRounding = 64.0 * kEpsilon;
+// Slope angles as near as this to the friction angle do not start a resting body.
+constexpr double kPushRounding = 8.0 * kEpsilon;
+// Smooth parts are looked at in this many panels at least, in all, before their smoothness is believed.
+constexpr std::size_t kLeastPanels = 4;
+constexpr int kDeepest = 200;
+// How near to a finish at which a body arrives only after endless time its ride is still told: 2^-26 of the
+// panel.
+constexpr int kDeepestCreep = 26;
+constexpr std::size_t kMostPanels = 200'000;
+
+enum class Sign { positive, negative_somewhere, unknown };
+
+/// Sign of a polynomial on all of its panel; values down to -rounding count as zero, and zero as positive.
+Sign sign_of(const chebyshev::Values& f, double rounding) {
+  if (*std::min_element(f.begin(), f.end()) < -rounding) return Sign::negative_somewhere;
+  if (chebyshev::range(f).lower >= -rounding) return Sign::positive;
+  const chebyshev::Range slope = chebyshev::range(chebyshev::derivative(f));
+  const bool monotone = slope.lower >= 0.0 || slope.upper <= 0.0;
+  return monotone ? Sign::positive : Sign::unknown;
+}
+
+bool falls_throughout(const chebyshev::Values& f) {
+  return chebyshev::range(chebyshev::derivative(f)).upper < 0.0;
+}
+
+double largest_size(const chebyshev::Values& f) {
+  double size = 0.0;
+  for (const double value : f) size = std::max(size, std::fabs(value));
+  return size;
+}
+
+template <class Function>
+double root_between(const Function& function, double a, double b) {
+  const double at_a = function(a);
+  const double at_b = function(b);
+  if (at_a == 0.0 || at_b == 0.0) return at_a == 0.0 ? a : b;
+  if ((at_a < 0.0) == (at_b < 0.0)) return std::fabs(at_a) < std::fabs(at_b) ? a : b;
+  std::uintmax_t iterations = 300;
+  const boost::math::tools::eps_tolerance<double> to_the_last_bits(51);
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(function, a, b, at_a, at_b, to_the_last_bits, iterations);
+  return 0.5 * (low + high);
+}
+
+/// By how much a panel misses its tolerances; at most 1 is fine.
+struct Miss {
+  double shape = kInfinity;  ///< of push and load
+  double pace = kInfinity;   ///< of dt/dsigma
+};
+
+Miss miss_of(const Equation& equation, const Panel& panel) {
+  const double push_size = largest_size(panel.push);
+  const double far_from_rest = *std::min_element(panel.v.begin(), panel.v.end());
+  const double distance = panel.stretch.end - panel.stretch.begin;
+  const double push_rounding = 4.0 * kEpsilon * 2.0 * equation.gravity * (1.0 + equation.mu);
+  const double push_error = chebyshev::tail(panel.push) * push_size;
+  const double push_tolerance =
+      std::max({kTailTolerance * push_size, push_rounding, 0.1 * kTailTolerance * far_from_rest / distance});
+  const chebyshev::Values& load = panel.load_unbounded() ? panel.stretched_load : panel.load;
+  const double load_size = std::max(largest_size(load), equation.gravity);
+  const double load_error = chebyshev::tail(load) * largest_size(load);
+
+  Miss miss;
+  miss.shape = std::max(push_error / push_tolerance, load_error / (kLoadTailTolerance * load_size));
+  const bool moves_throughout =
+      std::all_of(panel.pace.begin(), panel.pace.end(), [](double pace) { return std::isfinite(pace); });
+  if (!moves_throughout) return miss;
+  // Rounding of the push against what is left of it where the slope angle comes near the friction angle.
+  const double least_push =
+      panel.at_rest()
+          ? std::fabs(*std::min_element(panel.weighted_mean_push.begin(), panel.weighted_mean_push.end()))
+          : push_size;
+  const double pace_rounding = least_push > 0.0 ? push_rounding / least_push : 0.0;
+  miss.pace = chebyshev::tail(panel.pace) / (kTailTolerance + (panel.at_rest() ? pace_rounding : 0.0));
+  return miss;
+}
+
+bool fine_enough(double miss, double miss_of_parent) {
+  if (miss <= 1.0) return true;
+  return miss * kTailTolerance < kNoise && miss > kNoShrink * miss_of_parent;
+}
+
+struct Task {
+  Stretch stretch;
+  bool proven = false;  ///< nothing happens on it but sliding
+  int depth = 0;
+  Miss of_parent;
+};
+
+class Integrator {
+ public:
+  Integrator(const Equation& equation, double entry_speed)
+      : length_(equation.centerline->length()), v_(entry_speed * entry_speed), v_peak_(v_) {
+    record_.equation = equation;
+    record_.end.speed = entry_speed;
+  }
+
+  RideRecord run();
+
+ private:
+  enum class Verdict { pass, split, stall, rest_at_finish, endless, lift_off };
+
+  [[nodiscard]] const Equation& equation() const { return record_.equation; }
+  [[nodiscard]] bool starts();
+  [[nodiscard]] Stretch first_stretch(double end) const;
+  void slide(const Stretch& whole, int halvings);
+  [[nodiscard]] Verdict judge(const Panel& panel, const Task& task, const Miss& miss) const;
+  [[nodiscard]] Verdict judge_events(const Panel& panel, bool may_split) const;
+  [[nodiscard]] Verdict judge_finish(const Panel& panel, bool may_split) const;
+  [[nodiscard]] bool rests_at_finish(const Panel& panel) const;
+  [[nodiscard]] Sign load_sign(const Panel& panel) const;
+  void append(const Panel& panel);
+  void come_to_rest(const Stretch& stretch, double s, int deepest);
+  void stall(const Panel& panel);
+  [[nodiscard]] double where_load_ends(const Panel& panel) const;
+  void leave_track(double s);
+  void close(double s, double v);
+  void require_few_panels() const;
+
+  RideRecord record_;
+  double length_;
+  double v_;       // where the next panel begins
+  double v_peak_;  // highest so far
+  RideSums sums_;
+  bool ended_ = false;
+};
+
+RideRecord Integrator::run() {
+  if (!starts()) return std::move(record_);
+  const std::vector<double> breaks = equation().centerline->breaks();
+  int halvings = 0;
+  while ((breaks.size() - 1) << static_cast<unsigned>(halvings) < kLeastPanels) ++halvings;
+  for (std::size_t i = 0; i + 1 < breaks.size() && !ended_; ++i) {
+    if (!(breaks[i] < breaks[i + 1])) continue;
+    slide(i == 0 ? first_stretch(breaks[1]) : Stretch::even(breaks[i], breaks[i + 1]), halvings);
+  }
+  if (!ended_) close(length_, v_);
+  return std::move(record_);
+}
+
+bool Integrator::starts() {
+  if (v_ > 0.0) return true;
+  const double zeta = equation().centerline->slope_angle(0.0);
+  const double rounding = kPushRounding * 2.0 * equation().gravity * (1.0 + equation().mu);
+  if (equation().push(zeta) > rounding) return true;
+  record_.stall = Stall{0.0, std::max(0.0, std::atan(equation().mu) - zeta)};
+  close(0.0, 0.0);
+  return false;
+}
+
+Stretch Integrator::first_stretch(double end) const {
+  const bool from_root = v_ == 0.0 || equation().centerline->unbounded_curvature_at_start();
+  if (from_root) return Stretch::root(0.0, end, 0.0);
+  // Near the start v = v0 + push s: as from rest, but from a point v0 / push further up.
+  const double push = equation().push(equation().centerline->slope_angle(0.0));
+  const double way_from_rest = v_ / push;
+  const bool slow_start = push > 0.0 && way_from_rest < 0.25 * end;
+  return slow_start ? Stretch::root(0.0, end, std::sqrt(way_from_rest)) : Stretch::even(0.0, end);
+}
+
+void Integrator::slide(const Stretch& whole, int halvings) {
+  std::vector<Task> tasks{{whole, false, 0, {}}};
+  std::optional<double> lift_off;
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    const Panel panel(equation(), task.stretch, v_);
+    const Miss miss = miss_of(equation(), panel);
+    const bool too_wide = task.depth < halvings && task.stretch.can_split() && !task.proven;
+    switch (too_wide ? Verdict::split : judge(panel, task, miss)) {
+      case Verdict::split:
+        tasks.push_back({task.stretch.half_beyond(), task.proven, task.depth + 1, miss});
+        tasks.push_back({task.stretch.half_at_anchor(), task.proven, task.depth + 1, miss});
+        break;
+      case Verdict::pass:
+        append(panel);
+        break;
+      case Verdict::stall:
+        return stall(panel);
+      case Verdict::rest_at_finish:
+        come_to_rest(task.stretch, length_, kDeepest);
+        return close(length_, 0.0);
+      case Verdict::endless:
+        come_to_rest(task.stretch, length_, kDeepestCreep);
+        record_.stall = Stall{length_, 0.0};
+        close(length_, 0.0);
+        record_.end.time = kInfinity;
+        return;
+      case Verdict::lift_off:
+        lift_off = where_load_ends(panel);
+        tasks.clear();
+        if (*lift_off > task.stretch.begin) tasks.push_back({task.stretch.cut_at(*lift_off), true, 0, {}});
+        break;
+    }
+  }
+  if (lift_off) leave_track(*lift_off);
+}
+
+Integrator::Verdict Integrator::judge(const Panel& panel, const Task& task, const Miss& miss) const {
+  const bool may_split = task.depth < kDeepest && task.stretch.can_split();
+  if (may_split && !fine_enough(miss.shape, task.of_parent.shape)) return Verdict::split;
+  const Verdict events = task.proven ? Verdict::pass : judge_events(panel, may_split);
+  if (events != Verdict::pass) return events;
+  return may_split && !fine_enough(miss.pace, task.of_parent.pace) ? Verdict::split : Verdict::pass;
+}
+
+/// What happens on a panel whose shape is known; split where that is not yet clear.
+Integrator::Verdict Integrator::judge_events(const Panel& panel, bool may_split) const {
+  const Sign load = load_sign(panel);
+  if (rests_at_finish(panel)) {
+    return may_split && load != Sign::positive ? Verdict::split : judge_finish(panel, may_split);
+  }
+  const Sign speed = sign_of(panel.at_rest() ? panel.weighted_mean_push : panel.v, 0.0);
+  if (may_split && speed == Sign::unknown) return Verdict::split;
+  if (speed == Sign::negative_somewhere) {
+    const bool clear = load == Sign::positive && chebyshev::range(panel.push).upper < 0.0;
+    return may_split && !clear ? Verdict::split : Verdict::stall;
+  }
+  if (may_split && load == Sign::unknown) return Verdict::split;
+  if (load != Sign::negative_somewhere) return Verdict::pass;
+  const bool at_once = panel.load.front() < -kLoadRounding * equation().gravity;
+  const bool clear = at_once || (!panel.load_unbounded() && falls_throughout(panel.load));
+  return may_split && !clear ? Verdict::split : Verdict::lift_off;
+}
+
+Integrator::Verdict Integrator::judge_finish(const Panel& panel, bool may_split) const {
+  if (chebyshev::range(panel.push).upper < 0.0) return Verdict::rest_at_finish;
+  const double rounding = kLoadRounding * equation().gravity * (1.0 + equation().mu);
+  const double highest_push = *std::max_element(panel.push.begin(), panel.push.end());
+  if (std::fabs(panel.push.back()) <= rounding && highest_push <= rounding) return Verdict::endless;
+  return may_split ? Verdict::split : Verdict::rest_at_finish;
+}
+
+/// True if rounding cannot tell the speed at the finish from zero.
+bool Integrator::rests_at_finish(const Panel& panel) const {
+  const double peak = std::max(v_peak_, largest_size(panel.v));
+  return panel.stretch.end == length_ && std::fabs(panel.v.back()) <= kRestRounding * peak;
+}
+
+Sign Integrator::load_sign(const Panel& panel) const {
+  const chebyshev::Values& load = panel.load_unbounded() ? panel.stretched_load : panel.load;
+  return sign_of(load, kLoadRounding * std::max(equation().gravity, largest_size(load)));
+}
+
+void Integrator::append(const Panel& panel) {
+  require_few_panels();
+  record_.panels.push_back(panel);
+  record_.sums_before.push_back(sums_);
+  sums_ = sums_ + panel.sums();
+  v_peak_ = std::max(v_peak_, largest_size(panel.v));
+  v_ = panel.far_v();
+}
+
+void Integrator::stall(const Panel& panel) {
+  const auto first_at_rest =
+      std::find_if(panel.v.begin() + 1, panel.v.end(), [](double v) { return !(v > 0.0); });
+  const auto node = static_cast<std::size_t>(first_at_rest - panel.v.begin());
+  const auto node_sigma = [&](std::size_t i) { return panel.stretch.width * chebyshev::nodes()[i]; };
+  const double sigma =
+      root_between([&](double at) { return panel.scaled_w(at); }, node_sigma(node - 1), node_sigma(node));
+  const double s = panel.stretch.arc_length(sigma);
+  come_to_rest(panel.stretch, s, kDeepest);
+  const double missing = std::atan(equation().mu) - equation().centerline->slope_angle(s);
+  record_.stall = Stall{s, std::max(0.0, missing)};
+  close(s, 0.0);
+}
+
+/// Appends the panels of the last way to rest at s, integrated backwards from there: near it, v as a
+/// difference would lose all its digits.
+void Integrator::come_to_rest(const Stretch& stretch, double s, int deepest) {
+  if (!(stretch.begin < s)) return;
+  std::vector<Panel> backwards;
+  std::vector<Task> tasks{{Stretch::up_to_rest(stretch.begin, s, stretch.smooth_end), true, 0, {}}};
+  double v = 0.0;
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    const Panel panel(equation(), task.stretch, v);
+    const Miss miss = miss_of(equation(), panel);
+    const bool may_split = task.depth < deepest && task.stretch.can_split();
+    const bool fine =
+        fine_enough(miss.shape, task.of_parent.shape) && fine_enough(miss.pace, task.of_parent.pace);
+    if (may_split && !fine) {
+      tasks.push_back({task.stretch.half_beyond(), true, task.depth + 1, miss});
+      tasks.push_back({task.stretch.half_at_anchor(), true, task.depth + 1, miss});
+      continue;
+    }
+    v = panel.far_v();
+    // Left out: the last bit of a way that takes for ever.
+    if (std::isfinite(panel.mean_pace.back())) backwards.push_back(panel);
+  }
+  for (auto panel = backwards.rbegin(); panel != backwards.rend(); ++panel) append(*panel);
+}
+
+double Integrator::where_load_ends(const Panel& panel) const {
+  const double rounding = kLoadRounding * equation().gravity;
+  const auto lifted =
+      std::find_if(panel.load.begin(), panel.load.end(), [&](double load) { return load < -rounding; });
+  if (lifted == panel.load.begin()) return panel.stretch.begin;
+  const auto pressed = std::find_if(std::make_reverse_iterator(lifted), panel.load.rend(),
+                                    [](double load) { return load >= 0.0; });
+  if (pressed == panel.load.rend()) return panel.stretch.begin;
+  const auto node_sigma = [&](auto node) {
+    return panel.stretch.width * chebyshev::nodes()[static_cast<std::size_t>(node - panel.load.begin())];
+  };
+  const double sigma = root_between([&](double at) { return panel.load_at(equation(), at); },
+                                    node_sigma(pressed.base() - 1), node_sigma(lifted));
+  return panel.stretch.arc_length(sigma);
+}
+
+void Integrator::leave_track(double s) {
+  close(s, v_);
+  record_.lift_off = LiftOff{s, std::sqrt(v_), equation().centerline->direction(s).curvature};
+}
+
+void Integrator::close(double s, double v) {
+  ended_ = true;
+  record_.end = {s,
+                 sums_.time,
+                 std::sqrt(v),
+                 equation().load(equation().centerline->direction(s), v),
+                 equation().mu * sums_.load,
+                 equation().k * sums_.speed_squared};
+}
+
+void Integrator::require_few_panels() const {
+  if (record_.panels.size() < kMostPanels + equation().centerline->breaks().size()) return;
+  throw ConvergenceError({"",
+                          "the ride comes no further than " + length_text(record_.panels.back().stretch.end),
+                          "The centerline is not smooth between its breaks, so that no panel is fine enough.",
+                          "a centerline whose breaks() tell where its curvature jumps"});
+}
+
+}  // namespace
+
+RideRecord ride_down(const Equation& equation, double entry_speed) {
+  return Integrator(equation, entry_speed).run();
+}
+
+}  // namespace glissade

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "glissade/motion/motion.hpp"
+
+#include "panel.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace glissade {
+
+/// What a ride left behind: panels in order from the start, and how it ended.
+struct RideRecord {
+  Equation equation;
+  std::vector<Panel> panels;
+  std::vector<RideSums> sums_before;  ///< of each panel
+  std::optional<Stall> stall;
+  std::optional<LiftOff> lift_off;
+  MotionState end;  ///< the state at the end of the ride
+};
+
+/// Integrates the energy equation down the track, up to the finish, a stall or a lift-off.
+/// @throws ConvergenceError if the track is so rough between its breaks that panels without number would be
+/// needed
+[[nodiscard]] RideRecord ride_down(const Equation& equation, double entry_speed);
+
+}  // namespace glissade

@@ -1,0 +1,78 @@
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/constant_speed_curve.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using namespace glissade;
+
+namespace {
+
+double number(const nlohmann::json& text) {
+  return std::stod(text.get<std::string>());
+}
+
+nlohmann::json reference(const char* section) {
+  std::ifstream file(std::string(GLISSADE_TEST_DATA) + "/reference/pudasaini_and_tracks.json");
+  return nlohmann::json::parse(file).at(section);
+}
+
+double relative_error(double value, double expected) {
+  return std::fabs(value / expected - 1.0);
+}
+
+}  // namespace
+
+TEST_CASE("Motion: time and exit speed on the reference tracks") {
+  const auto tracks = reference("tracks");
+  REQUIRE(tracks.size() == 15);
+  double worst_time = 0.0;
+  double worst_speed = 0.0;
+  for (const auto& track : tracks) {
+    std::vector<ClothoidSegment> segments;
+    for (const auto& s : track.at("segments")) segments.push_back({s.at(0), s.at(1), s.at(2)});
+    const auto spline = std::make_shared<const ClothoidSpline>(
+        Angle::from_radians(track.at("entry_slope_angle").get<double>()), segments);
+    const Motion motion(spline,
+                        {Friction::from_coefficient(number(track.at("friction_coefficient"))),
+                         number(track.at("entry_speed")), number(track.at("drag_per_metre"))},
+                        number(track.at("gravity")));
+    REQUIRE(motion.arrived());
+    worst_time = std::max(worst_time, relative_error(motion.travel_time(), number(track.at("travel_time"))));
+    worst_speed = std::max(worst_speed, relative_error(motion.exit_speed(), number(track.at("exit_speed"))));
+  }
+  WARN("tracks: largest relative error of time " << worst_time << ", of exit speed " << worst_speed);
+  CHECK(worst_time <= kMotionAccuracy);
+  CHECK(worst_speed <= kMotionAccuracy);
+}
+
+TEST_CASE("Motion: time and exit speed from rest on the reference constant-speed curves") {
+  const auto curves = reference("pudasaini");
+  REQUIRE(curves.size() == 60);
+  double worst_time = 0.0;
+  double worst_speed = 0.0;
+  for (const auto& curve : curves) {
+    const Friction friction = Friction::from_coefficient(number(curve.at("friction_coefficient")));
+    const double gravity = number(curve.at("gravity"));
+    const auto track = std::make_shared<const ConstantSpeedCurve>(
+        Endpoints{number(curve.at("run")), number(curve.at("drop"))}, friction, gravity,
+        number(curve.at("P")));
+    const Motion motion(track, {friction, 0.0, 0.0}, gravity);
+    REQUIRE(motion.arrived());
+    worst_time =
+        std::max(worst_time, relative_error(motion.travel_time(), number(curve.at("travel_time_from_rest"))));
+    worst_speed =
+        std::max(worst_speed, relative_error(motion.exit_speed(), number(curve.at("exit_speed_from_rest"))));
+  }
+  WARN("curves: largest relative error of time " << worst_time << ", of exit speed " << worst_speed);
+  CHECK(worst_time <= kMotionAccuracy);
+  CHECK(worst_speed <= kMotionAccuracy);
+}
