@@ -141,13 +141,14 @@ double p_of_entry_slope(Endpoints endpoints, Friction friction, double gravity, 
 
 [[noreturn]] void refuse_p(double p, Endpoints endpoints, Friction friction, double gravity) {
   const double smallest = ConstantSpeedCurve::smallest_p(endpoints, friction, gravity);
+  const bool convex = turned_finish(endpoints, friction.coefficient()).across < 0.0;
   throw InputError(Issue{
       "",
       "p: " + rounded_text(p, 6) + " m^2/s^2 is too small for a mean slope of " + mean_slope_text(endpoints) +
           " at a friction angle of " + angle_text(friction.angle().radians()),
-      "Below P = " + exact_text(smallest) +
-          " m^2/s^2 the constant-speed track overhangs: it would start steeper than vertical.",
-      "p at or above " + exact_text(smallest) + ", or no p for the fastest one"});
+      "Below P = " + exact_text(smallest) + " m^2/s^2 the constant-speed track overhangs: it would start " +
+          (convex ? "uphill, " : "") + "steeper than vertical.",
+      "p at or above " + exact_text(smallest) + (convex ? "" : ", or no p for the fastest one")});
 }
 
 }  // namespace
