@@ -63,7 +63,12 @@ FileError Reading::unexpected(const std::string& part, std::string_view word, co
 
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t kMostShown = 40;
-  return "\"" + printable_name(word, kMostShown) + (word.size() > kMostShown ? "..." : "") + "\"";
+  std::string text;
+  text += '"';
+  text += printable_name(word, kMostShown);
+  if (word.size() > kMostShown) text += "...";
+  text += '"';
+  return text;
 }
 
 bool equals_ignoring_case(std::string_view word, std::string_view lower) {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/core/vec.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace glissade {
+
+/// What is known of one station of a track.
+struct StationRow {
+  CenterlinePoint point;
+  Vec3 position;                      ///< of the point in space [m]
+  std::optional<MotionState> motion;  ///< of the body there; none where it does not come
+};
+
+/// Writes stations as comma-separated values: one line of names with their units, then a line a station.
+///
+/// Columns: arc_length_m, run_m, drop_m, x_m, y_m, z_m, slope_angle_deg, curvature_per_m, radius_m, time_s,
+/// speed_m_per_s, normal_load_m_per_s2, friction_loss_j_per_kg, drag_loss_j_per_kg. Numbers are the shortest
+/// decimals that read back as the same double, "inf" where unbounded (the radius of a straight); columns of a
+/// missing motion are empty. Bytes depend on the stations alone.
+/// @throws InputError if a number is NaN
+/// @throws FileError as AtomicFile
+void write_stations_csv(const std::filesystem::path& file, const std::vector<StationRow>& stations);
+
+}  // namespace glissade

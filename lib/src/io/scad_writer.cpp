@@ -1,0 +1,119 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/io/scad_file.hpp"
+
+#include "io/coordinates.hpp"
+#include "io/printable_name.hpp"
+#include "io/text_writer.hpp"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace glissade {
+namespace {
+
+// Modules hold their data themselves: OpenSCAD evaluates the variables of a used file anew at every call.
+constexpr std::string_view kUsage =
+    "// Renders the solid. From another file:\n"
+    "//   use <this file>\n"
+    "//   glissade_solid();\n"
+    "//   glissade_centerline(diameter);          a bar along it, so wide and high\n"
+    "//   points = glissade_centerline_points();  from start to finish\n"
+    "\n"
+    "glissade_solid();\n"
+    "\n";
+
+// Joined in its plane, where OpenSCAD is fast and exact whatever the curvature; a chain of balls takes
+// minutes.
+constexpr std::string_view kCenterlineModule =
+    "module glissade_centerline(diameter) {\n"
+    "  points = glissade_centerline_points();\n"
+    "  along = glissade_direction();\n"
+    "  flat = [for (p = points) [(p - points[0]) * along, p[2] - points[0][2]]];\n"
+    "  translate(points[0])\n"
+    "    multmatrix([[along[0], 0, along[1], 0], [along[1], 0, -along[0], 0], [0, 1, 0, 0], [0, 0, 0, 1]])\n"
+    "      linear_extrude(height = diameter, center = true, convexity = 10)\n"
+    "        for (i = [1:len(flat) - 1]) hull() {\n"
+    "          translate(flat[i - 1]) circle(d = diameter);\n"
+    "          translate(flat[i]) circle(d = diameter);\n"
+    "        }\n"
+    "}\n";
+
+/// @return level unit vector from start to finish; +x where the finish lies straight below the start
+Vec3 direction_of(const std::vector<Vec3>& centerline) {
+  const Vec3 chord = centerline.back() - centerline.front();
+  const double run = std::hypot(chord.x, chord.y);
+  return run > 0.0 ? Vec3{chord.x / run, chord.y / run, 0.0} : Vec3{1.0, 0.0, 0.0};
+}
+
+void require_centerline(const std::vector<Vec3>& centerline) {
+  if (centerline.size() < 2) {
+    throw InputError({"centerline", "has " + std::to_string(centerline.size()) + " points",
+                      "A line needs two points or more.", ""});
+  }
+  constexpr double kFlatness = 1e-9;
+  const Vec3 along = direction_of(centerline);
+  const Vec3 across{along.y, -along.x, 0.0};
+  const double most_beside =
+      kFlatness * (norm(centerline.front()) + norm(centerline.back() - centerline.front()));
+  for (std::size_t i = 0; i < centerline.size(); ++i) {
+    const Vec3& p = centerline[i];
+    const std::string where = "centerline, point " + std::to_string(i);
+    if (!std::isfinite(p.x + p.y + p.z)) {
+      throw InputError({where, "a coordinate is not a finite number", "", ""});
+    }
+    const double beside = std::fabs(dot(p - centerline.front(), across));
+    if (beside > most_beside) {
+      throw InputError({where, "lies " + length_text(beside, 3) + " beside the plane of the track",
+                        "A centerline stays in the vertical plane through its ends.", ""});
+    }
+  }
+}
+
+void write_points(TextWriter& text, const std::vector<Vec3>& points, double per_metre) {
+  text << '[';
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 p = per_metre * points[i];
+    text << (i == 0 ? "\n" : ",\n") << '[' << p.x << ',' << p.y << ',' << p.z << ']';
+  }
+  text << "\n]";
+}
+
+/// OpenSCAD winds facets clockwise as seen from outside, Glissade the other way.
+void write_faces(TextWriter& text, const TriangleMesh& mesh) {
+  text << '[';
+  bool is_first = true;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    text << (is_first ? "\n" : ",\n") << '[' << a << ',' << c << ',' << b << ']';
+    is_first = false;
+  }
+  text << "\n]";
+}
+
+}  // namespace
+
+void write_scad(const std::filesystem::path& file, const TriangleMesh& mesh,
+                const std::vector<Vec3>& centerline, const ScadFileOptions& options) {
+  require_writable(mesh);
+  require_centerline(centerline);
+  const double per_metre = units_per_metre(options.unit);
+  AtomicFile output(file);
+  TextWriter text(output);
+  text << "// Glissade; unit: " << unit_symbol(options.unit) << "; " << printable_name(options.name) << '\n';
+  if (!options.section.empty()) text << "// Cross-section: " << printable_name(options.section) << '\n';
+  text << kUsage << "module glissade_solid() {\n  polyhedron(convexity = 10, points = ";
+  write_points(text, mesh.vertices, per_metre);
+  text << ", faces = ";
+  write_faces(text, mesh);
+  text << ");\n}\n\nfunction glissade_centerline_points() = ";
+  write_points(text, centerline, per_metre);
+  const Vec3 along = direction_of(centerline);
+  text << ";\n\nfunction glissade_direction() = [" << along.x << ',' << along.y << ",0];\n\n"
+       << kCenterlineModule;
+  text.flush();
+  output.commit();
+}
+
+}  // namespace glissade

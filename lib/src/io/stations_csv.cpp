@@ -1,0 +1,79 @@
+#include "glissade/io/stations_csv.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/units.hpp"
+#include "glissade/io/atomic_file.hpp"
+
+#include "io/text_writer.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace glissade {
+namespace {
+
+constexpr std::array<std::string_view, 9> kTrackColumns = {
+    "arc_length_m", "run_m", "drop_m", "x_m", "y_m", "z_m", "slope_angle_deg", "curvature_per_m", "radius_m"};
+constexpr std::array<std::string_view, 5> kMotionColumns = {"time_s", "speed_m_per_s", "normal_load_m_per_s2",
+                                                            "friction_loss_j_per_kg", "drag_loss_j_per_kg"};
+
+double radius_of(double curvature) {
+  return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / std::fabs(curvature);
+}
+
+std::array<double, kTrackColumns.size()> track_values(const StationRow& station) {
+  const CenterlinePoint& point = station.point;
+  return {point.arc_length,
+          point.x,
+          point.drop,
+          station.position.x,
+          station.position.y,
+          station.position.z,
+          Angle::from_radians(point.slope_angle).degrees(),
+          point.curvature,
+          radius_of(point.curvature)};
+}
+
+std::array<double, kMotionColumns.size()> motion_values(const MotionState& state) {
+  return {state.time, state.speed, state.normal_load, state.friction_loss, state.drag_loss};
+}
+
+template <std::size_t Count>
+void write_values(TextWriter& text, const std::array<double, Count>& values,
+                  const std::array<std::string_view, Count>& columns, std::size_t station) {
+  for (std::size_t i = 0; i < Count; ++i) {
+    if (std::isnan(values[i])) {
+      throw InputError({"station " + std::to_string(station), std::string(columns[i]) + " is not a number",
+                        "Every value of a station must be a number.", ""});
+    }
+    if (i > 0) text << ',';
+    text << values[i];
+  }
+}
+
+}  // namespace
+
+void write_stations_csv(const std::filesystem::path& file, const std::vector<StationRow>& stations) {
+  AtomicFile output(file);
+  TextWriter text(output);
+  for (const std::string_view column : kTrackColumns) text << column << ',';
+  for (const std::string_view column : kMotionColumns) {
+    text << column << (column == kMotionColumns.back() ? '\n' : ',');
+  }
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    write_values(text, track_values(stations[i]), kTrackColumns, i);
+    text << ',';
+    if (stations[i].motion) {
+      write_values(text, motion_values(*stations[i].motion), kMotionColumns, i);
+    } else {
+      text << std::string(kMotionColumns.size() - 1, ',');
+    }
+    text << '\n';
+  }
+  text.flush();
+  output.commit();
+}
+
+}  // namespace glissade
