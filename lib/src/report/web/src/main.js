@@ -48,6 +48,8 @@ function start() {
   plots.draw();
   view?.draw();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => store.set("theme", `auto-${event.matches}`));
+  // For readers who want the numbers from the console.
+  window.glissadeReport = { document: doc, store, charts: plots.charts };
   document.documentElement.dataset.ready = "true";
 }
 

@@ -182,5 +182,5 @@ export function plotSection(doc, store, units) {
     readout(doc, store, units),
     element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all; arrow keys move the cursor."),
     element("div", { class: "charts" }, all.map((chart) => chart.node)));
-  return { node, draw: redraw };
+  return { node, draw: redraw, charts: all };
 }

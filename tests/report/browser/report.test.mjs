@@ -1,0 +1,289 @@
+// The page as a reader meets it, in a real browser. Needs GLISSADE (the program) and Debian's chromium.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { after, before, describe, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { launch, open } from "./browser.mjs";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const designs = path.join(here, "../../../designs");
+const program = process.env.GLISSADE;
+const work = mkdtempSync(path.join(tmpdir(), "glissade-report-"));
+const shipped = readdirSync(designs).filter((name) => name.endsWith(".yaml")).sort();
+
+function build(design, ...options) {
+  const folder = path.join(work, path.basename(design, ".yaml") + options.join("").replace(/\W/g, ""));
+  const json = execFileSync(program, ["build", design, "-o", folder, "--json", ...options], { encoding: "utf8" });
+  const report = readdirSync(folder).find((name) => name.endsWith("report.html"));
+  assert.ok(report, `no report.html among ${readdirSync(folder)}`);
+  return { file: path.join(folder, report), json: JSON.parse(json) };
+}
+
+const nearly = (a, b, what) => assert.ok(Math.abs(a - b) <= 1e-9 * Math.max(Math.abs(a), Math.abs(b), 1e-12), `${what}: ${a} against ${b}`);
+
+let browser;
+let chute;
+before(async () => {
+  browser = await launch();
+  chute = build(path.join(designs, "grain_chute.yaml"));
+});
+after(async () => {
+  await browser.close();
+  rmSync(work, { recursive: true, force: true });
+});
+
+describe("every shipped design", () => {
+  for (const name of shipped) {
+    test(`${name}: the page opens without complaint and tells what --json tells`, async () => {
+      const { file, json } = name === "grain_chute.yaml" ? chute : build(path.join(designs, name));
+      const { page, complaints } = await open(browser, file);
+      const doc = await page.evaluate(() => JSON.parse(document.getElementById("glissade-data").textContent));
+      assert.deepEqual(complaints, []);
+      for (const key of ["travel_time_s", "exit_speed_m_per_s", "exit_slope_angle_deg", "arc_length_m", "max_normal_load_m_per_s2"]) {
+        nearly(doc.ride[key], json[key], key);
+      }
+      assert.equal(doc.mesh.triangles, json.mesh.triangles);
+      assert.ok(doc.checks.every((check) => check.verdict !== "fail"), JSON.stringify(doc.checks));
+      assert.ok(statSync(file).size < 10e6, "smaller than 10 MB");
+      assert.equal(await page.title(), doc.design.name);
+      await page.close();
+    });
+  }
+});
+
+describe("plots", () => {
+  test("hold the stations of the document, in the units that the axes name", async () => {
+    const { page, complaints } = await open(browser, chute.file);
+    const charts = await page.evaluate(() => window.glissadeReport.charts.map(({ chart, plot }) => ({
+      id: chart.id, xs: plot.data[0], ys: plot.data[1], label: plot.axes[0].label,
+    })));
+    const doc = await page.evaluate(() => window.glissadeReport.document);
+    const by = Object.fromEntries(charts.map((chart) => [chart.id, chart]));
+    assert.deepEqual(by.speed.xs, doc.stations.arc_length_m);
+    assert.deepEqual(by.speed.ys, doc.stations.speed_m_per_s);
+    assert.equal(by.speed.label, "arc length s [m]");
+    nearly(by.speed.ys.at(-1), chute.json.exit_speed_m_per_s, "exit speed in the plot");
+    by.load.ys.forEach((g, i) => nearly(g * doc.body.gravity_m_per_s2, doc.stations.normal_load_m_per_s2[i], "load in g"));
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  test("switch from arc length to run and time", async () => {
+    const { page } = await open(browser, chute.file);
+    for (const [key, label] of [["time_s", "time [s]"], ["x_m", "run x [m]"]]) {
+      await page.getByLabel("Against").selectOption(key);
+      const [xs, shown, wanted] = await page.evaluate((column) => {
+        const { charts, document: doc } = window.glissadeReport;
+        return [charts[0].plot.data[0], charts[0].plot.axes[0].label, doc.stations[column]];
+      }, key);
+      assert.deepEqual(xs, wanted);
+      assert.equal(shown, label);
+    }
+    await page.close();
+  });
+
+  test("share one cursor that the keyboard moves, and the read-out follows", async () => {
+    const { page } = await open(browser, chute.file);
+    await page.locator("#chart-slope").focus();
+    await page.keyboard.press("End");
+    const speed = await page.locator('#readout [data-field="speed_m_per_s"]').textContent();
+    nearly(Number.parseFloat(speed), Number(chute.json.exit_speed_m_per_s.toPrecision(5)), "speed in the read-out");
+    assert.match(await page.locator("#chart-load .chart-value").textContent(), /g$/);
+    const cursors = await page.evaluate(() => window.glissadeReport.charts.map(({ plot }) => Math.round(plot.cursor.left)));
+    assert.equal(new Set(cursors.map((left) => left > 100)).size, 1, `cursors at ${cursors}`);
+    await page.keyboard.press("Home");
+    assert.match(await page.locator('#readout [data-field="arc_length_m"]').textContent(), /^0\u00a0m$/);
+    await page.close();
+  });
+
+  test("follow the mouse across each other", async () => {
+    const { page } = await open(browser, chute.file);
+    const over = page.locator("#chart-speed .u-over");
+    await over.scrollIntoViewIfNeeded();
+    const box = await over.boundingBox();
+    await page.mouse.move(box.x + 0.7 * box.width, box.y + 0.5 * box.height);
+    const [station, length] = await page.evaluate(() => {
+      const { store, document: doc } = window.glissadeReport;
+      return [doc.stations.arc_length_m[store.get("station")], doc.ride.arc_length_m];
+    });
+    assert.ok(Math.abs(station / length - 0.7) < 0.05, `${station} of ${length}`);
+    await page.close();
+  });
+
+  test("show other units on request", async () => {
+    const { page } = await open(browser, chute.file);
+    await page.getByLabel("Units").selectOption("m, km/h");
+    await page.locator("#chart-speed").focus();
+    await page.keyboard.press("End");
+    const text = await page.locator('#readout [data-field="speed_m_per_s"]').textContent();
+    assert.match(text, /km\/h$/);
+    assert.ok(Math.abs(Number.parseFloat(text) - 3.6 * chute.json.exit_speed_m_per_s) < 1e-3);
+    await page.close();
+  });
+});
+
+describe("profile", () => {
+  test("lets a body go on the track beside one on the straight line", async () => {
+    const { page, complaints } = await open(browser, chute.file);
+    await page.locator("#ride").click();
+    await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock").textContent) > 0.3);
+    const [track, straight] = await page.evaluate(() =>
+      [".body-track", ".body-straight"].map((name) => document.querySelector(name).getAttribute("visibility")));
+    assert.equal(track, "visible");
+    assert.equal(straight, "visible");
+    await page.locator("#ride").click();
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  test("is to scale", async () => {
+    const { page } = await open(browser, chute.file);
+    const box = await page.locator(".line-track").first().evaluate((path) => {
+      const { width, height } = path.getBBox();
+      return { width, height };
+    });
+    const doc = await page.evaluate(() => window.glissadeReport.document);
+    const run = Math.max(...doc.stations.x_m);
+    const drop = Math.max(...doc.stations.drop_m);
+    assert.ok(Math.abs(box.width / box.height - run / drop) < 0.01 * (run / drop));
+    await page.close();
+  });
+});
+
+describe("solid", () => {
+  const colours = (page) => page.locator("#view").evaluate((canvas) => {
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    const seen = new Map();
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
+      seen.set(colour, (seen.get(colour) ?? 0) + 1);
+    }
+    const background = Math.max(...seen.values());
+    return { distinct: seen.size, drawn: 1 - background / (data.length / 4) };
+  });
+
+  test("is drawn, and turns with the arrow keys", async () => {
+    const { page, complaints } = await open(browser, chute.file);
+    const first = await colours(page);
+    assert.ok(first.distinct > 100 && first.drawn > 0.02, JSON.stringify(first));
+    const shot = () => page.locator("#view").evaluate((canvas) => canvas.toDataURL());
+    const before = await shot();
+    await page.locator("#view").focus();
+    for (let i = 0; i < 4; i += 1) await page.keyboard.press("ArrowRight");
+    assert.notEqual(await shot(), before);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  test("is cut lengthwise by the section plane, and coloured by load", async () => {
+    const { page } = await open(browser, chute.file);
+    const whole = await colours(page);
+    await page.locator("#cut").check();
+    const cut = await colours(page);
+    assert.notEqual(cut.drawn, whole.drawn);
+    await page.getByLabel("Colour by").selectOption("normal_load_m_per_s2");
+    assert.match(await page.locator(".colour-legend").textContent(), /g/);
+    await page.close();
+  });
+
+  test("falls back to a still picture without WebGL", async () => {
+    const plain = await launch({ webgl: false });
+    const { page } = await open(plain, chute.file);
+    assert.equal(await page.locator("#solid").getAttribute("data-still"), "true");
+    const still = await colours(page);
+    assert.ok(still.distinct > 50 && still.drawn > 0.02, JSON.stringify(still));
+    await plain.close();
+  });
+});
+
+describe("page", () => {
+  test("a design named <script> is harmless", async () => {
+    const name = "<script>alert(1)</script><img src=x onerror=alert(2)> & \"quotes\" </title>";
+    const text = readFileSync(path.join(designs, "grain_chute.yaml"), "utf8").replace(/^name:.*$/m, `name: '${name}'`);
+    const design = path.join(work, "hostile.yaml");
+    writeFileSync(design, text);
+    const { page, complaints } = await open(browser, build(design).file);
+    assert.equal(await page.locator("h1").textContent(), name);
+    assert.equal(await page.locator("img").count(), 0);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  for (const [what, width] of [["a wide", 1600], ["a narrow", 390], ["an A4", 718]]) {
+    test(`fits ${what} window: nothing sticks out to the right`, async () => {
+      const { page } = await open(browser, chute.file, { viewport: { width, height: 900 } });
+      if (width === 718) await page.emulateMedia({ media: "print" });
+      const [content, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+      assert.ok(content <= room, `${content} px of content in ${room}`);
+      await page.close();
+    });
+  }
+
+  test("prints on A4 and Letter without clipped content", async () => {
+    const { page } = await open(browser, chute.file);
+    for (const format of ["A4", "Letter"]) {
+      const pdf = await page.pdf({ format });
+      assert.ok(pdf.length > 20000);
+    }
+    await page.emulateMedia({ media: "print" });
+    await page.setViewportSize({ width: 718, height: 1000 });
+    const clipped = await page.evaluate(() => [...document.querySelectorAll("table, figure, svg, canvas, dl")]
+      .filter((node) => node.getClientRects().length > 0 && node.getBoundingClientRect().right > innerWidth + 1)
+      .map((node) => `${node.tagName} ${node.id || node.className.baseVal || node.className}`));
+    assert.deepEqual(clipped, []);
+    await page.close();
+  });
+
+  test("is dark where the system is dark, and on request", async () => {
+    const lightness = (page) => page.evaluate(() =>
+      getComputedStyle(document.body).backgroundColor.match(/\d+/g).reduce((sum, c) => sum + Number(c), 0));
+    const { page: dark } = await open(browser, chute.file, { colorScheme: "dark" });
+    assert.ok((await lightness(dark)) < 200);
+    await dark.getByLabel("Theme").selectOption("light");
+    assert.ok((await lightness(dark)) > 600);
+    await dark.close();
+  });
+
+  test("every control is reached by Tab and has a name", async () => {
+    const { page } = await open(browser, chute.file);
+    const wanted = await page.evaluate(() => document.querySelectorAll(
+      "button, select, input:not([disabled]), [tabindex='0']").length);
+    const reached = new Set();
+    const nameless = [];
+    for (let i = 0; i < wanted + 5; i += 1) {
+      await page.keyboard.press("Tab");
+      const [key, name] = await page.evaluate(() => {
+        const node = document.activeElement;
+        const all = [...document.querySelectorAll("*")];
+        const name = node.getAttribute("aria-label") ?? node.labels?.[0]?.textContent ?? node.textContent;
+        return [node === document.body ? null : all.indexOf(node), name];
+      });
+      if (key !== null) reached.add(key);
+      if (key !== null && !name?.trim()) nameless.push(key);
+    }
+    assert.equal(reached.size, wanted);
+    assert.deepEqual(nameless, []);
+    await page.close();
+  });
+
+  test("the table of stations follows its spacing and gives CSV", async () => {
+    const { page } = await open(browser, chute.file);
+    const rows = () => page.locator("table.stations tbody tr").count();
+    const before = await rows();
+    const values = await page.getByLabel("Spacing").locator("option").evaluateAll((options) => options.map((o) => o.value));
+    await page.getByLabel("Spacing").selectOption(values[0]);
+    assert.ok((await rows()) > before);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "CSV" }).click()]);
+    const lines = readFileSync(await download.path(), "utf8").trim().split("\n");
+    assert.match(lines[0], /^s \[m\],x \[m\],z \[m\]/);
+    assert.equal(lines.length, (await rows()) + 1);
+    await page.close();
+  });
+});
