@@ -45,14 +45,16 @@ std::uint16_t on_grid(double value, double low, double high) {
       std::lround(std::clamp((value - low) / (high - low), 0.0, 1.0) * ViewMesh::kSteps));
 }
 
-/// A coarser sweep for the view: the tolerance doubles until the facets fit.
+/// A sweep that the view can hold: fewer facets for their shape alone, then a tolerance that doubles until it
+/// fits.
 Solid coarser(const ReportInput& input, double& tolerance) {
   const Centerline& centerline = input.motion->centerline();
   const double largest = 0.02 * centerline.length();
   while (true) {
-    tolerance = std::min(2.0 * tolerance, largest);
-    Solid solid = sweep(centerline, *input.solid.section, input.placement, {.tolerance = tolerance});
+    Solid solid = sweep(centerline, *input.solid.section, input.placement,
+                        {.tolerance = tolerance, .shape_triangles = kViewTriangles / 2});
     if (solid.mesh.triangles.size() <= kViewTriangles || tolerance >= largest) return solid;
+    tolerance = std::min(2.0 * tolerance, largest);
   }
 }
 

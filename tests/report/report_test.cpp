@@ -1,0 +1,165 @@
+#include "glissade/report/report.hpp"
+
+#include "glissade/centerline/straight_line.hpp"
+
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+using namespace glissade;
+using nlohmann::json;
+
+namespace {
+
+/// A straight chute 4 m long and 3 m high with everything that a report is made from.
+class Chute {
+ public:
+  explicit Chute(double thickness = 4e-3)
+      : placement_({1.0, 2.0, 10.0}, Angle::from_degrees(30.0)),
+        centerline_(std::make_shared<StraightLine>(Endpoints{4.0, 3.0})),
+        motion_(centerline_, Body{Friction::from_coefficient(0.3), 0.0, 0.0}),
+        section_(CrossSection::u_channel(0.4, 0.2, thickness)),
+        solid_(sweep(*centerline_, section_, placement_, {.tolerance = 1e-3})),
+        facts_(measure(solid_.mesh)) {
+    design.name = "Straight chute";
+    design.file = "chutes/straight.yaml";
+    design.track = {{1.0, 2.0, 10.0}, {1.0 + 4.0 * std::sqrt(0.75), 4.0, 7.0}};
+    design.body.friction = Friction::from_coefficient(0.3);
+    design.mesh.tolerance = 1e-3;
+  }
+
+  [[nodiscard]] ReportInput input() const {
+    ReportInput input;
+    input.design = &design;
+    input.endpoints = {4.0, 3.0};
+    input.placement = placement_;
+    input.motion = &motion_;
+    input.straight = &motion_;
+    input.solid = {&solid_, &facts_, &section_};
+    input.checks = {{"Reaches the finish", Verdict::pass, "3.4 m/s there"},
+                    {"Limits", Verdict::not_checked, ""}};
+    input.files = {{"straight.stl", 84, std::string(64, 'a')}};
+    return input;
+  }
+
+  Design design;
+
+  [[nodiscard]] const Motion& motion() const { return motion_; }
+  [[nodiscard]] const MeshFacts& facts() const { return facts_; }
+
+ private:
+  Placement placement_;
+  CenterlinePtr centerline_;
+  Motion motion_;
+  CrossSection section_;
+  Solid solid_;
+  MeshFacts facts_;
+};
+
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t start = text.find(from) + from.size();
+  return text.substr(start, text.find(to, start) - start);
+}
+
+}  // namespace
+
+TEST_CASE("report data: the ride is the referee's, to the last digit") {
+  const Chute chute;
+  const json document = json::parse(report_json(chute.input()));
+  CHECK(document["schema"] == "glissade-report/1");
+  CHECK(document["ride"]["travel_time_s"] == chute.motion().travel_time());
+  CHECK(document["ride"]["exit_speed_m_per_s"] == chute.motion().exit_speed());
+  // Straight ramp: T = sqrt(2 l / (g (sin - mu cos))), sin = 0.6, cos = 0.8.
+  CHECK(document["ride"]["travel_time_s"].get<double>() ==
+        Approx(std::sqrt(2.0 * 5.0 / (9.81 * (0.6 - 0.3 * 0.8)))).epsilon(1e-12));
+  CHECK(document["ride"]["min_radius_m"].is_null());
+  CHECK(document["ride"]["optimum_travel_time_s"].is_null());
+  CHECK(document["mesh"]["triangles"] == chute.facts().triangles);
+}
+
+TEST_CASE("report data: every column of the stations has the same length, the energies add up") {
+  const Chute chute;
+  const json document = json::parse(report_json(chute.input()));
+  const json& stations = document["stations"];
+  const std::size_t count = stations["arc_length_m"].size();
+  CHECK(count > 300);
+  for (const auto& [key, column] : stations.items()) {
+    INFO(key);
+    CHECK(column.size() == count);
+  }
+  CHECK(stations["arc_length_m"].back() == 5.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double kinetic = 0.5 * std::pow(stations["speed_m_per_s"][i].get<double>(), 2);
+    const double lost =
+        stations["friction_loss_j_per_kg"][i].get<double>() + stations["drag_loss_j_per_kg"][i].get<double>();
+    CHECK(kinetic + lost == Approx(9.81 * stations["drop_m"][i].get<double>()).epsilon(1e-9).margin(1e-12));
+    CHECK(stations["z_m"][i].get<double>() == Approx(10.0 - stations["drop_m"][i].get<double>()));
+  }
+}
+
+TEST_CASE("report data: a verdict that nobody reached stays \"not checked\"") {
+  const json document = json::parse(report_json(Chute().input()));
+  CHECK(document["checks"][0]["verdict"] == "pass");
+  CHECK(document["checks"][1]["verdict"] == "not-checked");
+}
+
+TEST_CASE("report: same input, same bytes") {
+  CHECK(report_html(Chute().input()) == report_html(Chute().input()));
+}
+
+TEST_CASE("report: the page carries its data, styles and scripts, and asks nobody for more") {
+  const std::string page = report_html(Chute().input());
+  const json document =
+      json::parse(between(page, "<script type=\"application/json\" id=\"glissade-data\">", "</script>"));
+  CHECK(document["design"]["name"] == "Straight chute");
+  CHECK(page.find("default-src 'none'") != std::string::npos);
+  CHECK(page.find("<link") == std::string::npos);
+  CHECK(page.find("<script src") == std::string::npos);
+}
+
+TEST_CASE("report: markup in a design's name stays text") {
+  Chute chute;
+  chute.design.name = "</title></script><script>alert(1)</script> & <!-- \"x\"";
+  const std::string page = report_html(chute.input());
+  CHECK(page.find("alert(1)</script>") == std::string::npos);
+  CHECK(page.find("<script>alert") == std::string::npos);
+  CHECK(page.find("<title>&lt;/title&gt;&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; &amp; &lt;!-- "
+                  "&quot;x&quot;</title>") != std::string::npos);
+  const json document =
+      json::parse(between(page, "<script type=\"application/json\" id=\"glissade-data\">", "</script>"));
+  CHECK(document["design"]["name"] == chute.design.name);
+}
+
+TEST_CASE("report: a name that is not UTF-8 does not stop the report") {
+  Chute chute;
+  chute.design.name = "Chute \xff\xfe";
+  CHECK_NOTHROW(json::parse(report_json(chute.input())));
+}
+
+TEST_CASE("report: a solid with more facets than the view holds is shown with fewer, and the page says so") {
+  // A thin plate takes many small facets to stay well shaped.
+  const Chute chute(0.4e-3);
+  const std::size_t written = chute.facts().triangles;
+  REQUIRE(written > kViewTriangles);
+  const json document = json::parse(report_json(chute.input()));
+  const std::string note = document["view"]["note"];
+  CHECK(note.find("The files hold " + std::to_string(written) + " facets") != std::string::npos);
+  // Twelve bytes a facet, four characters for three bytes.
+  CHECK(document["view"]["indices"]["data"].get<std::string>().size() <= kViewTriangles * 12 * 4 / 3 + 4);
+  CHECK(document["mesh"]["triangles"] == written);
+}
+
+TEST_CASE("checksum: SHA-256 of a known text") {
+  const TempDir folder;
+  std::ofstream(folder / "abc.txt", std::ios::binary) << "abc";
+  // FIPS 180-2, appendix B.1.
+  CHECK(sha256_of_file(folder / "abc.txt") ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK_THROWS_WITH(sha256_of_file(folder / "none.txt"),
+                    Catch::Matchers::Contains("none.txt") && Catch::Matchers::Contains("cannot be read"));
+}
