@@ -52,7 +52,13 @@ TEST_CASE("straight limit: the sag goes to zero as mu nears the mean slope, and 
   CHECK(sag(0.9999, 100) < 2e-4 * sag(0.2, 100));
   CHECK(sag(1.0, 100) == 0.0);
   CHECK(sag(0.2, 1e7) / sag(0.2, 1e6) == Approx(0.1).epsilon(1e-5));
-  CHECK(sag(0.2, 1e7) > 0.0);
+  // docs/theory.md (P5): g l^2/(8 P) sin(mean slope angle - delta)/sin(delta), with a mean slope angle of 45
+  // deg
+  const double delta = std::atan(0.2);
+  const double chord_squared = 2.5 * 2.5 * 2.0;
+  CHECK(
+      sag(0.2, 1e7) ==
+      Approx(9.81 * chord_squared / 8e7 * std::sin(std::atan(1.0) - delta) / std::sin(delta)).epsilon(1e-5));
 }
 
 TEST_CASE(

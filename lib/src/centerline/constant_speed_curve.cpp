@@ -32,7 +32,7 @@ double square(double value) {
   return value * value;
 }
 
-/// The finish in axes turned by the friction angle, (C2).
+/// The finish in axes turned by the friction angle, (C3).
 struct TurnedFinish {
   double along = 0.0;   ///< xi_1 [m]
   double across = 0.0;  ///< eta_1 [m]; positive where the mean slope is steeper than the friction angle
@@ -303,7 +303,7 @@ void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
   }
   if (!is_convex()) return;
   if (speed_squared(s, entry_speed) < 0.0) {
-    // (C11): v = 0 where e^(-2 mu theta) = P/(P - v_0)
+    // (C10): v = 0 where e^(-2 mu theta) = P/(P - v_0)
     const double turned = std::log1p(-square(entry_speed) / p_) / (2.0 * friction_.coefficient());
     throw InfeasibleError(Issue{
         "",
