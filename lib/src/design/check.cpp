@@ -2,6 +2,8 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include "design/outline.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -91,11 +93,40 @@ void check_drop(const Design& design, Collected& findings) {
           "a lower finish.z or a higher entry_speed"});
 }
 
+void check_free_finish(const Design& design, Collected& findings) {
+  const TrackDesign& track = design.track;
+  const LimitRange& range = track.free_range;
+  const std::string key = track.free_finish == FreeFinish::run ? "x" : "z";
+  if (design.centerline.kind != CenterlineKind::fastest) {
+    report(findings, {"track.finish", "centerline.kind"},
+           {"", "a free " + key + " of the finish needs the kind fastest",
+            "It is the fastest track that chooses.", "kind: fastest, or a finish with a value for " + key});
+  }
+  if (range.lowest && range.highest && *range.lowest > *range.highest) {
+    report(findings, {"track.finish." + key},
+           {"", key + ": lowest " + metres(*range.lowest) + " is above highest " + metres(*range.highest),
+            "Nothing lies between them.", "the two the other way round"});
+  }
+  const bool aside = track.start.y == track.finish.y;
+  if (track.free_finish == FreeFinish::run && !aside) {
+    report(findings, {"track.finish.y", "track.start"},
+           {"", "y: a finish with a free x lies straight along x from the start", "", "the y of the start"});
+  }
+  if (track.free_finish == FreeFinish::height && track.start.x == track.finish.x && aside) {
+    report(findings, {"track.finish", "track.start"},
+           {"", "the finish lies on the vertical through the start",
+            "With a free height the track could end where it begins.", "a finish to the side"});
+  }
+  if (range.lowest) check_coordinates({*range.lowest, 0.0, 0.0}, "track.finish." + key, findings);
+  if (range.highest) check_coordinates({*range.highest, 0.0, 0.0}, "track.finish." + key, findings);
+}
+
 void check_track(const Design& design, Collected& findings) {
   const TrackDesign& track = design.track;
   check_coordinates(track.start, "track.start", findings);
   check_coordinates(track.finish, "track.finish", findings);
   if (!track.finish_given) return;
+  if (track.free_finish != FreeFinish::none) check_free_finish(design, findings);
   const std::vector<std::string> paths = {"track.finish", "track.start"};
   const double distance = norm(track.finish - track.start);
   if (distance == 0.0) {
@@ -113,7 +144,33 @@ void check_track(const Design& design, Collected& findings) {
 
 // --- body, gravity -------------------------------------------------------------------------------------
 
+std::string friction_key(const Design& design) {
+  return design.locations.contains("body.friction_coefficient") ? "friction_coefficient" : "friction_angle";
+}
+
+void check_friction_range(const Design& design, Collected& findings) {
+  const BodyDesign& body = design.body;
+  const std::string key = friction_key(design);
+  const double low = body.low_friction.value_or(body.friction).coefficient();
+  const double high = body.high_friction.value_or(body.friction).coefficient();
+  const double nominal = body.friction.coefficient();
+  if (low > nominal || nominal > high) {
+    report(findings, {"body." + key},
+           {"", key + ": low, nominal and high are not in ascending order",
+            "They are " + angle_text(std::atan(low)) + ", " + angle_text(std::atan(nominal)) + " and " +
+                angle_text(std::atan(high)) + ".",
+            ""});
+  }
+  if ((body.low_friction || body.high_friction) && !design.limits) {
+    report(findings, {"body." + key, "limits"},
+           {"", key + ": a range without limits to keep over it",
+            "The low and the high value count for limits only.",
+            "the nominal value alone, or limits: with what is to hold at every friction"});
+  }
+}
+
 void check_body(const Design& design, Collected& findings) {
+  check_friction_range(design, findings);
   const BodyDesign& body = design.body;
   if (!(body.entry_speed >= 0.0 && body.entry_speed <= kHighestSpeed)) {
     report(findings, {"body.entry_speed"},
@@ -291,92 +348,14 @@ void check_wall_angle(const CrossSectionDesign& section, Collected& findings) {
           "Walls lean outward by 0 to 80 deg from upright.", "20 deg"});
 }
 
-double doubled_area(const std::vector<Vec2>& outline) {
-  double sum = 0.0;
-  for (std::size_t index = 0; index < outline.size(); ++index) {
-    sum += cross(outline[index], outline[(index + 1) % outline.size()]);
-  }
-  return sum;
-}
-
-/// Orientation of c against the line through a and b: 1 left, -1 right, 0 on it.
-int side(Vec2 a, Vec2 b, Vec2 c) {
-  const double area = cross(b - a, c - a);
-  return area > 0.0 ? 1 : area < 0.0 ? -1 : 0;
-}
-
-bool within_box(Vec2 a, Vec2 b, Vec2 point) {
-  return std::min(a.x, b.x) <= point.x && point.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= point.y &&
-         point.y <= std::max(a.y, b.y);
-}
-
-bool on_edge(Vec2 a, Vec2 b, Vec2 point) {
-  return side(a, b, point) == 0 && within_box(a, b, point);
-}
-
-bool edges_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
-  return on_edge(a, b, c) || on_edge(a, b, d) || on_edge(c, d, a) || on_edge(c, d, b);
-}
-
-/// @return the first two edges that cross or touch without being neighbours
-std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const std::vector<Vec2>& outline) {
-  const std::size_t count = outline.size();
-  for (std::size_t first = 0; first < count; ++first) {
-    for (std::size_t second = first + 2; second < count; ++second) {
-      if (first == 0 && second + 1 == count) continue;
-      if (edges_meet(outline[first], outline[first + 1], outline[second], outline[(second + 1) % count])) {
-        return std::pair{first, second};
-      }
-    }
-  }
-  return {};
-}
-
-bool origin_on_outline(const std::vector<Vec2>& outline) {
-  for (std::size_t index = 0; index < outline.size(); ++index) {
-    if (on_edge(outline[index], outline[(index + 1) % outline.size()], {0.0, 0.0})) return true;
-  }
-  return false;
-}
-
 void check_outline(const std::vector<Vec2>& outline, Collected& findings) {
-  constexpr std::size_t kMostCorners = 2000;
-  const auto fault = [&](const std::string& what, const std::string& why, const std::string& hint) {
-    report(findings, {"cross_section.outline"}, {"", "outline: " + what, why, hint});
-  };
-  if (outline.size() < 3 || outline.size() > kMostCorners) {
-    fault(std::to_string(outline.size()) + " corners", "An outline has between 3 and 2000 corners.", "");
-    return;
+  std::optional<Issue> fault = outline_fault(outline, "outline");
+  if (!fault && !touches_outline(outline, {0.0, 0.0})) {
+    fault = Issue{"", "outline: does not pass through [0 mm, 0 mm]",
+                  "That point is the centerline, on the floor's surface.",
+                  "[0 mm, 0 mm] as a corner in the middle of the floor"};
   }
-  for (std::size_t index = 0; index < outline.size(); ++index) {
-    const Vec2 corner = outline[index];
-    if (!(std::fabs(corner.x) <= kLargestMeasure && std::fabs(corner.y) <= kLargestMeasure)) {
-      fault("corner " + std::to_string(index) + " is out of range", "Corners lie within 10 km.", "");
-      return;
-    }
-    if (norm(outline[(index + 1) % outline.size()] - corner) < kSmallestMeasure) {
-      fault("corners " + std::to_string(index) + " and " + std::to_string((index + 1) % outline.size()) +
-                " are the same point",
-            "The outline closes by itself; neighbouring corners are at least 0.001 mm apart.",
-            "each corner once");
-      return;
-    }
-  }
-  if (const auto crossing = crossing_edges(outline)) {
-    fault("the edges after corners " + std::to_string(crossing->first) + " and " +
-              std::to_string(crossing->second) + " meet",
-          "An outline does not cross or touch itself.", "the order of the corners");
-    return;
-  }
-  if (!(std::fabs(doubled_area(outline)) > 0.0)) {
-    fault("encloses nothing", "A section has material.", "");
-    return;
-  }
-  if (!origin_on_outline(outline)) {
-    fault("does not pass through [0 mm, 0 mm]", "That point is the centerline, on the floor's surface.",
-          "[0 mm, 0 mm] as a corner in the middle of the floor");
-  }
+  if (fault) report(findings, {"cross_section.outline"}, *std::move(fault));
 }
 
 void check_cross_section(const Design& design, Collected& findings) {
@@ -508,22 +487,37 @@ std::vector<Finding> check_values(const Design& design) {
   check_cross_section(design, findings);
   check_mesh(design, findings);
   check_export(design, findings);
+  for (Finding& finding : check_limits(design)) findings.push_back(std::move(finding));
   return findings;
 }
+
+namespace {
+
+/// Whether a free finish can come as near to the start's vertical, or as deep, as reach may need.
+bool finish_is_unbounded(const TrackDesign& track) {
+  if (track.free_finish == FreeFinish::height) return !track.free_range.lowest;
+  if (track.free_finish != FreeFinish::run) return false;
+  const bool to_the_right = track.free_range.lowest && *track.free_range.lowest > track.start.x;
+  const bool to_the_left = track.free_range.highest && *track.free_range.highest < track.start.x;
+  return !to_the_right && !to_the_left;
+}
+
+}  // namespace
 
 std::optional<Finding> find_unreachable(const Design& design) {
   const TrackDesign& track = design.track;
   const double run = run_of(track);
   const double drop = drop_of(track);
-  const double mu = design.body.friction.coefficient();
+  const double mu = design.body.high_friction.value_or(design.body.friction).coefficient();
+  if (finish_is_unbounded(track)) return {};
   if (is_given(design.centerline.kind) || design.body.entry_speed > 0.0 || !(drop > 0.0)) return {};
   if (drop > mu * run) return {};
 
   // Hints are rounded to the side on which they hold.
   constexpr double kBelow = 1.0 - 1e-3;
   constexpr double kAbove = 1.0 + 1e-3;
-  const bool by_coefficient = design.locations.contains("body.friction_coefficient");
-  const std::string key = by_coefficient ? "friction_coefficient" : "friction_angle";
+  const std::string key = friction_key(design);
+  const bool by_coefficient = key == "friction_coefficient";
   const double mean_slope = std::atan2(drop, run);
   const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle_text(std::atan(mu)) + ")"
                                            : angle_text(std::atan(mu));

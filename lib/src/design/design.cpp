@@ -24,6 +24,13 @@ std::string Design::where(std::string_view key_path) const {
   return file.string();
 }
 
+Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {
+  const double drop = track.start.z - point.y;
+  if (track.start.y != track.finish.y) return {point.x, drop};
+  const double side = track.finish.x < track.start.x ? -1.0 : 1.0;
+  return {side * (point.x - track.start.x), drop};
+}
+
 std::vector<Issue> check(const Design& design) {
   std::vector<Issue> issues;
   for (design_file::Finding& finding : design_file::check_values(design)) {

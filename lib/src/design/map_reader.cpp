@@ -79,6 +79,29 @@ std::vector<Value> as_list(const Value& value, std::string_view example, Finding
   return values;
 }
 
+std::optional<Vec2> as_point(const Value& value, Findings& findings) {
+  const std::vector<Value> numbers = as_list(value, "[-200 mm, 250 mm]", findings);
+  if (value.node->kind != Node::Kind::sequence) return {};
+  if (numbers.size() != 2) {
+    findings.add(value.node->at, value.key_path,
+                 {"", value.key + " has " + std::to_string(numbers.size()) + " values instead of 2",
+                  "A point is a pair.", "[-200 mm, 250 mm]"});
+    return {};
+  }
+  const auto first = as_quantity(numbers[0], Dimension::length, findings);
+  const auto second = as_quantity(numbers[1], Dimension::length, findings);
+  if (!first || !second) return {};
+  return Vec2{*first, *second};
+}
+
+std::vector<Vec2> as_points(const Value& value, std::string_view example, Findings& findings) {
+  std::vector<Vec2> points;
+  for (const Value& item : as_list(value, example, findings)) {
+    if (const auto point = as_point(item, findings)) points.push_back(*point);
+  }
+  return points;
+}
+
 MapReader::MapReader(const Value& value, std::string_view noun, std::string_view example, Findings& findings)
     : key_path_(value.key_path), noun_(noun), findings_(findings) {
   if (value.node->kind != Node::Kind::map) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/vec.hpp"
 #include "glissade/design/quantity.hpp"
 
 #include "design/findings.hpp"
@@ -25,6 +26,10 @@ struct Value {
 [[nodiscard]] std::optional<double> as_quantity(const Value& value, Dimension dimension, Findings& findings);
 [[nodiscard]] std::optional<std::string> as_text(const Value& value, Findings& findings);
 [[nodiscard]] std::optional<bool> as_flag(const Value& value, Findings& findings);
+/// A pair of lengths: [5.4 m, 1.1 m].
+[[nodiscard]] std::optional<Vec2> as_point(const Value& value, Findings& findings);
+/// A list of such pairs.
+[[nodiscard]] std::vector<Vec2> as_points(const Value& value, std::string_view example, Findings& findings);
 /// @param example  what such a list looks like, for the hint
 [[nodiscard]] std::vector<Value> as_list(const Value& value, std::string_view example, Findings& findings);
 

@@ -62,6 +62,8 @@ constexpr std::array kUnits = {
     Unit{"m2/s2", Dimension::specific_energy, 1.0, 1.0, false},
     Unit{"m\u00b2/s\u00b2", Dimension::specific_energy, 1.0, 1.0, false},
     Unit{"J/kg", Dimension::specific_energy, 1.0, 1.0, true},
+    Unit{"s/(m/s)", Dimension::time_per_speed, 1.0, 1.0, true},
+    Unit{"s^2/m", Dimension::time_per_speed, 1.0, 1.0, true},
 };
 
 std::string_view noun(Dimension dimension) {
@@ -82,6 +84,8 @@ std::string_view noun(Dimension dimension) {
       return "value per area";
     case Dimension::specific_energy:
       return "squared speed";
+    case Dimension::time_per_speed:
+      return "time per speed";
   }
   throw InternalError({"", "a dimension without a name", "", ""});
 }

@@ -5,10 +5,12 @@
 #include "design/findings.hpp"
 #include "design/map_reader.hpp"
 #include "design/overrides.hpp"
+#include "design/read_limits.hpp"
 #include "design/schema_words.hpp"
 #include "design/words.hpp"
 #include "design/yaml_tree.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -21,6 +23,7 @@ namespace {
 
 using namespace design_file;
 
+constexpr double kLongestFreeRun = 1e6;  // [m]
 constexpr std::size_t kLargestFile = std::size_t{4} << 20U;
 
 void read_version(MapReader& top, Findings& findings) {
@@ -55,6 +58,59 @@ Vec3 read_position(const Value& value, std::string_view noun, Findings& findings
   return position;
 }
 
+bool is_free(const std::optional<Value>& value) {
+  return value && (value->node->kind == Node::Kind::map || value->node->scalar == "free");
+}
+
+/// A coordinate that the fastest track may choose: `free`, or a range.
+LimitRange read_free_range(const Value& value, Findings& findings) {
+  if (value.node->kind != Node::Kind::map) return {};
+  return read_range(value, Dimension::length, findings);
+}
+
+/// A value for a free coordinate: within its range, and where the finish is easiest to reach.
+double easiest_height(const TrackDesign& track) {
+  if (track.free_range.lowest) return *track.free_range.lowest;
+  const double run = std::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
+  return std::min(track.start.z, track.free_range.highest.value_or(track.start.z)) - run;
+}
+
+double easiest_run(const TrackDesign& track) {
+  const LimitRange& range = track.free_range;
+  const double start = track.start.x;
+  if (range.lowest && *range.lowest > start) return *range.lowest;
+  if (range.highest && *range.highest < start) return *range.highest;
+  return std::min(start + std::fabs(track.start.z - track.finish.z), range.highest.value_or(kLongestFreeRun));
+}
+
+void read_finish(const Value& value, TrackDesign& track, Findings& findings) {
+  MapReader map(value, "A finish", "{x: 5.4 m, z: 1.1 m}", findings);
+  const auto x = map.need("x", "x: 5.4 m");
+  const auto y = map.quantity("y", Dimension::length);
+  const auto z = map.need("z", "z: 1.1 m, counted upwards");
+  map.refuse_unknown_keys();
+  track.finish.y = y.value_or(is_free(x) ? track.start.y : 0.0);
+  if (is_free(x) && is_free(z)) {
+    findings.add(
+        findings.position(value.key_path), value.key_path,
+        {"", "the finish is free both ways", "A finish is a point, or lies on a vertical line or on a level.",
+         "one of x and z with a value"});
+    return;
+  }
+  if (x && !is_free(x)) track.finish.x = as_quantity(*x, Dimension::length, findings).value_or(0.0);
+  if (z && !is_free(z)) track.finish.z = as_quantity(*z, Dimension::length, findings).value_or(0.0);
+  if (is_free(x)) {
+    track.free_finish = FreeFinish::run;
+    track.free_range = read_free_range(*x, findings);
+    track.finish.x = easiest_run(track);
+  }
+  if (is_free(z)) {
+    track.free_finish = FreeFinish::height;
+    track.free_range = read_free_range(*z, findings);
+    track.finish.z = easiest_height(track);
+  }
+}
+
 /// @param finish_may_follow  the centerline itself says where it ends
 TrackDesign read_track(MapReader& top, bool finish_may_follow, Findings& findings) {
   TrackDesign track;
@@ -69,31 +125,66 @@ TrackDesign read_track(MapReader& top, bool finish_may_follow, Findings& finding
   track.finish_given = map.has("finish") || !finish_may_follow;
   const auto finish =
       finish_may_follow ? map.find("finish") : map.need("finish", "finish: {x: 5.4 m, z: 1.1 m}");
-  if (finish) track.finish = read_position(*finish, "A finish", findings);
+  if (finish) read_finish(*finish, track, findings);
   map.refuse_unknown_keys();
   return track;
 }
 
-Friction read_friction(MapReader& map, Findings& findings) {
+/// A friction angle or coefficient: one value, or a range with a nominal value.
+struct FrictionValues {
+  std::optional<double> low;
+  std::optional<double> nominal;
+  std::optional<double> high;
+};
+
+FrictionValues read_friction_values(const Value& value, Dimension dimension, Findings& findings) {
+  FrictionValues values;
+  if (value.node->kind != Node::Kind::map) {
+    values.nominal = as_quantity(value, dimension, findings);
+    return values;
+  }
+  MapReader map(value, "A friction range", "", findings);
+  map.expect({"low", "nominal", "high"});
+  values.nominal =
+      map.needed_quantity("nominal", dimension, "nominal: the value that the objective is taken at");
+  values.low = map.quantity("low", dimension);
+  values.high = map.quantity("high", dimension);
+  map.refuse_unknown_keys();
+  return values;
+}
+
+std::optional<Friction> to_friction(const std::optional<double>& value, bool by_coefficient,
+                                    const std::string& key_path, Findings& findings) {
+  if (!value) return {};
+  try {
+    return by_coefficient ? Friction::from_coefficient(*value)
+                          : Friction::from_angle(Angle::from_radians(*value));
+  } catch (const InputError& error) {
+    findings.add(findings.position(key_path), key_path, error.issues().front());
+    return {};
+  }
+}
+
+void read_friction(MapReader& map, BodyDesign& body, Findings& findings) {
   const bool by_coefficient = map.has("friction_coefficient");
   if (by_coefficient && map.has("friction_angle")) {
     findings.add(findings.position(map.path_of("")), map.path_of("friction_angle"),
                  {"", "both friction_angle and friction_coefficient are given",
                   "They say the same: the coefficient is the tangent of the angle.", "one of the two"});
   }
-  const auto coefficient = map.quantity("friction_coefficient", Dimension::number);
-  const auto angle = by_coefficient
-                         ? map.quantity("friction_angle", Dimension::angle)
-                         : map.needed_quantity("friction_angle", Dimension::angle,
-                                               "friction_angle: 17 deg, or friction_coefficient: 0.306");
-  try {
-    if (coefficient) return Friction::from_coefficient(*coefficient);
-    if (angle) return Friction::from_angle(Angle::from_radians(*angle));
-  } catch (const InputError& error) {
-    const std::string path = map.path_of(by_coefficient ? "friction_coefficient" : "friction_angle");
-    findings.add(findings.position(path), path, error.issues().front());
-  }
-  return {};
+  const auto coefficient = map.find("friction_coefficient");
+  const auto angle =
+      by_coefficient ? map.find("friction_angle")
+                     : map.need("friction_angle", "friction_angle: 17 deg, or friction_coefficient: 0.306");
+  if (coefficient && angle) static_cast<void>(read_friction_values(*angle, Dimension::angle, findings));
+  const std::optional<Value>& value = coefficient ? coefficient : angle;
+  if (!value) return;
+  const FrictionValues values =
+      read_friction_values(*value, coefficient ? Dimension::number : Dimension::angle, findings);
+  const std::string path = value->key_path;
+  body.friction = to_friction(values.nominal, by_coefficient, path, findings).value_or(Friction{});
+  body.low_friction = to_friction(values.low, by_coefficient, path + ".low", findings);
+  body.high_friction = to_friction(values.high, by_coefficient, path + ".high", findings);
 }
 
 BodyDesign read_body(MapReader& top, Findings& findings) {
@@ -102,7 +193,7 @@ BodyDesign read_body(MapReader& top, Findings& findings) {
   if (!value) return body;
   MapReader map(*value, "A body", "{friction_angle: 17 deg}", findings);
   map.expect({"friction_angle", "friction_coefficient", "entry_speed", "drag"});
-  body.friction = read_friction(map, findings);
+  read_friction(map, body, findings);
   body.entry_speed = map.quantity("entry_speed", Dimension::speed).value_or(0.0);
   body.drag_per_metre = map.quantity("drag", Dimension::per_length).value_or(0.0);
   map.refuse_unknown_keys();
@@ -206,31 +297,11 @@ CenterlineDesign read_centerline(MapReader& top, const std::filesystem::path& fi
   return centerline;
 }
 
-std::optional<Vec2> read_corner(const Value& value, Findings& findings) {
-  const std::vector<Value> numbers = as_list(value, "[-200 mm, 250 mm]", findings);
-  if (value.node->kind != Node::Kind::sequence) return {};
-  if (numbers.size() != 2) {
-    findings.add(value.node->at, value.key_path,
-                 {"", value.key + " has " + std::to_string(numbers.size()) + " values instead of 2",
-                  "A point is a pair.", "[-200 mm, 250 mm]"});
-    return {};
-  }
-  const auto first = as_quantity(numbers[0], Dimension::length, findings);
-  const auto second = as_quantity(numbers[1], Dimension::length, findings);
-  if (!first || !second) return {};
-  return Vec2{*first, *second};
-}
-
 std::vector<Vec2> read_outline(MapReader& map, Findings& findings) {
   constexpr std::string_view kExample =
       "[[-200 mm, 0 mm], [-200 mm, -5 mm], [200 mm, -5 mm], [200 mm, 0 mm], [0 mm, 0 mm]]";
-  std::vector<Vec2> outline;
   const auto value = map.need("outline", kExample);
-  if (!value) return outline;
-  for (const Value& item : as_list(*value, kExample, findings)) {
-    if (const auto corner = read_corner(item, findings)) outline.push_back(*corner);
-  }
-  return outline;
+  return value ? as_points(*value, kExample, findings) : std::vector<Vec2>{};
 }
 
 void read_measures(MapReader& map, CrossSectionDesign& section, Findings& findings) {
@@ -342,8 +413,8 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
-  top.expect(
-      {"glissade", "name", "track", "body", "gravity", "centerline", "cross_section", "mesh", "export"});
+  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "cross_section", "mesh",
+              "export"});
   for (const std::string_view key : {"friction_angle", "friction_coefficient", "entry_speed", "drag"}) {
     top.add_stranger(key, "two spaces before it, below body:");
   }
@@ -357,6 +428,7 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   design.track = read_track(top, finish_may_follow, findings);
   design.body = read_body(top, findings);
   design.gravity = top.quantity("gravity", Dimension::acceleration).value_or(kDefaultGravity);
+  design.limits = read_limits(top, findings);
   design.cross_section = read_cross_section(top, findings);
   design.mesh = read_mesh(top, findings);
   design.exports = read_export(top, findings);

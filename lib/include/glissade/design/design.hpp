@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
+#include "glissade/design/limits_design.hpp"
 
 #include <filesystem>
 #include <map>
@@ -16,19 +17,34 @@ namespace glissade {
 /// A design file as plain values: the schema is these structs, docs/design-file.md describes them.
 /// SI units and radians throughout; the file itself gives every dimensional value with its unit.
 
+/// Which coordinate of the finish the fastest track may choose itself.
+enum class FreeFinish {
+  none,    ///< the finish is a point
+  height,  ///< anywhere on a vertical line: z is free
+  run      ///< anywhere on a level: x is free
+};
+
 struct TrackDesign {
   Vec3 start;  ///< [m], z up
   /// [m]; below the start, unless the body enters fast enough. For `segments` without a finish in the file it
   /// is where they end, towards +x; for `points` without one it is the start, and the profile leads towards
-  /// +x.
+  /// +x. Of a free coordinate it holds some value within its range.
   Vec3 finish;
   bool finish_given = true;  ///< false only for `segments` and `points` whose file leaves the finish out
+  FreeFinish free_finish = FreeFinish::none;
+  LimitRange free_range;  ///< of the free coordinate, x or z [m]
 };
 
+/// @param point  (x, z) as a design file gives the points of its limits
+/// @return (run, drop) in the plane of the centerline: run from the start, positive towards the finish
+[[nodiscard]] Vec2 in_track_plane(const TrackDesign& track, Vec2 point);
+
 struct BodyDesign {
-  Friction friction;
-  double entry_speed = 0.0;     ///< [m/s]; >= 0
-  double drag_per_metre = 0.0;  ///< [1/m]; >= 0
+  Friction friction;                      ///< the nominal one
+  std::optional<Friction> low_friction;   ///< <= friction; limits hold there too
+  std::optional<Friction> high_friction;  ///< >= friction; limits hold there too
+  double entry_speed = 0.0;               ///< [m/s]; >= 0
+  double drag_per_metre = 0.0;            ///< [1/m]; >= 0
 };
 
 enum class LengthUnit { millimetre, metre };
@@ -99,6 +115,7 @@ struct Design {
   BodyDesign body;
   double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
   CenterlineDesign centerline;
+  std::optional<LimitsDesign> limits;  ///< of the kind `fastest`; none: the exact optimum is taken
   std::optional<CrossSectionDesign> cross_section;
   MeshDesign mesh;
   ExportDesign exports;

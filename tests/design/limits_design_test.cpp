@@ -1,0 +1,233 @@
+#include "glissade/design/design.hpp"
+
+#include "design/design_text.hpp"
+#include "support/catch.hpp"
+
+#include <string>
+
+using namespace glissade;
+using namespace glissade::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+std::string with_limits(const std::string& limits) {
+  return sound_design_with("mesh:", "limits: {" + limits + "}\nmesh:");
+}
+
+Design limited(const std::string& limits) {
+  return parse_design(with_limits(limits), "d.yaml");
+}
+
+std::string problems_of_limits(const std::string& limits) {
+  return problems_of(with_limits(limits));
+}
+
+}  // namespace
+
+TEST_CASE("the limits of a ski in-run read as its file says") {
+  const Design design = parse_design(R"(glissade: 1
+track: {start: {x: 0 m, z: 47.08 m}, finish: {x: 90.23 m, z: 0 m}}
+body: {friction_coefficient: 0.03, drag: 0.0013 1/m}
+limits:
+  slope_angle: {highest: 35 deg}
+  exit_slope_angle: 11 deg
+  lead_in: 20 m
+  lead_out: 6.9 m
+  highest_curvature_load: 7.14 m/s^2
+  smallest_radius: 90 m
+  highest_curvature_rate: 0.01 1/m^2
+  concave: true
+)",
+                                     "inrun.yaml");
+  REQUIRE(design.limits);
+  const LimitsDesign& limits = *design.limits;
+  CHECK(limits.slope_angle == LimitRange{{}, 35 * kDegree});
+  CHECK(limits.exit_slope_angle == LimitRange{11 * kDegree, 11 * kDegree});
+  CHECK_FALSE(limits.entry_slope_angle.limited());
+  CHECK(limits.lead_in == 20.0);
+  CHECK(limits.lead_out == 6.9);
+  CHECK(limits.highest_curvature_load == 7.14);
+  CHECK(limits.smallest_valley_radius == 90.0);
+  CHECK(limits.smallest_crest_radius == 90.0);
+  CHECK(limits.highest_curvature_rate == 0.01);
+  CHECK(limits.concave);
+  CHECK(limits.lowest_normal_load == 0.0);
+  CHECK_FALSE(limits.highest_normal_load.has_value());
+  CHECK(limits.objective.kind == ObjectiveDesignKind::travel_time);
+  CHECK(design.where("limits.exit_slope_angle") == "inrun.yaml:6:21");
+}
+
+TEST_CASE("loads, speeds, lengths and the objective of limits read in SI units") {
+  const LimitsDesign limits =
+      *limited(
+           "highest_normal_load: 2.5 g, lowest_normal_load: 0.1 g, smallest_valley_radius: 3 m, "
+           "speed: {lowest: 1 m/s, highest: 36 km/h, lowest_from: 50 cm}, exit_speed: {highest: 4 m/s}, "
+           "arc_length: {lowest: 8 m, highest: 9 m}, objective: {kind: blend, exit_speed_weight: 0.1 "
+           "s/(m/s)}")
+           .limits;
+  CHECK(limits.highest_normal_load == 2.5 * 9.80665);
+  CHECK(*limits.lowest_normal_load == Approx(0.980665).epsilon(1e-15));
+  CHECK(limits.smallest_valley_radius == 3.0);
+  CHECK_FALSE(limits.smallest_crest_radius.has_value());
+  CHECK(limits.speed == LimitRange{1.0, 10.0});
+  CHECK(limits.lowest_speed_from == 0.5);
+  CHECK(limits.exit_speed == LimitRange{{}, 4.0});
+  CHECK(limits.arc_length == LimitRange{8.0, 9.0});
+  CHECK(limits.objective.kind == ObjectiveDesignKind::blend);
+  CHECK(limits.objective.exit_speed_weight == 0.1);
+}
+
+TEST_CASE("a lowest normal load of none holds the body from both sides") {
+  CHECK_FALSE(limited("lowest_normal_load: none").limits->lowest_normal_load.has_value());
+  CHECK(limited("objective: exit_speed").limits->objective.kind == ObjectiveDesignKind::exit_speed);
+}
+
+TEST_CASE("clearances read in the coordinates of the design") {
+  const LimitsDesign limits =
+      *limited(
+           "half_planes: [{line: [[0 m, 7 m], [1 m, 7 m]], stay: below, clearance: 10 cm}, "
+           "{line: [[6 m, 0 m], [6 m, 1 m]], stay: left}], "
+           "keep_outs: [{outline: [[2 m, 5 m], [2.4 m, 5 m], [2.4 m, 5.4 m], [2 m, 5.4 m]], pass: below}], "
+           "stay_above: [{line: [[0 m, 1 m], [6 m, 0 m]], clearance: 200 mm}], "
+           "stay_below: [{line: [[0 m, 8 m], [6 m, 6 m]]}], waypoints: [[2 m, 3 m]]")
+           .limits;
+  REQUIRE(limits.half_planes.size() == 2);
+  CHECK(limits.half_planes[0].point == Vec2{0.0, 7.0});
+  CHECK(limits.half_planes[0].forbidden == Vec2{0.0, 1.0});
+  CHECK(limits.half_planes[0].clearance == 0.1);
+  CHECK(limits.half_planes[1].forbidden == Vec2{1.0, 0.0});
+  REQUIRE(limits.keep_outs.size() == 1);
+  CHECK(limits.keep_outs[0].outline.size() == 4);
+  CHECK(limits.keep_outs[0].passage == PassageDesign::below);
+  REQUIRE(limits.stay_above.size() == 1);
+  CHECK(limits.stay_above[0].clearance == 0.2);
+  CHECK(limits.stay_below.at(0).line == std::vector{Vec2{0.0, 8.0}, Vec2{6.0, 6.0}});
+  CHECK(limits.waypoints == std::vector{Vec2{2.0, 3.0}});
+}
+
+TEST_CASE("a point of the limits has its run and drop in the plane of the track") {
+  TrackDesign track;
+  track.start = {1.0, 0.0, 6.0};
+  track.finish = {5.0, 0.0, 1.0};
+  CHECK(in_track_plane(track, {3.0, 2.0}) == Vec2{2.0, 4.0});
+  track.finish.x = -5.0;
+  CHECK(in_track_plane(track, {-3.0, 2.0}) == Vec2{4.0, 4.0});
+  // Not along x: the first coordinate is already the distance from the start.
+  track.finish = {4.0, 4.0, 1.0};
+  CHECK(in_track_plane(track, {3.0, 2.0}) == Vec2{3.0, 4.0});
+}
+
+TEST_CASE("friction as a range has a low, a nominal and a high value, for limits to hold at") {
+  std::string text = sound_design_with("17 deg", "{low: 14 deg, nominal: 17 deg, high: 20 deg}");
+  CHECK_THAT(problems_of(text),
+             StartsWith("d.yaml:7:3: friction_angle: a range without limits to keep over it"));
+  text.insert(text.find("mesh:"),
+              "limits: {speed: {highest: 4 m/s}, objective: {kind: travel_time, worst_case: true}}\n");
+  const Design design = parse_design(text, "d.yaml");
+  CHECK(design.body.low_friction == Friction::from_angle(Angle::from_degrees(14)));
+  CHECK(design.body.friction == Friction::from_angle(Angle::from_degrees(17)));
+  CHECK(design.body.high_friction == Friction::from_angle(Angle::from_degrees(20)));
+  CHECK(design.limits->objective.worst_case);
+  // It is the high value that must arrive.
+  text.replace(text.find("20 deg"), 6, "48 deg");
+  CHECK_THAT(problems_of(text), StartsWith("infeasible: d.yaml:7:3: friction_angle: 48 deg is steeper"));
+  text.replace(text.find("14 deg"), 6, "18 deg");
+  CHECK_THAT(problems_of(text), Contains("low, nominal and high are not in ascending order"));
+}
+
+TEST_CASE("the finish may lie anywhere on a vertical line or on a level, within bounds or free") {
+  const auto finish = [](const std::string& text) {
+    return parse_design(sound_design_with("{x: 5.4 m, z: 1.1 m}", text), "d.yaml").track;
+  };
+  const TrackDesign line = finish("{x: 5.4 m, z: free}");
+  CHECK(line.free_finish == FreeFinish::height);
+  CHECK_FALSE(line.free_range.limited());
+  CHECK(line.finish.x == 5.4);
+  const TrackDesign bounded = finish("{x: 5.4 m, z: {lowest: 1 m, highest: 2 m}}");
+  CHECK(bounded.free_range == LimitRange{1.0, 2.0});
+  CHECK(bounded.finish.z == 1.0);
+  const TrackDesign level = finish("{x: {lowest: 4 m, highest: 6 m}, z: 1.1 m}");
+  CHECK(level.free_finish == FreeFinish::run);
+  CHECK(level.free_range == LimitRange{4.0, 6.0});
+  CHECK(finish("{x: free, z: 1.1 m}").finish.x > 0.0);
+
+  CHECK_THAT(problems_with("{x: 5.4 m, z: 1.1 m}", "{x: free, z: free}"),
+             Contains("the finish is free both ways"));
+  CHECK_THAT(problems_with("{x: 5.4 m, z: 1.1 m}", "{x: 5.4 m, z: {lowest: 2 m, highest: 1 m}}"),
+             Contains("z: lowest 2 m is above highest 1 m"));
+  CHECK_THAT(problems_with("{x: 5.4 m, z: 1.1 m}", "{x: 5.4 m, z: {lowest: 5 m}}"),
+             StartsWith("infeasible: d.yaml:7:19: friction_angle: 17 deg is steeper than the mean slope"));
+  CHECK_THAT(problems_with("{x: 5.4 m, z: 1.1 m}", "{x: 0 m, z: free}"),
+             Contains("the finish lies on the vertical through the start"));
+}
+
+TEST_CASE("limits that contradict each other or the design are refused where they stand") {
+  CHECK_THAT(problems_of_limits("exit_slope_angle: 40 deg, slope_angle: {highest: 35 deg}"),
+             StartsWith("d.yaml:10:28: exit_slope_angle: 40 deg contradicts slope_angle: at most 35 deg"));
+  CHECK_THAT(problems_of_limits("slope_angle: {lowest: 40 deg, highest: 35 deg}"),
+             Contains("slope_angle: lowest 40 deg is above highest 35 deg"));
+  CHECK_THAT(
+      problems_of_limits("entry_slope_angle: 10 deg, exit_slope_angle: 20 deg, concave: true"),
+      Contains(
+          "concave: the track would have to be steeper at the exit (20 deg) than at the entry (10 deg)"));
+  CHECK_THAT(problems_of_limits("highest_normal_load: 5 m/s^2, lowest_normal_load: 1 g"),
+             Contains("lowest_normal_load: 9.807 m/s^2 is above highest_normal_load: 5 m/s^2"));
+  CHECK_THAT(problems_of_limits("arc_length: {highest: 7 m}"),
+             Contains("arc_length: at most 7 m is shorter than the straight line, 7.428 m"));
+  CHECK_THAT(problems_of_limits("arc_length: {highest: 8 m}, lead_in: 5 m, lead_out: 4 m"),
+             Contains("leaves no room for lead_in and lead_out, 9 m"));
+  CHECK_THAT(
+      problems_of_limits("speed: {lowest: 1 m/s}"),
+      Contains("speed.lowest: 1 m/s is above the entry speed, 0 m/s") && Contains("Try: lowest_from: 0.5 m"));
+  CHECK_THAT(problems_with("17 deg\ncenterline: {kind: fastest}",
+                           "17 deg\nlimits: {concave: true}\ncenterline: {kind: straight}"),
+             StartsWith("d.yaml:8:1: limits shape no centerline of kind straight"));
+}
+
+TEST_CASE("single limits are refused out of their bounds, with a wrong unit, or ambiguous") {
+  CHECK_THAT(problems_of_limits("smallest_radius: 0 m"),
+             Contains("smallest_valley_radius: 0 m is not positive"));
+  CHECK_THAT(
+      problems_of_limits("slope_angle: 35 deg"),
+      StartsWith("d.yaml:10:23: slope_angle: 35 deg does not say whether it is the lowest or the highest") &&
+          Contains("Try: slope_angle: {highest: 35 deg}"));
+  CHECK_THAT(problems_of_limits("highest_normal_load: 3 m"),
+             Contains("3 m is a length, not an acceleration"));
+  CHECK_THAT(problems_of_limits("concave: yes"), Contains("concave: yes is neither true nor false"));
+  CHECK_THAT(problems_of_limits("smalest_radius: 3 m"),
+             Contains("unknown key smalest_radius") && Contains("Try: smallest_radius"));
+  CHECK_THAT(problems_of_limits("objective: blend"), Contains("objective: blend has no weight"));
+  CHECK_THAT(problems_of_limits("objective: {kind: travel_time, worst_case: true}"),
+             Contains("worst_case: the friction has no highest value"));
+  CHECK_THAT(problems_of_limits("lead_in: -1 m"), Contains("lead_in: -1 m is out of range"));
+  CHECK_THAT(problems_of_limits("exit_speed: -1 m/s"), Contains("exit_speed.lowest: -1 m/s is out of range"));
+}
+
+TEST_CASE("a start, finish or waypoint that breaks a clearance is told") {
+  CHECK_THAT(problems_of_limits("stay_above: [{line: [[0 m, 1 m], [6 m, 1 m]], clearance: 200 mm}]"),
+             Contains("the finish lies 100 mm on the wrong side of stay_above[0]"));
+  CHECK_THAT(problems_of_limits("half_planes: [{line: [[0 m, 6 m], [1 m, 6 m]], stay: below}]"),
+             Contains("the start lies 200 mm on the wrong side of half_planes[0]"));
+  CHECK_THAT(problems_of_limits(
+                 "keep_outs: [{outline: [[1 m, 2 m], [3 m, 2 m], [3 m, 4 m]]}], waypoints: [[2.5 m, 3 m]]"),
+             Contains("waypoints[0] lies in keep_outs[0]"));
+}
+
+TEST_CASE("shapes of clearances are sound") {
+  CHECK_THAT(problems_of_limits("keep_outs: [{outline: [[1 m, 2 m], [3 m, 2 m]]}]"),
+             Contains("outline: 2 corners"));
+  CHECK_THAT(problems_of_limits("stay_above: [{line: [[1 m, 2 m], [1 m, 3 m]]}]"),
+             Contains("line[1]: x does not grow from 1 m to 1 m"));
+  CHECK_THAT(problems_of_limits("stay_below: [{line: [[1 m, 2 m]]}]"), Contains("line: 1 points"));
+  CHECK_THAT(problems_of_limits("half_planes: [{line: [[1 m, 2 m], [3 m, 2 m]], stay: left}]"),
+             Contains("stay: left is no side of this line"));
+  CHECK_THAT(problems_of_limits("half_planes: [{line: [[1 m, 2 m], [3 m, 2 m], [4 m, 2 m]], stay: above}]"),
+             Contains("line: 3 points instead of 2"));
+  CHECK_THAT(
+      problems_of_limits("keep_outs: [{outline: [[1 m, 2 m], [3 m, 2 m], [2 m, 3 m]], clearance: -1 m}]"),
+      Contains("clearance: -1 m is out of range"));
+}
