@@ -1,0 +1,186 @@
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+
+#include "coulomb_reference.hpp"
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+using namespace glissade;
+using reference::CurveCase;
+using reference::CurvePoint;
+
+namespace {
+
+double relative_error(double value, double expected) {
+  return std::fabs(value - expected) / std::fabs(expected);
+}
+
+std::string describe(const CurveCase& curve) {
+  return "mu " + std::to_string(curve.friction.coefficient()) + ", run " +
+         std::to_string(curve.endpoints.run) + ", drop " + std::to_string(curve.endpoints.drop);
+}
+
+/// Moves the body from the slope angle of `state` on to one that is `change` larger, by first derivatives.
+CoulombState turned_by(CoulombState state, double change, Friction friction, double gravity) {
+  const double path = -change / state.curvature;
+  const double sine = std::sin(state.slope_angle);
+  const double cosine = std::cos(state.slope_angle);
+  const double load = gravity * cosine + state.curvature * state.speed * state.speed;
+  state.x += path * cosine;
+  state.drop += path * sine;
+  state.time += path / state.speed;
+  state.speed += path * (gravity * sine - friction.coefficient() * load) / state.speed;
+  return state;
+}
+
+/// @return the message of the Kind that `call` throws, empty if it throws none
+template <class Kind, class Call>
+std::string message_of(const Call& call) {
+  try {
+    call();
+  } catch (const Kind& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("fastest track: time, speed and angles of every reference case") {
+  const std::vector<CurveCase> cases = reference::curve_cases();
+  REQUIRE(cases.size() == 120);
+  for (const CurveCase& curve : cases) {
+    INFO(describe(curve));
+    const double tolerance = coulomb_accuracy(reference::reach_margin(curve.endpoints, curve.friction));
+    const CoulombSolution found =
+        solve_coulomb_brachistochrone(curve.endpoints, curve.friction, curve.gravity);
+    CHECK(relative_error(found.travel_time, curve.travel_time) <= tolerance);
+    CHECK(relative_error(found.exit_speed, curve.exit_speed) <= tolerance);
+    CHECK(relative_error(found.exit_slope_angle, curve.exit_slope_angle) <= tolerance);
+    CHECK(relative_error(found.straight_time, curve.straight_time) <= tolerance);
+  }
+}
+
+TEST_CASE("fastest track: every reference point between start and finish") {
+  for (const CurveCase& curve : reference::curve_cases()) {
+    const double tolerance = coulomb_accuracy(reference::reach_margin(curve.endpoints, curve.friction));
+    const CoulombSolution found =
+        solve_coulomb_brachistochrone(curve.endpoints, curve.friction, curve.gravity);
+    for (const CurvePoint& point : curve.points) {
+      INFO(describe(curve) << ", slope angle " << point.slope_angle);
+      const CoulombState state = turned_by(found.at_slope_angle(point.slope_angle), point.slope_remainder,
+                                           curve.friction, curve.gravity);
+      CHECK(relative_error(state.x, point.x) <= tolerance);
+      CHECK(relative_error(state.drop, point.drop) <= tolerance);
+      CHECK(relative_error(state.time, point.time) <= tolerance);
+      CHECK(relative_error(state.speed, point.speed) <= tolerance);
+    }
+  }
+}
+
+TEST_CASE("fastest track: the curve ends at the finish, and its states agree with the solution") {
+  for (const CurveCase& curve : reference::curve_cases()) {
+    INFO(describe(curve));
+    const CoulombBrachistochrone track(curve.endpoints, curve.friction, curve.gravity);
+    const double tolerance = CoulombBrachistochrone::kPositionAccuracy * track.length();
+    const CenterlinePoint finish = track.at(track.length());
+    CHECK(std::fabs(finish.x - curve.endpoints.run) <= tolerance);
+    CHECK(std::fabs(finish.drop - curve.endpoints.drop) <= tolerance);
+    CHECK(relative_error(track.solution().at_slope_angle(curve.exit_slope_angle).time, curve.travel_time) <=
+          coulomb_accuracy(reference::reach_margin(curve.endpoints, curve.friction)));
+  }
+}
+
+TEST_CASE("fastest track: a run of 0 is free fall along a vertical line") {
+  const CoulombBrachistochrone track({0.0, 5.0}, Friction::from_coefficient(0.3), 10.0);
+  CHECK(track.solution().travel_time == 1.0);
+  CHECK(track.solution().exit_speed == 10.0);
+  CHECK(track.solution().straight_time == 1.0);
+  CHECK(track.solution().exit_slope_angle == std::numbers::pi / 2.0);
+  CHECK(track.length() == 5.0);
+  CHECK_FALSE(track.unbounded_curvature_at_start());
+  const CenterlinePoint middle = track.at(2.5);
+  CHECK(middle.x == 0.0);
+  CHECK(middle.drop == 2.5);
+  CHECK(middle.slope_angle == std::numbers::pi / 2.0);
+  CHECK(middle.curvature == 0.0);
+  CHECK(message_of<InputError>([&] { (void)track.solution().at_slope_angle(1.0); }) ==
+        "slope angle: a vertical track has the same slope everywhere\n"
+        "      Run 0 m leaves nothing but free fall.\n"
+        "      Try: arc length instead of slope angle");
+}
+
+TEST_CASE("fastest track: a finish on the left is the mirror image of one on the right") {
+  const Friction friction = Friction::from_coefficient(0.2);
+  const CoulombBrachistochrone left({-10.0, 5.0}, friction);
+  const CoulombBrachistochrone right({10.0, 5.0}, friction);
+  CHECK(left.solution().travel_time == right.solution().travel_time);
+  CHECK(left.solution().exit_slope_angle == right.solution().exit_slope_angle);
+  CHECK(left.length() == right.length());
+  CHECK(left.at(6.0).x == right.at(6.0).x);
+}
+
+TEST_CASE("fastest track: a finish out of reach is named with what would bring it into reach") {
+  const auto solve = [](Endpoints endpoints, Friction friction) {
+    return [=] { (void)solve_coulomb_brachistochrone(endpoints, friction); };
+  };
+  CHECK(
+      message_of<InfeasibleError>(solve({2.5, 2.0}, Friction::from_angle(Angle::from_degrees(41.0)))) ==
+      "friction_angle: 41 deg is steeper than the mean slope from start to finish, 38.66 deg (drop 2 m over "
+      "2.5 m)\n"
+      "      From rest, no track between these points reaches the finish, whatever its shape "
+      "(docs/theory.md, reach theorem).\n"
+      "      Try: a friction_angle below 38.66 deg, a drop above 2.173 m, or a centerline kind that takes an "
+      "entry_speed.");
+  CHECK_THAT(message_of<InfeasibleError>(solve({-4.0, 1.0}, Friction::from_coefficient(0.25))),
+             Catch::Matchers::Contains("friction_angle: 14.04 deg is as steep as the mean slope"));
+  CHECK_THAT(message_of<InfeasibleError>(solve({1.0, 0.5}, Friction::from_coefficient(0.50000001))),
+             Catch::Matchers::Contains("26.565052 deg is steeper than the mean slope from start to finish, "
+                                       "26.565051 deg"));
+}
+
+TEST_CASE("fastest track: every faulty argument is named with its value") {
+  const Friction friction = Friction::from_coefficient(0.2);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto solve = [&](Endpoints endpoints, double gravity) {
+    return message_of<InputError>([&] { (void)solve_coulomb_brachistochrone(endpoints, friction, gravity); });
+  };
+  CHECK(solve({nan, infinity}, 9.81) ==
+        "run: nan m is not a finite length\n"
+        "drop: inf m is not a finite length above 0\n"
+        "      From rest, a body reaches only what lies below its start.\n"
+        "      Try: a finish below the start; the drop counts positive downwards");
+  CHECK_THAT(solve({1.0, 0.0}, 9.81), Catch::Matchers::StartsWith("drop: 0 m is not"));
+  CHECK_THAT(solve({1.0, -2.0}, 9.81), Catch::Matchers::StartsWith("drop: -2 m is not"));
+  CHECK_THAT(solve({1.0, 1.0}, 0.0), Catch::Matchers::StartsWith("gravity: 0 m/s^2 is not"));
+  CHECK_THAT(solve({1.0, 1.0}, nan), Catch::Matchers::StartsWith("gravity: nan m/s^2 is not"));
+  const CoulombBrachistochrone track({10.0, 5.0}, friction);
+  const auto at = [&](double s) { return message_of<InputError>([&] { (void)track.at(s); }); };
+  CHECK_THAT(at(-1.0), Catch::Matchers::Contains("-1 m"));
+  CHECK_THAT(at(13.0), Catch::Matchers::Contains("13 m"));
+  CHECK_THAT(at(nan), Catch::Matchers::Contains("nan m"));
+  CHECK_THAT(message_of<InputError>([&] { (void)track.solution().at_slope_angle(-1.0); }),
+             Catch::Matchers::StartsWith("slope angle: -1 rad does not occur on this track"));
+}
+
+TEST_CASE("fastest track: the start is vertical, with unbounded curvature") {
+  const CoulombBrachistochrone track({10.0, 5.0}, Friction::from_coefficient(0.2));
+  CHECK(track.unbounded_curvature_at_start());
+  const CenterlinePoint start = track.at(0.0);
+  CHECK(start.x == 0.0);
+  CHECK(start.drop == 0.0);
+  CHECK(start.slope_angle == std::numbers::pi / 2.0);
+  CHECK(start.curvature == std::numeric_limits<double>::infinity());
+  for (const double s : {0.0, 1e-300, 1e-12, 0.5, track.length()}) {
+    INFO("s " << s);
+    CHECK(track.slope_angle(s) == track.at(s).slope_angle);
+    CHECK(track.direction(s).slope_angle == track.at(s).slope_angle);
+    CHECK(track.direction(s).curvature == track.at(s).curvature);
+  }
+}
