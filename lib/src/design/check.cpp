@@ -453,14 +453,14 @@ void check_export(const Design& design, Collected& findings) {
 }  // namespace
 
 Vec2 end_of_segments(const CenterlineDesign& centerline) {
-  // Gauss-Legendre, 4 points, on pieces that turn by at most 0.02 rad: exact to rounding.
+  // Gauss-Legendre, 4 points, on pieces that turn by at most 0.1 rad: exact to rounding.
   constexpr std::array<std::pair<double, double>, 4> kRule = {
       {{-0.86113631159405257522, 0.34785484513745385737},
        {-0.33998104358485626480, 0.65214515486254614263},
        {0.33998104358485626480, 0.65214515486254614263},
        {0.86113631159405257522, 0.34785484513745385737}}};
-  constexpr double kLargestTurn = 0.02;
-  constexpr double kMostPieces = 10'000.0;
+  constexpr double kLargestTurn = 0.1;
+  constexpr double kMostPieces = 1000.0;
   Vec2 end;
   double slope = centerline.entry_slope_angle.radians();
   for (const SegmentDesign& segment : centerline.segments) {

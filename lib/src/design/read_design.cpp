@@ -400,11 +400,13 @@ ExportDesign read_export(MapReader& top, Findings& findings) {
   return exports;
 }
 
-/// The finish of `segments` follows from them where the file leaves it out.
-void complete_finish(Design& design) {
-  if (design.track.finish_given || design.centerline.kind != CenterlineKind::segments) return;
+/// The finish of `segments` follows from them where the file leaves it out; only sound ones have one.
+void complete_finish(Design& design, Findings& findings) {
+  const bool follows = design.centerline.kind == CenterlineKind::segments && !design.track.finish_given;
+  if (!follows || !findings.empty()) return;
   const Vec2 end = end_of_segments(design.centerline);
   design.track.finish = design.track.start + Vec3{end.x, 0.0, end.y};
+  for (Finding& finding : check_values(design)) findings.add_unless_spoiled(std::move(finding));
 }
 
 Design read_tree(const Node& root, const std::filesystem::path& file, Findings& findings) {
@@ -433,7 +435,6 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   design.mesh = read_mesh(top, findings);
   design.exports = read_export(top, findings);
   top.refuse_unknown_keys();
-  complete_finish(design);
   design.locations = findings.locations();
   return design;
 }
@@ -487,6 +488,7 @@ Design parse_design(std::string_view text, const std::filesystem::path& file,
   apply_overrides(root, overrides, findings);
   Design design = read_tree(root, file, findings);
   for (Finding& finding : check_values(design)) findings.add_unless_spoiled(std::move(finding));
+  complete_finish(design, findings);
   const bool well_formed = findings.empty();
   if (auto unreachable = find_unreachable(design)) findings.add_unless_spoiled(*std::move(unreachable));
   if (findings.empty()) return design;
