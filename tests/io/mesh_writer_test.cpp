@@ -3,6 +3,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
+#include "support/file_size_limit.hpp"
 #include "support/shapes.hpp"
 #include "support/temp_dir.hpp"
 
@@ -213,6 +214,26 @@ TEST_CASE("a mesh that no file can hold is refused before anything is written") 
   CHECK_THAT(refused({{{0, nan, 0}}, {}}, MeshFormat::stl_ascii), Contains("must be a finite number"));
   CHECK_THAT(refused({{{1e36, 0, 0}}, {}}, MeshFormat::stl_binary), Contains("1e+39 mm does not fit"));
   CHECK(dir.names().empty());
+}
+
+TEST_CASE("a disk that fills up in the middle of a mesh leaves the old file and no other") {
+  const TriangleMesh mesh = torus(0.3, 0.1, 400, 200);
+  const TempDir dir;
+  put_bytes(dir / "mesh", "old");
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::off}) {
+    std::string message;
+    {
+      const FileSizeLimit limit(3'000'000);
+      try {
+        write_mesh(dir / "mesh", format, mesh);
+      } catch (const FileError& error) {
+        message = error.what();
+      }
+    }
+    CHECK_THAT(message, Contains("cannot write: File too large"));
+    CHECK(bytes_of(dir / "mesh") == "old");
+    CHECK(dir.names() == std::vector<std::string>{"mesh"});
+  }
 }
 
 TEST_CASE("a facet without area has no normal") {

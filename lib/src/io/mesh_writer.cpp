@@ -2,6 +2,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/mesh_file.hpp"
 
+#include "io/block_writer.hpp"
 #include "io/coordinates.hpp"
 #include "io/printable_name.hpp"
 #include "io/stl_layout.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -37,16 +39,39 @@ std::string titled(std::string_view title, const MeshFileOptions& options, std::
   return name.empty() ? text : prefix + name;
 }
 
-void append_float(char*& place, float value) {
-  auto bits = std::bit_cast<std::uint32_t>(value);
-  for (int i = 0; i < 4; ++i) {
-    *place++ = static_cast<char>(bits & 0xFFU);
-    bits >>= 8U;
-  }
+/// The numbers of one facet as binary STL orders them: normal, then corners.
+using FacetNumbers = std::array<float, 12>;
+
+FacetNumbers facet_numbers(const FloatPosition& a, const FloatPosition& b, const FloatPosition& c) {
+  const Vec3 normal = normal_of(to_vec(a), to_vec(b), to_vec(c));
+  // Adding +0 turns -0 into +0.
+  return {static_cast<float>(normal.x) + 0.0F,
+          static_cast<float>(normal.y) + 0.0F,
+          static_cast<float>(normal.z) + 0.0F,
+          a[0],
+          a[1],
+          a[2],
+          b[0],
+          b[1],
+          b[2],
+          c[0],
+          c[1],
+          c[2]};
 }
 
-void append_position(char*& place, const FloatPosition& position) {
-  for (const float coordinate : position) append_float(place, coordinate);
+/// Puts numbers down with their lowest byte first.
+void put_numbers(char* place, const FacetNumbers& numbers) {
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(place, numbers.data(), sizeof numbers);
+  } else {
+    for (const float number : numbers) {
+      auto bits = std::bit_cast<std::uint32_t>(number);
+      for (std::size_t i = 0; i < sizeof bits; ++i) {
+        *place++ = static_cast<char>(bits & 0xFFU);
+        bits >>= 8U;
+      }
+    }
+  }
 }
 
 std::array<char, stl::kPrefixBytes> stl_prefix(const TriangleMesh& mesh, const MeshFileOptions& options) {
@@ -68,31 +93,26 @@ void write_stl_binary(AtomicFile& file, const TriangleMesh& mesh, const MeshFile
     throw InputError({"mesh", std::to_string(mesh.triangles.size()) + " triangles do not fit binary STL",
                       "The format counts to 4294967295.", "a coarser tolerance"});
   }
-  constexpr std::size_t kFacetsPerBlock = 8192;
+  constexpr std::size_t kFacetsPerBlock = BlockWriter::kBlockBytes / stl::kFacetBytes;
   const std::vector<FloatPosition> positions = single_precision(mesh, options.unit);
   const auto prefix = stl_prefix(mesh, options);
   file.write(prefix.data(), prefix.size());
 
-  std::vector<char> block(kFacetsPerBlock * stl::kFacetBytes);
+  BlockWriter blocks(file);
+  std::size_t used = 0;
   for (std::size_t first = 0; first < mesh.triangles.size(); first += kFacetsPerBlock) {
+    if (first > 0) blocks.next(used);
     const std::size_t last = std::min(first + kFacetsPerBlock, mesh.triangles.size());
-    char* place = block.data();
+    char* place = blocks.block();
     for (std::size_t i = first; i < last; ++i) {
-      const auto& [ia, ib, ic] = mesh.triangles[i];
-      const FloatPosition& a = positions[ia];
-      const FloatPosition& b = positions[ib];
-      const FloatPosition& c = positions[ic];
-      const Vec3 normal = normal_of(to_vec(a), to_vec(b), to_vec(c));
-      append_position(place, {static_cast<float>(normal.x) + 0.0F, static_cast<float>(normal.y) + 0.0F,
-                              static_cast<float>(normal.z) + 0.0F});
-      append_position(place, a);
-      append_position(place, b);
-      append_position(place, c);
-      *place++ = 0;
-      *place++ = 0;
+      const auto& [a, b, c] = mesh.triangles[i];
+      // The last two bytes of each facet stay 0 from the start.
+      put_numbers(place, facet_numbers(positions[a], positions[b], positions[c]));
+      place += stl::kFacetBytes;
     }
-    file.write(block.data(), static_cast<std::size_t>(place - block.data()));
+    used = (last - first) * stl::kFacetBytes;
   }
+  blocks.finish(used);
 }
 
 std::vector<Vec3> in_unit(const std::vector<Vec3>& vertices, LengthUnit unit) {
@@ -108,34 +128,34 @@ void write_stl_ascii(AtomicFile& file, const TriangleMesh& mesh, const MeshFileO
   const std::vector<Vec3> vertices = in_unit(mesh.vertices, options.unit);
   const std::string title = titled("Glissade; ", options, kLongestTitle);
   TextWriter text(file);
-  text << "solid " << title << '\n';
+  text.put("solid ", title, '\n');
   for (const auto& triangle : mesh.triangles) {
     const Vec3 a = vertices[triangle[0]];
     const Vec3 b = vertices[triangle[1]];
     const Vec3 c = vertices[triangle[2]];
     const Vec3 normal = normal_of(a, b, c);
-    text << "facet normal " << static_cast<float>(normal.x) << ' ' << static_cast<float>(normal.y) << ' '
-         << static_cast<float>(normal.z) << "\nouter loop\n";
+    text.put("facet normal ", static_cast<float>(normal.x), ' ', static_cast<float>(normal.y), ' ',
+             static_cast<float>(normal.z), "\nouter loop\n");
     for (const Vec3 corner : {a, b, c}) {
-      text << "vertex " << corner.x << ' ' << corner.y << ' ' << corner.z << '\n';
+      text.put("vertex ", corner.x, ' ', corner.y, ' ', corner.z, '\n');
     }
-    text << "endloop\nendfacet\n";
+    text.put("endloop\nendfacet\n");
   }
-  text << "endsolid " << title << '\n';
-  text.flush();
+  text.put("endsolid ", title, '\n');
+  text.finish();
 }
 
 void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshFileOptions& options) {
   constexpr std::size_t kLongestTitle = 240;
   const double per_metre = units_per_metre(options.unit);
   TextWriter text(file);
-  text << "OFF\n# " << titled("Glissade; ", options, kLongestTitle) << '\n';
-  text << mesh.vertices.size() << ' ' << mesh.triangles.size() << " 0\n";
+  text.put("OFF\n# ", titled("Glissade; ", options, kLongestTitle), '\n');
+  text.put(mesh.vertices.size(), ' ', mesh.triangles.size(), " 0\n");
   for (const Vec3& p : mesh.vertices) {
-    text << p.x * per_metre << ' ' << p.y * per_metre << ' ' << p.z * per_metre << '\n';
+    text.put(p.x * per_metre, ' ', p.y * per_metre, ' ', p.z * per_metre, '\n');
   }
-  for (const auto& [a, b, c] : mesh.triangles) text << "3 " << a << ' ' << b << ' ' << c << '\n';
-  text.flush();
+  for (const auto& [a, b, c] : mesh.triangles) text.put("3 ", a, ' ', b, ' ', c, '\n');
+  text.finish();
 }
 
 }  // namespace

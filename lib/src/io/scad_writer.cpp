@@ -73,23 +73,23 @@ void require_centerline(const std::vector<Vec3>& centerline) {
 }
 
 void write_points(TextWriter& text, const std::vector<Vec3>& points, double per_metre) {
-  text << '[';
+  text.put('[');
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = per_metre * points[i];
-    text << (i == 0 ? "\n" : ",\n") << '[' << p.x << ',' << p.y << ',' << p.z << ']';
+    text.put((i == 0 ? "\n" : ",\n"), '[', p.x, ',', p.y, ',', p.z, ']');
   }
-  text << "\n]";
+  text.put("\n]");
 }
 
 /// OpenSCAD winds facets clockwise as seen from outside, Glissade the other way.
 void write_faces(TextWriter& text, const TriangleMesh& mesh) {
-  text << '[';
+  text.put('[');
   bool is_first = true;
   for (const auto& [a, b, c] : mesh.triangles) {
-    text << (is_first ? "\n" : ",\n") << '[' << a << ',' << c << ',' << b << ']';
+    text.put((is_first ? "\n" : ",\n"), '[', a, ',', c, ',', b, ']');
     is_first = false;
   }
-  text << "\n]";
+  text.put("\n]");
 }
 
 }  // namespace
@@ -101,18 +101,17 @@ void write_scad(const std::filesystem::path& file, const TriangleMesh& mesh,
   const double per_metre = units_per_metre(options.unit);
   AtomicFile output(file);
   TextWriter text(output);
-  text << "// Glissade; unit: " << unit_symbol(options.unit) << "; " << printable_name(options.name) << '\n';
-  if (!options.section.empty()) text << "// Cross-section: " << printable_name(options.section) << '\n';
-  text << kUsage << "module glissade_solid() {\n  polyhedron(convexity = 10, points = ";
+  text.put("// Glissade; unit: ", unit_symbol(options.unit), "; ", printable_name(options.name), '\n');
+  if (!options.section.empty()) text.put("// Cross-section: ", printable_name(options.section), '\n');
+  text.put(kUsage, "module glissade_solid() {\n  polyhedron(convexity = 10, points = ");
   write_points(text, mesh.vertices, per_metre);
-  text << ", faces = ";
+  text.put(", faces = ");
   write_faces(text, mesh);
-  text << ");\n}\n\nfunction glissade_centerline_points() = ";
+  text.put(");\n}\n\nfunction glissade_centerline_points() = ");
   write_points(text, centerline, per_metre);
   const Vec3 along = direction_of(centerline);
-  text << ";\n\nfunction glissade_direction() = [" << along.x << ',' << along.y << ",0];\n\n"
-       << kCenterlineModule;
-  text.flush();
+  text.put(";\n\nfunction glissade_direction() = [", along.x, ',', along.y, ",0];\n\n", kCenterlineModule);
+  text.finish();
   output.commit();
 }
 

@@ -48,8 +48,8 @@ void write_values(TextWriter& text, const std::array<double, Count>& values,
       throw InputError({"station " + std::to_string(station), std::string(columns[i]) + " is not a number",
                         "Every value of a station must be a number.", ""});
     }
-    if (i > 0) text << ',';
-    text << values[i];
+    if (i > 0) text.put(',');
+    text.put(values[i]);
   }
 }
 
@@ -58,21 +58,21 @@ void write_values(TextWriter& text, const std::array<double, Count>& values,
 void write_stations_csv(const std::filesystem::path& file, const std::vector<StationRow>& stations) {
   AtomicFile output(file);
   TextWriter text(output);
-  for (const std::string_view column : kTrackColumns) text << column << ',';
+  for (const std::string_view column : kTrackColumns) text.put(column, ',');
   for (const std::string_view column : kMotionColumns) {
-    text << column << (column == kMotionColumns.back() ? '\n' : ',');
+    text.put(column, (column == kMotionColumns.back() ? '\n' : ','));
   }
   for (std::size_t i = 0; i < stations.size(); ++i) {
     write_values(text, track_values(stations[i]), kTrackColumns, i);
-    text << ',';
+    text.put(',');
     if (stations[i].motion) {
       write_values(text, motion_values(*stations[i].motion), kMotionColumns, i);
     } else {
-      text << std::string(kMotionColumns.size() - 1, ',');
+      text.put(std::string(kMotionColumns.size() - 1, ','));
     }
-    text << '\n';
+    text.put('\n');
   }
-  text.flush();
+  text.finish();
   output.commit();
 }
 

@@ -1,68 +1,61 @@
 #pragma once
 
-#include "glissade/io/atomic_file.hpp"
+#include "io/block_writer.hpp"
 
 #include <charconv>
 #include <concepts>
 #include <cstddef>
 #include <cstring>
 #include <string_view>
-#include <vector>
 
 namespace glissade {
 
-/// Formats text into a block that goes to the file when full. Numbers are the shortest decimals that read
-/// back as the same value, independent of locale.
+/// Formats text into blocks. Numbers are the shortest decimals that read back as the same value, independent
+/// of locale; -0 is written as 0.
 class TextWriter {
  public:
-  explicit TextWriter(AtomicFile& file) : file_(file), block_(kBlockSize) {}
+  explicit TextWriter(AtomicFile& file) : blocks_(file) {}
 
-  TextWriter& operator<<(std::string_view text) {
-    if (text.size() > kRoom) {
-      flush();
-      file_.write(text);
-      return *this;
-    }
-    make_room();
-    std::memcpy(block_.data() + used_, text.data(), text.size());
-    used_ += text.size();
-    return *this;
+  /// Appends texts, characters and numbers, one after the other.
+  template <typename... Parts>
+  void put(const Parts&... parts) {
+    if (used_ + (room_for(parts) + ...) > BlockWriter::kBlockBytes) next_block();
+    (append(parts), ...);
   }
-
-  TextWriter& operator<<(char character) {
-    make_room();
-    block_[used_++] = character;
-    return *this;
-  }
-
-  /// @param value  finite; -0 is written as 0
-  TextWriter& operator<<(std::floating_point auto value) { return append(value + decltype(value){0}); }
-  TextWriter& operator<<(std::unsigned_integral auto value) { return append(value); }
 
   /// Hands everything to the file; to be called once at the end.
-  void flush() {
-    file_.write(block_.data(), used_);
-    used_ = 0;
-  }
+  void finish() { blocks_.finish(used_); }
 
  private:
-  static constexpr std::size_t kBlockSize = std::size_t{1} << 18U;
-  static constexpr std::size_t kRoom = 64;  // no number needs more than 24 characters
+  static constexpr std::size_t kLongestNumber = 32;
 
-  void make_room() {
-    if (used_ + kRoom > kBlockSize) flush();
+  template <typename Number>
+  requires std::floating_point<Number> || std::unsigned_integral<Number>
+  static constexpr std::size_t room_for(Number /*value*/) { return kLongestNumber; }
+  static constexpr std::size_t room_for(char /*character*/) { return 1; }
+  /// Texts come from literals and shortened names: far smaller than a block.
+  static std::size_t room_for(std::string_view text) { return text.size(); }
+
+  void append(std::floating_point auto value) { append_number(value + decltype(value){0}); }
+  void append(std::unsigned_integral auto value) { append_number(value); }
+  void append(char character) { blocks_.block()[used_++] = character; }
+  void append(std::string_view text) {
+    std::memcpy(blocks_.block() + used_, text.data(), text.size());
+    used_ += text.size();
   }
 
   template <typename Number>
-  TextWriter& append(Number value) {
-    make_room();
-    char* const start = block_.data() + used_;
-    used_ += static_cast<std::size_t>(std::to_chars(start, start + kRoom, value).ptr - start);
-    return *this;
+  void append_number(Number value) {
+    char* const start = blocks_.block() + used_;
+    used_ += static_cast<std::size_t>(std::to_chars(start, start + kLongestNumber, value).ptr - start);
   }
 
-  AtomicFile& file_;
-  std::vector<char> block_;
+  void next_block() {
+    blocks_.next(used_);
+    used_ = 0;
+  }
+
+  BlockWriter blocks_;
   std::size_t used_ = 0;
 };
 
