@@ -66,8 +66,8 @@ struct Limits {
   bool concave = false;                          ///< kappa >= 0: no crest at all
 
   std::optional<double> highest_normal_load;  ///< N = g cos(zeta) + kappa u^2 <= value [m/s^2]
-  /// N >= value [m/s^2]. 0 keeps the body in contact. Without a value the body is held from both sides (a
-  /// pipe, a rail).
+  /// N >= value [m/s^2]; 0 keeps the body in contact. It cannot be lifted altogether: the friction of a body
+  /// held from both sides is not modelled, and a ride ends where the body leaves the track.
   std::optional<double> lowest_normal_load = 0.0;
   std::optional<double> highest_curvature_load;  ///< kappa u^2 <= value [m/s^2]; > 0
 

@@ -40,7 +40,7 @@ struct Objective {
 
 /// What is asked: a body, two ends, and the limits between them.
 struct Problem {
-  Endpoints endpoints;  ///< run != 0; a run < 0 is a track to the left, limits mirrored too
+  Endpoints endpoints;  ///< run != 0; runs of limits count towards the finish, whichever side it lies on
   Finish finish;
   Body body;                              ///< body.friction is the nominal friction
   std::optional<Friction> low_friction;   ///< <= body.friction; limits hold there too
@@ -52,7 +52,7 @@ struct Problem {
 
 struct OptimizeOptions {
   int pieces = 32;                ///< clothoids at the finest level; 8 <= pieces <= 200
-  double tolerance = 1e-7;        ///< of the first-order residual, relative; 1e-12 <= tolerance <= 1e-3
+  double tolerance = 1e-6;        ///< of the first-order residual; 1e-12 <= tolerance <= 1e-3
   double limit_tolerance = 1e-7;  ///< greatest violation of a limit, of its scale; 1e-10 <= value <= 1e-4
   double time_budget = 60.0;      ///< [s]; > 0; ends with the best track so far
 };
@@ -67,16 +67,22 @@ enum class OptimizeStatus {
 /// @return "optimal", "feasible, not converged", "infeasible", "no track found"
 [[nodiscard]] std::string_view to_text(OptimizeStatus status);
 
+/// A piece of the track, by arc length.
+struct Stretch {
+  double from = 0.0;  ///< [m]
+  double to = 0.0;    ///< [m]; >= from
+};
+
 /// A limit that holds the optimum back, where, and what it costs.
 struct ActiveLimit {
-  std::string limit;   ///< key as in the design file: "slope_angle.highest", "keep_outs[0]", ...
-  double value = 0.0;  ///< the bound, SI
-  double from = 0.0;   ///< stretch of the track on which it is active, arc length [m]
-  double to = 0.0;     ///< >= from
-  /// Objective gained per unit by which the limit is relaxed, in seconds (of exit_speed: m/s) per `unit`;
-  /// >= 0; the first-order multiplier, summed over all stretches of the same limit.
+  std::string limit;           ///< key as in the design file: "slope_angle.highest", "keep_outs[0]", ...
+  double value = 0.0;          ///< the bound [unit]
+  std::string unit;            ///< "rad", "m", "m/s^2", "m/s", "1/m", "1/m^2"
+  std::vector<Stretch> where;  ///< where the track lies at the bound, in order
+  /// Seconds of the objective won for each unit by which the bound is relaxed (of an objective exit_speed:
+  /// m/s);
+  /// >= 0. The first-order multiplier; of a radius it belongs to a smaller radius.
   double price = 0.0;
-  std::string unit;  ///< "rad", "m", "m/s^2", "m/s", "1/m^2"; of friction-range limits the same
 };
 
 /// How well the referee finds one limit kept.
@@ -102,6 +108,7 @@ struct Relaxation {
 struct Conflict {
   std::vector<std::string> limits;      ///< those that cannot be met together
   std::vector<Relaxation> relaxations;  ///< each of them alone would do; empty if no single change helps
+  std::string text;                     ///< all of it as one sentence, angles in degrees
 };
 
 struct OptimizeReport {
@@ -112,7 +119,8 @@ struct OptimizeReport {
   double exit_speed = 0.0;   ///< by the referee, at nominal friction [m/s]
   std::optional<double>
       unlimited_travel_time;  ///< exact optimum without limits, where the theory applies [s]
-  /// Norm of the gradient of the Lagrangian over that of the objective; dimensionless.
+  /// Norm of the Lagrangian's gradient over that of the objective's, both in the metric of the Lagrangian's
+  /// Hessian; dimensionless. Half its square is about the relative time that could still be won nearby.
   double first_order_residual = 0.0;
   std::vector<LimitCheck> checks;   ///< one for each limit, sampled by the referee ten times finer
   std::vector<ActiveLimit> active;  ///< by price, dearest first

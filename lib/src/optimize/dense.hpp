@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace glissade::fastest {
+
+using Vector = std::vector<double>;
+
+/// A dense matrix by rows.
+class Matrix {
+ public:
+  Matrix() = default;
+  Matrix(std::size_t rows, std::size_t columns) : columns_(columns), data_(rows * columns, 0.0) {}
+
+  [[nodiscard]] std::size_t rows() const { return columns_ == 0 ? 0 : data_.size() / columns_; }
+  [[nodiscard]] std::size_t columns() const { return columns_; }
+  [[nodiscard]] double* row(std::size_t i) { return data_.data() + i * columns_; }
+  [[nodiscard]] const double* row(std::size_t i) const { return data_.data() + i * columns_; }
+  [[nodiscard]] double& operator()(std::size_t i, std::size_t j) { return data_[i * columns_ + j]; }
+  [[nodiscard]] double operator()(std::size_t i, std::size_t j) const { return data_[i * columns_ + j]; }
+
+ private:
+  std::size_t columns_ = 0;
+  std::vector<double> data_;
+};
+
+[[nodiscard]] double dot(const double* a, const double* b, std::size_t n);
+/// y += k a
+void add_scaled(double* y, double k, const double* a, std::size_t n);
+[[nodiscard]] double norm(const Vector& a);
+
+/// Lower triangular L with L L^T = H + shift D, D the diagonal given, shift the least of a geometric sequence
+/// from 0 that makes it positive definite.
+class ShiftedCholesky {
+ public:
+  ShiftedCholesky() = default;
+  ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal);
+
+  [[nodiscard]] double shift() const { return shift_; }
+  /// x := L^-T x: from scaled to original variables
+  void backward(double* x) const;
+  /// x := L^-1 x: a gradient from original to scaled variables
+  void forward(double* x) const;
+
+ private:
+  [[nodiscard]] bool factor(const Matrix& symmetric, const Vector& diagonal);
+  Matrix lower_;
+  double shift_ = 0.0;
+};
+
+/// Solution of min |target + sum_i lambda_i E_i + sum_j nu_j A_j|, nu >= 0.
+struct Multipliers {
+  Vector equality;    ///< lambda
+  Vector inequality;  ///< nu
+  Vector residual;    ///< the vector whose norm is least
+};
+
+/// Least-squares multipliers; rows of E and A that depend on others get zero.
+[[nodiscard]] Multipliers least_multipliers(const Vector& target, const Matrix& equality,
+                                            const Matrix& inequality);
+
+/// The shortest y with row_i y = value_i for every row; rows that depend on earlier ones are left out.
+[[nodiscard]] Vector shortest_solution(const Matrix& rows, const Vector& value);
+
+}  // namespace glissade::fastest

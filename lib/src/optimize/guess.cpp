@@ -1,0 +1,158 @@
+#include "optimize/guess.hpp"
+
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace glissade::fastest {
+namespace {
+
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
+
+/// ds/dzeta of the frictional brachistochrone with exit slope angle zeta_1, for scale C = 1.
+double arc_per_angle(double zeta, double zeta_1, double mu) {
+  const double cosine = std::cos(zeta);
+  const double sine = std::sin(zeta);
+  const double t1 = std::tan(zeta_1);
+  const double q2 = 1.0 - mu * mu + 2.0 * mu * t1;
+  // E cos^2, so that the vertical start stays finite.
+  const double lean = sine - mu * cosine;
+  const double e = lean * lean + q2 * cosine * cosine;
+  const double bracket = e * cosine + 4.0 * mu * cosine * cosine * (sine - t1 * cosine);
+  return bracket / (e * e * e);
+}
+
+/// The curve for one exit angle as a table from the start, unscaled.
+struct Arc {
+  Vector s, zeta;
+  double x = 0.0;
+  double y = 0.0;
+};
+
+Arc trace(double zeta_1, double mu, int steps) {
+  Arc arc;
+  const double turn = kRightAngle - zeta_1;
+  double s = 0.0;
+  arc.s.push_back(0.0);
+  arc.zeta.push_back(kRightAngle);
+  for (int i = 0; i < steps; ++i) {
+    const auto angle = [&](double share) { return kRightAngle - turn * share; };
+    const double from = static_cast<double>(i) / steps;
+    const double to = static_cast<double>(i + 1) / steps;
+    constexpr double kOffset = 0.3872983346207417;  // Gauss-Legendre, 3 nodes
+    constexpr double kShare[3] = {0.5 - kOffset, 0.5, 0.5 + kOffset};
+    constexpr double kWeight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    for (int k = 0; k < 3; ++k) {
+      const double zeta = angle(from + (to - from) * kShare[k]);
+      const double ds = kWeight[k] * turn * (to - from) * arc_per_angle(zeta, zeta_1, mu);
+      s += ds;
+      arc.x += ds * std::cos(zeta);
+      arc.y += ds * std::sin(zeta);
+    }
+    arc.s.push_back(s);
+    arc.zeta.push_back(angle(to));
+  }
+  return arc;
+}
+
+}  // namespace
+
+double GuessCurve::slope_angle(double at) const {
+  const auto above = std::upper_bound(sigma.begin(), sigma.end(), at);
+  if (above == sigma.begin()) return zeta.front();
+  if (above == sigma.end()) return zeta.back();
+  const auto i = static_cast<std::size_t>(above - sigma.begin());
+  const double share = (at - sigma[i - 1]) / (sigma[i] - sigma[i - 1]);
+  return zeta[i - 1] + share * (zeta[i] - zeta[i - 1]);
+}
+
+GuessCurve brachistochrone_guess(double run, double drop, double mu) {
+  constexpr int kSteps = 400;
+  const CoulombSolution exact =
+      solve_coulomb_brachistochrone({run, drop}, Friction::from_coefficient(mu), 1.0);
+  const Arc arc = trace(exact.exit_slope_angle, mu, kSteps);
+  const double scale = std::hypot(run, drop) / std::hypot(arc.x, arc.y);
+  GuessCurve guess;
+  guess.length = arc.s.back() * scale;
+  guess.zeta = arc.zeta;
+  const double q2 = 1.0 - mu * mu + 2.0 * mu * std::tan(exact.exit_slope_angle);
+  for (const double zeta : arc.zeta) {
+    const double lean = std::sin(zeta) - mu * std::cos(zeta);
+    guess.speed.push_back(std::cos(zeta) / (lean * lean + q2 * std::cos(zeta) * std::cos(zeta)));
+  }
+  for (const double s : arc.s) guess.sigma.push_back(s / arc.s.back());
+  return guess;
+}
+
+Vector graded_knots(const GuessCurve& curve, std::size_t pieces, double entry_length) {
+  // A quadratic slope angle errs by h^3 zeta'''; travel time weighs its square by 1/u. Equal
+  // shares of the error need a density of knots ~ (zeta'''^2/u)^(1/7).
+  const std::size_t n = curve.sigma.size();
+  Vector density(n - 1, 0.0);
+  const auto slope = [&](std::size_t i) {
+    return (curve.zeta[i + 1] - curve.zeta[i]) / (curve.sigma[i + 1] - curve.sigma[i]);
+  };
+  const auto middle = [&](std::size_t i) { return 0.5 * (curve.sigma[i] + curve.sigma[i + 1]); };
+  Vector second(n - 1, 0.0);
+  for (std::size_t i = 1; i + 2 < n; ++i) {
+    const double left = (slope(i) - slope(i - 1)) / (middle(i) - middle(i - 1));
+    const double right = (slope(i + 1) - slope(i)) / (middle(i + 1) - middle(i));
+    second[i] = (right - left) / (0.5 * (middle(i + 1) - middle(i - 1)));
+  }
+  second[0] = n > 3 ? second[1] : 0.0;
+  second[n - 2] = n > 3 ? second[n - 3] : 0.0;
+  double mean = 0.0;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double speed = curve.speed.empty() ? std::sqrt(middle(i) + entry_length)
+                                             : 0.5 * (curve.speed[i] + curve.speed[i + 1]);
+    density[i] = std::pow(second[i] * second[i] / speed, 1.0 / 7.0);
+    mean += density[i] * (curve.sigma[i + 1] - curve.sigma[i]);
+  }
+  constexpr double kEvenShare = 0.05;
+  Vector total(n, 0.0);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    total[i + 1] =
+        total[i] + (density[i] + kEvenShare * (mean + 1e-3)) * (curve.sigma[i + 1] - curve.sigma[i]);
+  }
+  Vector knots(pieces + 1, 0.0);
+  std::size_t at = 0;
+  for (std::size_t k = 1; k < pieces; ++k) {
+    const double wanted = total.back() * static_cast<double>(k) / static_cast<double>(pieces);
+    while (total[at + 1] < wanted) ++at;
+    const double share = (wanted - total[at]) / (total[at + 1] - total[at]);
+    knots[k] = curve.sigma[at] + share * (curve.sigma[at + 1] - curve.sigma[at]);
+  }
+  knots[pieces] = 1.0;
+  return knots;
+}
+
+Vector fit(const GuessCurve& curve, const Transcription& track) {
+  const Layout& layout = track.layout();
+  const std::size_t n = layout.length();  // the length itself is not fitted
+  Matrix normal(n, n);
+  Vector right(n, 0.0);
+  const std::vector<Station>& stations = track.stations();
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    if (stations[i].part != Part::core) continue;
+    // Travel time weighs an error of the angle by 1/u ~ s^(-1/2), and r is s^(1/2).
+    const double weight = std::sqrt(stations[i].sigma) - std::sqrt(stations[i - 1].sigma);
+    const double* row = track.dzeta(i);
+    const double angle = curve.slope_angle(stations[i].sigma);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (row[j] == 0.0) continue;
+      add_scaled(normal.row(j), weight * row[j], row, n);
+      right[j] += weight * row[j] * angle;
+    }
+  }
+  Vector diagonal(n);
+  for (std::size_t j = 0; j < n; ++j) diagonal[j] = normal(j, j);
+  const ShiftedCholesky factor(normal, diagonal);
+  factor.forward(right.data());
+  factor.backward(right.data());
+  right.push_back(curve.length);
+  return right;
+}
+
+}  // namespace glissade::fastest

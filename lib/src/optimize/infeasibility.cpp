@@ -1,0 +1,148 @@
+#include "optimize/infeasibility.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include "optimize/starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace glissade::fastest {
+namespace {
+
+constexpr std::size_t kPieces = 24;
+// Below this the limits count as met: finer meshes win that much.
+constexpr double kContradiction = 1e-5;
+
+/// The bound after relaxing it by t scales, in the user's unit.
+double relaxed_bound(const LimitSpec& limit, double t, double measured) {
+  const bool squared = limit.measure == Measure::speed || limit.measure == Measure::exit_speed;
+  if (limit.side == 0) return (squared ? std::sqrt(std::max(measured, 0.0)) : measured) / limit.per_si;
+  if (limit.measure == Measure::curvature && limit.unit == "m") {
+    // A radius: its curvature grows by t times its own bound.
+    return limit.bound_si / (1.0 + t);
+  }
+  if (squared) {
+    const double v = limit.bound * limit.bound + limit.side * t * 2.0 * limit.bound * limit.scale;
+    return std::sqrt(std::max(v, 0.0)) / limit.bound * limit.bound_si;
+  }
+  if (limit.measure == Measure::curvature_rate) return limit.bound_si * (1.0 + t);
+  return limit.bound_si + limit.side * t * limit.scale / limit.per_si;
+}
+
+std::string quantity(double value, const std::string& unit) {
+  if (unit == "rad") return angle_text(value);
+  if (unit == "m") return length_text(value);
+  return rounded_text(value, 4) + " " + unit;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+struct Attempt {
+  std::shared_ptr<ScaledProblem> problem;
+  Mesh mesh;
+  Relaxed relaxed;
+};
+
+}  // namespace
+
+std::optional<Conflict> beyond_reach(const Problem& problem) {
+  if (problem.body.entry_speed > 0.0 || problem.finish.kind != FinishKind::point) return std::nullopt;
+  const Friction friction = problem.high_friction.value_or(problem.body.friction);
+  const double run = std::fabs(problem.endpoints.run);
+  if (problem.endpoints.drop > friction.coefficient() * run) return std::nullopt;
+  Conflict conflict;
+  conflict.limits = {"friction", "finish"};
+  conflict.relaxations.push_back({"finish.drop", problem.endpoints.drop, friction.coefficient() * run, "m"});
+  conflict.text = "from rest, no track reaches the finish at a friction angle of " +
+                  angle_text(friction.angle().radians()) + ": the mean slope is " +
+                  angle_text(std::atan2(problem.endpoints.drop, run)) +
+                  ", whatever the shape (reach theorem); a drop above " +
+                  length_text(friction.coefficient() * run) + " would do";
+  return conflict;
+}
+
+std::optional<Conflict> explain(const Problem& problem, const std::vector<Passages>& passages,
+                                SearchControl& control) {
+  std::optional<Attempt> best;
+  for (const Passages& sides : passages) {
+    const auto scaled_problem = std::make_shared<ScaledProblem>(scaled(problem, sides));
+    for (const GuessCurve& start : starts(*scaled_problem)) {
+      Attempt attempt;
+      attempt.problem = scaled_problem;
+      attempt.mesh.knots = graded_knots(start, kPieces, 1.0);
+      attempt.mesh.lead_in = scaled_problem->lead_in;
+      attempt.mesh.lead_out = scaled_problem->lead_out;
+      attempt.mesh.core_length = start.length;
+      attempt.mesh.entry_speed2 = scaled_problem->entry_speed2;
+      Elastic elastic;
+      elastic.limits.assign(scaled_problem->limits.size(), true);
+      const Vector margins(scaled_problem->limits.size(), 0.0);
+      attempt.relaxed = least_violation(*scaled_problem, attempt.mesh,
+                                        fit(start, Transcription(attempt.mesh)), elastic, margins, control);
+      if (!best || attempt.relaxed.t < best->relaxed.t) best = std::move(attempt);
+    }
+  }
+  if (best->relaxed.t <= kContradiction) return std::nullopt;
+
+  const std::vector<LimitSpec>& limits = best->problem->limits;
+  const Found& found = best->relaxed.found;
+  Vector share(limits.size(), 0.0);
+  for (std::size_t i = 0; i < found.active.size(); ++i) share[found.active[i].limit] += found.inequality[i];
+  for (std::size_t i = 0; i < found.equality.size(); ++i) {
+    const std::size_t* limit = found.rows->limit_of_equality(i);
+    if (limit != nullptr) share[*limit] += std::fabs(found.equality[i]);
+  }
+  Conflict conflict;
+  constexpr double kPartOf = 1e-4;
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    if (share[i] <= kPartOf) continue;
+    const LimitSpec& limit = limits[i];
+    if (std::find(conflict.limits.begin(), conflict.limits.end(), limit.key) != conflict.limits.end())
+      continue;
+    conflict.limits.push_back(limit.key);
+    words.push_back(limit.built_in ? limit.key : limit.key + " " + quantity(limit.bound_si, limit.unit));
+    if (limit.built_in || (limit.measure == Measure::curvature && limit.bound == 0.0)) continue;
+    Elastic elastic;
+    elastic.equalities = false;
+    elastic.limits.assign(limits.size(), false);
+    for (std::size_t k = 0; k < limits.size(); ++k) elastic.limits[k] = limits[k].key == limit.key;
+    const Vector margins(limits.size(), 0.0);
+    const Relaxed alone = least_violation(*best->problem, best->mesh, found.z, elastic, margins, control);
+    if (alone.found.violation > 1e-6 || alone.t <= 0.0) continue;
+    double measured = 0.0;
+    if (limit.side == 0) {
+      Vector value;
+      Matrix jacobian;
+      alone.found.rows->equalities(alone.found.rows->state(alone.found.z, true), value, jacobian);
+      for (std::size_t k = 0; k < value.size(); ++k) {
+        const std::size_t* owner = alone.found.rows->limit_of_equality(k);
+        const bool squared = limit.measure == Measure::exit_speed;
+        if (owner != nullptr && *owner == i) {
+          measured = squared ? limit.bound * limit.bound + value[k] * 2.0 * limit.bound * limit.scale
+                             : limit.bound + value[k] * limit.scale;
+        }
+      }
+    }
+    conflict.relaxations.push_back(
+        {limit.key, limit.bound_si, relaxed_bound(limit, alone.t, measured), limit.unit});
+  }
+  conflict.text = joined(words) + " cannot be met together";
+  for (std::size_t i = 0; i < conflict.relaxations.size(); ++i) {
+    const Relaxation& relaxation = conflict.relaxations[i];
+    conflict.text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit + " " +
+                     quantity(relaxation.needed, relaxation.unit);
+  }
+  return conflict;
+}
+
+}  // namespace glissade::fastest

@@ -1,0 +1,379 @@
+// The facade: scales the problem, searches coarse to fine on every way past the keep-outs, lets the referee
+// judge, and explains the end.
+
+#include "glissade/optimize/optimize.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/error.hpp"
+
+#include "optimize/infeasibility.hpp"
+#include "optimize/referee.hpp"
+#include "optimize/scaled_problem.hpp"
+#include "optimize/search.hpp"
+#include "optimize/starts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+namespace glissade {
+namespace fastest {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Pieces of the coarse levels before the finest.
+constexpr std::size_t kCoarsePieces = 12;
+constexpr std::size_t kMiddlePieces = 20;
+constexpr double kCoarseTolerance = 1e-3;
+// A coarse track that breaks its limits by less is carried on to a finer mesh.
+constexpr double kNearlyFeasible = 1e-3;
+// The lowest load is kept this far above its bound, in g: a body that weighs nothing at all has left the
+// track.
+constexpr double kContactMargin = 1e-6;
+constexpr int kTighteningRounds = 8;
+// Ten times finer than the stations of the search, of which a piece has some seven.
+constexpr int kRefereeSamples = 70;
+constexpr std::size_t kMostPassages = 16;
+
+CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
+  const Layout& layout = found.track->layout();
+  const Mesh& mesh = found.track->mesh();
+  const double length = found.z[layout.length()];
+  std::vector<ClothoidSegment> segments;
+  if (mesh.lead_in > 0.0) segments.push_back({mesh.lead_in * problem.chord, 0.0, 0.0});
+  for (std::size_t i = 0; i + 1 < layout.knots; ++i) {
+    const double scale = 1.0 / (length * problem.chord);
+    segments.push_back({(mesh.knots[i + 1] - mesh.knots[i]) * length * problem.chord,
+                        found.z[layout.turn(i)] * scale, found.z[layout.turn(i + 1)] * scale});
+  }
+  if (mesh.lead_out > 0.0) segments.push_back({mesh.lead_out * problem.chord, 0.0, 0.0});
+  return std::make_shared<ClothoidSpline>(Angle::from_radians(found.z[layout.angle()]), std::move(segments));
+}
+
+/// One way past the keep-outs, searched to its end.
+struct Candidate {
+  std::shared_ptr<ScaledProblem> problem;
+  std::optional<Found> found;
+  CenterlinePtr track;
+  Verdict verdict;
+  bool kept = false;  ///< the referee finds every limit kept
+  bool stopped = false;
+};
+
+class Searcher {
+ public:
+  Searcher(const Problem& problem, const OptimizeOptions& options, SearchControl& control,
+           const Progress& progress)
+      : problem_(problem), options_(options), control_(control), progress_(progress) {}
+
+  [[nodiscard]] Candidate search(const Passages& passages) {
+    Candidate candidate;
+    candidate.problem = std::make_shared<ScaledProblem>(scaled(problem_, passages));
+    const ScaledProblem& scaled_problem = *candidate.problem;
+    margins_.assign(scaled_problem.limits.size(), 0.0);
+    for (std::size_t i = 0; i < margins_.size(); ++i) {
+      const LimitSpec& limit = scaled_problem.limits[i];
+      if (limit.measure == Measure::normal_load && limit.side < 0) margins_[i] = kContactMargin;
+    }
+    const bool unlimited = is_unlimited();
+    for (const GuessCurve& start : starts(scaled_problem)) {
+      std::optional<Found> found =
+          unlimited ? from_exact(scaled_problem, start) : coarse(scaled_problem, start);
+      if (control_.stop()) candidate.stopped = true;
+      if (!found) continue;
+      refine(candidate, *found, unlimited);
+      if (candidate.kept || candidate.stopped) break;
+    }
+    return candidate;
+  }
+
+ private:
+  /// Only what every track obeys: the mesh can then be laid by the exact solution.
+  [[nodiscard]] bool is_unlimited() const {
+    Limits limits;
+    return problem_.limits == limits && problem_.finish.kind == FinishKind::point &&
+           problem_.body.entry_speed == 0.0;
+  }
+
+  [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const {
+    Mesh mesh;
+    mesh.knots = std::move(knots);
+    mesh.lead_in = problem.lead_in;
+    mesh.lead_out = problem.lead_out;
+    mesh.core_length = core_length;
+    mesh.entry_speed2 = problem.entry_speed2;
+    if (problem.lowest_speed_from > problem.lead_in) {
+      const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
+      if (sigma < 1.0) mesh.extra_breaks = {sigma};
+    }
+    return mesh;
+  }
+
+  [[nodiscard]] static double entry_share(const ScaledProblem& problem, double core_length) {
+    return (problem.lead_in + 0.5 * problem.entry_speed2) / core_length;
+  }
+
+  [[nodiscard]] std::optional<Found> from_exact(const ScaledProblem& problem, const GuessCurve& start) {
+    const auto pieces = static_cast<std::size_t>(options_.pieces);
+    const Mesh mesh = mesh_with(problem, graded_knots(start, pieces, 0.0), start.length);
+    control_.tolerance = options_.tolerance;
+    control_.most_rounds = 8;
+    Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
+    return found;
+  }
+
+  [[nodiscard]] std::optional<Found> coarse(const ScaledProblem& problem, const GuessCurve& start) {
+    tell("coarse track", 0.0);
+    const Mesh mesh = mesh_with(
+        problem, graded_knots(start, kCoarsePieces, entry_share(problem, start.length)), start.length);
+    control_.tolerance = kCoarseTolerance;
+    control_.most_rounds = 5;
+    Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
+    if (found.feasible(kNearlyFeasible) || found.stopped) return found;
+    // The descent lost its way, or the mesh is too coarse: look for any track that keeps the limits first.
+    const Mesh finer = mesh_with(
+        problem, graded_knots(start, kMiddlePieces, entry_share(problem, start.length)), start.length);
+    Elastic elastic;
+    elastic.limits.assign(problem.limits.size(), true);
+    control_.most_rounds = 8;
+    const Relaxed relaxed =
+        least_violation(problem, finer, fit(start, Transcription(finer)), elastic, margins_, control_);
+    if (relaxed.t > kNearlyFeasible) return std::nullopt;
+    control_.most_rounds = 6;
+    found = minimise(problem, finer, relaxed.found.z, margins_, control_);
+    if (!found.feasible(kNearlyFeasible)) return std::nullopt;
+    return found;
+  }
+
+  /// Finer meshes, then tightening until the referee is content.
+  void refine(Candidate& candidate, Found found, bool unlimited) {
+    const ScaledProblem& problem = *candidate.problem;
+    const auto pieces = static_cast<std::size_t>(options_.pieces);
+    std::vector<std::size_t> levels;
+    if (!unlimited) {
+      if (pieces > kMiddlePieces) levels.push_back(kMiddlePieces);
+      levels.push_back(pieces);
+      levels.push_back(pieces);
+    }
+    double done = 0.2;
+    for (const std::size_t level : levels) {
+      if (found.stopped) break;
+      tell("finer track", done);
+      done += 0.2;
+      control_.tolerance = level == levels.back() ? options_.tolerance : kCoarseTolerance;
+      control_.most_rounds = 10;
+      const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, level),
+                                  found.z[found.track->layout().length()]);
+      Found next = minimise(problem, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)),
+                            margins_, control_);
+      if (next.stopped && !next.feasible(kNearlyFeasible)) {
+        found.stopped = true;
+        break;
+      }
+      found = std::move(next);
+    }
+    candidate.stopped = candidate.stopped || found.stopped;
+    tell("referee", 0.9);
+    for (int round = 0; round < kTighteningRounds; ++round) {
+      const CenterlinePtr track = track_of(problem, found);
+      const Verdict verdict = judge_track(problem_, track, kRefereeSamples);
+      const bool kept = verdict.arrived && verdict.worst <= options_.limit_tolerance;
+      const bool better = !candidate.found || (kept && !candidate.kept) ||
+                          (kept == candidate.kept && found.objective < candidate.found->objective);
+      if (better) {
+        candidate.found = found;
+        candidate.track = track;
+        candidate.verdict = verdict;
+        candidate.kept = kept;
+      }
+      if (kept || found.stopped) break;
+      tighten(problem, verdict);
+      control_.tolerance = options_.tolerance;
+      control_.most_rounds = 10;
+      const Mesh mesh =
+          mesh_with(problem, found.track->mesh().knots, found.z[found.track->layout().length()]);
+      found = minimise(problem, mesh, found.z, margins_, control_);
+    }
+  }
+
+  void tighten(const ScaledProblem& problem, const Verdict& verdict) {
+    for (std::size_t i = 0; i < problem.limits.size(); ++i) {
+      const LimitSpec& limit = problem.limits[i];
+      if (limit.side == 0) continue;
+      const bool contact = limit.measure == Measure::normal_load && limit.side < 0;
+      if (contact && verdict.lifted_off) {
+        margins_[i] *= 4.0;
+        continue;
+      }
+      const LimitCheck* check = verdict.find(limit.key);
+      if (check == nullptr || check->violation <= 0.5 * options_.limit_tolerance * check->scale) continue;
+      margins_[i] += 1.3 * check->violation / check->scale;
+    }
+  }
+
+  void tell(std::string_view stage, double fraction) const {
+    if (progress_) progress_(stage, fraction);
+  }
+
+  const Problem& problem_;
+  const OptimizeOptions& options_;
+  SearchControl& control_;
+  const Progress& progress_;
+  Vector margins_;
+};
+
+/// Every combination of sides for the keep-outs that leave it open, up to kMostPassages.
+std::vector<Passages> all_passages(const Limits& limits) {
+  std::vector<Passages> all{{}};
+  for (const KeepOut& keep_out : limits.keep_outs) {
+    std::vector<Passages> longer;
+    for (const Passages& begun : all) {
+      for (const Passage side : {Passage::above, Passage::below}) {
+        if (keep_out.passage != Passage::either && keep_out.passage != side) continue;
+        // Beyond the cap the earlier keep-outs have branched already; the later ones go above.
+        if (keep_out.passage == Passage::either && side == Passage::below && all.size() >= kMostPassages)
+          continue;
+        Passages passages = begun;
+        passages.push_back(side);
+        longer.push_back(std::move(passages));
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
+  // Seconds, or m/s where speed alone counts.
+  const double objective_si = problem.time_weight > 0.0 ? problem.time : problem.speed;
+  constexpr double kAtBound = 1e-5;
+  std::vector<ActiveLimit> result;
+  const State state = found.rows->state(found.z, false);
+  const double spacing = 1.5 / static_cast<double>(found.track->layout().knots);
+  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
+    const LimitSpec& limit = problem.limits[i];
+    ActiveLimit active;
+    active.limit = limit.key;
+    active.value = limit.bound_si;
+    active.unit = limit.unit;
+    double multiplier = 0.0;
+    std::vector<double> places;
+    for (std::size_t k = 0; k < found.active.size(); ++k) {
+      if (found.active[k].limit == i) multiplier += found.inequality[k];
+    }
+    if (limit.side == 0) {
+      for (std::size_t k = 0; k < found.equality.size(); ++k) {
+        const std::size_t* owner = found.rows->limit_of_equality(k);
+        if (owner != nullptr && *owner == i) multiplier += std::fabs(found.equality[k]);
+      }
+    }
+    if (multiplier <= 0.0) continue;
+    for (const Row& row : found.rows->candidates(state, kAtBound)) {
+      if (row.limit == i) places.push_back(found.rows->place(state, row));
+    }
+    std::sort(places.begin(), places.end());
+    for (const double place : places) {
+      if (!active.where.empty() && place - active.where.back().to / problem.chord <= spacing) {
+        active.where.back().to = place * problem.chord;
+      } else {
+        active.where.push_back({place * problem.chord, place * problem.chord});
+      }
+    }
+    active.price = multiplier / limit.scale * limit.per_si * objective_si;
+    result.push_back(std::move(active));
+  }
+  std::sort(result.begin(), result.end(), [](const ActiveLimit& a, const ActiveLimit& b) {
+    return a.limit == b.limit ? a.value < b.value : a.limit < b.limit;
+  });
+  return result;
+}
+
+}  // namespace
+}  // namespace fastest
+
+Optimum optimize(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
+                 const Progress& progress) {
+  using namespace fastest;
+  require_valid(problem);
+  require_valid(options);
+  const auto begin = Clock::now();
+  SearchControl control;
+  control.limit_tolerance = 0.1 * options.limit_tolerance;
+  bool out_of_time = false;
+  control.stop = [&] {
+    if (stop.stop_requested()) return true;
+    out_of_time = std::chrono::duration<double>(Clock::now() - begin).count() > options.time_budget;
+    return out_of_time;
+  };
+
+  Optimum optimum;
+  OptimizeReport& report = optimum.report;
+  report.unlimited_travel_time = unlimited_travel_time(problem);
+  const auto finish = [&] {
+    report.iterations = control.rounds;
+    report.evaluations = control.evaluations;
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+
+  if (const std::optional<Conflict> conflict = beyond_reach(problem)) {
+    report.status = OptimizeStatus::infeasible;
+    report.conflict = *conflict;
+    report.message = conflict->text;
+    finish();
+    return optimum;
+  }
+
+  Searcher searcher(problem, options, control, progress);
+  std::optional<Candidate> best;
+  bool stopped = false;
+  const std::vector<Passages> all = all_passages(problem.limits);
+  for (const Passages& passages : all) {
+    Candidate candidate = searcher.search(passages);
+    stopped = stopped || candidate.stopped;
+    const bool better = !best || (candidate.kept && !best->kept) ||
+                        (candidate.kept && best->kept && candidate.found->objective < best->found->objective);
+    if (better) best = std::move(candidate);
+    if (stopped) break;
+  }
+
+  if (best->kept) {
+    const Found& found = *best->found;
+    optimum.centerline = best->track;
+    report.travel_time = best->verdict.travel_time;
+    report.exit_speed = best->verdict.exit_speed;
+    report.checks = best->verdict.checks;
+    report.first_order_residual = found.residual;
+    report.active = active_limits(*best->problem, found);
+    const bool converged = found.residual <= options.tolerance && !stopped;
+    report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
+    if (converged) {
+      report.message = "every limit holds and no neighbouring track is faster";
+    } else if (stopped) {
+      report.message =
+          out_of_time ? "the time budget ran out: the best track so far" : "stopped: the best track so far";
+    } else {
+      report.message = "every limit holds, but the first-order residual stayed above its tolerance";
+    }
+  } else if (stopped) {
+    report.status = OptimizeStatus::no_track_found;
+    report.message = "ended early, before any track kept every limit";
+  } else {
+    control.most_rounds = 20;
+    const std::optional<Conflict> conflict = explain(problem, all, control);
+    if (conflict) {
+      report.status = OptimizeStatus::infeasible;
+      report.conflict = *conflict;
+      report.message = conflict->text;
+    } else {
+      report.status = OptimizeStatus::no_track_found;
+      report.message =
+          "no track was found that keeps every limit to the tolerance, nor a proof that there is none";
+    }
+  }
+  finish();
+  return optimum;
+}
+
+}  // namespace glissade

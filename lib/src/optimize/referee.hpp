@@ -1,0 +1,29 @@
+#pragma once
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/optimize/optimize.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace glissade::fastest {
+
+/// What the independent integration says of a track.
+struct Verdict {
+  bool arrived = false;     ///< at every friction of the range
+  bool lifted_off = false;  ///< at some friction
+  double travel_time = 0.0;
+  double exit_speed = 0.0;
+  std::vector<LimitCheck> checks;
+  double worst = 0.0;  ///< greatest violation in scales
+
+  [[nodiscard]] const LimitCheck* find(const std::string& limit) const;
+};
+
+/// Rides the track with Motion and compares it with the problem as given, in SI, sharing no code with the
+/// search.
+/// @param samples  points on each smooth piece of the centerline
+[[nodiscard]] Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples);
+
+}  // namespace glissade::fastest

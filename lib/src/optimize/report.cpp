@@ -1,0 +1,74 @@
+// Reports as text for people.
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/optimize/optimize.hpp"
+
+#include <cmath>
+
+namespace glissade {
+namespace {
+
+constexpr double kRadiansPerDegree = 0.017453292519943295;
+
+std::string quantity(double value, const std::string& unit) {
+  if (unit == "rad") return angle_text(value);
+  if (unit == "m") return length_text(value);
+  return rounded_text(value, 4) + " " + unit;
+}
+
+/// A price per unit that people use: degrees for angles.
+std::string price_text(const ActiveLimit& active) {
+  if (active.unit == "rad") return rounded_text(active.price * kRadiansPerDegree, 3) + " s per deg";
+  return rounded_text(active.price, 3) + " s per " + active.unit;
+}
+
+std::string places_text(const std::vector<Stretch>& where) {
+  std::string text;
+  for (const Stretch& stretch : where) {
+    if (!text.empty()) text += ", ";
+    text += stretch.to > stretch.from
+                ? "from " + length_text(stretch.from, 4) + " to " + length_text(stretch.to, 4)
+                : "at " + length_text(stretch.from, 4);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string_view to_text(OptimizeStatus status) {
+  switch (status) {
+    case OptimizeStatus::optimal:
+      return "optimal";
+    case OptimizeStatus::feasible_not_converged:
+      return "feasible, not converged";
+    case OptimizeStatus::infeasible:
+      return "infeasible";
+    case OptimizeStatus::no_track_found:
+      return "no track found";
+  }
+  return "unknown";
+}
+
+std::string OptimizeReport::brief() const {
+  std::string text = std::string(to_text(status)) + ": " + message + "\n";
+  if (status == OptimizeStatus::optimal || status == OptimizeStatus::feasible_not_converged) {
+    text += "travel time " + rounded_text(travel_time, 7) + " s";
+    if (unlimited_travel_time) {
+      const double excess = travel_time / *unlimited_travel_time - 1.0;
+      text += ", " + rounded_text(100.0 * excess, 3) + " % above the optimum without limits, " +
+              rounded_text(*unlimited_travel_time, 7) + " s";
+    }
+    text += "; exit speed " + rounded_text(exit_speed, 5) + " m/s\n";
+    for (const ActiveLimit& limit : active) {
+      text += "  " + limit.limit + " " + quantity(limit.value, limit.unit) + ": " + price_text(limit);
+      if (!limit.where.empty()) text += ", " + places_text(limit.where);
+      text += "\n";
+    }
+    text += "first-order residual " + rounded_text(first_order_residual, 2) + "; ";
+  }
+  text += std::to_string(iterations) + " rounds, " + std::to_string(evaluations) + " evaluations, " +
+          rounded_text(1e3 * seconds, 3) + " ms\n";
+  return text;
+}
+
+}  // namespace glissade

@@ -1,0 +1,479 @@
+#include "optimize/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade::fastest {
+namespace {
+
+/// 2 (s + v_0/2): squared speed of free fall through the arc length.
+double free_fall(const Transcription& track, std::size_t station, double entry_speed2) {
+  return 2.0 * track.stations()[station].arc_length(track.mesh().core_length) + entry_speed2;
+}
+
+/// Signed distance of a corner from the track at its foot: positive where the corner lies on the side that
+/// `side` calls forbidden; unsigned beyond the ends of the track.
+double corner_distance(const Foot& foot, Vec2 corner, double side) {
+  const double dx = corner.x - foot.x;
+  const double dy = corner.y - foot.y;
+  if (foot.end) return std::hypot(dx, dy);
+  return side * (-foot.sin * dx + foot.cos * dy);
+}
+
+Vec2 edge_normal(Vec2 from, Vec2 to, double side) {
+  const Vec2 along = to - from;
+  const double size = norm(along);
+  return {-side * along.y / size, side * along.x / size};
+}
+
+}  // namespace
+
+Rows::Rows(const ScaledProblem& problem, const Transcription& track)
+    : problem_(problem), track_(track), margins_(problem.limits.size(), 0.0) {
+  fixed_equalities_ = problem.finish == FinishKind::point ? 2 : 1;
+  if (problem.lead_in > 0.0) ++fixed_equalities_;
+  if (problem.lead_out > 0.0) ++fixed_equalities_;
+  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
+    const LimitSpec& limit = problem.limits[i];
+    if (limit.side != 0) continue;
+    equality_limits_.emplace_back(i, 0);
+    const std::size_t last = problem.rides.size() - 1;
+    if (limit.measure == Measure::exit_speed && last > 0) equality_limits_.emplace_back(i, last);
+  }
+}
+
+State Rows::state(const Vector& z, bool derivatives) const {
+  State state;
+  state.z = z;
+  track_.shape(z, state.shape, derivatives);
+  state.flows.resize(problem_.rides.size());
+  for (std::size_t r = 0; r < problem_.rides.size(); ++r) {
+    track_.flow(z, state.shape, problem_.rides[r], state.flows[r], derivatives);
+  }
+  return state;
+}
+
+double Rows::objective(const State& state) const {
+  const Flow& flow = state.flows[problem_.objective_ride];
+  double value = problem_.time_weight * flow.time;
+  if (problem_.speed_weight > 0.0) {
+    // A squared speed below zero is a body that would not arrive: its root is continued as an odd function.
+    const double v = flow.v.back();
+    value -= problem_.speed_weight * std::copysign(std::sqrt(std::fabs(v)), v);
+  }
+  return value;
+}
+
+Vector Rows::objective_gradient(const State& state) const {
+  const Flow& flow = state.flows[problem_.objective_ride];
+  Vector gradient = flow.dtime;
+  for (double& entry : gradient) entry *= problem_.time_weight;
+  if (problem_.speed_weight > 0.0) {
+    const std::size_t last = flow.v.size() - 1;
+    const double root = std::sqrt(std::max(std::fabs(flow.v[last]), 1e-12));
+    add_scaled(gradient.data(), -problem_.speed_weight * 0.5 / root, flow.dv.row(last), gradient.size());
+  }
+  return gradient;
+}
+
+double Rows::effective_bound(const LimitSpec& limit) const {
+  const bool squared = limit.measure == Measure::speed || limit.measure == Measure::exit_speed;
+  return squared ? limit.bound * limit.bound : limit.bound;
+}
+
+double Rows::effective_scale(const LimitSpec& limit) const {
+  const bool squared = limit.measure == Measure::speed || limit.measure == Measure::exit_speed;
+  return squared ? 2.0 * limit.bound * limit.scale : limit.scale;
+}
+
+const std::size_t* Rows::limit_of_equality(std::size_t row) const {
+  return row < fixed_equalities_ ? nullptr : &equality_limits_[row - fixed_equalities_].first;
+}
+
+void Rows::equalities(const State& state, Vector& value, Matrix& jacobian) const {
+  const Layout& layout = track_.layout();
+  const std::size_t n = layout.size();
+  const std::size_t last = track_.stations().size() - 1;
+  value.assign(equality_count(), 0.0);
+  jacobian = Matrix(equality_count(), n);
+  std::size_t row = 0;
+  if (problem_.finish != FinishKind::level) {
+    value[row] = state.shape.x[last] - problem_.run;
+    std::copy_n(state.shape.dx.row(last), n, jacobian.row(row++));
+  }
+  if (problem_.finish != FinishKind::vertical_line) {
+    value[row] = state.shape.y[last] - problem_.drop;
+    std::copy_n(state.shape.dy.row(last), n, jacobian.row(row++));
+  }
+  const auto straight = [&](std::size_t knot) {
+    value[row] = state.z[layout.turn(knot)];
+    jacobian(row++, layout.turn(knot)) = 1.0;
+  };
+  if (problem_.lead_in > 0.0) straight(0);
+  if (problem_.lead_out > 0.0) straight(layout.knots - 1);
+  for (const auto& [index, ride] : equality_limits_) {
+    const LimitSpec& limit = problem_.limits[index];
+    Row at;
+    at.limit = index;
+    at.ride = ride;
+    at.place = limit.measure == Measure::entry_slope_angle ? 0 : last;
+    at.foot = limit.measure == Measure::waypoint;
+    value[row] = (measure(state, limit, at) - effective_bound(limit)) / effective_scale(limit);
+    measure_gradient(state, limit, at, jacobian.row(row));
+    for (std::size_t j = 0; j < n; ++j) jacobian(row, j) /= effective_scale(limit);
+    ++row;
+  }
+}
+
+double Rows::measure(const State& state, const LimitSpec& limit, const Row& row) const {
+  const Shape& shape = state.shape;
+  const Layout& layout = track_.layout();
+  const std::size_t last = track_.stations().size() - 1;
+  const double length = state.z[layout.length()];
+  switch (limit.measure) {
+    case Measure::entry_slope_angle:
+    case Measure::exit_slope_angle:
+    case Measure::slope_angle:
+      return shape.zeta[row.place];
+    case Measure::curvature:
+      return state.z[layout.turn(row.place)] / length;
+    case Measure::curvature_rate: {
+      const Vector& knots = track_.mesh().knots;
+      return (state.z[layout.turn(row.place + 1)] - state.z[layout.turn(row.place)]) /
+             ((knots[row.place + 1] - knots[row.place]) * length * length);
+    }
+    case Measure::normal_load:
+      return shape.cos[row.place] + shape.curvature[row.place] * state.flows[row.ride].v[row.place];
+    case Measure::curvature_load:
+      return shape.curvature[row.place] * state.flows[row.ride].v[row.place];
+    case Measure::speed:
+    case Measure::exit_speed:
+      return state.flows[row.ride].v[row.place];
+    case Measure::arc_length:
+      return problem_.lead_in + length + problem_.lead_out;
+    case Measure::finish_coordinate:
+      return problem_.finish == FinishKind::level ? shape.x[last] : shape.y[last];
+    case Measure::distance: {
+      const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
+      if (row.foot) {
+        const Vec2 corner = obstacle.corners[row.place];
+        return corner_distance(track_.foot(state.z, shape, corner.x, corner.y), corner, obstacle.side);
+      }
+      const Vec2 forbidden = obstacle.endless ? obstacle.forbidden
+                                              : edge_normal(obstacle.corners[row.edge],
+                                                            obstacle.corners[row.edge + 1], obstacle.side);
+      return dot(obstacle.corners[row.edge] - Vec2{shape.x[row.place], shape.y[row.place]}, forbidden);
+    }
+    case Measure::waypoint: {
+      const Vec2 point = problem_.waypoints[limit.obstacle];
+      const Foot foot = track_.foot(state.z, shape, point.x, point.y);
+      return corner_distance(foot, point, 1.0);
+    }
+    case Measure::arrival:
+      return state.flows[row.ride].v[row.place] /
+             free_fall(track_, row.place, problem_.rides[row.ride].entry_speed2);
+  }
+  return 0.0;
+}
+
+void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const {
+  const Shape& shape = state.shape;
+  const Layout& layout = track_.layout();
+  const std::size_t n = layout.size();
+  const std::size_t last = track_.stations().size() - 1;
+  const double length = state.z[layout.length()];
+  std::fill_n(out, n, 0.0);
+  const auto add_load = [&](bool weight) {
+    const Flow& flow = state.flows[row.ride];
+    const double curvature = shape.curvature[row.place];
+    if (weight) add_scaled(out, -shape.sin[row.place], track_.dzeta(row.place), n);
+    add_scaled(out, curvature, flow.dv.row(row.place), n);
+    const Station& station = track_.stations()[row.place];
+    if (station.part != Part::core) return;
+    const double v = flow.v[row.place];
+    out[layout.turn(station.piece)] += v * (1.0 - station.share) / length;
+    out[layout.turn(station.piece + 1)] += v * station.share / length;
+    out[layout.length()] -= v * curvature / length;
+  };
+  switch (limit.measure) {
+    case Measure::entry_slope_angle:
+    case Measure::exit_slope_angle:
+    case Measure::slope_angle:
+      std::copy_n(track_.dzeta(row.place), n, out);
+      return;
+    case Measure::curvature:
+      out[layout.turn(row.place)] = 1.0 / length;
+      out[layout.length()] = -state.z[layout.turn(row.place)] / (length * length);
+      return;
+    case Measure::curvature_rate: {
+      const Vector& knots = track_.mesh().knots;
+      const double factor = 1.0 / ((knots[row.place + 1] - knots[row.place]) * length * length);
+      out[layout.turn(row.place + 1)] = factor;
+      out[layout.turn(row.place)] = -factor;
+      out[layout.length()] = -2.0 * measure(state, limit, row) / length;
+      return;
+    }
+    case Measure::normal_load:
+      add_load(true);
+      return;
+    case Measure::curvature_load:
+      add_load(false);
+      return;
+    case Measure::speed:
+    case Measure::exit_speed:
+      std::copy_n(state.flows[row.ride].dv.row(row.place), n, out);
+      return;
+    case Measure::arc_length:
+      out[layout.length()] = 1.0;
+      return;
+    case Measure::finish_coordinate:
+      std::copy_n(problem_.finish == FinishKind::level ? shape.dx.row(last) : shape.dy.row(last), n, out);
+      return;
+    case Measure::distance: {
+      const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
+      if (!row.foot) {
+        const Vec2 forbidden = obstacle.endless ? obstacle.forbidden
+                                                : edge_normal(obstacle.corners[row.edge],
+                                                              obstacle.corners[row.edge + 1], obstacle.side);
+        add_scaled(out, -forbidden.x, shape.dx.row(row.place), n);
+        add_scaled(out, -forbidden.y, shape.dy.row(row.place), n);
+        return;
+      }
+      break;
+    }
+    case Measure::waypoint:
+      break;
+    case Measure::arrival:
+      add_scaled(out, 1.0 / free_fall(track_, row.place, problem_.rides[row.ride].entry_speed2),
+                 state.flows[row.ride].dv.row(row.place), n);
+      return;
+  }
+  // At a foot the distance changes with the track's position alone: to first order sliding along costs
+  // nothing.
+  const bool obstacle = limit.measure == Measure::distance;
+  const Vec2 corner =
+      obstacle ? problem_.obstacles[limit.obstacle].corners[row.place] : problem_.waypoints[limit.obstacle];
+  const double side = obstacle ? problem_.obstacles[limit.obstacle].side : 1.0;
+  const Foot foot = track_.foot(state.z, shape, corner.x, corner.y);
+  Vector dx;
+  Vector dy;
+  track_.foot_derivatives(state.z, shape, foot, dx, dy);
+  Vec2 away{-side * foot.sin, side * foot.cos};
+  if (foot.end) {
+    const double distance = std::hypot(corner.x - foot.x, corner.y - foot.y);
+    if (distance == 0.0) return;
+    away = {(corner.x - foot.x) / distance, (corner.y - foot.y) / distance};
+  }
+  add_scaled(out, -away.x, dx.data(), n);
+  add_scaled(out, -away.y, dy.data(), n);
+}
+
+double Rows::value(const State& state, const Row& row) const {
+  const LimitSpec& limit = problem_.limits[row.limit];
+  return limit.side * (measure(state, limit, row) - effective_bound(limit)) / effective_scale(limit) +
+         margins_[row.limit];
+}
+
+void Rows::gradient(const State& state, const Row& row, double* out) const {
+  const LimitSpec& limit = problem_.limits[row.limit];
+  measure_gradient(state, limit, row, out);
+  const double factor = limit.side / effective_scale(limit);
+  for (std::size_t j = 0; j < track_.layout().size(); ++j) out[j] *= factor;
+}
+
+double Rows::place(const State& state, const Row& row) const {
+  const LimitSpec& limit = problem_.limits[row.limit];
+  const double length = state.z[track_.layout().length()];
+  if (limit.measure == Measure::curvature || limit.measure == Measure::curvature_rate) {
+    return problem_.lead_in + length * track_.mesh().knots[row.place];
+  }
+  if (row.foot) {
+    const Vec2 corner = problem_.obstacles[limit.obstacle].corners[row.place];
+    return track_.foot(state.z, state.shape, corner.x, corner.y).at.arc_length(length);
+  }
+  return track_.stations()[row.place].arc_length(length);
+}
+
+std::vector<Row> Rows::candidates(const State& state, double band) const {
+  const std::vector<Station>& stations = track_.stations();
+  const std::size_t last = stations.size() - 1;
+  const std::size_t last_ride = problem_.rides.size() - 1;
+  const double length = state.z[track_.layout().length()];
+  std::vector<Row> rows;
+  const auto consider = [&](const Row& row) {
+    if (value(state, row) > -band) rows.push_back(row);
+  };
+  for (std::size_t i = 0; i < problem_.limits.size(); ++i) {
+    const LimitSpec& limit = problem_.limits[i];
+    if (limit.side == 0) continue;
+    Row row;
+    row.limit = i;
+    const auto everywhere = [&](std::size_t ride, std::size_t first) {
+      row.ride = ride;
+      for (row.place = first; row.place <= last; ++row.place) consider(row);
+    };
+    switch (limit.measure) {
+      case Measure::entry_slope_angle:
+        consider(row);
+        break;
+      case Measure::exit_slope_angle:
+      case Measure::arc_length:
+      case Measure::finish_coordinate:
+        row.place = last;
+        consider(row);
+        break;
+      case Measure::slope_angle:
+        everywhere(0, 0);
+        break;
+      case Measure::curvature:
+        for (row.place = 0; row.place < track_.layout().knots; ++row.place) consider(row);
+        break;
+      case Measure::curvature_rate:
+        for (row.place = 0; row.place + 1 < track_.layout().knots; ++row.place) consider(row);
+        break;
+      // More friction is a slower body at every point, so the ends of the friction range hold all between.
+      case Measure::normal_load:
+        everywhere(0, 0);
+        if (limit.side < 0 && last_ride > 0) everywhere(last_ride, 0);
+        break;
+      case Measure::curvature_load:
+        everywhere(0, 0);
+        break;
+      case Measure::speed:
+        row.ride = limit.side > 0 ? 0 : last_ride;
+        for (row.place = 0; row.place <= last; ++row.place) {
+          const double s = stations[row.place].arc_length(length);
+          if (limit.side < 0 && s < problem_.lowest_speed_from * (1.0 - 1e-9)) continue;
+          consider(row);
+        }
+        break;
+      case Measure::exit_speed:
+        row.ride = limit.side > 0 ? 0 : last_ride;
+        row.place = last;
+        consider(row);
+        break;
+      case Measure::arrival:
+        everywhere(last_ride, 1);
+        break;
+      case Measure::distance: {
+        const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
+        if (obstacle.endless) {
+          everywhere(0, 0);
+          break;
+        }
+        for (row.edge = 0; row.edge + 1 < obstacle.corners.size(); ++row.edge) {
+          const Vec2 from = obstacle.corners[row.edge];
+          const Vec2 along = obstacle.corners[row.edge + 1] - from;
+          for (row.place = 0; row.place <= last; ++row.place) {
+            const Vec2 rest = Vec2{state.shape.x[row.place], state.shape.y[row.place]} - from;
+            const double share = dot(rest, along) / dot(along, along);
+            if (share >= 0.0 && share <= 1.0) consider(row);
+          }
+        }
+        row.foot = true;
+        row.edge = 0;
+        for (row.place = 0; row.place < obstacle.corners.size(); ++row.place) consider(row);
+        break;
+      }
+      case Measure::waypoint:
+        break;
+    }
+  }
+  return rows;
+}
+
+void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,
+                               StationWeights& weights) const {
+  // Second derivatives through the state; those of products with curvature itself are left to the
+  // quasi-Newton updates.
+  const Shape& shape = state.shape;
+  const std::size_t last = track_.stations().size() - 1;
+  switch (limit.measure) {
+    case Measure::normal_load:
+      weights.zeta_zeta[row.place] -= factor * shape.cos[row.place];
+      weights.v[row.ride][row.place] += factor * shape.curvature[row.place];
+      return;
+    case Measure::curvature_load:
+      weights.v[row.ride][row.place] += factor * shape.curvature[row.place];
+      return;
+    case Measure::speed:
+    case Measure::exit_speed:
+      weights.v[row.ride][row.place] += factor;
+      return;
+    case Measure::arrival:
+      weights.v[row.ride][row.place] +=
+          factor / free_fall(track_, row.place, problem_.rides[row.ride].entry_speed2);
+      return;
+    case Measure::finish_coordinate:
+      (problem_.finish == FinishKind::level ? weights.x : weights.y)[last] += factor;
+      return;
+    case Measure::distance: {
+      const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
+      if (row.foot) {
+        const Vec2 corner = obstacle.corners[row.place];
+        const Foot foot = track_.foot(state.z, shape, corner.x, corner.y);
+        weights.x[foot.base] += factor * obstacle.side * foot.sin;
+        weights.y[foot.base] -= factor * obstacle.side * foot.cos;
+        return;
+      }
+      const Vec2 forbidden = obstacle.endless ? obstacle.forbidden
+                                              : edge_normal(obstacle.corners[row.edge],
+                                                            obstacle.corners[row.edge + 1], obstacle.side);
+      weights.x[row.place] -= factor * forbidden.x;
+      weights.y[row.place] -= factor * forbidden.y;
+      return;
+    }
+    case Measure::waypoint: {
+      const Vec2 point = problem_.waypoints[limit.obstacle];
+      const Foot foot = track_.foot(state.z, shape, point.x, point.y);
+      weights.x[foot.base] += factor * foot.sin;
+      weights.y[foot.base] -= factor * foot.cos;
+      return;
+    }
+    case Measure::entry_slope_angle:
+    case Measure::exit_slope_angle:
+    case Measure::slope_angle:
+    case Measure::curvature:
+    case Measure::curvature_rate:
+    case Measure::arc_length:
+      return;
+  }
+}
+
+StationWeights Rows::weights(const State& state, const Vector& equality, const std::vector<Row>& rows,
+                             const Vector& inequality) const {
+  const std::size_t count = track_.stations().size();
+  const std::size_t last = count - 1;
+  StationWeights weights;
+  weights.x.assign(count, 0.0);
+  weights.y.assign(count, 0.0);
+  weights.zeta_zeta.assign(count, 0.0);
+  weights.v.assign(problem_.rides.size(), Vector(count, 0.0));
+  weights.v_v = weights.v;
+  weights.time.assign(problem_.rides.size(), 0.0);
+  weights.time[problem_.objective_ride] = problem_.time_weight;
+  if (problem_.speed_weight > 0.0) {
+    const double root = std::sqrt(std::max(std::fabs(state.flows[problem_.objective_ride].v[last]), 1e-12));
+    weights.v[problem_.objective_ride][last] -= problem_.speed_weight * 0.5 / root;
+    weights.v_v[problem_.objective_ride][last] += problem_.speed_weight * 0.25 / (root * root * root);
+  }
+  std::size_t row = 0;
+  if (problem_.finish != FinishKind::level) weights.x[last] += equality[row++];
+  if (problem_.finish != FinishKind::vertical_line) weights.y[last] += equality[row++];
+  for (row = fixed_equalities_; row < equality.size(); ++row) {
+    const auto& [index, ride] = equality_limits_[row - fixed_equalities_];
+    const LimitSpec& limit = problem_.limits[index];
+    Row at;
+    at.ride = ride;
+    at.place = last;
+    add_measure_weights(state, limit, at, equality[row] / effective_scale(limit), weights);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (inequality[i] == 0.0) continue;
+    const LimitSpec& limit = problem_.limits[rows[i].limit];
+    add_measure_weights(state, limit, rows[i], inequality[i] * limit.side / effective_scale(limit), weights);
+  }
+  return weights;
+}
+
+}  // namespace glissade::fastest

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "optimize/scaled_problem.hpp"
+#include "optimize/sqp.hpp"
+#include "optimize/transcription.hpp"
+
+#include <compare>
+#include <cstddef>
+#include <vector>
+
+namespace glissade::fastest {
+
+/// One scalar condition on the unknowns: a limit at one place, for one friction.
+struct Row {
+  std::size_t limit = 0;
+  std::size_t ride = 0;
+  std::size_t place = 0;  ///< station; knot or piece of curvature limits; corner of a foot row
+  std::size_t edge = 0;   ///< of an obstacle's chain
+  bool foot = false;      ///< measured at the foot of a corner instead of at a station
+
+  friend auto operator<=>(const Row&, const Row&) = default;
+};
+
+/// Everything at one point of the search.
+struct State {
+  Vector z;
+  Shape shape;
+  std::vector<Flow> flows;
+};
+
+/// The limits of a problem as rows over one transcription. Inequalities are kept where value <= 0, in units
+/// of the limit's scale.
+class Rows {
+ public:
+  Rows(const ScaledProblem& problem, const Transcription& track);
+
+  [[nodiscard]] State state(const Vector& z, bool derivatives) const;
+
+  [[nodiscard]] double objective(const State& state) const;
+  [[nodiscard]] Vector objective_gradient(const State& state) const;
+
+  [[nodiscard]] std::size_t equality_count() const { return equality_limits_.size() + fixed_equalities_; }
+  /// Finish, straight ends, limits of one value, waypoints.
+  void equalities(const State& state, Vector& value, Matrix& jacobian) const;
+  /// @return the limit behind an equality row, or none for the finish and the straight ends
+  [[nodiscard]] const std::size_t* limit_of_equality(std::size_t row) const;
+
+  /// Every inequality row there is, that is within `band` of its bound or beyond it.
+  [[nodiscard]] std::vector<Row> candidates(const State& state, double band) const;
+  [[nodiscard]] double value(const State& state, const Row& row) const;
+  void gradient(const State& state, const Row& row, double* out) const;
+  /// arc length of the row's place
+  [[nodiscard]] double place(const State& state, const Row& row) const;
+
+  /// Tightens limits by `margin` [scale], one entry a limit.
+  void set_margins(Vector margins) { margins_ = std::move(margins); }
+  [[nodiscard]] const Vector& margins() const { return margins_; }
+
+  /// What the Lagrangian asks of each station, for its Hessian.
+  [[nodiscard]] StationWeights weights(const State& state, const Vector& equality,
+                                       const std::vector<Row>& rows, const Vector& inequality) const;
+
+ private:
+  [[nodiscard]] double measure(const State& state, const LimitSpec& limit, const Row& row) const;
+  void measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
+  void add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,
+                           StationWeights& weights) const;
+  [[nodiscard]] double effective_bound(const LimitSpec& limit) const;
+  [[nodiscard]] double effective_scale(const LimitSpec& limit) const;
+
+  const ScaledProblem& problem_;
+  const Transcription& track_;
+  std::vector<std::pair<std::size_t, std::size_t>> equality_limits_;  ///< limit, ride
+  std::size_t fixed_equalities_ = 0;
+  Vector margins_;
+};
+
+}  // namespace glissade::fastest

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "glissade/core/vec.hpp"
+#include "glissade/optimize/optimize.hpp"
+
+#include "optimize/transcription.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace glissade::fastest {
+
+/// What a limit is about; each is one scalar that is kept on one side of a bound.
+enum class Measure {
+  entry_slope_angle,
+  exit_slope_angle,
+  slope_angle,
+  curvature,  ///< positive in a valley
+  curvature_rate,
+  normal_load,
+  curvature_load,
+  speed,
+  exit_speed,
+  arc_length,
+  finish_coordinate,  ///< whichever is free
+  distance,           ///< from an obstacle, positive on its free side
+  waypoint,           ///< distance of the track from a point
+  arrival             ///< squared speed over that of free fall through the arc length
+};
+
+/// One limit, scaled.
+struct LimitSpec {
+  std::string key;   ///< as in the design file
+  std::string unit;  ///< of bound_si
+  Measure measure = Measure::slope_angle;
+  int side = 0;              ///< +1: measure <= bound, -1: measure >= bound, 0: measure == bound
+  double bound = 0.0;        ///< scaled; of a radius: the curvature
+  double scale = 1.0;        ///< what a violation is measured against, as `bound`
+  double bound_si = 0.0;     ///< as the user gave it
+  double per_si = 1.0;       ///< |d bound/d bound_si|
+  std::size_t obstacle = 0;  ///< of distance and waypoint
+  bool built_in = false;     ///< not set by the user: arrival
+};
+
+/// A chain of straight edges that forbids what lies behind it.
+struct Obstacle {
+  std::vector<Vec2> corners;  ///< ascending run; two for a half-plane
+  bool endless = false;       ///< a half-plane: the line goes on beyond its corners
+  double side = 1.0;          ///< +1: forbidden below (larger drop), -1: forbidden above; of chains
+  Vec2 forbidden;             ///< unit vector, of half-planes
+};
+
+/// The problem without dimension: lengths in chords, speeds in sqrt(gravity chord), gravity 1.
+struct ScaledProblem {
+  double chord = 1.0;  ///< [m]
+  double time = 1.0;   ///< sqrt(chord/gravity) [s]
+  double speed = 1.0;  ///< sqrt(gravity chord) [m/s]
+  double gravity = 1.0;
+  double run = 0.0;
+  double drop = 0.0;
+  FinishKind finish = FinishKind::point;
+  double lead_in = 0.0;
+  double lead_out = 0.0;
+  double lowest_speed_from = 0.0;
+  double entry_speed2 = 0.0;
+  double drag = 0.0;
+  std::vector<Ride> rides;  ///< lowest friction first; the limits hold on each
+  std::size_t objective_ride = 0;
+  std::size_t nominal_ride = 0;
+  double time_weight = 1.0;  ///< objective: time_weight T - speed_weight u(S), both scaled
+  double speed_weight = 0.0;
+  std::vector<LimitSpec> limits;
+  std::vector<Obstacle> obstacles;
+  std::vector<Vec2> waypoints;
+};
+
+/// Which side of each keep-out polygon is passed.
+using Passages = std::vector<Passage>;
+
+/// @param passages  above or below, one for each keep-out
+[[nodiscard]] ScaledProblem scaled(const Problem& problem, const Passages& passages);
+
+/// @throws InputError listing every field that breaks its bound
+void require_valid(const Problem& problem);
+void require_valid(const OptimizeOptions& options);
+
+}  // namespace glissade::fastest

@@ -1,0 +1,461 @@
+#include "optimize/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace glissade::fastest {
+namespace {
+
+// Rows this close to their bound take part in the first round, and in those that move the track less.
+constexpr double kBand = 0.25;
+constexpr double kLaterBand = 0.04;
+// Rows this close to their bound may carry a multiplier.
+constexpr double kActive = 1e-6;
+
+Matrix jacobian_of(const Rows& rows, const State& state, const std::vector<Row>& set, std::size_t n) {
+  Matrix jacobian(set.size(), n);
+  for (std::size_t i = 0; i < set.size(); ++i) rows.gradient(state, set[i], jacobian.row(i));
+  return jacobian;
+}
+
+Vector values_of(const Rows& rows, const State& state, const std::vector<Row>& set) {
+  Vector values(set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) values[i] = rows.value(state, set[i]);
+  return values;
+}
+
+double greatest_size(const Vector& values) {
+  double greatest = 0.0;
+  for (const double value : values) greatest = std::max(greatest, std::fabs(value));
+  return greatest;
+}
+
+/// A metric in which the Lagrangian's Hessian is the identity; convex by adding the equality rows' squares,
+/// which changes no step that keeps them, and a shift if that is not enough.
+ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality) {
+  const std::size_t n = hessian.columns();
+  Vector diagonal(n);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::fabs(hessian(i, i)));
+  for (std::size_t i = 0; i < n; ++i) diagonal[i] = std::max(std::fabs(hessian(i, i)), 1e-12 * largest);
+  constexpr double kFirstPenalty = 10.0;
+  constexpr double kLastPenalty = 1e3;
+  ShiftedCholesky best;
+  for (double penalty = kFirstPenalty; penalty <= kLastPenalty; penalty *= 10.0) {
+    Matrix convex = hessian;
+    for (std::size_t e = 0; e < equality.rows(); ++e) {
+      const double* row = equality.row(e);
+      for (std::size_t i = 0; i < n; ++i) add_scaled(convex.row(i), penalty * row[i], row, n);
+    }
+    best = ShiftedCholesky(convex, diagonal);
+    if (best.shift() <= 1e-5) break;
+  }
+  return best;
+}
+
+Matrix in_metric(Matrix jacobian, const ShiftedCholesky& metric) {
+  for (std::size_t i = 0; i < jacobian.rows(); ++i) metric.forward(jacobian.row(i));
+  return jacobian;
+}
+
+/// Whether a trial point is a track at all; a line search comes back from where it is not.
+bool is_track(const Transcription& track, const Vector& z) {
+  constexpr double kSteepest = 3.0;
+  constexpr double kShortest = 0.01;
+  constexpr double kLongest = 100.0;
+  const Layout& layout = track.layout();
+  const double length = z[layout.length()];
+  if (!(length > kShortest && length < kLongest)) return false;
+  for (std::size_t i = 0; i < track.stations().size(); ++i) {
+    if (!(std::fabs(dot(track.dzeta(i), z.data(), layout.size())) < kSteepest)) return false;
+  }
+  return true;
+}
+
+/// An objective without bound and rows that say nothing.
+void reject(Sample& out, std::size_t n, std::size_t equalities, std::size_t inequalities) {
+  out.objective = HUGE_VAL;
+  out.gradient.assign(n, 0.0);
+  out.equality.assign(equalities, 0.0);
+  out.equality_jacobian = Matrix(equalities, n);
+  out.inequality.assign(inequalities, 0.0);
+  out.inequality_jacobian = Matrix(inequalities, n);
+}
+
+struct Judged {
+  Multipliers multipliers;
+  std::vector<Row> active;
+  double residual = 0.0;
+  double violation = 0.0;
+};
+
+/// First-order optimality of a point, measured in a metric.
+Judged judge(const Rows& rows, const State& state, const ShiftedCholesky& metric) {
+  Judged judged;
+  Vector equality;
+  Matrix equality_jacobian;
+  rows.equalities(state, equality, equality_jacobian);
+  judged.active = rows.candidates(state, kActive);
+  judged.violation = greatest_size(equality);
+  for (const double value : values_of(rows, state, judged.active)) {
+    judged.violation = std::max(judged.violation, value);
+  }
+  Vector gradient = rows.objective_gradient(state);
+  const std::size_t n = gradient.size();
+  metric.forward(gradient.data());
+  const Matrix active_jacobian = in_metric(jacobian_of(rows, state, judged.active, n), metric);
+  judged.multipliers =
+      least_multipliers(gradient, in_metric(std::move(equality_jacobian), metric), active_jacobian);
+  judged.residual = norm(judged.multipliers.residual) / norm(gradient);
+  return judged;
+}
+
+/// Newton steps on the rows that carry multipliers, as long as they pay: they end where a line search on the
+/// objective's own digits cannot.
+void polish(const Transcription& track, const Rows& rows, const ShiftedCholesky& metric,
+            const SearchControl& control, State& state, Judged& judged) {
+  constexpr int kMostSteps = 4;
+  constexpr double kNear = 1e-2;
+  const std::size_t n = track.layout().size();
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (judged.residual > kNear || judged.violation > kNear) return;
+    if (judged.residual <= 0.1 * control.tolerance && judged.violation <= 0.1 * control.limit_tolerance)
+      return;
+    Vector value;
+    Matrix jacobian;
+    rows.equalities(state, value, jacobian);
+    std::vector<Row> carrying;
+    for (std::size_t i = 0; i < judged.active.size(); ++i) {
+      if (judged.multipliers.inequality[i] > 0.0) carrying.push_back(judged.active[i]);
+    }
+    Matrix all(value.size() + carrying.size(), n);
+    Vector wanted;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      std::copy_n(jacobian.row(i), n, all.row(i));
+      wanted.push_back(-value[i]);
+    }
+    for (std::size_t i = 0; i < carrying.size(); ++i) {
+      rows.gradient(state, carrying[i], all.row(value.size() + i));
+      wanted.push_back(-rows.value(state, carrying[i]));
+    }
+    Vector move = shortest_solution(in_metric(std::move(all), metric), wanted);
+    add_scaled(move.data(), -1.0, judged.multipliers.residual.data(), n);
+    metric.backward(move.data());
+    Vector z = state.z;
+    add_scaled(z.data(), 1.0, move.data(), n);
+    if (!is_track(track, z)) return;
+    State next = rows.state(z, true);
+    Judged better = judge(rows, next, metric);
+    const bool pays = better.residual < 0.7 * judged.residual || judged.residual <= control.tolerance;
+    const bool keeps = better.violation <= std::max(control.limit_tolerance, 0.7 * judged.violation);
+    if (!pays || !keeps || better.residual > std::max(judged.residual, control.tolerance)) return;
+    state = std::move(next);
+    judged = std::move(better);
+  }
+}
+
+Matrix hessian_of(const ScaledProblem& problem, const Transcription& track, const Rows& rows,
+                  const State& state, const Vector& equality, const std::vector<Row>& active,
+                  const Vector& inequality) {
+  return track.hessian(state.z, state.shape, problem.rides, state.flows,
+                       rows.weights(state, equality, active, inequality));
+}
+
+}  // namespace
+
+Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& start, const Vector& margins,
+               SearchControl& control) {
+  Found found;
+  const auto track = std::make_shared<const Transcription>(mesh);
+  const auto rows = std::make_shared<Rows>(problem, *track);
+  rows->set_margins(margins);
+  found.track = track;
+  found.rows = rows;
+  const std::size_t n = track->layout().size();
+  const std::size_t equality_count = rows->equality_count();
+
+  Vector z = start;
+  State state = rows->state(z, true);
+  Vector equality(equality_count, 0.0);
+  std::vector<Row> active;
+  Vector inequality;
+  {
+    // Before the first round: the finish's own multipliers, in units of the unknowns' curvature.
+    Vector value;
+    Matrix jacobian;
+    rows->equalities(state, value, jacobian);
+    equality = least_multipliers(rows->objective_gradient(state), jacobian, Matrix()).equality;
+  }
+  ShiftedCholesky metric;
+  for (int round = 0; round < control.most_rounds; ++round) {
+    ++control.rounds;
+    Vector value;
+    Matrix jacobian;
+    rows->equalities(state, value, jacobian);
+    metric = metric_of(hessian_of(problem, *track, *rows, state, equality, active, inequality), jacobian);
+
+    std::vector<Row> set = rows->candidates(state, round == 0 ? kBand : kLaterBand);
+    set.insert(set.end(), active.begin(), active.end());
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+    const SampleFunction sample = [&](const Vector& at, Sample& out) {
+      if (!is_track(*track, at)) {
+        reject(out, n, equality_count, set.size());
+        return;
+      }
+      state = rows->state(at, true);
+      out.objective = rows->objective(state);
+      out.gradient = rows->objective_gradient(state);
+      rows->equalities(state, out.equality, out.equality_jacobian);
+      out.inequality = values_of(*rows, state, set);
+      out.inequality_jacobian = jacobian_of(*rows, state, set, n);
+    };
+    DescentOptions options;
+    options.most_evaluations = 40;
+    const Descent descent = descend(sample, z, equality_count, set.size(), metric, options, control.stop);
+    control.evaluations += descent.evaluations;
+    if (is_track(*track, descent.z)) z = descent.z;
+    state = rows->state(z, true);
+    Judged judged = judge(*rows, state, metric);
+    polish(*track, *rows, metric, control, state, judged);
+    z = state.z;
+    equality = judged.multipliers.equality;
+    active = judged.active;
+    inequality = judged.multipliers.inequality;
+    found.residual = judged.residual;
+    found.violation = judged.violation;
+    found.stopped = descent.stopped;
+    if (descent.stopped) break;
+    if (judged.residual <= control.tolerance && judged.violation <= control.limit_tolerance) break;
+  }
+  found.z = z;
+  found.objective = rows->objective(state);
+  found.equality = std::move(equality);
+  found.active = std::move(active);
+  found.inequality = std::move(inequality);
+  return found;
+}
+
+Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& start,
+                        const Elastic& elastic, const Vector& margins, SearchControl& control) {
+  Relaxed relaxed;
+  Found& found = relaxed.found;
+  const auto track = std::make_shared<const Transcription>(mesh);
+  const auto rows = std::make_shared<Rows>(problem, *track);
+  rows->set_margins(margins);
+  found.track = track;
+  found.rows = rows;
+  const std::size_t n = track->layout().size();
+  const std::size_t equality_count = rows->equality_count();
+  const auto gives_way = [&](const Row& row) { return elastic.limits[row.limit]; };
+  const auto equality_gives_way = [&](std::size_t row) {
+    const std::size_t* limit = rows->limit_of_equality(row);
+    return limit == nullptr ? elastic.equalities : static_cast<bool>(elastic.limits[*limit]);
+  };
+
+  Vector z = start;
+  State state = rows->state(z, true);
+  double t = 0.0;
+  std::vector<Row> kept;
+  double last_t = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < control.most_rounds; ++round) {
+    ++control.rounds;
+    Vector value;
+    Matrix jacobian;
+    rows->equalities(state, value, jacobian);
+    std::vector<Row> set = rows->candidates(state, 2.0 * kBand);
+    set.insert(set.end(), kept.begin(), kept.end());
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+    t = 0.0;
+    for (std::size_t i = 0; i < equality_count; ++i) {
+      if (equality_gives_way(i)) t = std::max(t, std::fabs(value[i]));
+    }
+    for (const Row& row : set) {
+      if (gives_way(row)) t = std::max(t, rows->value(state, row));
+    }
+    // Distances in the slope angle itself: the least change of shape.
+    Matrix gram(n + 1, n + 1);
+    double weight = 0.0;
+    for (std::size_t i = 1; i < track->stations().size(); ++i) {
+      const Station& station = track->stations()[i];
+      weight = station.arc_length(1.0) - track->stations()[i - 1].arc_length(1.0);
+      const double* row = track->dzeta(i);
+      for (std::size_t j = 0; j < n; ++j) {
+        if (row[j] != 0.0) add_scaled(gram.row(j), weight * row[j], row, n);
+      }
+    }
+    const std::size_t at_length = track->layout().length();
+    gram(at_length, at_length) = 1.0;
+    gram(n, n) = 1.0;
+    Vector diagonal(n + 1);
+    for (std::size_t i = 0; i <= n; ++i) diagonal[i] = gram(i, i);
+    for (std::size_t i = 0; i <= n; ++i) gram(i, i) *= 1.0 + 1e-4;
+    const ShiftedCholesky metric(gram, diagonal);
+
+    std::vector<std::size_t> hard;
+    std::vector<std::size_t> soft;
+    for (std::size_t i = 0; i < equality_count; ++i) (equality_gives_way(i) ? soft : hard).push_back(i);
+    const SampleFunction sample = [&](const Vector& at, Sample& out) {
+      const Vector inner(at.begin(), at.end() - 1);
+      if (!is_track(*track, inner)) {
+        reject(out, n + 1, hard.size(), 2 * soft.size() + set.size());
+        return;
+      }
+      state = rows->state(inner, true);
+      out.objective = at.back();
+      out.gradient.assign(n + 1, 0.0);
+      out.gradient.back() = 1.0;
+      Vector all;
+      Matrix all_jacobian;
+      rows->equalities(state, all, all_jacobian);
+      out.equality.assign(hard.size(), 0.0);
+      out.equality_jacobian = Matrix(hard.size(), n + 1);
+      for (std::size_t i = 0; i < hard.size(); ++i) {
+        out.equality[i] = all[hard[i]];
+        std::copy_n(all_jacobian.row(hard[i]), n, out.equality_jacobian.row(i));
+      }
+      const std::size_t count = 2 * soft.size() + set.size();
+      out.inequality.assign(count, 0.0);
+      out.inequality_jacobian = Matrix(count, n + 1);
+      for (std::size_t i = 0; i < soft.size(); ++i) {
+        for (const int side : {0, 1}) {
+          const double sign = side == 0 ? 1.0 : -1.0;
+          const std::size_t row = 2 * i + static_cast<std::size_t>(side);
+          out.inequality[row] = sign * all[soft[i]] - at.back();
+          add_scaled(out.inequality_jacobian.row(row), sign, all_jacobian.row(soft[i]), n);
+          out.inequality_jacobian(row, n) = -1.0;
+        }
+      }
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        const std::size_t row = 2 * soft.size() + i;
+        const double give = gives_way(set[i]) ? 1.0 : 0.0;
+        out.inequality[row] = rows->value(state, set[i]) - give * at.back();
+        rows->gradient(state, set[i], out.inequality_jacobian.row(row));
+        out.inequality_jacobian(row, n) = -give;
+      }
+    };
+    Vector extended = z;
+    extended.push_back(t);
+    DescentOptions options;
+    options.most_evaluations = 60;
+    const Descent descent =
+        descend(sample, extended, hard.size(), 2 * soft.size() + set.size(), metric, options, control.stop);
+    control.evaluations += descent.evaluations;
+    const Vector reached(descent.z.begin(), descent.z.end() - 1);
+    if (is_track(*track, reached)) {
+      z = reached;
+      t = descent.z.back();
+    }
+    extended = z;
+    extended.push_back(t);
+    Sample end;
+    sample(extended, end);
+    kept = set;
+    found.stopped = descent.stopped;
+
+    // Who holds t up: multipliers of the rows that are tight.
+    std::vector<std::size_t> tight;
+    for (std::size_t i = 0; i < end.inequality.size(); ++i) {
+      if (end.inequality[i] > -1e-5) tight.push_back(i);
+    }
+    Matrix tight_jacobian(tight.size(), n + 1);
+    for (std::size_t i = 0; i < tight.size(); ++i) {
+      std::copy_n(end.inequality_jacobian.row(tight[i]), n + 1, tight_jacobian.row(i));
+    }
+    Vector gradient = end.gradient;
+    metric.forward(gradient.data());
+    const Multipliers multipliers = least_multipliers(
+        gradient, in_metric(std::move(end.equality_jacobian), metric), in_metric(tight_jacobian, metric));
+    found.residual = norm(multipliers.residual) / norm(gradient);
+    found.equality.assign(equality_count, 0.0);
+    for (std::size_t i = 0; i < hard.size(); ++i) found.equality[hard[i]] = multipliers.equality[i];
+    found.active.clear();
+    found.inequality.clear();
+    for (std::size_t i = 0; i < tight.size(); ++i) {
+      const double nu = multipliers.inequality[i];
+      if (nu <= 0.0) continue;
+      if (tight[i] < 2 * soft.size()) {
+        found.equality[soft[tight[i] / 2]] += nu;
+      } else {
+        found.active.push_back(set[tight[i] - 2 * soft.size()]);
+        found.inequality.push_back(nu);
+      }
+    }
+    double worst = 0.0;
+    for (const Row& row : rows->candidates(state, 0.0)) {
+      worst = std::max(worst, rows->value(state, row) - (gives_way(row) ? std::max(t, 0.0) : 0.0));
+    }
+    for (const double h : end.equality) worst = std::max(worst, std::fabs(h));
+    found.violation = worst;
+    if (descent.stopped || (t <= 0.0 && worst <= 1e-9)) break;
+    if (found.residual < 1e-4 && worst <= 1e-7) break;
+    if (worst <= 1e-7 && std::fabs(last_t - t) <= 1e-7) break;
+    last_t = t;
+  }
+  relaxed.t = t;
+  found.z = z;
+  found.objective = rows->objective(state);
+  return relaxed;
+}
+
+GuessCurve curve_of(const Transcription& track, const Vector& z) {
+  GuessCurve curve;
+  Shape shape;
+  track.shape(z, shape, false);
+  for (std::size_t i = 0; i < track.stations().size(); ++i) {
+    const Station& station = track.stations()[i];
+    if (station.part != Part::core) continue;
+    if (!curve.sigma.empty() && station.sigma <= curve.sigma.back()) continue;
+    curve.sigma.push_back(station.sigma);
+    curve.zeta.push_back(shape.zeta[i]);
+  }
+  if (curve.sigma.front() > 0.0) {
+    curve.sigma.insert(curve.sigma.begin(), 0.0);
+    curve.zeta.insert(curve.zeta.begin(), z[track.layout().angle()]);
+  }
+  curve.length = z[track.layout().length()];
+  return curve;
+}
+
+Vector refined_knots(const Transcription& track, const Vector& z, std::size_t pieces) {
+  const Mesh& mesh = track.mesh();
+  const Layout& layout = track.layout();
+  const std::size_t n = mesh.knots.size();
+  Vector second(n, 0.0);  // zeta''' at the knots, from the kinks of the curvature there
+  const auto slope = [&](std::size_t i) {
+    return (z[layout.turn(i + 1)] - z[layout.turn(i)]) / (mesh.knots[i + 1] - mesh.knots[i]);
+  };
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    second[i] = std::fabs(slope(i) - slope(i - 1)) * 2.0 / (mesh.knots[i + 1] - mesh.knots[i - 1]);
+  }
+  second[0] = second[1];
+  second[n - 1] = second[n - 2];
+  const double before = (mesh.lead_in + 0.5 * mesh.entry_speed2) / mesh.core_length;
+  Vector density(n - 1);
+  double mean = 0.0;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double error = 0.5 * (second[i] + second[i + 1]);
+    const double speed = std::sqrt(0.5 * (mesh.knots[i] + mesh.knots[i + 1]) + before);
+    density[i] = std::pow(error * error / speed, 1.0 / 7.0);
+    mean += density[i] * (mesh.knots[i + 1] - mesh.knots[i]);
+  }
+  constexpr double kEvenShare = 0.3;
+  Vector total(n, 0.0);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    total[i + 1] = total[i] + (density[i] + kEvenShare * (mean + 1e-6)) * (mesh.knots[i + 1] - mesh.knots[i]);
+  }
+  Vector knots(pieces + 1, 0.0);
+  std::size_t at = 0;
+  for (std::size_t k = 1; k < pieces; ++k) {
+    const double wanted = total.back() * static_cast<double>(k) / static_cast<double>(pieces);
+    while (total[at + 1] < wanted) ++at;
+    const double share = (wanted - total[at]) / (total[at + 1] - total[at]);
+    knots[k] = mesh.knots[at] + share * (mesh.knots[at + 1] - mesh.knots[at]);
+  }
+  knots[pieces] = 1.0;
+  return knots;
+}
+
+}  // namespace glissade::fastest

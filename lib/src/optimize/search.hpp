@@ -1,0 +1,62 @@
+#pragma once
+
+#include "optimize/guess.hpp"
+#include "optimize/rows.hpp"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace glissade::fastest {
+
+/// What a search may cost, and who may end it.
+struct SearchControl {
+  double tolerance = 1e-7;        ///< of the residual
+  double limit_tolerance = 1e-8;  ///< of every row
+  int most_rounds = 12;
+  std::function<bool()> stop = [] { return false; };
+  int evaluations = 0;  ///< counted up
+  int rounds = 0;       ///< counted up
+};
+
+/// The end of a search on one mesh: a point, its multipliers, and how good it is.
+struct Found {
+  std::shared_ptr<const Transcription> track;
+  std::shared_ptr<Rows> rows;
+  Vector z;
+  double objective = 0.0;
+  double residual = 0.0;   ///< norm of the Lagrangian's gradient over that of the objective's, scaled metric
+  double violation = 0.0;  ///< greatest of all rows, in scales
+  Vector equality;         ///< multipliers
+  std::vector<Row> active;
+  Vector inequality;  ///< multipliers of `active`
+  bool stopped = false;
+
+  [[nodiscard]] bool feasible(double tolerance) const { return violation <= tolerance; }
+};
+
+/// Minimises on one mesh from z. `margins` tighten the limits, one entry a limit.
+[[nodiscard]] Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
+                             const Vector& margins, SearchControl& control);
+
+/// Which limits give way in the search for the least violation.
+struct Elastic {
+  std::vector<bool> limits;  ///< these are relaxed by t scales, ...
+  bool equalities = true;    ///< the finish too; all others are kept
+};
+
+/// The least t by which the elastic rows must give way, and who holds it up.
+struct Relaxed {
+  Found found;     ///< multipliers are those of t
+  double t = 0.0;  ///< in scales; <= 0 where all can be kept
+};
+[[nodiscard]] Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
+                                      const Elastic& elastic, const Vector& margins, SearchControl& control);
+
+/// Slope angle over arc length of an iterate.
+[[nodiscard]] GuessCurve curve_of(const Transcription& track, const Vector& z);
+
+/// Knots that share out the error of the track found, from its own third differences.
+[[nodiscard]] Vector refined_knots(const Transcription& track, const Vector& z, std::size_t pieces);
+
+}  // namespace glissade::fastest

@@ -1,0 +1,91 @@
+#include "optimize/starts.hpp"
+
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace glissade::fastest {
+namespace {
+
+/// Where the search expects a free finish.
+Vec2 expected_finish(const ScaledProblem& problem) {
+  Vec2 finish{problem.run, problem.drop};
+  double lowest = -HUGE_VAL;
+  double highest = HUGE_VAL;
+  for (const LimitSpec& limit : problem.limits) {
+    if (limit.measure != Measure::finish_coordinate) continue;
+    if (limit.side <= 0) lowest = limit.bound;
+    if (limit.side >= 0) highest = limit.bound;
+  }
+  const double mu = problem.rides.back().friction;
+  switch (problem.finish) {
+    case FinishKind::point:
+      break;
+    case FinishKind::vertical_line:
+      // The frictionless cycloid that meets a wall squarely has dropped 2/pi of its run.
+      finish.y = std::clamp(finish.x * (2.0 / std::numbers::pi + 1.2 * mu), lowest, highest);
+      break;
+    case FinishKind::level:
+      finish.x = std::clamp(0.5 * std::fabs(finish.y) / std::max(mu, 1.0), lowest, highest);
+      break;
+  }
+  return finish;
+}
+
+GuessCurve straight(Vec2 finish) {
+  GuessCurve curve;
+  const double angle = std::atan2(finish.y, finish.x);
+  constexpr int kSteps = 64;
+  for (int i = 0; i <= kSteps; ++i) {
+    // A little sag breaks the tie between the two ways to bend.
+    const double share = static_cast<double>(i) / kSteps;
+    curve.sigma.push_back(share);
+    curve.zeta.push_back(angle + 0.1 * (1.0 - 2.0 * share));
+  }
+  curve.length = norm(finish);
+  return curve;
+}
+
+/// Slope angles held within the limits on them.
+GuessCurve clipped(GuessCurve curve, const ScaledProblem& problem) {
+  for (const LimitSpec& limit : problem.limits) {
+    if (limit.measure != Measure::slope_angle) continue;
+    for (double& zeta : curve.zeta)
+      zeta = limit.side > 0 ? std::min(zeta, limit.bound) : std::max(zeta, limit.bound);
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<GuessCurve> starts(const ScaledProblem& problem) {
+  const Vec2 finish = expected_finish(problem);
+  const double ends = problem.lead_in + problem.lead_out;
+  const double mu = problem.rides[problem.objective_ride].friction;
+  std::vector<GuessCurve> curves;
+  // A body that enters faster than it would fall needs no steep start.
+  const bool from_rest_like = 0.5 * problem.entry_speed2 < 0.5 * finish.y;
+  if (finish.y > 0.0 && from_rest_like) {
+    const double reachable = std::min(mu, 0.98 * finish.y / finish.x);
+    curves.push_back(brachistochrone_guess(finish.x, finish.y, reachable));
+    const double gentle = std::min(mu, 0.6 * finish.y / finish.x);
+    if (gentle < reachable) curves.push_back(brachistochrone_guess(finish.x, finish.y, gentle));
+    curves.push_back(clipped(curves.front(), problem));
+  }
+  curves.push_back(straight(finish));
+  for (GuessCurve& curve : curves) curve.length = std::max(curve.length - ends, 0.2 * curve.length);
+  return curves;
+}
+
+std::optional<double> unlimited_travel_time(const Problem& problem) {
+  const Endpoints& ends = problem.endpoints;
+  const bool applies = problem.finish.kind == FinishKind::point && problem.body.entry_speed == 0.0 &&
+                       problem.body.drag_per_metre == 0.0 &&
+                       ends.drop > problem.body.friction.coefficient() * std::fabs(ends.run);
+  if (!applies) return std::nullopt;
+  return solve_coulomb_brachistochrone(ends, problem.body.friction, problem.gravity).travel_time;
+}
+
+}  // namespace glissade::fastest

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "optimize/guess.hpp"
+#include "optimize/scaled_problem.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace glissade::fastest {
+
+/// Curves to begin the search with, the most promising first; none comes from the user. Lengths are those of
+/// the core, without the straight ends.
+[[nodiscard]] std::vector<GuessCurve> starts(const ScaledProblem& problem);
+
+/// Exact least travel time without limits, from rest, without drag, to a point [s]; none where that theory
+/// does not apply.
+[[nodiscard]] std::optional<double> unlimited_travel_time(const Problem& problem);
+
+}  // namespace glissade::fastest

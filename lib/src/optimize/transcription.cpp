@@ -1,0 +1,519 @@
+#include "optimize/transcription.hpp"
+
+#include "optimize/quadrature.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade::fastest {
+namespace {
+
+constexpr std::size_t kNodes = PanelRule::kNodes;
+
+// Panels grow at most by this factor in r, so that six nodes resolve the start from rest.
+constexpr double kPanelGrowth = 2.5;
+
+// And by at most this share of the whole track's r, so that a long first piece is resolved too.
+constexpr double kLargestPanel = 1.0 / 14.0;
+
+// Below this share of free fall a body counts as not arriving.
+constexpr double kSlowest = 2e-6;
+
+}  // namespace
+
+Slowness slowness(double v, double floor) {
+  if (v >= floor) {
+    const double root = 1.0 / std::sqrt(v);
+    return {root, -0.5 * root / v, 0.75 * root / (v * v)};
+  }
+  const double root = 1.0 / std::sqrt(floor);
+  const double first = -0.5 * root / floor;
+  const double second = 0.75 * root / (floor * floor);
+  const double below = v - floor;
+  return {root + below * (first + 0.5 * below * second), first + below * second, second};
+}
+
+Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
+  layout_.knots = mesh.knots.size();
+  const std::size_t last_piece = mesh.knots.size() - 2;
+  add_station(0.0, mesh.lead_in > 0.0 ? Part::lead_in : Part::core, 0);
+  if (mesh.lead_in > 0.0) add_panels(0.0, mesh.lead_in, Part::lead_in, 0);
+  Vector breaks = mesh.extra_breaks;
+  breaks.insert(breaks.end(), mesh.knots.begin(), mesh.knots.end());
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    while (breaks[i] >= mesh.knots[piece + 1]) ++piece;
+    add_panels(breaks[i], breaks[i + 1], Part::core, piece);
+  }
+  if (mesh.lead_out > 0.0) add_panels(0.0, mesh.lead_out, Part::lead_out, last_piece);
+
+  dzeta_ = Matrix(stations_.size(), layout_.size());
+  for (std::size_t i = 0; i < stations_.size(); ++i) turning_row(stations_[i], dzeta_.row(i));
+}
+
+void Transcription::turning_row(const Station& station, double* row) const {
+  std::fill_n(row, layout_.size(), 0.0);
+  row[layout_.angle()] = 1.0;
+  if (station.part == Part::lead_in) return;
+  for (std::size_t p = 0; p <= station.piece; ++p) {
+    const double width = mesh_.knots[p + 1] - mesh_.knots[p];
+    const double share = p < station.piece ? 1.0 : station.share;
+    row[layout_.turn(p)] -= width * share * (1.0 - 0.5 * share);
+    row[layout_.turn(p + 1)] -= width * 0.5 * share * share;
+  }
+}
+
+void Transcription::add_station(double at, Part part, std::size_t piece) {
+  Station station;
+  station.part = part;
+  station.piece = piece;
+  switch (part) {
+    case Part::lead_in:
+      station.fixed_length = at;
+      break;
+    case Part::core: {
+      const double from = mesh_.knots[piece];
+      const double to = mesh_.knots[piece + 1];
+      station.fixed_length = mesh_.lead_in;
+      station.sigma = at;
+      station.share = at == to ? 1.0 : (at - from) / (to - from);
+      break;
+    }
+    case Part::lead_out:
+      station.fixed_length = mesh_.lead_in + at;
+      station.sigma = 1.0;
+      station.share = 1.0;
+      break;
+  }
+  stations_.push_back(station);
+}
+
+void Transcription::add_panels(double a, double b, Part part, std::size_t piece) {
+  const PanelRule& rule = panel_rule();
+  const double unit = part == Part::core ? mesh_.core_length : 1.0;
+  // s + s_0 = r^2 with s_0 = v_0/2: the length of free fall to the entry speed.
+  double before = 0.5 * mesh_.entry_speed2;
+  if (part != Part::lead_in) before += mesh_.lead_in;
+  if (part == Part::lead_out) before += mesh_.core_length;
+  const double shift = before / unit;
+  const double r_first = std::sqrt(a + shift);
+  const double r_last = std::sqrt(b + shift);
+  int count = 1;
+  if (r_first > 0.0) {
+    const double growth = std::log(r_last / r_first) / std::log(kPanelGrowth);
+    count = std::max(1, static_cast<int>(std::ceil(growth - 1e-9)));
+  }
+  const double whole =
+      std::sqrt((0.5 * mesh_.entry_speed2 + mesh_.lead_in + mesh_.core_length + mesh_.lead_out) / unit);
+  count = std::max(count, static_cast<int>(std::ceil((r_last - r_first) / (kLargestPanel * whole) - 1e-9)));
+  const bool geometric = r_first > 0.0 && r_last > kPanelGrowth * r_first;
+  const auto r_at = [&](int i) {
+    const double share = static_cast<double>(i) / count;
+    if (i == count) return r_last;
+    return geometric ? r_first * std::pow(r_last / r_first, share) : r_first + share * (r_last - r_first);
+  };
+  for (int i = 0; i < count; ++i) {
+    const double from = i == 0 ? r_first : r_at(i);
+    const double to = r_at(i + 1);
+    Panel panel;
+    panel.first = stations_.size();
+    panel.part = part;
+    panel.columns = part == Part::core ? layout_.turn(piece + 2)
+                                       : (part == Part::lead_out ? layout_.length() : std::size_t{1});
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const double r = from + (to - from) * rule.node[k];
+      panel.ds[k] = 2.0 * r * (to - from);
+      add_station(r * r - shift, part, piece);
+    }
+    panels_.push_back(panel);
+    add_station(i + 1 == count ? b : to * to - shift, part, piece);
+  }
+}
+
+std::size_t Transcription::start_station(std::size_t panel) const {
+  return panels_[panel].first - 1;
+}
+
+double Transcription::curvature(const Vector& z, std::size_t index) const {
+  const Station& station = stations_[index];
+  if (station.part != Part::core) return 0.0;
+  const double c = (1.0 - station.share) * z[layout_.turn(station.piece)] +
+                   station.share * z[layout_.turn(station.piece + 1)];
+  return c / z[layout_.length()];
+}
+
+void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
+  const PanelRule& rule = panel_rule();
+  const std::size_t count = stations_.size();
+  const std::size_t n = layout_.size();
+  const double length = z[layout_.length()];
+  out.zeta.resize(count);
+  out.sin.resize(count);
+  out.cos.resize(count);
+  out.curvature.resize(count);
+  out.x.assign(count, 0.0);
+  out.y.assign(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    out.zeta[i] = dot(dzeta_.row(i), z.data(), n);
+    out.sin[i] = std::sin(out.zeta[i]);
+    out.cos[i] = std::cos(out.zeta[i]);
+    out.curvature[i] = curvature(z, i);
+  }
+  if (derivatives) {
+    out.dx = Matrix(count, n);
+    out.dy = Matrix(count, n);
+  }
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Panel& panel = panels_[p];
+    const std::size_t start = start_station(p);
+    const bool is_core = panel.part == Part::core;
+    const double scale = is_core ? length : 1.0;
+    for (std::size_t q = 0; q <= kNodes; ++q) {
+      double sum_x = 0.0;
+      double sum_y = 0.0;
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        const double part = (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
+        sum_x += part * out.cos[panel.first + k];
+        sum_y += part * out.sin[panel.first + k];
+      }
+      const std::size_t at = panel.first + q;
+      out.x[at] = out.x[start] + scale * sum_x;
+      out.y[at] = out.y[start] + scale * sum_y;
+      if (!derivatives) continue;
+      double* dx = out.dx.row(at);
+      double* dy = out.dy.row(at);
+      std::copy_n(out.dx.row(start), n, dx);
+      std::copy_n(out.dy.row(start), n, dy);
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        const double part = scale * (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
+        const double* dz = dzeta_.row(panel.first + k);
+        add_scaled(dx, -part * out.sin[panel.first + k], dz, panel.columns);
+        add_scaled(dy, part * out.cos[panel.first + k], dz, panel.columns);
+      }
+      if (is_core) {
+        dx[layout_.length()] += sum_x;
+        dy[layout_.length()] += sum_y;
+      }
+    }
+  }
+}
+
+Foot Transcription::advance(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
+                            double share) const {
+  const PanelRule& rule = panel_rule();
+  const double length = z[layout_.length()];
+  const Station& from = stations_[base];
+  // The piece that lies between the two is that of the later one.
+  const Station& later = stations_[std::max(base, towards)];
+  const Station& to = stations_[towards];
+  Foot foot;
+  foot.base = base;
+  foot.at = later;
+  foot.at.fixed_length = from.fixed_length + share * (to.fixed_length - from.fixed_length);
+  foot.at.sigma = from.sigma + share * (to.sigma - from.sigma);
+  double from_share = later.share;
+  double curvature_from = 0.0;
+  double curvature_slope = 0.0;
+  if (later.part == Part::core) {
+    const double knot = mesh_.knots[later.piece];
+    const double width = mesh_.knots[later.piece + 1] - knot;
+    foot.at.share = (foot.at.sigma - knot) / width;
+    from_share = (from.sigma - knot) / width;
+    const double c0 = z[layout_.turn(later.piece)] / length;
+    const double c1 = z[layout_.turn(later.piece + 1)] / length;
+    curvature_from = c0 + (c1 - c0) * from_share;
+    curvature_slope = (c1 - c0) / (width * length);
+  }
+  const double ds = foot.at.arc_length(length) - from.arc_length(length);
+  const auto angle = [&](double s) {
+    return shape.zeta[base] - s * (curvature_from + 0.5 * s * curvature_slope);
+  };
+  foot.x = shape.x[base];
+  foot.y = shape.y[base];
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const double zeta = angle(ds * rule.node[k]);
+    foot.x += rule.weight[k] * ds * std::cos(zeta);
+    foot.y += rule.weight[k] * ds * std::sin(zeta);
+  }
+  foot.cos = std::cos(angle(ds));
+  foot.sin = std::sin(angle(ds));
+  return foot;
+}
+
+Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y) const {
+  std::size_t nearest = 0;
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const double distance = std::hypot(shape.x[i] - target_x, shape.y[i] - target_y);
+    if (distance < least) {
+      least = distance;
+      nearest = i;
+    }
+  }
+  const double along =
+      (target_x - shape.x[nearest]) * shape.cos[nearest] + (target_y - shape.y[nearest]) * shape.sin[nearest];
+  const bool forward = along > 0.0;
+  if ((!forward && nearest == 0) || (forward && nearest + 1 == stations_.size())) {
+    Foot foot;
+    foot.at = stations_[nearest];
+    foot.base = nearest;
+    foot.x = shape.x[nearest];
+    foot.y = shape.y[nearest];
+    foot.sin = shape.sin[nearest];
+    foot.cos = shape.cos[nearest];
+    foot.end = true;
+    return foot;
+  }
+  const std::size_t towards = forward ? nearest + 1 : nearest - 1;
+  const double gap =
+      stations_[towards].arc_length(z[layout_.length()]) - stations_[nearest].arc_length(z[layout_.length()]);
+  double share = std::min(1.0, std::fabs(along / gap));
+  Foot foot = advance(z, shape, nearest, towards, share);
+  for (int step = 0; step < 8; ++step) {
+    const double rest = (target_x - foot.x) * foot.cos + (target_y - foot.y) * foot.sin;
+    if (std::fabs(rest) < 1e-15) break;
+    share = std::clamp(share + rest / gap, 0.0, 1.0);
+    foot = advance(z, shape, nearest, towards, share);
+  }
+  return foot;
+}
+
+void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const Foot& foot, Vector& dx,
+                                     Vector& dy) const {
+  const PanelRule& rule = panel_rule();
+  const std::size_t n = layout_.size();
+  const double length = z[layout_.length()];
+  const Station& from = stations_[foot.base];
+  dx.assign(shape.dx.row(foot.base), shape.dx.row(foot.base) + n);
+  dy.assign(shape.dy.row(foot.base), shape.dy.row(foot.base) + n);
+  const double d_sigma = foot.at.sigma - from.sigma;
+  const double ds = foot.at.arc_length(length) - from.arc_length(length);
+  if (ds == 0.0) return;
+  Vector row(n);
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    Station node = foot.at;
+    node.sigma = from.sigma + d_sigma * rule.node[k];
+    if (node.part == Part::core) {
+      const double knot = mesh_.knots[node.piece];
+      node.share = (node.sigma - knot) / (mesh_.knots[node.piece + 1] - knot);
+    }
+    turning_row(node, row.data());
+    const double zeta = dot(row.data(), z.data(), n);
+    add_scaled(dx.data(), -rule.weight[k] * ds * std::sin(zeta), row.data(), n);
+    add_scaled(dy.data(), rule.weight[k] * ds * std::cos(zeta), row.data(), n);
+    dx[layout_.length()] += rule.weight[k] * d_sigma * std::cos(zeta);
+    dy[layout_.length()] += rule.weight[k] * d_sigma * std::sin(zeta);
+  }
+}
+
+void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
+                         bool derivatives) const {
+  const PanelRule& rule = panel_rule();
+  const std::size_t count = stations_.size();
+  const std::size_t n = layout_.size();
+  const std::size_t at_length = layout_.length();
+  const double length = z[at_length];
+  const double mu = ride.friction;
+  out.v.assign(count, 0.0);
+  out.time = 0.0;
+  if (derivatives) {
+    out.dv = Matrix(count, n);
+    out.dtime.assign(n, 0.0);
+  }
+  // Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay
+  // small; v carries over from panel to panel.
+  Vector dw(n, 0.0);
+  std::vector<Vector> df(kNodes, Vector(n, 0.0));
+  double f[kNodes] = {};
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Panel& panel = panels_[p];
+    const std::size_t start = start_station(p);
+    const double zeta_start = shape.zeta[start];
+    const double s_start = stations_[start].arc_length(length);
+    const bool is_core = panel.part == Part::core;
+    const double scale = is_core ? length : 1.0;
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const std::size_t at = panel.first + k;
+      const double s = stations_[at].arc_length(length) - s_start;
+      const double turned = shape.zeta[at] - zeta_start;
+      const double weight = std::exp(-2.0 * mu * turned + 2.0 * ride.drag * s);
+      const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
+      f[k] = drive * weight * panel.ds[k];
+      if (!derivatives) continue;
+      Vector& d = df[k];
+      const double by_zeta =
+          (2.0 * (shape.cos[at] + mu * shape.sin[at]) - 2.0 * mu * drive) * weight * panel.ds[k];
+      const double by_start = 2.0 * mu * f[k];
+      const double* dz = dzeta_.row(at);
+      const double* dz0 = dzeta_.row(start);
+      for (std::size_t j = 0; j < panel.columns; ++j) d[j] = scale * (by_zeta * dz[j] + by_start * dz0[j]);
+      for (std::size_t j = panel.columns; j < n; ++j) d[j] = 0.0;
+      const double ds_dlength = stations_[at].sigma - stations_[start].sigma;
+      d[at_length] = (is_core ? f[k] : 0.0) + scale * f[k] * 2.0 * ride.drag * ds_dlength;
+    }
+    const double v_start = p == 0 ? ride.entry_speed2 : out.v[start];
+    if (p == 0) out.v[start] = v_start;
+    for (std::size_t q = 0; q <= kNodes; ++q) {
+      const std::size_t at = panel.first + q;
+      const double* row = q < kNodes ? rule.to_node[q].data() : rule.weight.data();
+      double sum = 0.0;
+      for (std::size_t k = 0; k < kNodes; ++k) sum += row[k] * f[k];
+      const double s = stations_[at].arc_length(length) - s_start;
+      const double turned = shape.zeta[at] - zeta_start;
+      const double back = std::exp(2.0 * mu * turned - 2.0 * ride.drag * s);
+      const double w = v_start + scale * sum;
+      out.v[at] = w * back;
+      if (derivatives) {
+        double* dv = out.dv.row(at);
+        std::copy_n(out.dv.row(start), n, dv);
+        for (std::size_t k = 0; k < kNodes; ++k) {
+          add_scaled(dv, row[k], df[k].data(), panel.columns);
+          dv[at_length] += row[k] * df[k][at_length] * (panel.columns > at_length ? 0.0 : 1.0);
+        }
+        const double* dz = dzeta_.row(at);
+        const double* dz0 = dzeta_.row(start);
+        const double angle_part = 2.0 * mu * out.v[at];
+        for (std::size_t j = 0; j < n; ++j) dv[j] *= back;
+        for (std::size_t j = 0; j < panel.columns && j < at_length; ++j)
+          dv[j] += angle_part * (dz[j] - dz0[j]);
+        dv[at_length] -= 2.0 * ride.drag * out.v[at] * (stations_[at].sigma - stations_[start].sigma);
+      }
+      if (q == kNodes) continue;
+      const double floor = kSlowest * (stations_[at].arc_length(mesh_.core_length) + 0.5 * ride.entry_speed2);
+      const Slowness slow = slowness(out.v[at], floor);
+      const double part = rule.weight[q] * panel.ds[q];
+      out.time += scale * part * slow.value;
+      if (derivatives) {
+        add_scaled(out.dtime.data(), scale * part * slow.first, out.dv.row(at), n);
+        if (is_core) out.dtime[at_length] += part * slow.value;
+      }
+    }
+  }
+}
+
+Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
+                              const std::vector<Flow>& flows, const StationWeights& weights) const {
+  const PanelRule& rule = panel_rule();
+  const std::size_t n = layout_.size();
+  const std::size_t at_length = layout_.length();
+  const double length = z[at_length];
+  Matrix h(n, n);
+  Vector by_length(n, 0.0);
+  Vector mixed(n, 0.0);
+
+  const auto add_outer = [&](const double* a, const double* b) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (a[i] != 0.0) add_scaled(h.row(i), a[i], b, n);
+    }
+  };
+
+  // Terms of x, y and of zeta alone.
+  double later_x = 0.0;
+  double later_y = 0.0;
+  for (std::size_t p = panels_.size(); p-- > 0;) {
+    const Panel& panel = panels_[p];
+    const bool is_core = panel.part == Part::core;
+    const double scale = is_core ? length : 1.0;
+    const std::size_t end = panel.first + kNodes;
+    later_x += weights.x[end];
+    later_y += weights.y[end];
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const std::size_t at = panel.first + k;
+      double sum_x = rule.weight[k] * later_x;
+      double sum_y = rule.weight[k] * later_y;
+      for (std::size_t q = 0; q < kNodes; ++q) {
+        sum_x += rule.to_node[q][k] * weights.x[panel.first + q];
+        sum_y += rule.to_node[q][k] * weights.y[panel.first + q];
+      }
+      sum_x *= panel.ds[k];
+      sum_y *= panel.ds[k];
+      const double* dz = dzeta_.row(at);
+      const double square = -scale * (shape.cos[at] * sum_x + shape.sin[at] * sum_y) + weights.zeta_zeta[at];
+      for (std::size_t j = 0; j < n; ++j) mixed[j] = square * dz[j];
+      add_outer(dz, mixed.data());
+      if (is_core) add_scaled(by_length.data(), -shape.sin[at] * sum_x + shape.cos[at] * sum_y, dz, n);
+    }
+    for (std::size_t q = 0; q < kNodes; ++q) {
+      later_x += weights.x[panel.first + q];
+      later_y += weights.y[panel.first + q];
+    }
+    if (weights.zeta_zeta[end] != 0.0) {
+      const double* dz = dzeta_.row(end);
+      for (std::size_t j = 0; j < n; ++j) mixed[j] = weights.zeta_zeta[end] * dz[j];
+      add_outer(dz, mixed.data());
+    }
+  }
+
+  for (std::size_t r = 0; r < rides.size(); ++r) {
+    const Flow& flow = flows[r];
+    if (flow.dv.rows() == 0) continue;
+    const double mu = rides[r].friction;
+    double later = 0.0;  // dL/dw of everything after the panel, w counted with e^(-2 mu zeta)
+    for (std::size_t p = panels_.size(); p-- > 0;) {
+      const Panel& panel = panels_[p];
+      const bool is_core = panel.part == Part::core;
+      const double scale = is_core ? length : 1.0;
+      double by_v[kNodes + 1] = {};
+      double by_w[kNodes + 1] = {};
+      for (std::size_t q = 0; q <= kNodes; ++q) {
+        const std::size_t at = panel.first + q;
+        by_v[q] = weights.v[r][at];
+        const double* dz = dzeta_.row(at);
+        const double* dv = flow.dv.row(at);
+        if (q < kNodes && weights.time[r] != 0.0) {
+          const double floor =
+              kSlowest * (stations_[at].arc_length(mesh_.core_length) + 0.5 * rides[r].entry_speed2);
+          const Slowness slow = slowness(flow.v[at], floor);
+          const double part = weights.time[r] * rule.weight[q] * panel.ds[q];
+          by_v[q] += scale * part * slow.first;
+          for (std::size_t j = 0; j < n; ++j) mixed[j] = scale * part * slow.second * dv[j];
+          add_outer(dv, mixed.data());
+          if (is_core) add_scaled(by_length.data(), part * slow.first, dv, n);
+        }
+        const double square = weights.v_v[r][at];
+        if (square != 0.0) {
+          for (std::size_t j = 0; j < n; ++j) mixed[j] = square * dv[j];
+          add_outer(dv, mixed.data());
+        }
+        if (by_v[q] != 0.0 && mu > 0.0) {
+          // d2v = e^(2 mu zeta) d2w + 2 mu (dv dzeta + dzeta dv) - 4 mu^2 v dzeta dzeta
+          for (std::size_t j = 0; j < n; ++j) {
+            mixed[j] = by_v[q] * (2.0 * mu * dv[j] - 2.0 * mu * mu * flow.v[at] * dz[j]);
+          }
+          add_outer(dz, mixed.data());
+          add_outer(mixed.data(), dz);
+        }
+        by_w[q] = by_v[q] * std::exp(2.0 * mu * shape.zeta[at]);
+      }
+      later += by_w[kNodes];
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        const std::size_t at = panel.first + k;
+        double sum = rule.weight[k] * later;
+        for (std::size_t q = 0; q < kNodes; ++q) sum += rule.to_node[q][k] * by_w[q];
+        sum *= panel.ds[k];
+        const double weight = std::exp(-2.0 * mu * shape.zeta[at]);
+        const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
+        const double drive1 = 2.0 * (shape.cos[at] + mu * shape.sin[at]);
+        const double f1 = weight * (drive1 - 2.0 * mu * drive);
+        const double f2 = weight * (-drive - 4.0 * mu * drive1 + 4.0 * mu * mu * drive);
+        const double* dz = dzeta_.row(at);
+        for (std::size_t j = 0; j < n; ++j) mixed[j] = scale * sum * f2 * dz[j];
+        add_outer(dz, mixed.data());
+        if (is_core) add_scaled(by_length.data(), sum * f1, dz, n);
+      }
+      for (std::size_t q = 0; q < kNodes; ++q) later += by_w[q];
+    }
+    // What the body brings along: w = v_0 e^(-2 mu zeta_0).
+    const std::size_t angle = layout_.angle();
+    h(angle, angle) += later * 4.0 * mu * mu * rides[r].entry_speed2 * std::exp(-2.0 * mu * z[angle]);
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    h(at_length, j) += by_length[j];
+    h(j, at_length) += by_length[j];
+  }
+  return h;
+}
+
+}  // namespace glissade::fastest

@@ -1,0 +1,146 @@
+#pragma once
+
+#include "optimize/dense.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace glissade::fastest {
+
+/// Everything in this folder but the facade is in units of a chord and of sqrt(chord/gravity): gravity is 1.
+
+/// The unknowns of a clothoid spline between optional straight ends, as offsets into one vector:
+///   [0] entry slope angle zeta_0 [rad]
+///   [1 .. knots] turning rates c_i = core_length kappa_i at the knots sigma_i, linear in between [rad]
+///   [knots + 1] core_length [chords]
+/// With them zeta is linear in (zeta_0, c), whatever the length.
+struct Layout {
+  std::size_t knots = 0;
+  [[nodiscard]] std::size_t angle() const { return 0; }
+  [[nodiscard]] std::size_t turn(std::size_t knot) const { return 1 + knot; }
+  [[nodiscard]] std::size_t length() const { return 1 + knots; }
+  [[nodiscard]] std::size_t size() const { return 2 + knots; }
+};
+
+/// Where the curvature's knots lie and how the track is cut for quadrature.
+struct Mesh {
+  Vector knots;              ///< sigma, ascending from 0 to 1: shares of the core length
+  Vector extra_breaks;       ///< further sigma at which limits are to be held exactly
+  double lead_in = 0.0;      ///< straight before the core [chords]
+  double lead_out = 0.0;     ///< straight after it
+  double core_length = 1.0;  ///< of the guess: places the nodes of the substitution only
+  double entry_speed2 = 0.0;
+};
+
+enum class Part { lead_in, core, lead_out };
+
+/// A point of the track at which the state is known: s = fixed_length + sigma core_length.
+struct Station {
+  double fixed_length = 0.0;
+  double sigma = 0.0;
+  std::size_t piece = 0;   ///< between knots piece and piece + 1
+  double share = 0.0;      ///< of the way between these knots
+  Part part = Part::core;  ///< curvature is 0 outside the core
+  [[nodiscard]] double arc_length(double core_length) const { return fixed_length + sigma * core_length; }
+};
+
+/// What slides, scaled.
+struct Ride {
+  double friction = 0.0;      ///< mu
+  double entry_speed2 = 0.0;  ///< v at the start
+  double drag = 0.0;          ///< k [1/chord]
+};
+
+/// Geometry at every station, with derivatives by the unknowns.
+struct Shape {
+  Vector zeta, sin, cos, x, y, curvature;
+  Matrix dx, dy;
+};
+
+/// The point of a track that is closest to another point.
+struct Foot {
+  Station at;
+  std::size_t base = 0;  ///< a station between which and `at` curvature is linear
+  double x = 0.0;
+  double y = 0.0;
+  double sin = 0.0;
+  double cos = 1.0;
+  bool end = false;  ///< the start or the finish, the target lying beyond it
+};
+
+/// Motion at every station for one friction, with derivatives by the unknowns.
+struct Flow {
+  Vector v;  ///< squared speed
+  Matrix dv;
+  double time = 0.0;
+  Vector dtime;
+};
+
+/// How strongly the Lagrangian depends on the state of each station; what its Hessian is made of.
+struct StationWeights {
+  Vector x, y;               ///< dL/dx, dL/dy
+  Vector zeta_zeta;          ///< d2L/dzeta2 of terms in zeta alone
+  std::vector<Vector> v;     ///< dL/dv, for each ride
+  std::vector<Vector> v_v;   ///< d2L/dv2 of terms in v alone, for each ride
+  std::vector<double> time;  ///< dL/dT, for each ride
+};
+
+/// Quadrature of the motion over the track, and its exact derivatives through the very same quadrature.
+///
+/// Each panel carries Gauss-Legendre nodes in r = sqrt(s + s_0), s_0 = v_0/2 (theory: 1/u is integrable at
+/// rest); states inside a panel come from the spectral integration matrix of those nodes. Stations are the
+/// start, then for each panel its nodes and its end.
+class Transcription {
+ public:
+  explicit Transcription(const Mesh& mesh);
+
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+  [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
+  /// dzeta/d(unknown) of a station; constant
+  [[nodiscard]] const double* dzeta(std::size_t station) const { return dzeta_.row(station); }
+  [[nodiscard]] double curvature(const Vector& z, std::size_t station) const;
+  /// The same row for any point of the track; `row` has layout().size() entries.
+  void turning_row(const Station& station, double* row) const;
+  /// Position of the point closest to `target`, by its own quadrature from the nearest station.
+  [[nodiscard]] Foot foot(const Vector& z, const Shape& shape, double target_x, double target_y) const;
+  /// Derivatives of a foot's position at fixed sigma.
+  void foot_derivatives(const Vector& z, const Shape& shape, const Foot& foot, Vector& dx, Vector& dy) const;
+
+  void shape(const Vector& z, Shape& out, bool derivatives) const;
+  void flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out, bool derivatives) const;
+
+  /// Second derivative of the Lagrangian that the weights describe; drag enters it to first order only.
+  [[nodiscard]] Matrix hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
+                               const std::vector<Flow>& flows, const StationWeights& weights) const;
+
+ private:
+  struct Panel {
+    std::size_t first = 0;    ///< station of its first node
+    std::size_t columns = 0;  ///< dzeta of its nodes is zero from this unknown up to the length
+    Part part = Part::core;
+    double ds[8] = {};  ///< ds/dtau at the nodes, per core length or absolute
+  };
+  void add_panels(double a, double b, Part part, std::size_t piece);
+  [[nodiscard]] Foot advance(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
+                             double share) const;
+  void add_station(double at, Part part, std::size_t piece);
+  [[nodiscard]] std::size_t start_station(std::size_t panel) const;
+
+  Mesh mesh_;
+  Layout layout_;
+  std::vector<Panel> panels_;
+  std::vector<Station> stations_;
+  Matrix dzeta_;
+};
+
+/// 1/sqrt(v), continued below a floor by its second-order Taylor polynomial, so that a body that would not
+/// arrive costs much but not infinitely much.
+struct Slowness {
+  double value = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+};
+[[nodiscard]] Slowness slowness(double v, double floor);
+
+}  // namespace glissade::fastest

@@ -1,0 +1,71 @@
+// Each kind of limit: what the optimum is where it can be derived by hand, what the referee says of the rest.
+
+#include "glissade/core/error.hpp"
+#include "glissade/optimize/optimize.hpp"
+
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <numbers>
+
+using namespace glissade;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Problem slide(double run, double drop, double mu) {
+  Problem problem;
+  problem.endpoints = {run, drop};
+  problem.body.friction = Friction::from_coefficient(mu);
+  return problem;
+}
+
+Optimum solved(const Problem& problem) {
+  Optimum optimum = optimize(problem);
+  INFO(optimum.report.brief());
+  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+  for (const LimitCheck& check : optimum.report.checks) {
+    CAPTURE(check.limit, check.value, check.reached, check.where);
+    CHECK(check.violation <= 1e-6 * check.scale);
+  }
+  return optimum;
+}
+
+}  // namespace
+
+TEST_CASE("slope limits that leave one shape give the straight ramp") {
+  Problem problem = slide(10.0, 5.0, 0.2);
+  const double mean = std::atan2(5.0, 10.0);
+  problem.limits.slope_angle.highest = mean + 1e-4;
+  const double length = std::hypot(10.0, 5.0);
+  const double ramp = std::sqrt(2.0 * length / (9.81 * (std::sin(mean) - 0.2 * std::cos(mean))));
+  CHECK(solved(problem).report.travel_time == Approx(ramp).epsilon(1e-3));
+}
+
+TEST_CASE("a limit that does not bind changes nothing and costs nothing") {
+  Problem problem = slide(10.0, 5.0, 0.2);
+  const double free_time = solved(problem).report.travel_time;
+  problem.limits.arc_length.highest = 30.0;
+  problem.limits.speed.highest = 40.0;
+  const Optimum optimum = solved(problem);
+  CHECK(optimum.report.travel_time == Approx(free_time).epsilon(1e-6));
+  CHECK(optimum.report.active.empty());
+}
+
+TEST_CASE("a slope of 20 deg cannot lead down a mean slope of 26.6 deg, and the report says what would") {
+  Problem problem = slide(10.0, 5.0, 0.2);
+  problem.limits.slope_angle.highest = 20.0 * kDegree;
+  const Optimum optimum = optimize(problem);
+  REQUIRE(optimum.report.status == OptimizeStatus::infeasible);
+  CHECK(!optimum.centerline);
+  REQUIRE(optimum.report.conflict.relaxations.size() == 1);
+  CHECK(optimum.report.conflict.relaxations[0].limit == "slope_angle.highest");
+  CHECK(optimum.report.conflict.relaxations[0].needed == Approx(std::atan2(5.0, 10.0)).epsilon(1e-4));
+}
+
+TEST_CASE("from rest, a mean slope below the friction angle is out of reach") {
+  const Optimum optimum = optimize(slide(10.0, 5.0, 0.51));
+  CHECK(optimum.report.status == OptimizeStatus::infeasible);
+  CHECK(optimum.report.message.find("reach theorem") != std::string::npos);
+}
