@@ -111,16 +111,17 @@ Stretch Stretch::cut_at(double s) const {
 Panel::Panel(const Equation& equation, const Stretch& covered, double v_at_anchor)
     : stretch(covered), anchor_v(v_at_anchor) {
   const chebyshev::Values& x = chebyshev::nodes();
-  chebyshev::Values kept{};
+  chebyshev::Values keeping{};
   std::array<Direction, chebyshev::kNodes> directions;
   const double side = stretch.anchored_at_end ? -1.0 : 1.0;
   for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
     const double s = stretch.arc_length(i + 1 == chebyshev::kNodes ? stretch.width : stretch.width * x[i]);
     directions[i] = direction_within(equation, stretch, s);
     if (i == 0) anchor_zeta = directions[0].slope_angle;
-    kept[i] = equation.keep(directions[i].slope_angle - anchor_zeta, s - stretch.anchor());
-    push[i] = equation.push(directions[i].slope_angle) / kept[i];
+    keeping[i] = equation.keep(directions[i].slope_angle - anchor_zeta, s - stretch.anchor());
+    push[i] = equation.push(directions[i].slope_angle) / keeping[i];
   }
+  kept = keeping.back();
   mean_push = chebyshev::running_mean(push);
   if (stretch.spacing == Spacing::root) weighted_mean_push = chebyshev::weighted_running_mean(push);
 
@@ -128,10 +129,10 @@ Panel::Panel(const Equation& equation, const Stretch& covered, double v_at_ancho
   for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
     const double sigma = stretch.width * x[i];
     const double stretching = stretch.stretching(sigma);
-    v[i] =
-        kept[i] * (anchor_v + side * integral_of_push(stretch, sigma, mean_push[i], weighted_mean_push[i]));
+    v[i] = keeping[i] *
+           (anchor_v + side * integral_of_push(stretch, sigma, mean_push[i], weighted_mean_push[i]));
     pace[i] =
-        at_rest() ? 2.0 / std::sqrt(kept[i] * side * weighted_mean_push[i]) : stretching / std::sqrt(v[i]);
+        at_rest() ? 2.0 / std::sqrt(keeping[i] * side * weighted_mean_push[i]) : stretching / std::sqrt(v[i]);
     load[i] = equation.load(directions[i], v[i]);
     stretched_load[i] = load[i] * stretching;
     stretched_v[i] = v[i] * stretching;
@@ -168,8 +169,14 @@ double Panel::v_at(const Equation& equation, double sigma) const {
 }
 
 double Panel::load_at(const Equation& equation, double sigma) const {
-  const Direction direction = equation.centerline->direction(stretch.arc_length(sigma));
+  const Direction direction = direction_within(equation, stretch, stretch.arc_length(sigma));
   return equation.load(direction, v_for(equation, sigma, direction.slope_angle));
+}
+
+double Panel::far_v_terms() const {
+  double largest_push = 0.0;
+  for (const double value : push) largest_push = std::max(largest_push, std::fabs(value));
+  return kept * (anchor_v + largest_push * (stretch.end - stretch.begin));
 }
 
 RideSums Panel::sums() const {

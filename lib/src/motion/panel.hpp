@@ -76,6 +76,7 @@ struct Panel {
   Stretch stretch;
   double anchor_zeta = 0.0;
   double anchor_v = 0.0;
+  double kept = 1.0;  ///< share of v at the anchor that is left at the other end
 
   // At the nodes, in ascending order of sigma.
   chebyshev::Values push{};            // dw/ds, scaled by the weight at the anchor
@@ -103,6 +104,9 @@ struct Panel {
   [[nodiscard]] double load_at(const Equation& equation, double sigma) const;
   /// @return w, scaled by the weight at the anchor
   [[nodiscard]] double scaled_w(double sigma) const;
+  /// @return size of the terms that make up v at the end that is not the anchor: its rounding is in
+  /// proportion
+  [[nodiscard]] double far_v_terms() const;
   /// @return v at the end that is not the anchor
   [[nodiscard]] double far_v() const { return v.back(); }
   [[nodiscard]] RideSums sums() const;

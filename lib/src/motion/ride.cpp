@@ -37,7 +37,7 @@ constexpr int kDeepest = 200;
 // How near to a finish at which a body arrives only after endless time its ride is still told: 2^-26 of the
 // panel.
 constexpr int kDeepestCreep = 26;
-constexpr std::size_t kMostPanels = 200'000;
+constexpr std::size_t kMostPanels = 50'000;
 
 enum class Sign { positive, negative_somewhere, unknown };
 
@@ -79,30 +79,39 @@ struct Miss {
   double pace = kInfinity;   ///< of dt/dsigma
 };
 
+double spread(const chebyshev::Values& f) {
+  const auto [least, largest] = std::minmax_element(f.begin(), f.end());
+  return *largest - *least;
+}
+
 Miss miss_of(const Equation& equation, const Panel& panel) {
-  const double push_size = largest_size(panel.push);
-  const double far_from_rest = *std::min_element(panel.v.begin(), panel.v.end());
   const double distance = panel.stretch.end - panel.stretch.begin;
+  // Arc lengths are rounded: the share of the panel by which a node may be off, with a factor for steep
+  // functions.
+  const double place_rounding = 10.0 * kEpsilon * panel.stretch.end / distance;
+
+  const double push_size = largest_size(panel.push);
   const double push_rounding = 4.0 * kEpsilon * 2.0 * equation.gravity * (1.0 + equation.mu);
-  const double push_error = chebyshev::tail(panel.push) * push_size;
-  const double push_tolerance =
-      std::max({kTailTolerance * push_size, push_rounding, 0.1 * kTailTolerance * far_from_rest / distance});
+  const double least_v = *std::min_element(panel.v.begin(), panel.v.end());
+  const double push_tolerance = std::max({kTailTolerance * push_size, place_rounding * spread(panel.push),
+                                          push_rounding, 0.1 * kTailTolerance * least_v / distance});
   const chebyshev::Values& load = panel.load_unbounded() ? panel.stretched_load : panel.load;
-  const double load_size = std::max(largest_size(load), equation.gravity);
-  const double load_error = chebyshev::tail(load) * largest_size(load);
+  const double load_size = largest_size(load);
+  const double load_tolerance =
+      std::max(kLoadTailTolerance * std::max(load_size, equation.gravity), place_rounding * spread(load));
 
   Miss miss;
-  miss.shape = std::max(push_error / push_tolerance, load_error / (kLoadTailTolerance * load_size));
+  miss.shape = std::max(chebyshev::tail(panel.push) * push_size / push_tolerance,
+                        chebyshev::tail(load) * load_size / load_tolerance);
   const bool moves_throughout =
       std::all_of(panel.pace.begin(), panel.pace.end(), [](double pace) { return std::isfinite(pace); });
   if (!moves_throughout) return miss;
-  // Rounding of the push against what is left of it where the slope angle comes near the friction angle.
-  const double least_push =
-      panel.at_rest()
-          ? std::fabs(*std::min_element(panel.weighted_mean_push.begin(), panel.weighted_mean_push.end()))
-          : push_size;
-  const double pace_rounding = least_push > 0.0 ? push_rounding / least_push : 0.0;
-  miss.pace = chebyshev::tail(panel.pace) / (kTailTolerance + (panel.at_rest() ? pace_rounding : 0.0));
+  // From rest the pace is as uncertain as the push, which rounding blurs where it is small.
+  const double pace_size = largest_size(panel.pace);
+  const double blur = panel.at_rest() ? push_tolerance / push_size : 0.0;
+  const double pace_tolerance =
+      std::max(std::max(kTailTolerance, blur) * pace_size, place_rounding * spread(panel.pace));
+  miss.pace = chebyshev::tail(panel.pace) * pace_size / pace_tolerance;
   return miss;
 }
 
@@ -121,7 +130,7 @@ struct Task {
 class Integrator {
  public:
   Integrator(const Equation& equation, double entry_speed)
-      : length_(equation.centerline->length()), v_(entry_speed * entry_speed), v_peak_(v_) {
+      : length_(equation.centerline->length()), v_(entry_speed * entry_speed), v_terms_(v_) {
     record_.equation = equation;
     record_.end.speed = entry_speed;
   }
@@ -146,19 +155,21 @@ class Integrator {
   [[nodiscard]] double where_load_ends(const Panel& panel) const;
   void leave_track(double s);
   void close(double s, double v);
-  void require_few_panels() const;
+  [[nodiscard]] Panel integrated(const Stretch& stretch, double v);
 
   RideRecord record_;
   double length_;
-  double v_;       // where the next panel begins
-  double v_peak_;  // highest so far
+  double v_;        // where the next panel begins
+  double v_terms_;  // size of all terms that made up v_, its rounding is in proportion
   RideSums sums_;
+  std::size_t panels_left_ = 0;  // that may still be tried
   bool ended_ = false;
 };
 
 RideRecord Integrator::run() {
   if (!starts()) return std::move(record_);
   const std::vector<double> breaks = equation().centerline->breaks();
+  panels_left_ = kMostPanels + 100 * breaks.size();
   int halvings = 0;
   while ((breaks.size() - 1) << static_cast<unsigned>(halvings) < kLeastPanels) ++halvings;
   for (std::size_t i = 0; i + 1 < breaks.size() && !ended_; ++i) {
@@ -195,7 +206,7 @@ void Integrator::slide(const Stretch& whole, int halvings) {
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
-    const Panel panel(equation(), task.stretch, v_);
+    const Panel panel = integrated(task.stretch, v_);
     const Miss miss = miss_of(equation(), panel);
     const bool too_wide = task.depth < halvings && task.stretch.can_split() && !task.proven;
     switch (too_wide ? Verdict::split : judge(panel, task, miss)) {
@@ -264,8 +275,8 @@ Integrator::Verdict Integrator::judge_finish(const Panel& panel, bool may_split)
 
 /// True if rounding cannot tell the speed at the finish from zero.
 bool Integrator::rests_at_finish(const Panel& panel) const {
-  const double peak = std::max(v_peak_, largest_size(panel.v));
-  return panel.stretch.end == length_ && std::fabs(panel.v.back()) <= kRestRounding * peak;
+  if (panel.stretch.end != length_) return false;
+  return std::fabs(panel.v.back()) <= kRestRounding * (panel.kept * v_terms_ + panel.far_v_terms());
 }
 
 Sign Integrator::load_sign(const Panel& panel) const {
@@ -274,11 +285,10 @@ Sign Integrator::load_sign(const Panel& panel) const {
 }
 
 void Integrator::append(const Panel& panel) {
-  require_few_panels();
   record_.panels.push_back(panel);
   record_.sums_before.push_back(sums_);
   sums_ = sums_ + panel.sums();
-  v_peak_ = std::max(v_peak_, largest_size(panel.v));
+  v_terms_ = panel.kept * v_terms_ + panel.far_v_terms();
   v_ = panel.far_v();
 }
 
@@ -306,7 +316,7 @@ void Integrator::come_to_rest(const Stretch& stretch, double s, int deepest) {
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
-    const Panel panel(equation(), task.stretch, v);
+    const Panel panel = integrated(task.stretch, v);
     const Miss miss = miss_of(equation(), panel);
     const bool may_split = task.depth < deepest && task.stretch.can_split();
     const bool fine =
@@ -354,12 +364,15 @@ void Integrator::close(double s, double v) {
                  equation().k * sums_.speed_squared};
 }
 
-void Integrator::require_few_panels() const {
-  if (record_.panels.size() < kMostPanels + equation().centerline->breaks().size()) return;
-  throw ConvergenceError({"",
-                          "the ride comes no further than " + length_text(record_.panels.back().stretch.end),
-                          "The centerline is not smooth between its breaks, so that no panel is fine enough.",
-                          "a centerline whose breaks() tell where its curvature jumps"});
+Panel Integrator::integrated(const Stretch& stretch, double v) {
+  if (panels_left_ == 0) {
+    throw ConvergenceError(
+        {"", "the ride comes no further than " + length_text(stretch.begin),
+         "The centerline is not smooth between its breaks, so that no panel is fine enough.",
+         "a centerline whose breaks() tell where its curvature jumps"});
+  }
+  --panels_left_;
+  return {equation(), stretch, v};
 }
 
 }  // namespace

@@ -30,29 +30,47 @@ struct MotionState {
 struct Stall {
   double arc_length = 0.0;     ///< where the body comes to rest [m]
   double missing_slope = 0.0;  ///< friction angle minus slope angle there: the slope it lacks to go on [rad];
-                               ///< > 0 unless the body only just came to rest
+                               ///< >= 0, 0 where the slope angle is the friction angle
 };
 
 /// How a ride ended before the finish: the body left the track.
 struct LiftOff {
-  double arc_length = 0.0;  ///< where the normal load would turn negative [m]
+  double arc_length = 0.0;  ///< the first place beyond which the normal load would be negative [m]
   double speed = 0.0;       ///< [m/s]
-  double curvature = 0.0;   ///< of the track just after that point [1/m]; negative (a crest)
+  double curvature = 0.0;   ///< of the track just after that point [1/m]; negative on a crest
 };
 
 /// The ride of one body down one centerline: the referee of everything that Glissade reports.
 ///
 /// Solves dv/ds = 2 g sin(zeta) - 2 mu N - 2 k v, N = g cos(zeta) + kappa v, v = u^2 (docs/theory.md, energy
-/// equation) through its integrating factor, panel by panel, each panel refined until both speed and time
-/// meet the tolerance; the integrable singularity of 1/u at rest is removed by the substitution s = r^2. It
-/// knows nothing of how the centerline was found. Accuracy: kMotionAccuracy relative in speed and travel
-/// time. Identity: kinetic + friction_loss + drag_loss = g drop + entry_speed^2 / 2 at every station.
+/// equation) through its integrating factor, by Chebyshev panels between the centerline's breaks, each halved
+/// until speed, time and load are resolved to some 1e-14. Starts from rest, slow starts, unbounded curvature
+/// at the start and stops are integrated in s = r^2 from the place of rest, where 1/u has an integrable
+/// singularity. It knows nothing of how the centerline was found.
+///
+/// Ends: at the finish (arrived), at a stall, or at a lift-off, whichever comes first. A normal load down to
+///   -1e-12 g counts as contact, so that free fall along a track (N = 0) is not lost to rounding. A body
+///   whose speed at the finish rounding cannot tell from zero arrives there with exit speed 0.
+/// Accuracy: kMotionAccuracy relative in speed and travel time, if the centerline's slope angle is exact to a
+/// few
+///   units in the last place of s and zeta; measured in docs/accuracy.md.
+/// Domain: a centerline that is smooth between its breaks(). A bump narrower than some 1/40 of a smooth
+/// stretch that
+///   no break tells of may go unseen.
+/// Identity: u^2/2 + friction_loss + drag_loss = g drop + entry_speed^2/2 at every station. The losses are
+/// integrals
+///   of N and v, the speed is not computed from them.
+/// Cost: the constructor evaluates direction() at 17 places for each of some 4 to 100 panels, and at least
+/// one panel
+///   for each smooth stretch; at() is O(log panels).
 class Motion {
  public:
   /// Rides the whole track, or up to the stall or lift-off.
   /// @param gravity  [m/s^2]; finite, > 0
-  /// @throws InputError if entry_speed or drag_per_metre is negative or not finite, or gravity is not
-  /// positive
+  /// @throws InputError if there is no centerline, entry_speed or drag_per_metre is negative or not finite,
+  /// or gravity
+  ///         is not positive and finite
+  /// @throws ConvergenceError if the centerline is so rough between its breaks that no panels resolve it
   Motion(CenterlinePtr centerline, Body body, double gravity = kDefaultGravity);
   ~Motion();
   Motion(Motion&&) noexcept;
@@ -69,17 +87,23 @@ class Motion {
 
   /// @return how far the body came [m]; the length of the centerline if it arrived
   [[nodiscard]] double distance() const noexcept;
-  /// @return time from the start to distance() [s]; +infinity if the body never moves or creeps to rest
-  /// without end
+  /// @return time from the start to distance() [s]; +infinity if the body never moves (it stalls at 0) or
+  /// comes to
+  ///         the finish, without end, where the slope angle is the friction angle (it stalls there)
   [[nodiscard]] double travel_time() const noexcept;
   /// @return speed at distance() [m/s]
   [[nodiscard]] double exit_speed() const noexcept;
-  /// @return station of the highest / lowest normal load, and of the highest speed, over the whole ride
+  /// @return station of the highest / lowest normal load, and of the highest speed, over the whole ride; the
+  /// value to
+  ///         1e-12, its place to 1e-7. Where curvature jumps, the load on the side that counts: it may differ
+  ///         from at(arc_length).normal_load, which is that after the jump. +infinity where a moving body
+  ///         enters a track of unbounded curvature.
   [[nodiscard]] MotionState highest_load() const;
   [[nodiscard]] MotionState lowest_load() const;
   [[nodiscard]] MotionState highest_speed() const;
 
   /// @param s  arc length [m]; 0 <= s <= distance()
+  /// @return the body there; at a jump of curvature with the load just after it
   /// @throws InputError if s lies outside the ride
   [[nodiscard]] MotionState at(double s) const;
   /// @param stations  ascending arc lengths, each as for at()
