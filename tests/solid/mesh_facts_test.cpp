@@ -78,7 +78,22 @@ TEST_CASE("a solid turned inside out is watertight but not outward") {
   CHECK_FALSE(facts.oriented_outward);
   CHECK_FALSE(facts.valid());
   CHECK(facts.volume == Approx(-1.0));
-  CHECK(contains(facts.faults(), "inward"));
+  CHECK(contains(facts.faults(), "wrong way"));
+}
+
+TEST_CASE("a cavity faces its material, a solid within a cavity is one again") {
+  const TriangleMesh shell = together(box({0, 0, 0}, {9, 9, 9}), flipped(box({1, 1, 1}, {8, 8, 8})));
+  const MeshFacts hollow = measure(shell);
+  CHECK(hollow.valid());
+  CHECK(hollow.components == 2);
+  CHECK(hollow.euler_characteristic == 4);
+  CHECK(hollow.volume == Approx(729.0 - 343.0));
+  const MeshFacts with_core = measure(together(shell, box({3, 3, 3}, {4, 4, 4})));
+  CHECK(with_core.valid());
+  CHECK(with_core.volume == Approx(729.0 - 343.0 + 1.0));
+  CHECK_FALSE(measure(together(shell, flipped(box({3, 3, 3}, {4, 4, 4})))).oriented_outward);
+  CHECK_FALSE(measure(together(shell, flipped(box({20, 0, 0}, {21, 1, 1})))).oriented_outward);
+  CHECK_FALSE(measure(together(box({0, 0, 0}, {9, 9, 9}), box({1, 1, 1}, {8, 8, 8}))).oriented_outward);
 }
 
 TEST_CASE("one flipped facet makes three edges non-manifold") {

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "solid/nesting.hpp"
 #include "solid/position_index.hpp"
 #include "solid/self_intersections.hpp"
 
@@ -277,29 +278,28 @@ void measure_shape(const TriangleMesh& mesh, MeshFacts& facts) {
 
 /// Volume of every piece by the divergence theorem about the middle of the bounding box, which keeps the
 /// terms small; pieces in the order of their lowest facet.
-std::vector<double> piece_volumes(const std::vector<Vec3>& vertices, const std::vector<FacetCorners>& facets,
-                                  FacetGroups& groups, Vec3 centre) {
-  std::vector<std::uint32_t> piece(facets.size());
-  std::vector<CompensatedSum> volumes;
+Pieces find_pieces(const std::vector<Vec3>& vertices, const std::vector<FacetCorners>& facets,
+                   FacetGroups& groups, Vec3 centre) {
+  Pieces pieces{.of_facet = std::vector<std::uint32_t>(facets.size()), .volumes = {}};
+  std::vector<CompensatedSum> sums;
   for (std::size_t i = 0; i < facets.size(); ++i) {
     const std::uint32_t root = groups.root(static_cast<std::uint32_t>(i));
     if (root == i) {
-      piece[i] = static_cast<std::uint32_t>(volumes.size());
-      volumes.emplace_back();
+      pieces.of_facet[i] = static_cast<std::uint32_t>(sums.size());
+      sums.emplace_back();
     } else {
-      piece[i] = piece[root];
+      pieces.of_facet[i] = pieces.of_facet[root];
     }
     const Vec3 a = vertices[facets[i][0]] - centre;
     const Vec3 b = vertices[facets[i][1]] - centre;
     const Vec3 c = vertices[facets[i][2]] - centre;
-    volumes[piece[i]].add(dot(a, cross(b - a, c - a)));
+    sums[pieces.of_facet[i]].add(dot(a, cross(b - a, c - a)));
   }
-  std::vector<double> result;
-  result.reserve(volumes.size());
-  for (const CompensatedSum& volume : volumes) result.push_back(volume.value() / 6.0);
-  return result;
+  for (const CompensatedSum& sum : sums) pieces.volumes.push_back(sum.value() / 6.0);
+  return pieces;
 }
 
+/// Expects the self-intersections to be known.
 void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>& facets, MeshFacts& facts) {
   TopologyCount count(mesh.vertices.size(), facets);
   const Topology& topology = count.topology();
@@ -311,14 +311,19 @@ void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>&
                                static_cast<long long>(topology.edges) + static_cast<long long>(facets.size());
 
   const Vec3 centre = 0.5 * (facts.lower + facts.upper);
-  const std::vector<double> volumes = piece_volumes(mesh.vertices, facets, count.groups(), centre);
+  const Pieces pieces = find_pieces(mesh.vertices, facets, count.groups(), centre);
   CompensatedSum total;
-  for (const double volume : volumes) total.add(volume);
-  facts.components = volumes.size();
+  for (const double volume : pieces.volumes) total.add(volume);
+  facts.components = pieces.volumes.size();
   facts.volume = total.value();
+
+  // Without knowing inside from outside, at least nothing may be inside out.
+  const bool is_plain =
+      facts.watertight() && facts.self_intersections == 0 && facts.self_intersections_complete;
   const bool all_positive =
-      std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; });
-  facts.oriented_outward = facts.closed() && facts.non_manifold_edges == 0 && all_positive;
+      std::all_of(pieces.volumes.begin(), pieces.volumes.end(), [](double volume) { return volume > 0.0; });
+  facts.oriented_outward = facts.closed() && facts.non_manifold_edges == 0 &&
+                           (is_plain ? bounds_material(mesh.vertices, facets, pieces) : all_positive);
 }
 
 bool has_repeated_vertex(const FacetCorners& facet) {
@@ -380,7 +385,8 @@ std::vector<std::string> MeshFacts::faults() const {
     report(self_intersections, "pair of facets that intersect", "pairs of facets that intersect");
   }
   if (closed() && non_manifold_edges == 0 && !oriented_outward) {
-    faults.emplace_back("facets face inward: a closed piece encloses negative volume");
+    faults.emplace_back(
+        "facets face the wrong way: a piece is inside out, or lies within another that is no cavity");
   }
   return faults;
 }

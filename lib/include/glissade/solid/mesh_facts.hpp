@@ -31,8 +31,9 @@ struct MeshFacts {
   /// False: the search stopped at a limit of its work (100,000 pairs found, or 200 pairs of overlapping boxes
   /// a facet tested), `self_intersections` is a lower bound and the mesh is not proven.
   bool self_intersections_complete = true;
-  /// Closed and every piece encloses its volume from outside; a piece within another faces the other way (a
-  /// cavity).
+  /// Closed, and facets face out of the material: every piece encloses positive volume, or negative volume (a
+  /// cavity) if it lies within the material of others. Where pieces intersect or meet, and beyond 5,000
+  /// pieces: every piece encloses positive volume.
   bool oriented_outward = false;
   long long euler_characteristic = 0;  ///< V - E + F; 2 for a sphere-like solid, 0 for a pipe
   double volume = 0.0;  ///< enclosed [m^3], positive where oriented outward; meaningless unless closed
