@@ -61,7 +61,8 @@ TEST_CASE("two runs of the same problem end in the same bits") {
   CHECK(optimize(problem).report.travel_time == optimize(problem).report.travel_time);
 }
 
-TEST_CASE("200 random reachable problems end within the stated accuracy of the exact optimum, never below it") {
+TEST_CASE(
+    "200 random reachable problems end within the stated accuracy of the exact optimum, never below it") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   for (int i = 0; i < 200; ++i) {

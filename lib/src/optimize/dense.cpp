@@ -6,9 +6,14 @@
 namespace glissade::fastest {
 
 double dot(const double* a, const double* b, std::size_t n) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
+  // Four sums side by side: the order is fixed, and the processor need not wait for each addition.
+  double sum[4] = {};
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += a[i + k] * b[i + k];
+  }
+  for (; i < n; ++i) sum[0] += a[i] * b[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 void add_scaled(double* y, double k, const double* a, std::size_t n) {
@@ -34,27 +39,29 @@ bool ShiftedCholesky::factor(const Matrix& symmetric, const Vector& diagonal) {
   constexpr double kSmallestPivot = 1e-11;
   const std::size_t n = diagonal.size();
   lower_ = Matrix(n, n);
+  inverse_.assign(n, 1.0);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      lower_(i, j) = (symmetric(i, j) - dot(lower_.row(i), lower_.row(j), j)) / lower_(j, j);
+      lower_(i, j) = (symmetric(i, j) - dot(lower_.row(i), lower_.row(j), j)) * inverse_[j];
     }
     const double full = symmetric(i, i) + shift_ * diagonal[i];
     const double pivot = full - dot(lower_.row(i), lower_.row(i), i);
     if (!(pivot > kSmallestPivot * diagonal[i])) return false;
     lower_(i, i) = std::sqrt(pivot);
+    inverse_[i] = 1.0 / lower_(i, i);
   }
   return true;
 }
 
 void ShiftedCholesky::backward(double* x) const {
   for (std::size_t i = lower_.columns(); i-- > 0;) {
-    x[i] /= lower_(i, i);
+    x[i] *= inverse_[i];
     add_scaled(x, -x[i], lower_.row(i), i);
   }
 }
 
 void ShiftedCholesky::forward(double* x) const {
-  for (std::size_t i = 0; i < lower_.columns(); ++i) x[i] = (x[i] - dot(lower_.row(i), x, i)) / lower_(i, i);
+  for (std::size_t i = 0; i < lower_.columns(); ++i) x[i] = (x[i] - dot(lower_.row(i), x, i)) * inverse_[i];
 }
 
 namespace {

@@ -47,6 +47,7 @@ class ShiftedCholesky {
  private:
   [[nodiscard]] bool factor(const Matrix& symmetric, const Vector& diagonal);
   Matrix lower_;
+  Vector inverse_;  ///< of the diagonal
   double shift_ = 0.0;
 };
 

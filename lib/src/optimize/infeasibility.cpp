@@ -70,12 +70,15 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
   return conflict;
 }
 
-std::optional<Conflict> explain(const Problem& problem, const std::vector<Passages>& passages,
-                                SearchControl& control) {
+Explanation explain(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control) {
   std::optional<Attempt> best;
-  for (const Passages& sides : passages) {
-    const auto scaled_problem = std::make_shared<ScaledProblem>(scaled(problem, sides));
-    for (const GuessCurve& start : starts(*scaled_problem)) {
+  Explanation explanation;
+  for (std::size_t way = 0; way < passages.size(); ++way) {
+    const auto scaled_problem = std::make_shared<ScaledProblem>(scaled(problem, passages[way]));
+    std::vector<GuessCurve> curves = starts(*scaled_problem);
+    if (curves.size() > 2) curves.erase(curves.begin() + 1, curves.end() - 1);
+    for (const GuessCurve& start : curves) {
+      if (control.stop()) return explanation;
       Attempt attempt;
       attempt.problem = scaled_problem;
       attempt.mesh.knots = graded_knots(start, kPieces, 1.0);
@@ -88,10 +91,15 @@ std::optional<Conflict> explain(const Problem& problem, const std::vector<Passag
       const Vector margins(scaled_problem->limits.size(), 0.0);
       attempt.relaxed = least_violation(*scaled_problem, attempt.mesh,
                                         fit(start, Transcription(attempt.mesh)), elastic, margins, control);
-      if (!best || attempt.relaxed.t < best->relaxed.t) best = std::move(attempt);
+      if (best && best->relaxed.t <= attempt.relaxed.t) continue;
+      best = std::move(attempt);
+      explanation.passages = way;
+      if (best->relaxed.t > kContradiction) continue;
+      explanation.mesh = best->mesh;
+      explanation.z = best->relaxed.found.z;
+      return explanation;
     }
   }
-  if (best->relaxed.t <= kContradiction) return std::nullopt;
 
   const std::vector<LimitSpec>& limits = best->problem->limits;
   const Found& found = best->relaxed.found;
@@ -142,7 +150,8 @@ std::optional<Conflict> explain(const Problem& problem, const std::vector<Passag
     conflict.text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit + " " +
                      quantity(relaxation.needed, relaxation.unit);
   }
-  return conflict;
+  explanation.conflict = std::move(conflict);
+  return explanation;
 }
 
 }  // namespace glissade::fastest

@@ -14,9 +14,15 @@ namespace glissade::fastest {
 /// slope is not steeper than the steepest friction angle.
 [[nodiscard]] std::optional<Conflict> beyond_reach(const Problem& problem);
 
-/// Searches for the least violation of all limits together; where it is not zero, names the limits that hold
-/// it up and the smallest change of each one that would do.
-[[nodiscard]] std::optional<Conflict> explain(const Problem& problem, const std::vector<Passages>& passages,
-                                              SearchControl& control);
+/// The end of the search for the least violation of all limits together.
+struct Explanation {
+  std::optional<Conflict>
+      conflict;              ///< where some violation is left: who holds it up, and what each would take
+  std::size_t passages = 0;  ///< otherwise a track that keeps all limits, and the passages it belongs to
+  Mesh mesh;
+  Vector z;
+};
+[[nodiscard]] Explanation explain(const Problem& problem, const std::vector<Passages>& passages,
+                                  SearchControl& control);
 
 }  // namespace glissade::fastest

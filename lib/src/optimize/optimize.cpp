@@ -32,10 +32,12 @@ constexpr double kNearlyFeasible = 1e-3;
 // The lowest load is kept this far above its bound, in g: a body that weighs nothing at all has left the
 // track.
 constexpr double kContactMargin = 1e-6;
-constexpr int kTighteningRounds = 8;
+constexpr int kTighteningRounds = 12;
 // Ten times finer than the stations of the search, of which a piece has some seven.
 constexpr int kRefereeSamples = 70;
 constexpr std::size_t kMostPassages = 16;
+// So many starts without any track that keeps the limits end a search.
+constexpr int kMostHopeless = 2;
 
 CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   const Layout& layout = found.track->layout();
@@ -68,20 +70,17 @@ class Searcher {
            const Progress& progress)
       : problem_(problem), options_(options), control_(control), progress_(progress) {}
 
+  /// From the product's own starts.
   [[nodiscard]] Candidate search(const Passages& passages) {
-    Candidate candidate;
-    candidate.problem = std::make_shared<ScaledProblem>(scaled(problem_, passages));
+    Candidate candidate = begun(passages);
     const ScaledProblem& scaled_problem = *candidate.problem;
-    margins_.assign(scaled_problem.limits.size(), 0.0);
-    for (std::size_t i = 0; i < margins_.size(); ++i) {
-      const LimitSpec& limit = scaled_problem.limits[i];
-      if (limit.measure == Measure::normal_load && limit.side < 0) margins_[i] = kContactMargin;
-    }
+    hopeless_ = 0;
     const bool unlimited = is_unlimited();
     for (const GuessCurve& start : starts(scaled_problem)) {
       std::optional<Found> found =
           unlimited ? from_exact(scaled_problem, start) : coarse(scaled_problem, start);
       if (control_.stop()) candidate.stopped = true;
+      if (hopeless_ >= kMostHopeless) break;
       if (!found) continue;
       refine(candidate, *found, unlimited);
       if (candidate.kept || candidate.stopped) break;
@@ -89,7 +88,28 @@ class Searcher {
     return candidate;
   }
 
+  /// From a track that keeps the limits.
+  [[nodiscard]] Candidate search_from(const Passages& passages, const Mesh& mesh, const Vector& z) {
+    Candidate candidate = begun(passages);
+    control_.tolerance = kCoarseTolerance;
+    control_.most_rounds = 12;
+    const Found found = minimise(*candidate.problem, mesh, z, margins_, control_);
+    refine(candidate, found, false);
+    return candidate;
+  }
+
  private:
+  [[nodiscard]] Candidate begun(const Passages& passages) {
+    Candidate candidate;
+    candidate.problem = std::make_shared<ScaledProblem>(scaled(problem_, passages));
+    const std::vector<LimitSpec>& limits = candidate.problem->limits;
+    margins_.assign(limits.size(), 0.0);
+    for (std::size_t i = 0; i < margins_.size(); ++i) {
+      if (limits[i].measure == Measure::normal_load && limits[i].side < 0) margins_[i] = kContactMargin;
+    }
+    return candidate;
+  }
+
   /// Only what every track obeys: the mesh can then be laid by the exact solution.
   [[nodiscard]] bool is_unlimited() const {
     Limits limits;
@@ -140,7 +160,10 @@ class Searcher {
     control_.most_rounds = 8;
     const Relaxed relaxed =
         least_violation(problem, finer, fit(start, Transcription(finer)), elastic, margins_, control_);
-    if (relaxed.t > kNearlyFeasible) return std::nullopt;
+    if (relaxed.t > kNearlyFeasible) {
+      ++hopeless_;
+      return std::nullopt;
+    }
     control_.most_rounds = 6;
     found = minimise(problem, finer, relaxed.found.z, margins_, control_);
     if (!found.feasible(kNearlyFeasible)) return std::nullopt;
@@ -176,6 +199,7 @@ class Searcher {
     }
     candidate.stopped = candidate.stopped || found.stopped;
     tell("referee", 0.9);
+    Vector lift_offs;
     for (int round = 0; round < kTighteningRounds; ++round) {
       const CenterlinePtr track = track_of(problem, found);
       const Verdict verdict = judge_track(problem_, track, kRefereeSamples);
@@ -192,8 +216,14 @@ class Searcher {
       tighten(problem, verdict);
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 10;
-      const Mesh mesh =
-          mesh_with(problem, found.track->mesh().knots, found.z[found.track->layout().length()]);
+      const double core_length = found.z[found.track->layout().length()];
+      Mesh mesh = mesh_with(problem, found.track->mesh().knots, core_length);
+      if (verdict.lift_off) {
+        // Hold the load exactly where the body left the track, too.
+        const double sigma = (*verdict.lift_off / problem.chord - problem.lead_in) / core_length;
+        if (sigma > 0.0 && sigma < 1.0) lift_offs.push_back(sigma);
+      }
+      mesh.extra_breaks.insert(mesh.extra_breaks.end(), lift_offs.begin(), lift_offs.end());
       found = minimise(problem, mesh, found.z, margins_, control_);
     }
   }
@@ -203,8 +233,8 @@ class Searcher {
       const LimitSpec& limit = problem.limits[i];
       if (limit.side == 0) continue;
       const bool contact = limit.measure == Measure::normal_load && limit.side < 0;
-      if (contact && verdict.lifted_off) {
-        margins_[i] *= 4.0;
+      if (contact && verdict.lift_off) {
+        margins_[i] *= 2.0;
         continue;
       }
       const LimitCheck* check = verdict.find(limit.key);
@@ -222,6 +252,7 @@ class Searcher {
   SearchControl& control_;
   const Progress& progress_;
   Vector margins_;
+  int hopeless_ = 0;  ///< starts from which not even the least violation vanished
 };
 
 /// Every combination of sides for the keep-outs that leave it open, up to kMostPassages.
@@ -338,6 +369,17 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     if (stopped) break;
   }
 
+  std::optional<Conflict> conflict;
+  if (!best->kept && !stopped) {
+    control.most_rounds = 10;
+    Explanation explanation = explain(problem, all, control);
+    conflict = std::move(explanation.conflict);
+    if (!conflict && !explanation.z.empty()) {
+      best = searcher.search_from(all[explanation.passages], explanation.mesh, explanation.z);
+    }
+    stopped = best->stopped || control.stop();
+  }
+
   if (best->kept) {
     const Found& found = *best->found;
     optimum.centerline = best->track;
@@ -356,12 +398,10 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     } else {
       report.message = "every limit holds, but the first-order residual stayed above its tolerance";
     }
-  } else if (stopped) {
+  } else if (stopped && !conflict) {
     report.status = OptimizeStatus::no_track_found;
     report.message = "ended early, before any track kept every limit";
   } else {
-    control.most_rounds = 20;
-    const std::optional<Conflict> conflict = explain(problem, all, control);
     if (conflict) {
       report.status = OptimizeStatus::infeasible;
       report.conflict = *conflict;

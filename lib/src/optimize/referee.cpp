@@ -307,7 +307,7 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
     const Motion motion(track, body, problem.gravity);
     if (!motion.arrived()) {
       verdict.arrived = false;
-      verdict.lifted_off = verdict.lifted_off || motion.lift_off().has_value();
+      if (motion.lift_off()) verdict.lift_off = motion.lift_off()->arc_length;
       continue;
     }
     if (friction == problem.body.friction) {

@@ -310,7 +310,9 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
     row.limit = i;
     const auto everywhere = [&](std::size_t ride, std::size_t first) {
       row.ride = ride;
-      for (row.place = first; row.place <= last; ++row.place) consider(row);
+      for (row.place = first; row.place <= last; ++row.place) {
+        if (stations[row.place].watched) consider(row);
+      }
     };
     switch (limit.measure) {
       case Measure::entry_slope_angle:
@@ -343,6 +345,7 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
         row.ride = limit.side > 0 ? 0 : last_ride;
         for (row.place = 0; row.place <= last; ++row.place) {
           const double s = stations[row.place].arc_length(length);
+          if (!stations[row.place].watched) continue;
           if (limit.side < 0 && s < problem_.lowest_speed_from * (1.0 - 1e-9)) continue;
           consider(row);
         }
@@ -365,6 +368,7 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
           const Vec2 from = obstacle.corners[row.edge];
           const Vec2 along = obstacle.corners[row.edge + 1] - from;
           for (row.place = 0; row.place <= last; ++row.place) {
+            if (!stations[row.place].watched) continue;
             const Vec2 rest = Vec2{state.shape.x[row.place], state.shape.y[row.place]} - from;
             const double share = dot(rest, along) / dot(along, along);
             if (share >= 0.0 && share <= 1.0) consider(row);

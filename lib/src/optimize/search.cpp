@@ -7,9 +7,13 @@
 namespace glissade::fastest {
 namespace {
 
-// Rows this close to their bound take part in the first round, and in those that move the track less.
+// Rows this close to their bound take part in the first round, and in those that move the track less. All do
+// on a coarse mesh and after a round that broke limits which had no part in it.
 constexpr double kBand = 0.25;
 constexpr double kLaterBand = 0.04;
+constexpr double kEverything = HUGE_VAL;
+constexpr std::size_t kCoarse = 24;
+constexpr double kBroken = 0.01;
 // Rows this close to their bound may carry a multiplier.
 constexpr double kActive = 1e-6;
 
@@ -195,7 +199,8 @@ Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& sta
     rows->equalities(state, value, jacobian);
     metric = metric_of(hessian_of(problem, *track, *rows, state, equality, active, inequality), jacobian);
 
-    std::vector<Row> set = rows->candidates(state, round == 0 ? kBand : kLaterBand);
+    const bool all = round == 0 ? mesh.knots.size() < kCoarse : found.violation > kBroken;
+    std::vector<Row> set = rows->candidates(state, all ? kEverything : (round == 0 ? kBand : kLaterBand));
     set.insert(set.end(), active.begin(), active.end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
@@ -264,7 +269,7 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
     Vector value;
     Matrix jacobian;
     rows->equalities(state, value, jacobian);
-    std::vector<Row> set = rows->candidates(state, 2.0 * kBand);
+    std::vector<Row> set = rows->candidates(state, round < 2 ? kEverything : 2.0 * kBand);
     set.insert(set.end(), kept.begin(), kept.end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());

@@ -126,6 +126,8 @@ void Transcription::add_panels(double a, double b, Part part, std::size_t piece)
       const double r = from + (to - from) * rule.node[k];
       panel.ds[k] = 2.0 * r * (to - from);
       add_station(r * r - shift, part, piece);
+      // The two middle nodes; the outer ones lie next to the ends of the panel.
+      stations_.back().watched = 2 * k + 2 == kNodes || 2 * k == kNodes;
     }
     panels_.push_back(panel);
     add_station(i + 1 == count ? b : to * to - shift, part, piece);

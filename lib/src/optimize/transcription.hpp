@@ -41,6 +41,7 @@ struct Station {
   std::size_t piece = 0;   ///< between knots piece and piece + 1
   double share = 0.0;      ///< of the way between these knots
   Part part = Part::core;  ///< curvature is 0 outside the core
+  bool watched = true;     ///< limits are held here; enough of them that little happens in between
   [[nodiscard]] double arc_length(double core_length) const { return fixed_length + sigma * core_length; }
 };
 

@@ -1,0 +1,222 @@
+// Random mixtures of limits: every result is held against the referee, against its own neighbours, and
+// against re-solves.
+
+#include "optimize/random_limits.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+
+#include "optimize/referee.hpp"
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <optional>
+
+using namespace glissade;
+using testing_problems::random_limited;
+
+namespace {
+
+// A limit may be missed by this much of its scale, at points ten times denser than the search's.
+constexpr double kKept = 1e-6;
+constexpr int kReferee = 70;
+
+/// Newton's method on the finish: shifts a spline's two middle curvatures and its length so that it ends
+/// where it must. Nothing of the search takes part.
+std::optional<std::shared_ptr<ClothoidSpline>> through_finish(double entry,
+                                                              std::vector<ClothoidSegment> segments,
+                                                              double run, std::optional<double> drop) {
+  const auto build = [&](double bend, double stretch) {
+    std::vector<ClothoidSegment> moved = segments;
+    const std::size_t middle = moved.size() / 2;
+    moved[middle].exit_curvature += bend;
+    moved[middle + 1].entry_curvature += bend;
+    for (ClothoidSegment& segment : moved) {
+      const bool straight = segment.entry_curvature == 0.0 && segment.exit_curvature == 0.0;
+      if (!straight) segment.length *= 1.0 + stretch;
+    }
+    return std::make_shared<ClothoidSpline>(Angle::from_radians(entry), std::move(moved));
+  };
+  const double size = build(0.0, 0.0)->length();
+  double bend = 0.0;
+  double stretch = 0.0;
+  for (int step = 0; step < 12; ++step) {
+    const auto end = [&](double b, double s) {
+      const auto track = build(b, s);
+      const CenterlinePoint point = track->at(track->length());
+      return Vec2{point.x - run, drop ? point.drop - *drop : 0.0};
+    };
+    const Vec2 miss = end(bend, stretch);
+    if (std::hypot(miss.x, miss.y) < 1e-12 * size) return build(bend, stretch);
+    const double h = 1e-6;
+    const Vec2 by_stretch = (1.0 / h) * (end(bend, stretch + h) - miss);
+    if (!drop) {
+      stretch -= miss.x / by_stretch.x;
+      continue;
+    }
+    const Vec2 by_bend = (size / h) * (end(bend + h / size, stretch) - miss);
+    const double determinant = cross(by_bend, by_stretch);
+    if (std::fabs(determinant) < 1e-12 * size * size) return std::nullopt;
+    bend -= cross(miss, by_stretch) / determinant;
+    stretch -= cross(by_bend, miss) / determinant;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("random limited problems: every limit is kept, and no admissible neighbour is faster") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int solved = 0;
+  int converged = 0;
+  int admissible = 0;
+  constexpr int kProblems = 100;
+  constexpr int kNeighbours = 12;
+  for (int i = 0; i < kProblems; ++i) {
+    const Problem problem = random_limited(random);
+    const Optimum optimum = optimize(problem);
+    CAPTURE(i, optimum.report.brief());
+    CHECK(optimum.report.status != OptimizeStatus::no_track_found);
+    if (!optimum.centerline) continue;
+    ++solved;
+    const fastest::Verdict verdict = fastest::judge_track(problem, optimum.centerline, kReferee);
+    CHECK(verdict.arrived);
+    CHECK(verdict.worst <= kKept);
+    CHECK(verdict.travel_time == optimum.report.travel_time);
+    if (optimum.report.status != OptimizeStatus::optimal) continue;
+    ++converged;
+    const auto& spline = dynamic_cast<const ClothoidSpline&>(*optimum.centerline);
+    const bool point = problem.finish.kind == FinishKind::point;
+    for (int k = 0; k < kNeighbours; ++k) {
+      // Smooth random bends of 1e-6 to 1e-2 rad; straights that the problem asks for stay straight.
+      const double amplitude = std::pow(10.0, random.between(-6.0, -2.0)) / spline.length();
+      const double wave = random.between(0.5, 4.0);
+      const double phase = random.between(0.0, 6.3);
+      std::vector<ClothoidSegment> segments = spline.segments();
+      double s = 0.0;
+      for (std::size_t j = 0; j < segments.size(); ++j) {
+        ClothoidSegment& segment = segments[j];
+        const bool lead = (j == 0 && problem.limits.lead_in > 0.0) ||
+                          (j + 1 == segments.size() && problem.limits.lead_out > 0.0);
+        const auto bend = [&](double at) {
+          return amplitude * std::sin(6.283 * wave * at / spline.length() + phase);
+        };
+        if (!lead) {
+          const bool after_lead = j == 1 && problem.limits.lead_in > 0.0;
+          const bool before_lead = j + 2 == segments.size() && problem.limits.lead_out > 0.0;
+          if (!after_lead) segment.entry_curvature += bend(s);
+          if (!before_lead) segment.exit_curvature += bend(s + segment.length);
+        }
+        s += segment.length;
+      }
+      const double entry =
+          spline.entry_slope_angle().radians() + random.between(-1.0, 1.0) * amplitude * spline.length();
+      const auto neighbour = through_finish(entry, segments, std::fabs(problem.endpoints.run),
+                                            point ? std::optional(problem.endpoints.drop) : std::nullopt);
+      if (!neighbour) continue;
+      const fastest::Verdict other = fastest::judge_track(problem, *neighbour, 8);
+      if (!other.arrived || other.worst > 1e-7) continue;
+      ++admissible;
+      if (other.travel_time >= optimum.report.travel_time * (1.0 - 1e-6)) continue;
+      // Faster at eight points a piece: look as closely as at the optimum itself.
+      const fastest::Verdict close = fastest::judge_track(problem, *neighbour, kReferee);
+      CAPTURE(k, amplitude * spline.length());
+      // A neighbour that breaks a limit by 1e-7 may win that much times the limit's price.
+      CHECK((!close.arrived || close.worst > 1e-7));
+    }
+  }
+  CAPTURE(solved, converged, admissible);
+  CHECK(converged >= kProblems * 3 / 4);
+  CHECK(converged >= solved - solved / 20);
+  CHECK(admissible > 20);
+}
+
+TEST_CASE("prices are what a re-solve with the limit relaxed wins") {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  const auto price_matches = [&](const char* key, auto relax, double step) {
+    const Optimum now = optimize(problem);
+    Problem tight = problem;
+    Problem loose = problem;
+    relax(tight.limits, -step);
+    relax(loose.limits, step);
+    const double won =
+        (optimize(tight).report.travel_time - optimize(loose).report.travel_time) / (2.0 * step);
+    for (const ActiveLimit& active : now.report.active) {
+      if (active.limit != key) continue;
+      CAPTURE(key, active.price, won);
+      // Central difference over two meshes that adapt on their own.
+      CHECK(active.price == Approx(won).epsilon(0.03));
+      return;
+    }
+    FAIL(key << " is not active");
+  };
+  problem.limits.slope_angle.highest = 0.7;
+  price_matches(
+      "slope_angle.highest", [](Limits& l, double d) { *l.slope_angle.highest += d; }, 0.01);
+  problem.limits = {};
+  problem.limits.smallest_valley_radius = 8.0;
+  price_matches(
+      "smallest_valley_radius", [](Limits& l, double d) { *l.smallest_valley_radius -= d; }, 0.2);
+  problem.limits = {};
+  problem.limits.highest_normal_load = 14.0;
+  price_matches(
+      "highest_normal_load", [](Limits& l, double d) { *l.highest_normal_load += d; }, 0.3);
+  problem.limits = {};
+  problem.limits.speed.highest = 7.0;
+  price_matches(
+      "speed.highest", [](Limits& l, double d) { *l.speed.highest += d; }, 0.02);
+  problem.limits = {};
+  problem.limits.half_planes.push_back({{0.0, 1.0}, {-0.5, 1.0}, 0.1});
+  price_matches(
+      "half_planes[0]", [](Limits& l, double d) { l.half_planes[0].clearance -= d; }, 0.02);
+  problem.limits = {};
+  problem.limits.arc_length.highest = 11.4;
+  price_matches(
+      "arc_length.highest", [](Limits& l, double d) { *l.arc_length.highest += d; }, 0.01);
+}
+
+TEST_CASE("what the report of a contradiction calls enough is enough, and a little less is not") {
+  Problem problem;
+  problem.endpoints = {83.48, 45.79};
+  problem.body.friction = Friction::from_coefficient(0.03);
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  problem.limits.slope_angle.highest = 30.0 * kDegree;
+  problem.limits.exit_slope_angle = Range::fixed(11.0 * kDegree);
+  problem.limits.smallest_valley_radius = 90.0;
+  const Optimum optimum = optimize(problem);
+  INFO(optimum.report.message);
+  REQUIRE(optimum.report.status == OptimizeStatus::infeasible);
+  const auto with = [&](const Relaxation& relaxation, double share) {
+    Problem changed = problem;
+    const double value = relaxation.value + share * (relaxation.needed - relaxation.value);
+    if (relaxation.limit == "slope_angle.highest") changed.limits.slope_angle.highest = value;
+    if (relaxation.limit == "smallest_valley_radius") changed.limits.smallest_valley_radius = value;
+    if (relaxation.limit == "exit_slope_angle") changed.limits.exit_slope_angle = Range::fixed(value);
+    return optimize(changed).report.status;
+  };
+  REQUIRE(optimum.report.conflict.relaxations.size() == 3);
+  for (const Relaxation& relaxation : optimum.report.conflict.relaxations) {
+    CAPTURE(relaxation.limit, relaxation.needed);
+    CHECK(with(relaxation, 1.02) != OptimizeStatus::infeasible);
+    CHECK(with(relaxation, 0.9) == OptimizeStatus::infeasible);
+  }
+}
+
+TEST_CASE("a stop or an empty budget ends early and says so") {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.highest_normal_load = 14.0;
+  std::stop_source source;
+  source.request_stop();
+  const Optimum stopped = optimize(problem, {}, source.get_token());
+  CHECK(stopped.report.status != OptimizeStatus::optimal);
+  CHECK(stopped.report.status != OptimizeStatus::infeasible);
+  OptimizeOptions hurried;
+  hurried.time_budget = 1e-9;
+  const Optimum early = optimize(problem, hurried);
+  CHECK(early.report.status != OptimizeStatus::optimal);
+  if (early.centerline) CHECK(fastest::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+}
