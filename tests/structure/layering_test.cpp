@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
     {"CGAL/", {"solid"}},
     {"nlopt", {"centerline", "optimize"}},
     {"yaml-cpp/", {"design"}},
-    {"boost/", {"core", "centerline", "motion", "optimize", "solid"}},
+    {"boost/", {"core", "centerline", "motion", "optimize", "solid", "pipeline"}},
     {"fmt/", {"core", "io", "design", "solid", "pipeline", "report"}},
     {"nlohmann/", {"report"}},
     {"openssl/", {"report"}},

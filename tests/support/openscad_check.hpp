@@ -26,9 +26,9 @@ inline OpenscadResult openscad_render(const std::string& source) {
   const TempDir dir;
   put_bytes(dir / "in.scad", source);
   const std::string result = (dir / "out.off").string();
-  const ProgramResult run = run_program({"openscad", "-o", result, (dir / "in.scad").string()});
-  if (run.exit_code != 0) throw std::runtime_error("openscad failed:\n" + run.output);
-  return {run.output, bytes_of(result)};
+  const Outcome run = run_program("openscad", {"-o", result, (dir / "in.scad").string()});
+  if (run.exit_code != 0) throw std::runtime_error("openscad failed:\n" + run.output + run.errors);
+  return {run.output + run.errors, bytes_of(result)};
 }
 
 /// @return source that puts `solid` through exact geometry without changing it: OpenSCAD looks at nothing
@@ -64,7 +64,7 @@ struct AdmeshResult {
 
 /// @throws std::runtime_error with its output if admesh fails or is missing
 inline AdmeshResult admesh_check(const std::filesystem::path& file) {
-  const ProgramResult run = run_program({"admesh", file.string()});
-  if (run.exit_code != 0) throw std::runtime_error("admesh failed:\n" + run.output);
+  const Outcome run = run_program("admesh", {file.string()});
+  if (run.exit_code != 0) throw std::runtime_error("admesh failed:\n" + run.output + run.errors);
   return {run.output};
 }

@@ -1,35 +1,25 @@
 #pragma once
 
-#include <array>
-#include <cstdio>
-#include <stdexcept>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include <sys/wait.h>
-
-/// What a program did: both its outputs, mixed as they came, and its exit code (128 + n after signal n).
-struct ProgramResult {
-  std::string output;
-  int exit_code = 0;
+/// How a program ended and what it said.
+struct Outcome {
+  int exit_code = -1;  ///< 128 + signal where a signal ended it, as a shell says it
+  std::string output;  ///< standard output
+  std::string errors;  ///< standard error
 };
 
-/// Runs a program found in PATH; arguments reach it as they are.
-inline ProgramResult run_program(const std::vector<std::string>& arguments) {
-  std::string command;
-  for (const std::string& argument : arguments) {
-    command += '\'';
-    for (const char c : argument) c == '\'' ? command += "'\\''" : command += c;
-    command += "' ";
-  }
-  std::FILE* pipe = ::popen((command + "2>&1").c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("cannot start " + command);
-  ProgramResult result;
-  std::array<char, 4096> block{};
-  while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe)) {
-    result.output.append(block.data(), got);
-  }
-  const int status = ::pclose(pipe);
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return result;
-}
+/// Where and under which limits a program runs.
+struct RunLimits {
+  std::filesystem::path directory;                 ///< empty: here
+  std::optional<unsigned long long> largest_file;  ///< in bytes; writing more fails, as on a full disk
+  std::filesystem::path output_to;                 ///< a device or file instead of Outcome::output
+};
+
+/// Runs a program to its end, without a shell; standard input is empty.
+/// @param program  a path, or a name that is looked up in PATH
+[[nodiscard]] Outcome run_program(const std::filesystem::path& program,
+                                  const std::vector<std::string>& arguments, const RunLimits& limits = {});

@@ -42,6 +42,7 @@ struct Track {
   /// Smallest radius of curvature [m]: 0 where the curvature is unbounded at the start, infinity on a
   /// straight.
   double min_radius = 0.0;
+  double steepest_slope_angle = 0.0;  ///< largest slope angle anywhere [rad]
 
   /// @return travel time on the straight line [s]; none if the body does not arrive there
   [[nodiscard]] std::optional<double> straight_travel_time() const;
@@ -54,9 +55,16 @@ struct Track {
 /// @throws InputError, InfeasibleError, ConvergenceError, FileError with the location in the design
 [[nodiscard]] CenterlinePtr make_centerline(const Design& design);
 
+/// The ride of the design's body down a given centerline, and what it is measured by.
+[[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline);
+
 /// Design to centerline and motion. A body that stalls or leaves the track is a result, not an error.
 /// @throws InputError with everything that check() finds; else as make_centerline()
 [[nodiscard]] Track solve(const Design& design, const RunContext& context = {});
+
+/// Why a ride is not what was wanted: the body stalls or leaves the track.
+/// @return the problem with the place and what is missing there; none if the body arrives
+[[nodiscard]] std::optional<Issue> ride_problem(const Design& design, const Track& track);
 
 /// The outline that a design asks for.
 /// @throws InputError if the measures do not make a cross-section
@@ -83,8 +91,5 @@ struct Build {
 ///         Interrupted if the context's stop token asks for it; InternalError if a mesh turns out faulty
 [[nodiscard]] Build build(const Design& design, const std::filesystem::path& directory,
                           const RunContext& context = {});
-
-/// @return smallest radius of curvature along a centerline [m], see Track::min_radius
-[[nodiscard]] double min_radius(const Centerline& centerline);
 
 }  // namespace glissade

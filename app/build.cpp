@@ -1,0 +1,76 @@
+#include "glissade/pipeline.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/interrupt.hpp"
+#include "app/json.hpp"
+#include "app/progress_line.hpp"
+#include "app/summary.hpp"
+#include "app/track_input.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Build a design: centerline, motion, solid, files, and a summary.\n"
+    "\n"
+    "Either every file appears or none: a build that fails leaves the directory as it was.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade build designs/grain_chute.yaml                     into out/grain_chute/\n"
+    "  glissade build designs/grain_chute.yaml -o chute --json\n"
+    "  glissade build designs/grain_chute.yaml --set mesh.tolerance=0.1mm --set export=[stl]";
+
+struct Options {
+  std::string design;
+  std::string directory;
+  Overrides overrides;
+  bool json = false;
+  bool quiet = false;
+};
+
+std::filesystem::path directory_of(const Options& options) {
+  if (!options.directory.empty()) return options.directory;
+  return std::filesystem::path("out") / std::filesystem::path(options.design).stem();
+}
+
+ExitCode build_design(const Options& options) {
+  const Design design = read_design(options.design, options.overrides.values());
+  const Interrupt interrupt;
+  const Build built = [&] {
+    ProgressLine progress(options.quiet);
+    return build(design, directory_of(options), {progress.callback(), interrupt.token()});
+  }();
+  if (options.json) {
+    print(document(build_json(design, built)));
+  } else if (!options.quiet) {
+    print(build_summary(design, built));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_build(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("build", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
+  command
+      .add_option("-o,--output", options->directory,
+                  "Directory for the files, made if missing [default: out/NAME-OF-THE-DESIGN]")
+      ->type_name("DIR");
+  options->overrides.add_to(command);
+  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors (and what --json asks for)");
+  command.callback([options, &action] { action = [options] { return build_design(*options); }; });
+}
+
+}  // namespace glissade::app

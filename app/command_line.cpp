@@ -1,0 +1,77 @@
+#include "app/command_line.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/version.hpp"
+
+#include "app/console.hpp"
+#include "app/help.hpp"
+
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Gravity tracks: from a design file to the fastest centerline under friction, the ride down it,\n"
+    "a watertight solid and the files a workshop needs.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade init > chute.yaml                                a design to start from\n"
+    "  glissade build chute.yaml                                 everything, into out/chute/\n"
+    "  glissade solve --run 10 --drop 5 --friction-angle 11deg   the numbers alone\n"
+    "  glissade compare chute.yaml                               every kind of centerline side by side\n"
+    "\n"
+    "Exit codes: 0 done; 1 the inspected mesh is faulty; 2 wrong usage or design; 3 infeasible, or the\n"
+    "body does not arrive; 4 not converged; 5 a file cannot be read or written; 70 a defect of Glissade;\n"
+    "130 interrupted.\n"
+    "'glissade COMMAND --help' tells more about a command.";
+
+std::string command_given(const CLI::App& program) {
+  const auto given = program.get_subcommands();
+  return given.empty() ? program.get_name() : program.get_name() + " " + given.front()->get_name();
+}
+
+Issue usage_issue(const CLI::App& program, std::string what) {
+  while (!what.empty() && (what.back() == '\n' || what.back() == ' ')) what.pop_back();
+  return {"", what, "", command_given(program) + " --help"};
+}
+
+}  // namespace
+
+ExitCode run(int argc, const char* const* argv) {
+  CLI::App program(kDescription, "glissade");
+  program.footer(kFooter);
+  program.set_help_flag("-h,--help", "Print this help and end");
+  program.set_version_flag("--version", "glissade " + std::string(version()), "Print the version and end");
+  program.formatter(std::make_shared<CLI::FormatterLambda>(
+      [](const CLI::App* command, const std::string&, CLI::AppFormatMode) { return help_text(*command); }));
+
+  Action action;
+  add_build(program, action);
+  add_solve(program, action);
+  add_compare(program, action);
+  add_inspect(program, action);
+  add_init(program, action);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto given = program.get_subcommands();
+    print(help_text(given.empty() ? program : *given.front()));
+    return ExitCode::done;
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + "\n");
+    return ExitCode::done;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(usage_issue(program, error.what()));
+  }
+  if (!action)
+    throw InputError(usage_issue(program, argc > 1 ? "no command is given" : "nothing is asked for"));
+  return action();
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace glissade::app {
+
+/// Writes to standard output and flushes. A reader that went away (a pipe that is closed) is no error.
+/// @throws FileError if the bytes cannot be written, e.g. on a full disk
+void print(std::string_view text);
+
+/// Writes to standard error; what cannot be written there is lost.
+void print_error(std::string_view text);
+
+[[nodiscard]] bool output_is_terminal();
+[[nodiscard]] bool error_is_terminal();
+
+/// How a word stands out on a terminal.
+enum class Emphasis { heading, good, bad };
+
+/// @return `text` in colour or bold where standard output is a terminal and NO_COLOR is not set, else as it
+/// is
+[[nodiscard]] std::string emphasised(std::string_view text, Emphasis emphasis);
+
+}  // namespace glissade::app

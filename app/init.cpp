@@ -1,0 +1,81 @@
+#include "glissade/core/error.hpp"
+#include "glissade/design/template.hpp"
+#include "glissade/io/atomic_file.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Write a commented design file to start from, to standard output or to a file.";
+
+struct Options {
+  std::string kind;
+  std::string output;
+  bool force = false;
+};
+
+std::string footer() {
+  constexpr std::size_t kColumn = 18;
+  std::string text = "Kinds:\n";
+  for (const DesignTemplate& entry : design_templates()) {
+    std::string line = "  " + std::string(entry.kind);
+    line.resize(kColumn, ' ');
+    text += line + std::string(entry.summary) + "\n";
+  }
+  return text +
+         "\n"
+         "Examples:\n"
+         "  glissade init > chute.yaml\n"
+         "  glissade init points -o wall.yaml                 with the profile that it reads beside it";
+}
+
+void write_new(const std::filesystem::path& path, std::string_view text, bool force) {
+  if (!force && std::filesystem::exists(path)) {
+    throw FileError({path.string(), "the file exists already", "It may hold work of yours.",
+                     "another name, or --force to replace it"});
+  }
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+ExitCode write_template(const Options& options) {
+  const std::string kind = options.kind.empty() ? std::string(design_templates().front().kind) : options.kind;
+  const std::string text = design_template(kind);
+  if (options.output.empty()) {
+    print(text);
+    return ExitCode::done;
+  }
+  const std::filesystem::path path = options.output;
+  write_new(path, text, options.force);
+  if (kind == "points") {
+    write_new(path.parent_path() / kTemplateProfileName, design_template_profile(), options.force);
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_init(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("init", kDescription)->footer(footer());
+  const auto options = std::make_shared<Options>();
+  command.add_option("kind", options->kind, "What to start from, see below")->type_name("KIND");
+  command.add_option("-o,--output", options->output, "File to write; one that exists is kept")
+      ->type_name("FILE");
+  command.add_flag("--force", options->force, "Replace a file that exists");
+  command.callback([options, &action] { action = [options] { return write_template(*options); }; });
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,138 @@
+#include "app/json.hpp"
+
+#include "glissade/core/version.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+namespace glissade::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double degrees(double radians) {
+  return Angle::from_radians(radians).degrees();
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json point(const Vec3& position) {
+  return Json::array({position.x, position.y, position.z});
+}
+
+Json stall_json(const std::optional<Stall>& stall) {
+  if (!stall) return nullptr;
+  return {{"arc_length_m", stall->arc_length}, {"missing_slope_deg", degrees(stall->missing_slope)}};
+}
+
+Json lift_off_json(const std::optional<LiftOff>& lift_off) {
+  if (!lift_off) return nullptr;
+  return {{"arc_length_m", lift_off->arc_length},
+          {"speed_m_per_s", lift_off->speed},
+          {"curvature_per_m", lift_off->curvature}};
+}
+
+std::string_view status(const Motion& motion) {
+  if (motion.arrived()) return "arrived";
+  return motion.stall() ? "stalled" : "lifted off";
+}
+
+}  // namespace
+
+Json input_json(const Design& design) {
+  const Endpoints endpoints = endpoints_of(design);
+  Json json;
+  json["glissade"] = version();
+  if (!design.name.empty()) json["name"] = design.name;
+  json["run_m"] = endpoints.run;
+  json["drop_m"] = endpoints.drop;
+  json["friction_coefficient"] = design.body.friction.coefficient();
+  json["friction_angle_deg"] = design.body.friction.angle().degrees();
+  json["entry_speed_m_per_s"] = design.body.entry_speed;
+  json["drag_per_m"] = design.body.drag_per_metre;
+  json["gravity_m_per_s2"] = design.gravity;
+  return json;
+}
+
+Json track_json(const Design& design, const Track& track) {
+  const Centerline& centerline = *track.centerline;
+  const Motion& motion = track.motion;
+  const MotionState highest = motion.highest_load();
+  Json json = input_json(design);
+  json["run_m"] = track.endpoints.run;
+  json["drop_m"] = track.endpoints.drop;
+  json["centerline"] = centerline.kind();
+  json["status"] = status(motion);
+  json["travel_time_s"] = number(motion.arrived() ? std::optional(motion.travel_time()) : std::nullopt);
+  json["straight_travel_time_s"] = number(track.straight_travel_time());
+  json["optimum_travel_time_s"] = number(track.optimum_travel_time);
+  json["exit_speed_m_per_s"] = number(motion.arrived() ? std::optional(motion.exit_speed()) : std::nullopt);
+  json["highest_speed_m_per_s"] = motion.highest_speed().speed;
+  json["entry_slope_angle_deg"] = degrees(centerline.slope_angle(0.0));
+  json["exit_slope_angle_deg"] = degrees(centerline.slope_angle(centerline.length()));
+  json["arc_length_m"] = centerline.length();
+  json["min_radius_m"] = number(track.min_radius);
+  json["max_normal_load_m_per_s2"] = number(highest.normal_load);
+  json["max_normal_load_at_m"] = highest.arc_length;
+  json["min_normal_load_m_per_s2"] = number(motion.lowest_load().normal_load);
+  const MotionState end = motion.at(motion.distance());
+  json["friction_loss_j_per_kg"] = end.friction_loss;
+  json["drag_loss_j_per_kg"] = end.drag_loss;
+  json["stall"] = stall_json(motion.stall());
+  json["lift_off"] = lift_off_json(motion.lift_off());
+  return json;
+}
+
+Json facts_json(const MeshFacts& facts) {
+  Json json;
+  json["valid"] = facts.valid();
+  json["watertight"] = facts.watertight();
+  json["oriented_outward"] = facts.oriented_outward;
+  json["triangles"] = facts.triangles;
+  json["vertices"] = facts.vertices;
+  json["components"] = facts.components;
+  json["self_intersections"] = facts.self_intersections;
+  json["boundary_edges"] = facts.boundary_edges;
+  json["non_manifold_edges"] = facts.non_manifold_edges;
+  json["non_manifold_vertices"] = facts.non_manifold_vertices;
+  json["degenerate_facets"] = facts.degenerate_facets;
+  json["duplicate_vertices"] = facts.duplicate_vertices;
+  json["unused_vertices"] = facts.unused_vertices;
+  json["euler_characteristic"] = facts.euler_characteristic;
+  json["volume_m3"] = facts.volume;
+  json["area_m2"] = facts.area;
+  json["smallest_angle_deg"] = degrees(facts.smallest_angle);
+  json["shortest_edge_m"] = facts.shortest_edge;
+  json["lower_m"] = point(facts.lower);
+  json["upper_m"] = point(facts.upper);
+  json["faults"] = facts.faults();
+  return json;
+}
+
+Json build_json(const Design& design, const Build& build) {
+  Json json = track_json(design, build.track);
+  Json mesh = facts_json(build.facts);
+  mesh["max_deviation_m"] = build.solid.max_deviation;
+  mesh["trimmed"] = build.solid.trimmed;
+  json["mesh"] = std::move(mesh);
+  json["files"] = Json::array();
+  for (const WrittenFile& file : build.files) {
+    json["files"].push_back({{"path", file.path.generic_string()}, {"bytes", file.bytes}});
+  }
+  return json;
+}
+
+std::string document(const Json& json) {
+  // A name may hold bytes that are no UTF-8: they are replaced rather than refused.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "glissade/pipeline.hpp"
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace glissade::app {
+
+/// The objects that --json prints; docs/cli.md lists their keys. SI values with the unit in the key, every
+/// number with all digits that a double carries, null where a value does not exist or is infinite.
+
+[[nodiscard]] nlohmann::ordered_json track_json(const Design& design, const Track& track);
+[[nodiscard]] nlohmann::ordered_json facts_json(const MeshFacts& facts);
+[[nodiscard]] nlohmann::ordered_json build_json(const Design& design, const Build& build);
+/// What the tracks of a comparison have in common.
+[[nodiscard]] nlohmann::ordered_json input_json(const Design& design);
+
+/// @return the document as --json prints it, with a newline at the end
+[[nodiscard]] std::string document(const nlohmann::ordered_json& json);
+
+}  // namespace glissade::app

@@ -1,0 +1,49 @@
+#include "app/progress_line.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include "app/console.hpp"
+
+#include <cmath>
+
+namespace glissade::app {
+namespace {
+
+constexpr std::chrono::seconds kPatience{1};
+constexpr double kTrustedFraction = 0.05;  // below, what is left cannot be told from what is done
+
+std::string time_left(double elapsed, double fraction) {
+  if (fraction < kTrustedFraction) return "";
+  return ", " + rounded_text(std::ceil(elapsed * (1.0 - fraction) / fraction), 3) + " s left";
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet) : enabled_(!quiet && error_is_terminal()) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) print_error("\r\033[K");
+}
+
+Progress ProgressLine::callback() {
+  if (!enabled_) return {};
+  return [this](std::string_view stage, double fraction) { show(stage, fraction); };
+}
+
+void ProgressLine::show(std::string_view stage, double fraction) {
+  const Clock::time_point now = Clock::now();
+  if (stage != stage_) {
+    stage_ = stage;
+    stage_start_ = now;
+  }
+  if (now - start_ < kPatience) return;
+  std::string line = "\r\033[K" + stage_;
+  if (fraction >= 0.0) {
+    const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
+    line += " " + rounded_text(std::floor(fraction * 100.0), 3) + " %" + time_left(elapsed, fraction);
+  }
+  print_error(line);
+  shown_ = true;
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,52 @@
+#include "glissade/pipeline.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/json.hpp"
+#include "app/summary.hpp"
+#include "app/track_input.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Find the centerline and the ride down it; write no files.\n"
+    "\n"
+    "A body that stalls or leaves the track is reported with the place, and the exit code is 3.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade solve designs/grain_chute.yaml\n"
+    "  glissade solve designs/grain_chute.yaml --set body.friction_angle=19deg\n"
+    "  glissade solve --run 10 --drop 5 --friction-angle 11deg\n"
+    "  glissade solve --run 10 --drop 5 --friction-coefficient 0.2 --p 100 --json";
+
+struct Options {
+  TrackInput input{TrackInput::Scope::one_kind};
+  bool json = false;
+};
+
+ExitCode solve_track(const Options& options) {
+  const Design design = options.input.design();
+  const Track track = solve(design);
+  print(options.json ? document(track_json(design, track)) : track_summary(design, track));
+  if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_solve(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("solve", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  options->input.add_to(command);
+  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
+  command.callback([options, &action] { action = [options] { return solve_track(*options); }; });
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "glissade/pipeline.hpp"
+
+#include <string>
+
+namespace glissade::app {
+
+/// What people read: the track and the ride down it.
+[[nodiscard]] std::string track_summary(const Design& design, const Track& track);
+
+/// The same with the solid and the files.
+[[nodiscard]] std::string build_summary(const Design& design, const Build& build);
+
+/// One line: endpoints, how the body starts.
+[[nodiscard]] std::string span_line(const Design& design, const Endpoints& endpoints);
+
+/// The same with the friction.
+[[nodiscard]] std::string task_line(const Design& design, const Endpoints& endpoints);
+
+/// @return "1.234 s"
+[[nodiscard]] std::string time_text(double seconds);
+/// @return "5.43 m/s"
+[[nodiscard]] std::string speed_text(double metres_per_second);
+/// @return "12.3 m/s^2 (1.25 g)"
+[[nodiscard]] std::string load_text(double metres_per_second_squared);
+/// @return what a count of bytes is for people: "2.4 MB"
+[[nodiscard]] std::string size_text(double bytes);
+/// @return digits in groups of three: "48 212"
+[[nodiscard]] std::string count_text(std::size_t count);
+
+}  // namespace glissade::app

@@ -1,0 +1,262 @@
+#include "glissade/core/number_text.hpp"
+#include "glissade/io/mesh_file.hpp"
+#include "glissade/io/scad_file.hpp"
+#include "glissade/io/stations_csv.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "pipeline/located.hpp"
+#include "pipeline/staging.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A mesh as one or more of the formats hold it, and what was measured on it.
+struct MeasuredMesh {
+  std::vector<MeshFormat> formats;
+  TriangleMesh mesh;
+  MeshFacts facts;
+};
+
+void require_going(const RunContext& context) {
+  if (!context.stop.stop_requested()) return;
+  throw Interrupted({"", "interrupted, nothing was written", "", ""});
+}
+
+/// Tells what comes next, unless the work is to end.
+void enter(const RunContext& context, const std::string& stage) {
+  require_going(context);
+  if (context.progress) context.progress(stage, -1.0);
+}
+
+std::string stem_of(const Design& design) {
+  const std::string stem = design.file.stem().string();
+  return stem.empty() ? "track" : stem;
+}
+
+std::string file_name(const Design& design, ExportFormat format) {
+  const std::string stem = stem_of(design);
+  switch (format) {
+    case ExportFormat::stl:
+      return stem + ".stl";
+    case ExportFormat::stl_ascii: {
+      // Beside a binary one it needs a name of its own.
+      const auto& formats = design.exports.formats;
+      const bool both = std::find(formats.begin(), formats.end(), ExportFormat::stl) != formats.end();
+      return stem + (both ? ".ascii.stl" : ".stl");
+    }
+    case ExportFormat::off:
+      return stem + ".off";
+    case ExportFormat::scad:
+      return stem + ".scad";
+    case ExportFormat::csv:
+      return stem + ".csv";
+  }
+  throw InternalError({"", "a file format without a name", "", ""});
+}
+
+/// The precision in which a file holds the mesh; none for a file that holds no mesh.
+std::optional<MeshFormat> mesh_format(ExportFormat format) {
+  switch (format) {
+    case ExportFormat::stl:
+      return MeshFormat::stl_binary;
+    case ExportFormat::stl_ascii:
+      return MeshFormat::stl_ascii;
+    case ExportFormat::off:
+    case ExportFormat::scad:  // both hold every double exactly
+      return MeshFormat::off;
+    case ExportFormat::csv:
+      return {};
+  }
+  return {};
+}
+
+bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles;
+}
+
+void require_valid(const MeshFacts& facts, const Solid& solid) {
+  std::vector<std::string> faults = facts.faults();
+  if (facts.components != 1) faults.push_back(std::to_string(facts.components) + " separate pieces");
+  if (facts.euler_characteristic != solid.expected_euler) {
+    faults.push_back("Euler characteristic " + std::to_string(facts.euler_characteristic) + " instead of " +
+                     std::to_string(solid.expected_euler));
+  }
+  if (faults.empty()) return;
+  std::string what = "the mesh is faulty:";
+  for (const std::string& fault : faults) what += " " + fault + ";";
+  what.pop_back();
+  throw InternalError({"", what, "A faulty mesh is never written.", "another mesh.tolerance"});
+}
+
+/// Every rounding of the mesh that a file of this build holds, each measured once.
+std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, const RunContext& context) {
+  std::vector<MeasuredMesh> meshes;
+  for (const ExportFormat exported : design.exports.formats) {
+    const auto format = mesh_format(exported);
+    if (!format) continue;
+    enter(context, "checking the mesh");
+    TriangleMesh rounded = as_written(solid.mesh, *format, design.exports.unit);
+    const auto known = std::find_if(meshes.begin(), meshes.end(), [&](const MeasuredMesh& other) {
+      return same_mesh(other.mesh, rounded);
+    });
+    if (known != meshes.end()) {
+      known->formats.push_back(*format);
+      continue;
+    }
+    const MeshFacts facts = measure(rounded);
+    require_valid(facts, solid);
+    meshes.push_back({{*format}, std::move(rounded), facts});
+  }
+  return meshes;
+}
+
+const MeasuredMesh& as_held_by(const std::vector<MeasuredMesh>& meshes, MeshFormat format) {
+  for (const MeasuredMesh& mesh : meshes) {
+    if (std::find(mesh.formats.begin(), mesh.formats.end(), format) != mesh.formats.end()) return mesh;
+  }
+  throw InternalError({"", "a mesh was not measured before it was written", "", ""});
+}
+
+/// Reads a file again and holds it against the mesh that was measured: the same facets at the same positions,
+/// in the same order, so that every fact of the one is a fact of the other.
+void require_same_on_disk(const fs::path& file, const TriangleMesh& expected, LengthUnit unit) {
+  const TriangleMesh found = read_mesh(file, unit);
+  bool same = found.triangles.size() == expected.triangles.size() &&
+              found.vertices.size() == expected.vertices.size();
+  for (std::size_t facet = 0; same && facet < expected.triangles.size(); ++facet) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      same = same && found.vertices[found.triangles[facet][corner]] ==
+                         expected.vertices[expected.triangles[facet][corner]];
+    }
+  }
+  if (!same) {
+    throw InternalError(
+        {file.filename().string(), "the file read back differs from what was written", "", ""});
+  }
+}
+
+std::string section_in_words(const CrossSectionDesign& section) {
+  std::string text(word(section.kind));
+  if (section.kind == CrossSectionKind::polygon) return text;
+  text += ", width " + length_text(section.width);
+  if (section.wall_height > 0.0) text += ", wall height " + length_text(section.wall_height);
+  return text + ", thickness " + length_text(section.thickness);
+}
+
+std::vector<StationRow> stations_of(const Track& track, const std::vector<double>& arc_lengths) {
+  std::vector<StationRow> stations;
+  stations.reserve(arc_lengths.size());
+  const std::vector<MotionState> states = track.motion.at(arc_lengths);
+  for (std::size_t index = 0; index < arc_lengths.size(); ++index) {
+    const CenterlinePoint point = track.centerline->at(arc_lengths[index]);
+    stations.push_back({point, track.placement.to_space(point.x, point.drop, 0.0), states[index]});
+  }
+  return stations;
+}
+
+std::vector<Vec3> positions(const Track& track, const std::vector<double>& arc_lengths) {
+  std::vector<Vec3> positions;
+  positions.reserve(arc_lengths.size());
+  for (const double s : arc_lengths) {
+    const CenterlinePoint point = track.centerline->at(s);
+    positions.push_back(track.placement.to_space(point.x, point.drop, 0.0));
+  }
+  return positions;
+}
+
+void write_file(const fs::path& path, ExportFormat format, const Design& design, const Track& track,
+                const Solid& solid, const std::vector<MeasuredMesh>& meshes) {
+  switch (format) {
+    case ExportFormat::stl:
+    case ExportFormat::stl_ascii:
+    case ExportFormat::off: {
+      const MeshFormat mesh_file = *mesh_format(format);
+      write_mesh(path, mesh_file, solid.mesh, {design.exports.unit, design.name});
+      require_same_on_disk(path, as_held_by(meshes, mesh_file).mesh, design.exports.unit);
+      return;
+    }
+    case ExportFormat::scad:
+      write_scad(path, solid.mesh, positions(track, solid.stations),
+                 {design.exports.unit, design.name, section_in_words(*design.cross_section)});
+      return;
+    case ExportFormat::csv:
+      write_stations_csv(path, stations_of(track, solid.stations));
+      return;
+  }
+}
+
+void require_buildable(const Design& design) {
+  if (design.cross_section) return;
+  throw InputError(
+      {design.where("cross_section"), "there is no cross_section to make a solid of",
+       "A build sweeps a cross-section along the centerline.",
+       "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}, or "
+       "'glissade solve' for the track alone"});
+}
+
+}  // namespace
+
+CrossSection make_cross_section(const CrossSectionDesign& design) {
+  switch (design.kind) {
+    case CrossSectionKind::slab:
+      return CrossSection::slab(design.width, design.thickness, design.curb_height, design.curb_width);
+    case CrossSectionKind::u_channel:
+      return CrossSection::u_channel(design.width, design.wall_height, design.thickness);
+    case CrossSectionKind::trapezoid:
+      return CrossSection::trapezoid(design.width, design.wall_height, design.wall_angle, design.thickness);
+    case CrossSectionKind::half_pipe:
+      return CrossSection::half_pipe(design.width, design.thickness, design.wall_height);
+    case CrossSectionKind::pipe:
+      return CrossSection::pipe(design.width, design.thickness);
+    case CrossSectionKind::polygon:
+      return CrossSection::polygon(design.outline);
+  }
+  throw InternalError({"", "a kind of cross-section without a shape", "", ""});
+}
+
+Build build(const Design& design, const fs::path& directory, const RunContext& context) {
+  require_buildable(design);
+  Track track = solve(design, context);
+  if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
+
+  enter(context, "making the mesh");
+  const std::string place = design.where("cross_section");
+  CrossSection section = at_place(place, [&] { return make_cross_section(*design.cross_section); });
+  SweepOptions options;
+  options.tolerance = design.mesh.tolerance;
+  Solid solid = at_place(place, [&] { return sweep(*track.centerline, section, track.placement, options); });
+
+  std::vector<MeasuredMesh> meshes = measured(design, solid, context);
+  if (meshes.empty()) {
+    enter(context, "checking the mesh");
+    const MeshFacts facts = measure(solid.mesh);
+    require_valid(facts, solid);
+    meshes.push_back({{}, solid.mesh, facts});
+  }
+
+  Staging staging(directory);
+  for (const ExportFormat format : design.exports.formats) {
+    const std::string name = file_name(design, format);
+    enter(context, "writing " + name);
+    write_file(staging.path_for(name), format, design, track, solid, meshes);
+  }
+  require_going(context);
+
+  std::vector<WrittenFile> files;
+  for (const fs::path& path : staging.publish()) files.push_back({path, fs::file_size(path)});
+  // Binary STL is the least precise of the formats.
+  const bool has_stl = std::any_of(meshes.begin(), meshes.end(), [](const MeasuredMesh& mesh) {
+    return std::find(mesh.formats.begin(), mesh.formats.end(), MeshFormat::stl_binary) != mesh.formats.end();
+  });
+  MeshFacts facts = has_stl ? as_held_by(meshes, MeshFormat::stl_binary).facts : meshes.front().facts;
+  return {std::move(track), std::move(section), std::move(solid), std::move(facts), std::move(files)};
+}
+
+}  // namespace glissade

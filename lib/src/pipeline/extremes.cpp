@@ -1,0 +1,63 @@
+#include "pipeline/extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <boost/math/tools/minima.hpp>
+
+namespace glissade {
+namespace {
+
+using Quantity = std::function<double(double s)>;
+
+/// Highest value on one smooth stretch: sampled, then refined around the highest sample.
+double highest_between(double from, double to, const Quantity& quantity) {
+  constexpr int kSamples = 64;
+  constexpr int kBits = 26;  // a maximum is flat: half of the digits in s are all of those in the value
+  // Right at `to` the values of the next stretch hold.
+  const double last = std::nextafter(to, from);
+  const auto station = [&](int index) {
+    return index == kSamples ? last : from + (to - from) * index / kSamples;
+  };
+  int highest_index = 0;
+  double highest = quantity(from);
+  for (int index = 1; index <= kSamples; ++index) {
+    const double here = quantity(station(index));
+    if (here > highest) {
+      highest = here;
+      highest_index = index;
+    }
+  }
+  const double left = station(std::max(highest_index - 1, 0));
+  const double right = station(std::min(highest_index + 1, kSamples));
+  const auto negated = [&](double s) { return -quantity(s); };
+  return std::max(highest, -boost::math::tools::brent_find_minima(negated, left, right, kBits).second);
+}
+
+double highest_along(const Centerline& centerline, const Quantity& quantity) {
+  const std::vector<double> breaks = centerline.breaks();
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t index = 1; index < breaks.size(); ++index) {
+    highest = std::max(highest, highest_between(breaks[index - 1], breaks[index], quantity));
+  }
+  return highest;
+}
+
+}  // namespace
+
+double smallest_radius(const Centerline& centerline) {
+  if (centerline.unbounded_curvature_at_start()) return 0.0;
+  const double sharpest =
+      highest_along(centerline, [&](double s) { return std::fabs(centerline.at(s).curvature); });
+  return sharpest == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / sharpest;
+}
+
+double steepest_slope_angle(const Centerline& centerline) {
+  return highest_along(centerline, [&](double s) { return centerline.slope_angle(s); });
+}
+
+}  // namespace glissade

@@ -1,0 +1,163 @@
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/constant_speed_curve.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/cycloid.hpp"
+#include "glissade/centerline/no_curvature_load.hpp"
+#include "glissade/centerline/straight_line.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "pipeline/extremes.hpp"
+#include "pipeline/located.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace glissade {
+namespace {
+
+void require_sound(const Design& design) {
+  std::vector<Issue> issues = check(design);
+  if (issues.empty()) return;
+  const std::optional<Issue> unreachable = check_reach(design);
+  if (issues.size() == 1 && unreachable && issues.front() == *unreachable) {
+    throw InfeasibleError(std::move(issues));
+  }
+  throw InputError(std::move(issues));
+}
+
+CenterlinePtr make_constant_speed(const Design& design, const Endpoints& endpoints) {
+  const Friction friction = design.body.friction;
+  if (const auto p = design.centerline.constant_speed_p) {
+    return std::make_shared<ConstantSpeedCurve>(endpoints, friction, design.gravity, *p);
+  }
+  return std::make_shared<ConstantSpeedCurve>(
+      ConstantSpeedCurve::fastest(endpoints, friction, design.gravity, design.body.entry_speed));
+}
+
+CenterlinePtr make_segments(const CenterlineDesign& design) {
+  std::vector<ClothoidSegment> segments;
+  segments.reserve(design.segments.size());
+  for (const SegmentDesign& segment : design.segments) {
+    segments.push_back({segment.length, segment.entry_curvature, segment.exit_curvature});
+  }
+  return std::make_shared<ClothoidSpline>(design.entry_slope_angle, std::move(segments));
+}
+
+CenterlinePtr make_of_kind(const Design& design) {
+  const Endpoints endpoints = endpoints_of(design);
+  const Friction friction = design.body.friction;
+  switch (design.centerline.kind) {
+    case CenterlineKind::fastest:
+      return std::make_shared<CoulombBrachistochrone>(endpoints, friction, design.gravity);
+    case CenterlineKind::constant_speed:
+      return make_constant_speed(design, endpoints);
+    case CenterlineKind::straight:
+      return std::make_shared<StraightLine>(endpoints);
+    case CenterlineKind::cycloid:
+      return std::make_shared<Cycloid>(endpoints);
+    case CenterlineKind::no_curvature_load:
+      return std::make_shared<NoCurvatureLoadCurve>(endpoints, friction);
+    case CenterlineKind::segments:
+      return make_segments(design.centerline);
+    case CenterlineKind::points:
+      break;
+  }
+  throw InternalError({"", "a centerline of this kind cannot be made", "", ""});
+}
+
+/// Where the curve really ends: what was drawn by hand may miss the finish by a little.
+Endpoints endpoints_of(const Centerline& centerline) {
+  const CenterlinePoint finish = centerline.at(centerline.length());
+  return {finish.x, finish.drop};
+}
+
+bool is_drawn(CenterlineKind kind) {
+  return kind == CenterlineKind::segments || kind == CenterlineKind::points;
+}
+
+std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body, double gravity) {
+  Motion ride(std::make_shared<StraightLine>(endpoints), body, gravity);
+  if (!ride.arrived()) return {};
+  return ride;
+}
+
+bool optimum_is_known(const Endpoints& endpoints, const Body& body) {
+  return body.entry_speed == 0.0 && body.drag_per_metre == 0.0 &&
+         endpoints.drop > body.friction.coefficient() * std::fabs(endpoints.run);
+}
+
+}  // namespace
+
+std::optional<double> Track::straight_travel_time() const {
+  if (!straight) return {};
+  return straight->travel_time();
+}
+
+Endpoints endpoints_of(const Design& design) {
+  const Vec3 way = design.track.finish - design.track.start;
+  return {std::hypot(way.x, way.y), -way.z};
+}
+
+CenterlinePtr make_centerline(const Design& design) {
+  return at_place(design.where("centerline"), [&] { return make_of_kind(design); });
+}
+
+Track ride(const Design& design, CenterlinePtr centerline) {
+  const Endpoints endpoints =
+      is_drawn(design.centerline.kind) ? endpoints_of(*centerline) : endpoints_of(design);
+  const Body body{design.body.friction, design.body.entry_speed, design.body.drag_per_metre};
+
+  std::optional<Motion> optimum;
+  std::optional<double> optimum_travel_time;
+  if (optimum_is_known(endpoints, body)) {
+    const auto fastest = std::make_shared<CoulombBrachistochrone>(endpoints, body.friction, design.gravity);
+    optimum_travel_time = fastest->solution().travel_time;
+    optimum.emplace(fastest, body, design.gravity);
+  }
+  const double radius = smallest_radius(*centerline);
+  const double steepest = steepest_slope_angle(*centerline);
+  Motion motion(centerline, body, design.gravity);
+  return {endpoints,
+          Placement::through(design.track.start, design.track.finish),
+          std::move(centerline),
+          std::move(motion),
+          straight_ride(endpoints, body, design.gravity),
+          std::move(optimum),
+          optimum_travel_time,
+          radius,
+          steepest};
+}
+
+Track solve(const Design& design, const RunContext& context) {
+  require_sound(design);
+  if (context.progress) context.progress("finding the track", -1.0);
+  return ride(design, make_centerline(design));
+}
+
+std::optional<Issue> ride_problem(const Design& design, const Track& track) {
+  const double length = track.centerline->length();
+  if (const auto& stall = track.motion.stall()) {
+    const std::string place = stall->arc_length == 0.0
+                                  ? "the body does not start to slide"
+                                  : "the body stalls after " + length_text(stall->arc_length);
+    return Issue{design.where("centerline"), place + ", before the finish at " + length_text(length),
+                 "The slope angle there is " + angle_text(track.centerline->slope_angle(stall->arc_length)) +
+                     ", " + angle_text(stall->missing_slope) + " less than the friction angle, " +
+                     angle_text(design.body.friction.angle().radians()) + ".",
+                 "a steeper track, less friction, or an entry_speed"};
+  }
+  if (const auto& lift_off = track.motion.lift_off()) {
+    return Issue{design.where("centerline"),
+                 "the body leaves the track after " + length_text(lift_off->arc_length) + ", at " +
+                     rounded_text(lift_off->speed, 4) + " m/s",
+                 "The track bends away below it there with a radius of " +
+                     length_text(1.0 / std::fabs(lift_off->curvature)) +
+                     ", tighter than gravity can make it follow.",
+                 "a larger radius at that crest, or less speed"};
+  }
+  return {};
+}
+
+}  // namespace glissade

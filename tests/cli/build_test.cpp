@@ -1,0 +1,300 @@
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/openscad_check.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using nlohmann::json;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kChute =
+    "glissade: 1\n"
+    "name: Test chute\n"
+    "track:\n"
+    "  start: {x: 0 m, z: 2 m}\n"
+    "  finish: {x: 2 m, z: 0.4 m}\n"
+    "body: {friction_angle: 17 deg}\n"
+    "centerline: {kind: fastest}\n"
+    "cross_section: {kind: u-channel, width: 200 mm, wall_height: 60 mm, thickness: 4 mm}\n"
+    "mesh: {tolerance: 2 mm}\n"
+    "export: [stl, off, scad]\n";
+
+/// The test chute with one line of it replaced.
+std::string chute_with(const std::string& key, const std::string& line) {
+  std::string text = kChute;
+  const std::size_t from = text.find(key);
+  REQUIRE(from != std::string::npos);
+  return text.replace(from, text.find('\n', from) - from, line);
+}
+
+std::vector<std::string> names_in(const fs::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("build writes the files that the design names, proves the mesh and says so") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", kChute);
+  const Outcome outcome = glissade_run({"build", "chute.yaml"}, {place.path(), {}, {}});
+  INFO(outcome.errors);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.errors.empty());
+  CHECK_THAT(outcome.output, StartsWith("Test chute\n") && Contains("Travel time") &&
+                                 Contains("watertight") && Contains("chute.stl"));
+  CHECK_THAT(outcome.output, !Contains("\033"));
+  CHECK(names_in(place / "out/chute") == std::vector<std::string>{"chute.off", "chute.scad", "chute.stl"});
+}
+
+TEST_CASE("build --json tells of the track, the mesh and the files") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", kChute);
+  const Outcome outcome =
+      glissade_run({"build", "chute.yaml", "-o", "here", "--json"}, {place.path(), {}, {}});
+  REQUIRE(outcome.exit_code == 0);
+  const json built = json::parse(outcome.output);
+  for (const char* key : {"travel_time_s", "exit_speed_m_per_s", "exit_slope_angle_deg",
+                          "entry_slope_angle_deg", "arc_length_m", "straight_travel_time_s",
+                          "optimum_travel_time_s", "max_normal_load_m_per_s2", "min_radius_m"}) {
+    INFO(key);
+    CHECK(built[key].is_number());
+  }
+  const json& mesh = built["mesh"];
+  CHECK(mesh["watertight"] == true);
+  CHECK(mesh["valid"] == true);
+  CHECK(mesh["self_intersections"] == 0);
+  CHECK(mesh["triangles"].get<int>() > 100);
+  CHECK(mesh["volume_m3"].get<double>() > 0.0);
+  CHECK(mesh["max_deviation_m"].get<double>() <= 2e-3);
+  REQUIRE(built["files"].size() == 3);
+  for (const json& file : built["files"]) {
+    CHECK(fs::file_size(place.path() / file["path"].get<std::string>()) == file["bytes"]);
+  }
+  const Outcome again = glissade_run({"inspect", (place / "here/chute.stl").string(), "--json"});
+  CHECK(again.exit_code == 0);
+  const json facts = json::parse(again.output);
+  CHECK(facts["triangles"] == mesh["triangles"]);
+  CHECK(facts["volume_m3"].get<double>() == Approx(mesh["volume_m3"].get<double>()).epsilon(1e-12));
+}
+
+TEST_CASE("the same design gives the same bytes") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", chute_with("export:", "export: [stl, stl-ascii, off, scad, csv]"));
+  REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "one"}, {place.path(), {}, {}}).exit_code == 0);
+  REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "two"}, {place.path(), {}, {}}).exit_code == 0);
+  const std::vector<std::string> names = names_in(place / "one");
+  CHECK(names.size() == 5);
+  CHECK(names == names_in(place / "two"));
+  for (const std::string& name : names) {
+    INFO(name);
+    CHECK(bytes_of(place / "one" / name) == bytes_of(place / "two" / name));
+  }
+}
+
+TEST_CASE("bad designs: the message tells what is wrong, the exit code of what kind, and nothing is left") {
+  struct Bad {
+    std::string name;
+    std::string text;
+    int exit_code;
+    std::vector<std::string> messages;
+  };
+  std::string nested = "glissade: 1\ntrack: ";
+  for (int depth = 0; depth < 10'000; ++depth) nested += "[";
+  std::string bomb = "a: &a [x, x, x, x, x, x, x, x, x]\n";
+  for (char name = 'b'; name < 'j'; ++name) {
+    const std::string before(1, static_cast<char>(name - 1));
+    bomb += std::string(1, name) + ": &" + name + " [";
+    for (int copy = 0; copy < 9; ++copy) bomb += "*" + before + (copy < 8 ? ", " : "]\n");
+  }
+  const std::vector<Bad> cases = {
+      {"empty", "", 2, {"empty"}},
+      {"binary",
+       std::string("\x7f"
+                   "ELF\0\1\2\3",
+                   8),
+       2,
+       {}},
+      {"not_yaml", "glissade: [1\n", 2, {"not_yaml.yaml:"}},
+      {"nested", nested, 2, {"nested.yaml"}},
+      {"bomb", bomb, 2, {"bomb.yaml"}},
+      {"unknown_key",
+       chute_with("body:", "body: {friction_angel: 17 deg}"),
+       2,
+       {"unknown_key.yaml:6:", "friction_angel", "friction_angle"}},
+      {"wrong_type", chute_with("track:", "track: 7"), 2, {"wrong_type.yaml:"}},
+      {"missing_unit",
+       chute_with("body:", "body: {friction_angle: 17}"),
+       2,
+       {"missing_unit.yaml:6:", "17", "deg"}},
+      {"wrong_unit", chute_with("body:", "body: {friction_angle: 17 mm}"), 2, {"wrong_unit.yaml:6:", "mm"}},
+      {"nan", chute_with("body:", "body: {friction_angle: .nan deg}"), 2, {"nan.yaml:6:"}},
+      {"inf", chute_with("  start:", "  start: {x: inf m, z: 2 m}"), 2, {"inf.yaml:4:"}},
+      {"negative",
+       chute_with("cross_section:",
+                  "cross_section: {kind: u-channel, width: -200 mm, wall_height: "
+                  "60 mm, thickness: 4 mm}"),
+       2,
+       {"negative.yaml:8:", "width", "not positive"}},
+      {"zero",
+       chute_with("cross_section:",
+                  "cross_section: {kind: u-channel, width: 0 mm, wall_height: "
+                  "60 mm, thickness: 4 mm}"),
+       2,
+       {"zero.yaml:8:", "width", "not positive"}},
+      {"same_point", chute_with("  finish:", "  finish: {x: 0 m, z: 2 m}"), 2, {"the same point"}},
+      {"uphill",
+       chute_with("  finish:", "  finish: {x: 2 m, z: 3 m}"),
+       2,
+       {"the finish lies 1 m above the start"}},
+      {"steep_friction",
+       chute_with("body:", "body: {friction_angle: 41 deg}"),
+       3,
+       {"steep_friction.yaml:6:", "41 deg", "38.66 deg", "Try: "}},
+      {"thick",
+       chute_with("cross_section:",
+                  "cross_section: {kind: u-channel, width: 20 mm, wall_height: 60 mm, "
+                  "thickness: 30 mm}"),
+       2,
+       {"thick.yaml:8:", "thickness: 30 mm is wider than the channel, 20 mm"}},
+      {"tolerance_zero",
+       chute_with("mesh:", "mesh: {tolerance: 0 mm}"),
+       2,
+       {"tolerance_zero.yaml:9:", "not positive"}},
+      {"tolerance_tiny",
+       chute_with("mesh:", "mesh: {tolerance: 0.00000001 mm}"),
+       2,
+       {"tolerance_tiny.yaml:9:", "triangles", "GB"}},
+      {"no_section", chute_with("cross_section:", ""), 2, {"there is no cross_section"}},
+  };
+  for (const Bad& bad : cases) {
+    const TempDir place;
+    put_bytes(place / (bad.name + ".yaml"), bad.text);
+    const Outcome outcome = glissade_run({"build", bad.name + ".yaml"}, {place.path(), {}, {}});
+    INFO(bad.name);
+    INFO(outcome.errors);
+    CHECK(outcome.exit_code == bad.exit_code);
+    CHECK(outcome.output.empty());
+    CHECK_THAT(outcome.errors, StartsWith("glissade: error: "));
+    for (const std::string& message : bad.messages) CHECK_THAT(outcome.errors, Contains(message));
+    CHECK(place.names() == std::vector<std::string>{bad.name + ".yaml"});
+  }
+}
+
+TEST_CASE("several problems of one design are told at once") {
+  const TempDir place;
+  put_bytes(place / "two.yaml", chute_with("mesh:", "mesh: {tolerance: 0 mm, colour: red}"));
+  const Outcome outcome = glissade_run({"build", "two.yaml"}, {place.path(), {}, {}});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("tolerance") && Contains("colour"));
+}
+
+TEST_CASE("a design that is missing, a directory, or huge is an error with exit code 5") {
+  const TempDir place;
+  const Outcome missing = glissade_run({"build", "nowhere.yaml"}, {place.path(), {}, {}});
+  CHECK(missing.exit_code == 5);
+  CHECK_THAT(missing.errors, Contains("nowhere.yaml") && Contains("No such file"));
+
+  const Outcome directory = glissade_run({"build", "."}, {place.path(), {}, {}});
+  CHECK(directory.exit_code == 5);
+
+  put_bytes(place / "huge.yaml", kChute);
+  fs::resize_file(place / "huge.yaml", 100U << 20U);
+  const Outcome huge = glissade_run({"build", "huge.yaml"}, {place.path(), {}, {}});
+  CHECK(huge.exit_code == 5);
+  CHECK_THAT(huge.errors, Contains("huge.yaml") && Contains("4 MiB"));
+}
+
+TEST_CASE("an output directory that cannot be made is an error with exit code 5") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", kChute);
+  put_bytes(place / "taken", "a file");
+  // Holds for root too, whom permissions do not stop.
+  const Outcome outcome = glissade_run({"build", "chute.yaml", "-o", "taken/out"}, {place.path(), {}, {}});
+  CHECK(outcome.exit_code == 5);
+  CHECK_THAT(outcome.errors, Contains("taken/out: this directory cannot be made: Not a directory"));
+  CHECK(place.names() == std::vector<std::string>{"chute.yaml", "taken"});
+}
+
+TEST_CASE("a full disk leaves nothing behind, and files of an earlier build as they were") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", kChute);
+  RunLimits limits;
+  limits.directory = place.path();
+  limits.largest_file = 2000;
+  const Outcome first = glissade_run({"build", "chute.yaml", "-o", "out"}, limits);
+  INFO(first.errors);
+  CHECK(first.exit_code == 5);
+  CHECK_THAT(first.errors, Contains("File too large"));
+  CHECK(place.names() == std::vector<std::string>{"chute.yaml"});
+
+  REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "out"}, {place.path(), {}, {}}).exit_code == 0);
+  const std::string before = bytes_of(place / "out/chute.stl");
+  const Outcome second =
+      glissade_run({"build", "chute.yaml", "-o", "out", "--set", "mesh.tolerance=1mm"}, limits);
+  CHECK(second.exit_code == 5);
+  CHECK(names_in(place / "out") == std::vector<std::string>{"chute.off", "chute.scad", "chute.stl"});
+  CHECK(bytes_of(place / "out/chute.stl") == before);
+}
+
+TEST_CASE("where one file cannot be put in its place, none is replaced") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", kChute);
+  fs::create_directories(place / "out/chute.scad/occupied");
+  put_bytes(place / "out/chute.stl", "old");
+  const Outcome outcome = glissade_run({"build", "chute.yaml", "-o", "out"}, {place.path(), {}, {}});
+  CHECK(outcome.exit_code == 5);
+  CHECK_THAT(outcome.errors, Contains("out/chute.scad: a directory has the name of a file"));
+  CHECK(names_in(place / "out") == std::vector<std::string>{"chute.scad", "chute.stl"});
+  CHECK(bytes_of(place / "out/chute.stl") == "old");
+}
+
+TEST_CASE("every shipped design builds, and admesh finds nothing to repair in its STL file") {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(GLISSADE_DESIGNS)) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++count;
+    const TempDir place;
+    const std::string stem = entry.path().stem().string();
+    const Outcome outcome = glissade_run({"build", entry.path().string(), "--json"}, {place.path(), {}, {}});
+    INFO(stem);
+    INFO(outcome.errors);
+    REQUIRE(outcome.exit_code == 0);
+    const json built = json::parse(outcome.output);
+    CHECK(built["status"] == "arrived");
+    CHECK(built["mesh"]["valid"] == true);
+    CHECK(built["travel_time_s"].get<double>() >=
+          built["optimum_travel_time_s"].get<double>() * (1.0 - 1e-9));
+    CHECK(built["travel_time_s"].get<double>() < built["straight_travel_time_s"].get<double>());
+    CHECK(admesh_check(place / "out" / stem / (stem + ".stl")).repaired_nothing());
+  }
+  CHECK(count >= 7);
+}
+
+TEST_CASE("OpenSCAD takes each kind of file of a build for the same closed solid") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", kChute);
+  REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "."}, {place.path(), {}, {}}).exit_code == 0);
+  for (const char* name : {"chute.scad", "chute.stl", "chute.off"}) {
+    const OpenscadResult rendered = openscad_check(place / name);
+    INFO(name);
+    INFO(rendered.output);
+    CHECK(rendered.simple());
+    CHECK(rendered.clean());
+  }
+}

@@ -1,0 +1,78 @@
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+json compared(const std::vector<std::string>& arguments) {
+  std::vector<std::string> all = {"compare", "--json"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = glissade_run(all);
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  return json::parse(outcome.output)["tracks"];
+}
+
+}  // namespace
+
+TEST_CASE("compare: no kind of centerline beats the fastest one") {
+  const json tracks = compared({"--run", "10", "--drop", "5", "--friction-coefficient", "0.2"});
+  REQUIRE(tracks.size() == 5);
+  CHECK(tracks[0]["centerline"] == "fastest");
+  const double least = tracks[0]["travel_time_s"];
+  for (std::size_t index = 1; index < tracks.size(); ++index) {
+    INFO(tracks[index].dump());
+    CHECK(tracks[index]["travel_time_s"].get<double>() > least);
+  }
+  // docs/theory.md, table of travel times: Pudasaini's curve at its best P, the straight line.
+  CHECK(tracks[1]["travel_time_s"].get<double>() == Approx(2.19868).epsilon(1e-5));
+  CHECK(tracks[2]["travel_time_s"].get<double>() == Approx(2.91457).epsilon(1e-5));
+}
+
+TEST_CASE("compare says why a kind does not exist") {
+  const Outcome outcome =
+      glissade_run({"compare", "--run", "10", "--drop", "5", "--friction-coefficient", "0"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output, Contains("constant-speed") && Contains("friction"));
+  const json tracks = compared({"--run", "10", "--drop", "5", "--friction-coefficient", "0"});
+  CHECK(tracks[1]["centerline"] == "constant-speed");
+  CHECK(tracks[1]["problem"].is_string());
+}
+
+TEST_CASE("a friction sweep at P = 100 gives the seven curves of the paper's figure 1") {
+  const json tracks = compared({"--run", "2.5", "--drop", "2.5", "--p", "100", "--friction-sweep",
+                                "11deg,13deg,15deg,17deg,20deg,25deg,40deg"});
+  REQUIRE(tracks.size() == 7);
+  // The paper's observation: the more friction, the less the curve bends.
+  double turned_before = 180.0;
+  for (const json& track : tracks) {
+    INFO(track.dump());
+    CHECK(track["centerline"] == "constant-speed");
+    const double turned =
+        track["entry_slope_angle_deg"].get<double>() - track["exit_slope_angle_deg"].get<double>();
+    CHECK(turned > 0.0);
+    CHECK(turned < turned_before);
+    turned_before = turned;
+  }
+}
+
+TEST_CASE("compare --csv writes every curve from the start to the finish") {
+  const TempDir place;
+  const std::string file = (place / "curves.csv").string();
+  const Outcome outcome = glissade_run({"compare", shipped("grain_chute"), "--csv", file});
+  REQUIRE(outcome.exit_code == 0);
+  std::istringstream lines(bytes_of(file));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "centerline,friction_angle_deg,arc_length_m,run_m,drop_m,slope_angle_deg");
+  std::size_t count = 0;
+  while (std::getline(lines, line)) ++count;
+  CHECK(count == 5 * 201);
+}

@@ -1,0 +1,83 @@
+// What the documents say, held against the program: help texts and the first design.
+
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kProject = GLISSADE_SOURCE_DIR;
+
+/// @return the text between the fence that opens with ```LANGUAGE after `heading` and the one that closes it
+std::string code_block(const std::string& text, const std::string& heading, const std::string& language) {
+  const std::size_t section = text.find(heading);
+  REQUIRE(section != std::string::npos);
+  const std::string fence = "```" + language + "\n";
+  const std::size_t from = text.find(fence, section);
+  REQUIRE(from != std::string::npos);
+  const std::size_t start = from + fence.size();
+  return text.substr(start, text.find("\n```", start - 1) + 1 - start);
+}
+
+}  // namespace
+
+TEST_CASE("docs/cli.md quotes the help of every command as the program prints it") {
+  // To write the blocks anew: GLISSADE_UPDATE_GOLDEN=1 in the environment, see docs/development.md.
+  const std::string path = kProject + "/docs/cli.md";
+  std::string text = bytes_of(path);
+  const bool update = std::getenv("GLISSADE_UPDATE_GOLDEN") != nullptr;
+  for (const std::string command : {"", "build", "solve", "compare", "inspect", "init"}) {
+    std::vector<std::string> arguments = {"--help"};
+    if (!command.empty()) arguments.insert(arguments.begin(), command);
+    const Outcome help = glissade_run(arguments);
+    REQUIRE(help.exit_code == 0);
+    const std::string heading = command.empty() ? "## glissade\n" : "## glissade " + command + "\n";
+    const std::string quoted = code_block(text, heading, "text");
+    if (update) {
+      text.replace(text.find(quoted, text.find(heading)), quoted.size(), help.output);
+    } else {
+      INFO("glissade " + command + " --help");
+      CHECK(quoted == help.output);
+    }
+    std::size_t longest = 0;
+    for (std::size_t from = 0; from < help.output.size();) {
+      const std::size_t to = help.output.find('\n', from);
+      longest = std::max(longest, to - from);
+      from = to + 1;
+    }
+    CHECK(longest <= 110);
+  }
+  if (update) put_bytes(path, text);
+}
+
+TEST_CASE("the first design of the README builds, and has at most twenty lines") {
+  const std::string design = code_block(bytes_of(kProject + "/README.md"), "## A first design", "yaml");
+  CHECK(std::count(design.begin(), design.end(), '\n') <= 20);
+  const TempDir place;
+  put_bytes(place / "first.yaml", design);
+  const Outcome outcome = glissade_run({"build", "first.yaml"}, {place.path(), {}, {}});
+  INFO(outcome.errors);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output, Contains("proven"));
+}
+
+TEST_CASE("every document that the README leads to is there") {
+  const std::string text = bytes_of(kProject + "/README.md");
+  std::size_t count = 0;
+  for (std::size_t from = text.find("]("); from != std::string::npos; from = text.find("](", from + 1)) {
+    const std::string target = text.substr(from + 2, text.find(')', from) - from - 2);
+    if (target.starts_with("http") || target.starts_with("#")) continue;
+    INFO(target);
+    CHECK(std::filesystem::exists(kProject + "/" + target));
+    ++count;
+  }
+  CHECK(count >= 5);
+}

@@ -1,0 +1,151 @@
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+/// Digits enough to come back as the same double.
+std::string digits(double value) {
+  return json(value).dump();
+}
+
+/// The reference files hold numbers as text.
+double value_of(const json& text) {
+  return std::stod(text.get<std::string>());
+}
+
+json solved(const std::vector<std::string>& arguments) {
+  std::vector<std::string> all = {"solve", "--json"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = glissade_run(all);
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  return json::parse(outcome.output);
+}
+
+double relative(double value, double expected) {
+  return std::fabs(value - expected) / std::fabs(expected);
+}
+
+}  // namespace
+
+TEST_CASE("solve --json of the fastest track gives the reference values") {
+  // tests/reference: every value exact to the printed digits.
+  std::ifstream stream(GLISSADE_TEST_DATA "/reference/coulomb_brachistochrone.json");
+  const json cases = json::parse(stream);
+  REQUIRE(cases.size() == 120);
+  // A program start each: every fifth is enough here, the library's own tests take all of them.
+  for (std::size_t index = 0; index < cases.size(); index += 5) {
+    const json& expected = cases[index];
+    const auto input = [&](const char* name) { return digits(value_of(expected[name])); };
+    const json track = solved({"--run", input("run"), "--drop", input("drop"), "--friction-coefficient",
+                               input("friction_coefficient"), "--gravity", input("gravity")});
+    const double eps = value_of(expected["drop"]) /
+                           (value_of(expected["friction_coefficient"]) * value_of(expected["run"])) -
+                       1.0;
+    const double closed_form = glissade::coulomb_accuracy(eps);
+    const double referee = closed_form + glissade::kMotionAccuracy;
+    INFO(expected.dump());
+    CHECK(relative(track["optimum_travel_time_s"], value_of(expected["travel_time"])) <= closed_form);
+    CHECK(relative(track["travel_time_s"], value_of(expected["travel_time"])) <= referee);
+    CHECK(relative(track["exit_speed_m_per_s"], value_of(expected["exit_speed"])) <= referee);
+    CHECK(relative(track["straight_travel_time_s"], value_of(expected["straight_time"])) <= referee);
+    const double exit_slope = track["exit_slope_angle_deg"].get<double>() * std::numbers::pi / 180.0;
+    CHECK(std::fabs(exit_slope - value_of(expected["exit_slope_angle"])) <= closed_form);
+  }
+}
+
+TEST_CASE("solve takes plain SI numbers and values with a unit alike") {
+  const json plain = solved({"--run", "10", "--drop", "5", "--friction-coefficient", "0.2"});
+  const json united = solved({"--run", "10 m", "--drop", "5000mm", "--friction-coefficient", "0.2"});
+  CHECK(plain == united);
+}
+
+TEST_CASE("solve --json: theory's travel times at friction 0.2 over 10 m and 5 m") {
+  // docs/theory.md, table of travel times: exact optimum and straight line.
+  const json track = solved({"--run", "10", "--drop", "5", "--friction-coefficient", "0.2"});
+  CHECK(relative(track["travel_time_s"], 2.14712546857048) < 1e-10);
+  CHECK(relative(track["optimum_travel_time_s"], 2.14712546857048) < 1e-12);
+  CHECK(track["straight_travel_time_s"].get<double>() == Approx(2.91457).epsilon(2e-6));
+  CHECK(track["status"] == "arrived");
+  CHECK(track["entry_slope_angle_deg"].get<double>() == Approx(90.0));
+  CHECK(track["min_radius_m"] == 0.0);
+  CHECK(track["stall"].is_null());
+}
+
+TEST_CASE("solve --json: a constant-speed track by its P") {
+  // docs/theory.md, table of travel times: 2.19868 s at P = 127.
+  const json track = solved({"--run", "10", "--drop", "5", "--friction-coefficient", "0.2", "--p", "127"});
+  CHECK(track["centerline"] == "constant-speed");
+  CHECK(track["travel_time_s"].get<double>() == Approx(2.19868).epsilon(1e-5));
+  CHECK(track["travel_time_s"].get<double>() > track["optimum_travel_time_s"].get<double>());
+}
+
+TEST_CASE("solve --json: the straight ramp has its closed form, no curvature and the load g cos") {
+  const json track =
+      solved({"--run", "12", "--drop", "5", "--friction-coefficient", "0.1", "--centerline", "straight"});
+  const double pull = 9.81 * (5.0 / 13.0 - 0.1 * 12.0 / 13.0);
+  CHECK(relative(track["travel_time_s"], std::sqrt(2.0 * 13.0 / pull)) < 1e-12);
+  CHECK(relative(track["exit_speed_m_per_s"], std::sqrt(2.0 * 13.0 * pull)) < 1e-12);
+  CHECK(relative(track["max_normal_load_m_per_s2"], 9.81 * 12.0 / 13.0) < 1e-12);
+  CHECK(track["arc_length_m"] == 13.0);
+  CHECK(track["min_radius_m"].is_null());
+  CHECK(track["exit_slope_angle_deg"].get<double>() ==
+        Approx(std::atan2(5.0, 12.0) * 180.0 / std::numbers::pi));
+}
+
+TEST_CASE("numbers of --json read back to the same double") {
+  const json track = solved({"--run", digits(1.0 / 3.0), "--drop", digits(0.1 + 0.2),
+                             "--friction-coefficient", digits(std::tan(0.3))});
+  CHECK(track["run_m"].get<double>() == 1.0 / 3.0);
+  CHECK(track["drop_m"].get<double>() == 0.1 + 0.2);
+  CHECK(track["friction_coefficient"].get<double>() == std::tan(0.3));
+}
+
+TEST_CASE("friction steeper than the mean slope is infeasible, and the message gives the theorem") {
+  const Outcome outcome = glissade_run({"solve", "--run", "2.5", "--drop", "2", "--friction-angle", "41deg"});
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors, Contains("--friction-angle") && Contains("41 deg") && Contains("38.66 deg") &&
+                                 Contains("no track between these points"));
+}
+
+TEST_CASE("a body that stalls is reported with the place and exit code 3") {
+  const TempDir place;
+  put_bytes(place / "dip.yaml",
+            "glissade: 1\n"
+            "name: Dip\n"
+            "track: {start: {x: 0 m, z: 3 m}}\n"
+            "body: {friction_coefficient: 0.3}\n"
+            "centerline:\n"
+            "  kind: segments\n"
+            "  entry_slope_angle: 30 deg\n"
+            "  segments: [{length: 2 m}, {length: 2 m, radius: 4 m}, {length: 20 m}]\n");
+  const Outcome outcome = glissade_run({"solve", (place / "dip.yaml").string(), "--json"});
+  CHECK(outcome.exit_code == 3);
+  const json track = json::parse(outcome.output);
+  CHECK(track["status"] == "stalled");
+  CHECK(track["travel_time_s"].is_null());
+  CHECK(track["stall"]["arc_length_m"].get<double>() > 2.0);
+  CHECK(track["stall"]["missing_slope_deg"].get<double>() > 0.0);
+  CHECK_THAT(outcome.errors, Contains("dip.yaml:") && Contains("the body stalls after ") &&
+                                 Contains("less than the friction angle"));
+}
+
+TEST_CASE("--set replaces a value of the design file") {
+  const Outcome outcome =
+      glissade_run({"solve", shipped("grain_chute"), "--set", "body.friction_angle=19deg", "--json"});
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(json::parse(outcome.output)["friction_angle_deg"].get<double>() == Approx(19.0));
+}

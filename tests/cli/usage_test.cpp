@@ -1,0 +1,85 @@
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("--version names the program and its version") {
+  const Outcome outcome = glissade_run({"--version"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.output == "glissade " GLISSADE_VERSION "\n");
+  CHECK(outcome.errors.empty());
+}
+
+TEST_CASE("without a command the program says how to get help") {
+  const Outcome outcome = glissade_run({});
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.output.empty());
+  CHECK_THAT(outcome.errors, StartsWith("glissade: error: "));
+  CHECK_THAT(outcome.errors, Contains("Try: glissade --help"));
+}
+
+TEST_CASE("an unknown command is named") {
+  const Outcome outcome = glissade_run({"bild", "x.yaml"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("bild") && Contains("Try: "));
+}
+
+TEST_CASE("an unknown option is named, with the help of that command") {
+  const Outcome outcome = glissade_run({"solve", "--fall", "5"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("--fall") && Contains("Try: glissade solve --help"));
+}
+
+TEST_CASE("build without a design says what is missing") {
+  const Outcome outcome = glissade_run({"build"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("design") && Contains("Try: glissade build --help"));
+}
+
+TEST_CASE("wrong options of solve are answered with what to give instead") {
+  struct Wrong {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const std::vector<Wrong> cases = {
+      {{"solve"}, "neither a design file nor options are given"},
+      {{"solve", "--run", "10", "--friction-coefficient", "0.2"}, "--drop is missing"},
+      {{"solve", "--run", "10", "--drop", "5"},
+       "exactly one of --friction-angle and --friction-coefficient is needed"},
+      {{"solve", "--run", "10", "--drop", "5", "--friction-angle", "11"}, "--friction-angle"},
+      {{"solve", "--run", "10", "--drop", "5", "--friction-angle", "95deg"},
+       "friction angle 95 deg is out of range"},
+      {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "-0.1"}, "out of range"},
+      {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "nan"}, "--friction-coefficient"},
+      {{"solve", "--run", "10 kg", "--drop", "5", "--friction-coefficient", "0"}, "kg"},
+      {{"solve", "--run", "-10", "--drop", "5", "--friction-coefficient", "0"}, "--run: -10 is negative"},
+      {{"solve", "--run", "10", "--drop", "-5", "--friction-coefficient", "0"}, "--drop"},
+      {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "0", "--centerline", "spiral"},
+       "'spiral' is no kind of centerline"},
+      {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "0", "--centerline", "segments"},
+       "needs a design file"},
+      {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "0.2", "--centerline", "straight",
+        "--p", "100"},
+       "only the centerline constant-speed has a P"},
+      {{"solve", "--set", "body.friction_angle=19deg"}, "there is no design file"},
+      {{"solve", shipped("grain_chute"), "--set", "friction"}, "'friction' is not of the form KEY=VALUE"},
+      {{"solve", shipped("grain_chute"), "--run", "10"}, "cannot be combined with a design file"},
+  };
+  for (const Wrong& wrong : cases) {
+    const Outcome outcome = glissade_run(wrong.arguments);
+    INFO(wrong.message);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.output.empty());
+    CHECK_THAT(outcome.errors, StartsWith("glissade: error: ") && Contains(wrong.message));
+  }
+}
+
+TEST_CASE("a full disk behind standard output is an error with exit code 5") {
+  RunLimits limits;
+  limits.output_to = "/dev/full";
+  const Outcome outcome = glissade_run({"init"}, limits);
+  CHECK(outcome.exit_code == 5);
+  CHECK_THAT(outcome.errors, Contains("standard output: writing failed: No space left on device"));
+}
