@@ -154,7 +154,13 @@ Design TrackInput::from_options(const std::optional<Friction>& default_friction)
   if (!(run >= 0.0)) {
     throw InputError({"--run", run_ + " is negative", "It is the horizontal distance to the finish.", ""});
   }
-  design.track.start = {0.0, 0.0, option_value(drop_, Dimension::length, "--drop")};
+  const double drop = option_value(drop_, Dimension::length, "--drop");
+  if (!(drop > 0.0) && entry_speed_.empty()) {
+    throw InputError({"--drop", drop_ + " is not positive",
+                      "It is how far the start lies above the finish; nothing but gravity drives the body.",
+                      ""});
+  }
+  design.track.start = {0.0, 0.0, drop};
   design.track.finish = {run, 0.0, 0.0};
   design.body.friction = friction(default_friction);
   if (!entry_speed_.empty()) {
@@ -176,13 +182,16 @@ Design TrackInput::from_options(const std::optional<Friction>& default_friction)
                       {"track.start", "--drop"},
                       {"track.finish", "--run, --drop"},
                       {"track.finish.z", "--drop"},
-                      {"body.friction_angle", "--friction-angle"},
-                      {"body.friction_coefficient", "--friction-coefficient"},
                       {"body.entry_speed", "--entry-speed"},
                       {"body.drag", "--drag"},
                       {"gravity", "--gravity"},
                       {"centerline", "--centerline"},
                       {"centerline.p", "--p"}};
+  if (friction_angle_.empty()) {
+    design.locations["body.friction_coefficient"] = "--friction-coefficient";
+  } else {
+    design.locations["body.friction_angle"] = "--friction-angle";
+  }
   return design;
 }
 

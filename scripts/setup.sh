@@ -63,6 +63,7 @@ show_progress() {
   local line announced=
   while IFS= read -r line; do
     case $line in
+    *"Re-checking globbed"*) ;; # nothing to build yet
     \[*/*\]*)
       if [ -t 2 ]; then
         printf '\r\033[K%.*s' "$((${COLUMNS:-80} - 1))" "building ${line}" >&2

@@ -208,7 +208,7 @@ TEST_CASE("a design that is missing, a directory, or huge is an error with exit 
   const TempDir place;
   const Outcome missing = glissade_run({"build", "nowhere.yaml"}, {place.path(), {}, {}});
   CHECK(missing.exit_code == 5);
-  CHECK_THAT(missing.errors, Contains("nowhere.yaml") && Contains("No such file"));
+  CHECK_THAT(missing.errors, Contains("nowhere.yaml") && Contains("no such file", Catch::CaseSensitive::No));
 
   const Outcome directory = glissade_run({"build", "."}, {place.path(), {}, {}});
   CHECK(directory.exit_code == 5);

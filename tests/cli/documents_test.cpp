@@ -16,15 +16,22 @@ namespace {
 
 const std::string kProject = GLISSADE_SOURCE_DIR;
 
-/// @return the text between the fence that opens with ```LANGUAGE after `heading` and the one that closes it
-std::string code_block(const std::string& text, const std::string& heading, const std::string& language) {
+/// A stretch of a document.
+struct Block {
+  std::size_t from = 0;
+  std::size_t length = 0;
+};
+
+/// @return what stands between the fence that opens with ```LANGUAGE after `heading` and the one that closes
+/// it
+Block code_block(const std::string& text, const std::string& heading, const std::string& language) {
   const std::size_t section = text.find(heading);
   REQUIRE(section != std::string::npos);
   const std::string fence = "```" + language + "\n";
-  const std::size_t from = text.find(fence, section);
-  REQUIRE(from != std::string::npos);
-  const std::size_t start = from + fence.size();
-  return text.substr(start, text.find("\n```", start - 1) + 1 - start);
+  const std::size_t opening = text.find(fence, section);
+  REQUIRE(opening != std::string::npos);
+  const std::size_t from = opening + fence.size();
+  return {from, text.find("\n```", from - 1) + 1 - from};
 }
 
 }  // namespace
@@ -40,12 +47,12 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
     const Outcome help = glissade_run(arguments);
     REQUIRE(help.exit_code == 0);
     const std::string heading = command.empty() ? "## glissade\n" : "## glissade " + command + "\n";
-    const std::string quoted = code_block(text, heading, "text");
+    const Block quoted = code_block(text, heading, "text");
     if (update) {
-      text.replace(text.find(quoted, text.find(heading)), quoted.size(), help.output);
+      text.replace(quoted.from, quoted.length, help.output);
     } else {
       INFO("glissade " + command + " --help");
-      CHECK(quoted == help.output);
+      CHECK(text.substr(quoted.from, quoted.length) == help.output);
     }
     std::size_t longest = 0;
     for (std::size_t from = 0; from < help.output.size();) {
@@ -59,7 +66,9 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
 }
 
 TEST_CASE("the first design of the README builds, and has at most twenty lines") {
-  const std::string design = code_block(bytes_of(kProject + "/README.md"), "## A first design", "yaml");
+  const std::string text = bytes_of(kProject + "/README.md");
+  const Block quoted = code_block(text, "## A first design", "yaml");
+  const std::string design = text.substr(quoted.from, quoted.length);
   CHECK(std::count(design.begin(), design.end(), '\n') <= 20);
   const TempDir place;
   put_bytes(place / "first.yaml", design);

@@ -29,7 +29,9 @@ TEST_CASE("every kind of init reads as a design") {
     INFO(outcome.errors);
     CHECK(outcome.exit_code == 0);
     CHECK_NOTHROW(glissade::read_design(file));
-    CHECK(glissade_run({"solve", file}).exit_code == 0);
+    const Outcome solved = glissade_run({"solve", file});
+    INFO(solved.errors);
+    CHECK(solved.exit_code == 0);
   }
 }
 

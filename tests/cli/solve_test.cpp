@@ -52,18 +52,27 @@ TEST_CASE("solve --json of the fastest track gives the reference values") {
     const auto input = [&](const char* name) { return digits(value_of(expected[name])); };
     const json track = solved({"--run", input("run"), "--drop", input("drop"), "--friction-coefficient",
                                input("friction_coefficient"), "--gravity", input("gravity")});
-    const double eps = value_of(expected["drop"]) /
-                           (value_of(expected["friction_coefficient"]) * value_of(expected["run"])) -
-                       1.0;
-    const double closed_form = glissade::coulomb_accuracy(eps);
+    const double mu = value_of(expected["friction_coefficient"]);
+    const double run = value_of(expected["run"]);
+    const double gravity = value_of(expected["gravity"]);
+    const double speed = value_of(expected["exit_speed"]);
+    const double closed_form = glissade::coulomb_accuracy(value_of(expected["drop"]) / (mu * run) - 1.0);
     const double referee = closed_form + glissade::kMotionAccuracy;
+    // A curve by arc length carries the position to `slip`. Slope and speed change with position at the rates
+    // kappa and (g + kappa u^2)(1 + mu) / u, which are large on the short upturned tail near the reach limit.
+    const double slip =
+        glissade::CoulombBrachistochrone::kPositionAccuracy * track["arc_length_m"].get<double>();
+    const glissade::CoulombSolution solution = glissade::solve_coulomb_brachistochrone(
+        {run, value_of(expected["drop"])}, glissade::Friction::from_coefficient(mu), gravity);
+    const double curvature = solution.at_slope_angle(solution.exit_slope_angle).curvature;
+    const double speed_slip = slip * (gravity + curvature * speed * speed) * (1.0 + mu) / (speed * speed);
     INFO(expected.dump());
     CHECK(relative(track["optimum_travel_time_s"], value_of(expected["travel_time"])) <= closed_form);
     CHECK(relative(track["travel_time_s"], value_of(expected["travel_time"])) <= referee);
-    CHECK(relative(track["exit_speed_m_per_s"], value_of(expected["exit_speed"])) <= referee);
+    CHECK(relative(track["exit_speed_m_per_s"], speed) <= referee + speed_slip);
     CHECK(relative(track["straight_travel_time_s"], value_of(expected["straight_time"])) <= referee);
     const double exit_slope = track["exit_slope_angle_deg"].get<double>() * std::numbers::pi / 180.0;
-    CHECK(std::fabs(exit_slope - value_of(expected["exit_slope_angle"])) <= closed_form);
+    CHECK(std::fabs(exit_slope - value_of(expected["exit_slope_angle"])) <= closed_form + curvature * slip);
   }
 }
 

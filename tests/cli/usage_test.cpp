@@ -55,7 +55,7 @@ TEST_CASE("wrong options of solve are answered with what to give instead") {
       {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "nan"}, "--friction-coefficient"},
       {{"solve", "--run", "10 kg", "--drop", "5", "--friction-coefficient", "0"}, "kg"},
       {{"solve", "--run", "-10", "--drop", "5", "--friction-coefficient", "0"}, "--run: -10 is negative"},
-      {{"solve", "--run", "10", "--drop", "-5", "--friction-coefficient", "0"}, "--drop"},
+      {{"solve", "--run", "10", "--drop", "-5", "--friction-coefficient", "0"}, "--drop: -5 is not positive"},
       {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "0", "--centerline", "spiral"},
        "'spiral' is no kind of centerline"},
       {{"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "0", "--centerline", "segments"},

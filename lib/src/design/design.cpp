@@ -16,12 +16,11 @@ Issue located(const Design& design, design_file::Finding finding) {
 }  // namespace
 
 std::string Design::where(std::string_view key_path) const {
-  if (file.empty()) return std::string(key_path);
   for (std::string_view path = key_path; !path.empty(); path = design_file::parent_path(path)) {
     const auto found = locations.find(path);
     if (found != locations.end()) return found->second;
   }
-  return file.string();
+  return file.empty() ? std::string(key_path) : file.string();
 }
 
 Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {

@@ -127,7 +127,7 @@ struct Design {
 
   /// @param key_path  names joined by dots, list items by their number: "centerline.segments.0.length"
   /// @return the location of `key_path`, of its nearest parent that has one, or the file's name; `key_path`
-  ///         itself for a design that was not read from a file
+  ///         itself where there is neither
   [[nodiscard]] std::string where(std::string_view key_path) const;
 };
 
