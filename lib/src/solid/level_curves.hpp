@@ -55,7 +55,9 @@ struct LevelCurve {
 class LevelCurves {
  public:
   /// @param below,above  heights of interest on either side [m]; >= 0
-  LevelCurves(const Centerline& centerline, std::vector<Station> stations, double below, double above);
+  /// @param sharpness  a trim's point may be this much nearer to the centerline than its level [m]; > 0
+  LevelCurves(const Centerline& centerline, std::vector<Station> stations, double below, double above,
+              double sharpness);
 
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
 
@@ -85,29 +87,59 @@ class LevelCurves {
     Vec2 high;
   };
 
+  /// The room of a station and the place of the track that bounds it.
+  struct Room {
+    double height = 0.0;
+    double partner =
+        0.0;  // arc length; the station's own where the track bends too much or an end face bounds
+  };
+
+  struct Probe {
+    Vec2 point;
+    Vec2 normal;
+    double s = 0.0;
+  };
+
+  void make_probes(bool dense);
   void build_boxes(std::size_t node, std::size_t begin, std::size_t end);
   void search(std::size_t node, std::size_t begin, std::size_t end, Vec2 point, double& best,
               std::size_t& nearest) const;
-  [[nodiscard]] std::vector<double> face_rooms(int side, double reach) const;
-  void shrink_to_free_balls(int side, std::vector<double>& rooms) const;
+  [[nodiscard]] std::vector<Room> face_rooms(int side, double reach) const;
+  [[nodiscard]] std::vector<Room> rooms_of(int side, double reach, bool faces_alone) const;
+  void shrink_to_free_balls(int side, double reach, std::vector<Room>& rooms) const;
+  void shrink_ball(std::size_t probe, int side, bool exactly, Room& room) const;
   [[nodiscard]] bool faces_alone_trim() const;
-  [[nodiscard]] const std::vector<double>& rooms(double height) const {
+  [[nodiscard]] const std::vector<Room>& rooms(double height) const {
     return height >= 0.0 ? rooms_above_ : rooms_below_;
   }
-  [[nodiscard]] double beyond_start(double s, double height) const;
-  [[nodiscard]] double beyond_finish(double s, double height) const;
+  [[nodiscard]] std::size_t nearest_station(Vec2 point) const;
+  [[nodiscard]] Station foot_of(Vec2 point) const;
+  [[nodiscard]] bool sharp(const Trim& trim, double height) const;
+  [[nodiscard]] double beyond_face(const Station& face, double s, double height) const;
+  [[nodiscard]] Trim face_trim(Trim::Kind kind, double s, double height) const;
   [[nodiscard]] std::optional<Trim> start_trim(double height, std::size_t last_cut) const;
   [[nodiscard]] std::optional<Trim> finish_trim(double height, std::size_t first_cut) const;
-  [[nodiscard]] std::optional<Trim> crease(double height, std::size_t first_cut, std::size_t last_cut) const;
-  [[nodiscard]] double room_place(double height, std::size_t first, std::size_t last) const;
+  [[nodiscard]] std::vector<Trim> crease_trims(double height, std::size_t first_cut,
+                                               std::size_t last_cut) const;
+  [[nodiscard]] std::optional<Trim> face_near(Trim::Kind kind, double height, double guess) const;
+  [[nodiscard]] std::optional<Trim> crease_near(double height, double from, double to) const;
+  [[nodiscard]] std::vector<Trim> run_trims(double height, std::size_t first, std::size_t last) const;
+  [[nodiscard]] std::vector<Trim> split_at(const Trim& trim, double height, double middle, int depth) const;
+  [[nodiscard]] std::vector<Trim> settled(const Trim& trim, double height, int depth) const;
+  [[nodiscard]] double step_at(double s) const;
+  [[nodiscard]] std::size_t extreme_place(double height, std::size_t first, std::size_t last,
+                                          bool widest) const;
 
   const Centerline& centerline_;
   std::vector<Station> stations_;
-  std::vector<Box> boxes_;
-  std::vector<double> rooms_above_;  // empty: nothing is trimmed on that side
-  std::vector<double> rooms_below_;
+  std::vector<Probe> probes_;          // the stations, and further points between them
+  std::vector<std::size_t> probe_of_;  // of each station
+  std::vector<Box> boxes_;             // tree over the probes
+  std::vector<Room> rooms_above_;      // empty: nothing is trimmed on that side
+  std::vector<Room> rooms_below_;
   double below_ = 0.0;
   double above_ = 0.0;
+  double sharpness_ = 0.0;
   double least_above_ = 0.0;
   double least_below_ = 0.0;
 };

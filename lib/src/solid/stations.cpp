@@ -90,7 +90,33 @@ std::vector<Station> StationPlan::stations() const {
     before += panel.steps;
   }
   stations.push_back(station_at(centerline_, length));
+  meet_breaks(stations);
   return stations;
+}
+
+// Curvature may jump at a break, and the level curves with it: a station stands there, the nearest one moved
+// or one more.
+void StationPlan::meet_breaks(std::vector<Station>& stations) const {
+  constexpr double kNear = 0.35;
+  const auto before = [](const Station& station, double s) { return station.s < s; };
+  std::vector<Station> further;
+  for (const double s : centerline_.breaks()) {
+    const auto after = std::lower_bound(stations.begin(), stations.end(), s, before);
+    if (after == stations.begin() || after == stations.end() || after->s == s) continue;
+    const double step = after->s - (after - 1)->s;
+    const double part = (s - (after - 1)->s) / step;
+    if (part < kNear && after - 1 != stations.begin()) {
+      *(after - 1) = station_at(centerline_, s);
+    } else if (part > 1.0 - kNear && after + 1 != stations.end()) {
+      *after = station_at(centerline_, s);
+    } else {
+      further.push_back(station_at(centerline_, s));
+    }
+  }
+  std::vector<Station> merged(stations.size() + further.size());
+  std::merge(stations.begin(), stations.end(), further.begin(), further.end(), merged.begin(),
+             [](const Station& a, const Station& b) { return a.s < b.s; });
+  stations = std::move(merged);
 }
 
 }  // namespace glissade

@@ -56,6 +56,7 @@ class StationPlan {
   };
 
   void spread(double begin, double begin_slope, double end, double end_slope, int depth);
+  void meet_breaks(std::vector<Station>& stations) const;
   [[nodiscard]] double steps_of(double length, double turn) const;
 
   const Centerline& centerline_;

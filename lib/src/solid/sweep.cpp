@@ -33,7 +33,9 @@ constexpr double kLongestAspect = 8.0;
 constexpr double kShortestShare = 1e-6;
 // Coordinates carry differences down to about this share of their size.
 constexpr double kCoordinateShare = 64.0 * std::numeric_limits<double>::epsilon();
-constexpr int kMostRefinements = 24;
+// The point that a level has on a crease is within this share of the chord tolerance of its place.
+constexpr double kTrimShare = 0.1;
+constexpr int kMostRefinements = 12;
 constexpr double kBytesPerVertex = sizeof(Vec3);
 constexpr double kBytesPerTriangle = sizeof(std::array<std::uint32_t, 3>);
 
@@ -276,23 +278,35 @@ void zip(const std::vector<LevelNode>& first, const std::vector<LevelNode>& seco
 class Sweeper {
  public:
   Sweeper(const Centerline& centerline, const CrossSection& section, const Placement& placement,
-          const Planner& planner, const Fineness& fineness, double tolerance)
+          const Planner& planner, const Fineness& fineness)
       : centerline_(centerline),
         section_(section),
         placement_(placement),
         planner_(planner),
         fineness_(fineness),
-        tolerance_(tolerance),
         shortest_(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance)) {}
 
-  [[nodiscard]] Solid sweep() {
+  /// Lays out the mesh without making it.
+  /// @return false if some level of the section does not lead from start to finish: see refuse()
+  [[nodiscard]] bool lay_out() {
     make_levels();
     make_loops();
-    refine_at_trims();
-    check_levels_at_trims();
+    if (blocked_height_ == 0.0) refine_at_trims();
+    if (blocked_height_ == 0.0) check_levels_at_trims();
+    return blocked_height_ == 0.0;
+  }
+
+  /// @return greatest distance between the mesh laid out and the ideal solid [m]
+  [[nodiscard]] double deviation() const {
+    return deviation_ + section_.chord_error(fineness_.outline_tolerance);
+  }
+
+  [[noreturn]] void refuse() const;
+
+  [[nodiscard]] Solid make() const {
     Solid solid;
     emit(solid);
-    solid.max_deviation = deviation_ + section_.chord_error(fineness_.outline_tolerance);
+    solid.max_deviation = deviation();
     solid.expected_euler = loops_.size() == 1 ? 2 : 0;
     solid.exact_volume = volume();
     for (const Station& station : curves_->stations()) solid.stations.push_back(station.s);
@@ -308,26 +322,33 @@ class Sweeper {
                     fineness_.chord_tolerance / kPlannedShare, heights, planner_.limit());
     deviation_ = checked.deviation;
     curves_ = std::make_unique<LevelCurves>(centerline_, std::move(checked.stations), -section_.lowest(),
-                                            section_.highest());
+                                            section_.highest(), kTrimShare * fineness_.chord_tolerance);
   }
 
   Levels::iterator level_at(double height) {
     const auto found = levels_.find(height);
     if (found != levels_.end()) return found;
-    if (curves_->trims(height).obstacle) refuse(height);
+    if (curves_->trims(height).obstacle) {
+      blocked_height_ = height;
+      return levels_.end();
+    }
     return levels_.emplace(height, Level{curves_->level(height, shortest_), false}).first;
   }
 
   void make_loops() {
-    // The extremes first: what cannot work at all is refused before the rest is made.
+    // The extremes first: what cannot work at all is found out before the rest is made.
     for (const double height : {section_.highest(), section_.lowest()}) {
-      if (curves_->trims(height).obstacle) refuse(height);
+      if (curves_->trims(height).obstacle) blocked_height_ = height;
     }
+    if (blocked_height_ != 0.0) return;
     for (const Polygon& corners :
          {section_.outline(fineness_.outline_tolerance), section_.bore(fineness_.outline_tolerance)}) {
       if (corners.empty()) continue;
       Loop loop;
-      for (const Vec2 at : subdivided(corners, fineness_.side_piece)) loop.push_back({at, level_at(at.y)});
+      for (const Vec2 at : subdivided(corners, fineness_.side_piece)) {
+        loop.push_back({at, level_at(at.y)});
+        if (blocked_height_ != 0.0) return;
+      }
       loops_.push_back(std::move(loop));
     }
   }
@@ -368,6 +389,7 @@ class Sweeper {
 
   void refine_side(Loop& refined, const SectionVertex& end, double allowed, int depth) {
     const SectionVertex begin = refined.back();
+    if (blocked_height_ != 0.0) return;
     const bool slanted = begin.at.x != end.at.x && begin.at.y != end.at.y;
     const bool trimmed = begin.level->second.curve.trimmed || end.level->second.curve.trimmed;
     if (!slanted || !trimmed) return;
@@ -380,6 +402,7 @@ class Sweeper {
     const Vec2 high = begin.at.y <= end.at.y ? end.at : begin.at;
     const Vec2 middle = low + 0.5 * (high - low);
     const SectionVertex half{middle, level_at(middle.y)};
+    if (blocked_height_ != 0.0) return;
     refine_side(refined, half, allowed, depth + 1);
     refined.push_back(half);
     refine_side(refined, end, allowed, depth + 1);
@@ -469,16 +492,14 @@ class Sweeper {
   }
 
   [[nodiscard]] double volume() const;
-  [[noreturn]] void refuse(double height) const;
-
   const Centerline& centerline_;
   const CrossSection& section_;
   const Placement& placement_;
   const Planner& planner_;
   Fineness fineness_;
-  double tolerance_;
   double shortest_;
   double deviation_ = 0.0;
+  double blocked_height_ = 0.0;
   std::unique_ptr<LevelCurves> curves_;
   Levels levels_;
   std::vector<Loop> loops_;
@@ -556,7 +577,8 @@ std::string radius_text(double curvature) {
   return "its radius is " + length_text(1.0 / bend) + " there";
 }
 
-void Sweeper::refuse(double height) const {
+void Sweeper::refuse() const {
+  const double height = blocked_height_;
   const Obstacle obstacle = *curves_->trims(height).obstacle;
   const Station station = station_at(centerline_, obstacle.s);
   const int side = height > 0.0 ? 1 : -1;
@@ -620,13 +642,17 @@ Solid sweep(const Centerline& centerline, const CrossSection& section, const Pla
   check_options(centerline, section, placement, options);
   const Planner planner(centerline, section, options);
   constexpr int kAttempts = 6;
+  constexpr int kFinerForRoom = 3;
   double tolerance = options.tolerance;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Fineness fineness = planner.fineness(tolerance);
     planner.require_room(fineness.triangles());
-    Solid solid = Sweeper(centerline, section, placement, planner, fineness, options.tolerance).sweep();
-    if (solid.max_deviation <= options.tolerance) return solid;
-    tolerance *= 0.6;
+    Sweeper sweeper(centerline, section, placement, planner, fineness);
+    const bool leads_through = sweeper.lay_out();
+    if (leads_through && sweeper.deviation() <= options.tolerance) return sweeper.make();
+    // A piece of a level that is shorter than the steps may have been missed: finer steps see it.
+    if (!leads_through && attempt + 1 >= kFinerForRoom) sweeper.refuse();
+    tolerance *= leads_through ? 0.6 : 0.2;
   }
   throw InternalError({"", "the sweep misses its tolerance of " + length_text(options.tolerance), "", ""});
 }
