@@ -96,6 +96,15 @@ TEST_CASE("fastest track: the curve ends at the finish, and its states agree wit
   }
 }
 
+TEST_CASE("fastest track: a tail of a few roundings of its length still ends at the finish") {
+  // Found by random search: here the piece that holds the end is shorter than its own resolution.
+  const Endpoints endpoints{534.35327894324678, 1236.1321810530578};
+  const CoulombBrachistochrone track(endpoints, Friction::from_coefficient(2.3133238433785426));
+  const CenterlinePoint finish = track.at(track.length());
+  CHECK(relative_error(finish.x, endpoints.run) <= 1e-13);
+  CHECK(relative_error(finish.drop, endpoints.drop) <= 1e-13);
+}
+
 TEST_CASE("fastest track: a run of 0 is free fall along a vertical line") {
   const CoulombBrachistochrone track({0.0, 5.0}, Friction::from_coefficient(0.3), 10.0);
   CHECK(track.solution().travel_time == 1.0);
