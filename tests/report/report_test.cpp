@@ -28,7 +28,8 @@ class Chute {
         facts_(measure(solid_.mesh)) {
     design.name = "Straight chute";
     design.file = "chutes/straight.yaml";
-    design.track = {{1.0, 2.0, 10.0}, {1.0 + 4.0 * std::sqrt(0.75), 4.0, 7.0}};
+    design.track.start = {1.0, 2.0, 10.0};
+    design.track.finish = {1.0 + 4.0 * std::sqrt(0.75), 4.0, 7.0};
     design.body.friction = Friction::from_coefficient(0.3);
     design.mesh.tolerance = 1e-3;
   }

@@ -23,7 +23,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"optimize", {"core", "centerline", "motion"}},
     {"solid", {"core", "centerline"}},
     {"design", {"core"}},
-    {"io", {"core", "centerline", "solid", "design"}},
+    {"io", {"core", "centerline", "motion", "solid", "design"}},
     {"report", {"core", "centerline", "motion", "optimize", "solid", "design", "io"}},
     {"pipeline", {"core", "centerline", "motion", "optimize", "solid", "design", "io", "report"}},
 };

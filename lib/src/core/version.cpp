@@ -2,6 +2,8 @@
 
 namespace glissade {
 
-std::string_view version() { return GLISSADE_VERSION; }
+std::string_view version() {
+  return GLISSADE_VERSION;
+}
 
 }  // namespace glissade
