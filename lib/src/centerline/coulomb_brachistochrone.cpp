@@ -203,7 +203,8 @@ double CoulombBrachistochrone::Piece::half_tangent(double root) const {
   const double position = ((root - first_root) - (last_root - root)) / (last_root - first_root);
   const double value = chebyshev_value(coefficients, position);
   if (first_root == 0.0) return value * root;
-  // v is monotone: where rounding of r moves the series past an end of the piece, that end is nearer the truth.
+  // v is monotone: where rounding of r moves the series past an end of the piece, that end is nearer the
+  // truth.
   const auto [low, high] = std::minmax(first_half_tangent, last_half_tangent);
   const double local = std::clamp(value, low, high);
   return upper_half ? 1.0 / local : local;
