@@ -31,8 +31,8 @@ constexpr double kShareOfPlate = 0.25;
 constexpr double kLongestAspect = 8.0;
 // Distances below this share of the track's size are lost in the single precision of a binary STL.
 constexpr double kShortestShare = 1e-6;
-// Coordinates carry differences down to about this share of their size.
-constexpr double kCoordinateShare = 64.0 * std::numeric_limits<double>::epsilon();
+// Facets smaller than this share of the coordinates' size lose their shape when those are rounded.
+constexpr double kCoordinateShare = 4096.0 * std::numeric_limits<double>::epsilon();
 // The point that a level has on a crease is within this share of the chord tolerance of its place.
 constexpr double kTrimShare = 0.1;
 constexpr int kMostRefinements = 12;
@@ -49,6 +49,17 @@ double distance_to_side(Vec2 point, Vec2 a, Vec2 b) {
   const Vec2 along = b - a;
   const double t = std::clamp(dot(point - a, along) / dot(along, along), 0.0, 1.0);
   return norm(point - (a + t * along));
+}
+
+double coordinate_size(const Centerline& centerline, const CrossSection& section, const Placement& placement) {
+  const Vec3 start = placement.start();
+  return std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) + centerline.length() +
+         section.highest() - section.lowest();
+}
+
+// The smallest length that means something in a mesh there.
+double finest_length(const Centerline& centerline, const CrossSection& section, const Placement& placement) {
+  return kCoordinateShare * coordinate_size(centerline, section, placement);
 }
 
 // ---- how fine, decided before anything is made
@@ -284,7 +295,8 @@ class Sweeper {
         placement_(placement),
         planner_(planner),
         fineness_(fineness),
-        shortest_(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance)) {}
+        shortest_(std::max(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance),
+                           finest_length(centerline, section, placement))) {}
 
   /// Lays out the mesh without making it.
   /// @return false if some level of the section does not lead from start to finish: see refuse()
@@ -620,10 +632,8 @@ void check_options(const Centerline& centerline, const CrossSection& section, co
     throw InputError({"", "max_triangles: " + std::to_string(options.max_triangles) + " is too few",
                       "The limit is at least 1000.", ""});
   }
-  const Vec3 start = placement.start();
-  const double size = std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) +
-                      centerline.length() + section.highest() - section.lowest();
-  const double finest = kCoordinateShare * size;
+  const double size = coordinate_size(centerline, section, placement);
+  const double finest = finest_length(centerline, section, placement);
   if (options.tolerance >= finest && kShareOfPlate * section.narrowest() >= finest) return;
   const bool plate = options.tolerance >= finest;
   throw InputError(
