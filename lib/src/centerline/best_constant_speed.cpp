@@ -19,7 +19,7 @@ namespace {
 constexpr double kSweepStep = 0.5;
 /// P = e^36 P_min is the straight line to one rounding. From rest the least travel time lies far below; a
 /// body that enters fast may do best on the straight line.
-constexpr double kSweepEnd = 36.0;
+constexpr int kSweepSteps = 72;
 /// Relative change of P below which the travel time, flat at its least, has no digits left to tell.
 constexpr double kRelativeStep = 1e-9;
 constexpr int kMostEvaluations = 500;
@@ -62,7 +62,8 @@ Bracket sweep(const TravelTimeOfP& travel_time) {
   const double time_at_smallest = travel_time(0.0);
   double best = 0.0;
   double least = time_at_smallest;
-  for (double q = kSweepStep; q <= kSweepEnd; q += kSweepStep) {
+  for (int step = 1; step <= kSweepSteps; ++step) {
+    const double q = step * kSweepStep;
     const double time = travel_time(q);
     if (time >= least) continue;
     least = time;

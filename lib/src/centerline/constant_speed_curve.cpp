@@ -166,7 +166,7 @@ ConstantSpeedCurve::ConstantSpeedCurve(Friction friction, double gravity, double
 ConstantSpeedCurve::ConstantSpeedCurve(Endpoints endpoints, Friction friction, double gravity, double p)
     : ConstantSpeedCurve(friction, gravity, p) {
   require_endpoints(endpoints);
-  endpoints_ = endpoints;
+  endpoints_ = endpoints;  // NOLINT(cppcoreguidelines-prefer-member-initializer): the constructor delegates
   const TurnedFinish finish = turned_finish(endpoints, friction.coefficient());
   turned_total_ = rate_ * finish.across;
   if (!(std::abs(turned_total_) < std::numbers::pi)) refuse_p(p, endpoints, friction, gravity);

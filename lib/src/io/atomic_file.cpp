@@ -64,6 +64,9 @@ struct AtomicFile::State {
   std::vector<char> buffer;
   int descriptor = -1;
 
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
   ~State() {
     if (descriptor >= 0) ::close(descriptor);
     if (!sibling.empty()) ::unlink(sibling.c_str());
@@ -86,7 +89,7 @@ struct AtomicFile::State {
     throw system_error(target, "cannot create a file in its directory", errno);
   }
 
-  void write_through(const char* bytes, std::size_t count) {
+  void write_through(const char* bytes, std::size_t count) const {
     while (count > 0) {
       const ssize_t written = ::write(descriptor, bytes, count);
       if (written < 0) {

@@ -28,9 +28,9 @@ std::uint64_t size_of_regular(const std::filesystem::path& file, int descriptor)
 
 }  // namespace
 
-FileSource::FileSource(std::filesystem::path file) : file_(std::move(file)) {
-  // Without O_NONBLOCK the opening of a pipe would wait for its writer.
-  descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+// Without O_NONBLOCK the opening of a pipe would wait for its writer.
+FileSource::FileSource(std::filesystem::path file)
+    : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0) throw system_error(file_, "cannot read", errno);
   try {
     size_ = size_of_regular(file_, descriptor_);

@@ -11,6 +11,8 @@ namespace glissade {
 /// Bytes in order, of a known number: a file, or memory in tests.
 class ByteSource {
  public:
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
   virtual ~ByteSource() = default;
 
   /// @return bytes in all
@@ -21,14 +23,14 @@ class ByteSource {
 
  protected:
   ByteSource() = default;
-  ByteSource(const ByteSource&) = delete;
-  ByteSource& operator=(const ByteSource&) = delete;
 };
 
 class FileSource final : public ByteSource {
  public:
   /// @throws FileError if the file cannot be opened or is a directory, a device or a pipe
   explicit FileSource(std::filesystem::path file);
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
   ~FileSource() override;
 
   [[nodiscard]] std::uint64_t size() const override { return size_; }

@@ -36,7 +36,7 @@ std::optional<std::uint32_t> claimed_facets(std::string_view head) {
 
 FileError neither(const Reading& reading) {
   return reading.error("is neither STL nor OFF",
-                       "STL starts with \"solid\" or an 80-byte header and a count, OFF with \"OFF\".",
+                       R"(STL starts with "solid" or an 80-byte header and a count, OFF with "OFF".)",
                        "to save it as STL or OFF with the program that made it");
 }
 

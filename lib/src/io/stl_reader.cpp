@@ -121,7 +121,7 @@ TriangleMesh read_stl_ascii(Reading& reading) {
       if (equals_ignoring_case(word, "endsolid")) break;
       if (!equals_ignoring_case(word, "facet")) {
         throw reading.unexpected("after facet " + std::to_string(facet - 1), word,
-                                 "\"facet\" or \"endsolid\"");
+                                 R"("facet" or "endsolid")");
       }
       require_countable(reading, 3 * std::uint64_t{facet}, facet);
       result.add(read_stl_facet(reading, facet));

@@ -42,10 +42,10 @@ double node_sigma(const Panel& panel, std::size_t node) {
   return panel.stretch.width * chebyshev::nodes()[node];
 }
 
-/// The least of `values` at the nodes of all panels.
+/// The least of `values` at the nodes of all panels, of which there is at least one.
 template <class Values>
 Found least_node(const std::vector<Panel>& panels, const Values& values) {
-  Found least;
+  Found least{&panels.front()};
   for (const Panel& panel : panels) {
     const chebyshev::Values f = values(panel);
     const auto node = std::min_element(f.begin(), f.end());

@@ -330,7 +330,7 @@ void Integrator::come_to_rest(const Stretch& stretch, double s, int deepest) {
     // Left out: the last bit of a way that takes for ever.
     if (std::isfinite(panel.mean_pace.back())) backwards.push_back(panel);
   }
-  for (auto panel = backwards.rbegin(); panel != backwards.rend(); ++panel) append(*panel);
+  std::for_each(backwards.rbegin(), backwards.rend(), [&](const Panel& panel) { append(panel); });
 }
 
 double Integrator::where_load_ends(const Panel& panel) const {

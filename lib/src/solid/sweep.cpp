@@ -51,7 +51,8 @@ double distance_to_side(Vec2 point, Vec2 a, Vec2 b) {
   return norm(point - (a + t * along));
 }
 
-double coordinate_size(const Centerline& centerline, const CrossSection& section, const Placement& placement) {
+double coordinate_size(const Centerline& centerline, const CrossSection& section,
+                       const Placement& placement) {
   const Vec3 start = placement.start();
   return std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) + centerline.length() +
          section.highest() - section.lowest();

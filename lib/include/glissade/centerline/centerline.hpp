@@ -84,7 +84,9 @@ class Centerline {
 
   Centerline() = default;
   Centerline(const Centerline&) = default;
+  Centerline(Centerline&&) = default;
   Centerline& operator=(const Centerline&) = default;
+  Centerline& operator=(Centerline&&) = default;
 };
 
 /// Stated bound of |at(arc_length_at_run(x)).x - x| / length().

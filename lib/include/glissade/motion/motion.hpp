@@ -73,6 +73,8 @@ class Motion {
   /// @throws ConvergenceError if the centerline is so rough between its breaks that no panels resolve it
   Motion(CenterlinePtr centerline, Body body, double gravity = kDefaultGravity);
   ~Motion();
+  Motion(const Motion&) = delete;
+  Motion& operator=(const Motion&) = delete;
   Motion(Motion&&) noexcept;
   Motion& operator=(Motion&&) noexcept;
 
