@@ -6,6 +6,7 @@
 #include "app/json.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
+#include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 
 #include <filesystem>
@@ -21,7 +22,8 @@ namespace {
 constexpr const char* kDescription =
     "Build a design: centerline, motion, solid, files, and a summary.\n"
     "\n"
-    "Either every file appears or none: a build that fails leaves the directory as it was.";
+    "Either every file appears or none: a build that fails leaves the directory as it was. A search within\n"
+    "limits that ends early (--time-budget, Ctrl-C) still builds the best track so far; the exit code is 4.";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -33,6 +35,7 @@ struct Options {
   std::string design;
   std::string directory;
   Overrides overrides;
+  TimeBudget time_budget;
   bool json = false;
   bool quiet = false;
 };
@@ -47,13 +50,15 @@ ExitCode build_design(const Options& options) {
   const Interrupt interrupt;
   const Build built = [&] {
     ProgressLine progress(options.quiet);
-    return build(design, directory_of(options), {progress.callback(), interrupt.token()});
+    return build(design, directory_of(options),
+                 {progress.callback(), interrupt.token(), options.time_budget.seconds()});
   }();
   if (options.json) {
     print(document(build_json(design, built)));
   } else if (!options.quiet) {
     print(build_summary(design, built));
   }
+  if (const auto problem = search_problem(design, built.track)) throw ConvergenceError(*problem);
   return ExitCode::done;
 }
 
@@ -68,6 +73,7 @@ void add_build(CLI::App& program, Action& action) {
                   "Directory for the files, made if missing [default: out/NAME-OF-THE-DESIGN]")
       ->type_name("DIR");
   options->overrides.add_to(command);
+  options->time_budget.add_to(command);
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors (and what --json asks for)");
   command.callback([options, &action] { action = [options] { return build_design(*options); }; });

@@ -40,6 +40,65 @@ Json lift_off_json(const std::optional<LiftOff>& lift_off) {
           {"curvature_per_m", lift_off->curvature}};
 }
 
+/// A bound, a violation, a price: angles in degrees, everything else in SI units.
+Json in_unit(double value, const std::string& unit) {
+  return number(unit == "rad" ? degrees(value) : value);
+}
+
+std::string unit_name(const std::string& unit) {
+  return unit == "rad" ? "deg" : unit;
+}
+
+const char* side_name(int side) {
+  if (side == 0) return "exactly";
+  return side > 0 ? "at most" : "at least";
+}
+
+Json check_json(const LimitCheck& check) {
+  return {{"limit", check.limit},
+          {"side", side_name(check.side)},
+          {"bound", in_unit(check.value, check.unit)},
+          {"reached", in_unit(check.reached, check.unit)},
+          {"unit", unit_name(check.unit)},
+          {"at_m", check.where},
+          {"kept", check.kept()},
+          {"violation", in_unit(check.violation, check.unit)},
+          {"violation_of_scale", number(check.violation / check.scale)}};
+}
+
+Json active_json(const ActiveLimit& active, bool speed_counts) {
+  Json where = Json::array();
+  for (const Stretch& stretch : active.where)
+    where.push_back({{"from_m", stretch.from}, {"to_m", stretch.to}});
+  // A price is per unit: what is a value of one radian is a price of 57.3 times as much as one per degree.
+  const double price = active.unit == "rad" ? active.price / degrees(1.0) : active.price;
+  return {{"limit", active.limit},
+          {"bound", in_unit(active.value, active.unit)},
+          {"unit", unit_name(active.unit)},
+          {"where", std::move(where)},
+          {"price", number(price)},
+          {"price_unit", (speed_counts ? "m/s per " : "s per ") + unit_name(active.unit)}};
+}
+
+Json search_json(const Design& design, const OptimizeReport& report) {
+  const bool speed_counts = design.limits && design.limits->objective.kind == ObjectiveDesignKind::exit_speed;
+  const bool found = report.travel_time > 0.0;
+  Json json;
+  json["status"] = to_text(report.status);
+  json["message"] = report.message;
+  json["unlimited_travel_time_s"] = number(report.unlimited_travel_time);
+  json["excess_over_unlimited"] = found && report.unlimited_travel_time
+                                      ? number(report.travel_time / *report.unlimited_travel_time - 1.0)
+                                      : Json(nullptr);
+  json["first_order_residual"] = found ? number(report.first_order_residual) : Json(nullptr);
+  json["active"] = Json::array();
+  for (const ActiveLimit& active : report.active) json["active"].push_back(active_json(active, speed_counts));
+  json["rounds"] = report.iterations;
+  json["evaluations"] = report.evaluations;
+  json["seconds"] = report.seconds;
+  return json;
+}
+
 std::string_view status(const Motion& motion) {
   if (motion.arrived()) return "arrived";
   return motion.stall() ? "stalled" : "lifted off";
@@ -69,7 +128,7 @@ Json track_json(const Design& design, const Track& track) {
   Json json = input_json(design);
   json["run_m"] = track.endpoints.run;
   json["drop_m"] = track.endpoints.drop;
-  json["centerline"] = centerline.kind();
+  json["centerline"] = word(design.centerline.kind);
   json["status"] = status(motion);
   json["travel_time_s"] = number(motion.arrived() ? std::optional(motion.travel_time()) : std::nullopt);
   json["straight_travel_time_s"] = number(track.straight_travel_time());
@@ -88,6 +147,26 @@ Json track_json(const Design& design, const Track& track) {
   json["drag_loss_j_per_kg"] = end.drag_loss;
   json["stall"] = stall_json(motion.stall());
   json["lift_off"] = lift_off_json(motion.lift_off());
+  json["limits"] = Json::array();
+  for (const LimitCheck& check : track.limit_checks) json["limits"].push_back(check_json(check));
+  json["search"] = track.search ? search_json(design, *track.search) : Json(nullptr);
+  return json;
+}
+
+Json conflict_json(const Design& design, const OptimizeReport& report) {
+  Json json = input_json(design);
+  json["centerline"] = word(design.centerline.kind);
+  json["status"] = to_text(report.status);
+  json["search"] = search_json(design, report);
+  json["search"]["conflict"] = Json::array();
+  for (const StatedLimit& stated : report.conflict.limits) json["search"]["conflict"].push_back(stated.limit);
+  json["search"]["relaxations"] = Json::array();
+  for (const Relaxation& relaxation : report.conflict.relaxations) {
+    json["search"]["relaxations"].push_back({{"limit", relaxation.limit},
+                                             {"bound", in_unit(relaxation.value, relaxation.unit)},
+                                             {"needed", in_unit(relaxation.needed, relaxation.unit)},
+                                             {"unit", unit_name(relaxation.unit)}});
+  }
   return json;
 }
 

@@ -2,8 +2,11 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
+#include "app/interrupt.hpp"
 #include "app/json.hpp"
+#include "app/progress_line.hpp"
 #include "app/summary.hpp"
+#include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 
 #include <memory>
@@ -17,7 +20,9 @@ namespace {
 constexpr const char* kDescription =
     "Find the centerline and the ride down it; write no files.\n"
     "\n"
-    "A body that stalls or leaves the track is reported with the place, and the exit code is 3.";
+    "A body that stalls or leaves the track is reported with the place, and the exit code is 3; the same "
+    "for\n"
+    "a track that breaks a limit of its design, and for limits that no track keeps.";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -28,14 +33,32 @@ constexpr const char* kFooter =
 
 struct Options {
   TrackInput input{TrackInput::Scope::one_kind};
+  TimeBudget time_budget;
   bool json = false;
 };
 
+Track solved(const Design& design, const Options& options) {
+  const Interrupt interrupt;
+  ProgressLine progress(false);
+  return solve(design, {progress.callback(), interrupt.token(), options.time_budget.seconds()});
+}
+
+void require_sound(const Design& design, const Track& track) {
+  if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
+  if (const auto problem = limits_problem(design, track)) throw InfeasibleError(*problem);
+  if (const auto problem = search_problem(design, track)) throw ConvergenceError(*problem);
+}
+
 ExitCode solve_track(const Options& options) {
   const Design design = options.input.design();
-  const Track track = solve(design);
-  print(options.json ? document(track_json(design, track)) : track_summary(design, track));
-  if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
+  try {
+    const Track track = solved(design, options);
+    print(options.json ? document(track_json(design, track)) : track_summary(design, track));
+    require_sound(design, track);
+  } catch (const LimitsConflict& conflict) {
+    if (options.json) print(document(conflict_json(design, conflict.report())));
+    throw;
+  }
   return ExitCode::done;
 }
 
@@ -45,6 +68,7 @@ void add_solve(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("solve", kDescription)->footer(kFooter);
   const auto options = std::make_shared<Options>();
   options->input.add_to(command);
+  options->time_budget.add_to(command);
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
   command.callback([options, &action] { action = [options] { return solve_track(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "app/console.hpp"
+#include "app/limits_text.hpp"
 #include "app/table.hpp"
 
 #include <array>
@@ -15,7 +16,9 @@ namespace {
 
 constexpr double kStandardGravity = 9.80665;
 
-std::string kind_text(const Centerline& centerline) {
+std::string kind_text(const Track& track) {
+  const Centerline& centerline = *track.centerline;
+  if (track.search) return "fastest within the limits";
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
   if (centerline.kind() == "constant-speed") return "constant-speed (Pudasaini's curve)";
   if (centerline.kind() == "no-curvature-load") return "no-curvature-load (for comparison only)";
@@ -32,16 +35,18 @@ std::string against(double time, double other, const std::string& whose) {
 }
 
 std::string comparison_lines(const Track& track) {
+  const bool fastest = track.centerline->kind() == "fastest";
   const double time = track.motion.travel_time();
   std::string text;
   const auto add = [&](const std::string& line) { text += "\n" + line; };
   if (track.optimum_travel_time) {
-    if (track.centerline->kind() == "fastest") {
+    if (fastest) {
       add("the least that is possible between these points");
     } else {
-      add(against(time, *track.optimum_travel_time, "the least possible,"));
+      add(against(time, *track.optimum_travel_time,
+                  track.limit_checks.empty() ? "the least possible," : "the least possible without limits,"));
     }
-  } else if (track.centerline->kind() == "fastest") {
+  } else if (fastest) {
     add("fastest from rest without drag; with an entry speed or drag another track may be faster");
   }
   if (track.centerline->kind() == "straight") return text;
@@ -163,10 +168,11 @@ std::string task_line(const Design& design, const Endpoints& endpoints) {
 std::string track_summary(const Design& design, const Track& track) {
   const std::string heading = design.name.empty() ? std::string("Track") : design.name;
   return emphasised(heading, Emphasis::heading) + "\n  " + task_line(design, track.endpoints) + "\n\n" +
-         labelled("Centerline", kind_text(*track.centerline)) + ride_lines(track) +
+         labelled("Centerline", kind_text(track)) + ride_lines(track) +
          labelled("Slope angle", slope_text(track)) +
          labelled("Arc length", length_text(track.centerline->length())) +
-         labelled("Normal load", load_lines(track.motion)) + labelled("Smallest radius", radius_text(track));
+         labelled("Normal load", load_lines(track.motion)) + labelled("Smallest radius", radius_text(track)) +
+         limits_lines(design, track);
 }
 
 std::string build_summary(const Design& design, const Build& build) {

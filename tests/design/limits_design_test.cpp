@@ -183,9 +183,6 @@ TEST_CASE("limits that contradict each other or the design are refused where the
   CHECK_THAT(
       problems_of_limits("speed: {lowest: 1 m/s}"),
       Contains("speed.lowest: 1 m/s is above the entry speed, 0 m/s") && Contains("Try: lowest_from: 0.5 m"));
-  CHECK_THAT(problems_with("17 deg\ncenterline: {kind: fastest}",
-                           "17 deg\nlimits: {concave: true}\ncenterline: {kind: straight}"),
-             StartsWith("d.yaml:8:1: limits shape no centerline of kind straight"));
 }
 
 TEST_CASE("single limits are refused out of their bounds, with a wrong unit, or ambiguous") {

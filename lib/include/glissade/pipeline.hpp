@@ -4,6 +4,7 @@
 #include "glissade/core/progress.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/optimize/optimize.hpp"
 #include "glissade/solid/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/placement.hpp"
@@ -14,6 +15,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace glissade {
@@ -23,7 +25,8 @@ namespace glissade {
 /// How long work tells how far it is, and is asked to end.
 struct RunContext {
   Progress progress;
-  std::stop_token stop;
+  std::stop_token stop;  ///< a search within limits ends with the best track so far
+  double time_budget = OptimizeOptions{}.time_budget;  ///< of a search within limits [s]; > 0
 };
 
 /// A centerline with the ride down it and the two rides that it is measured by.
@@ -43,28 +46,62 @@ struct Track {
   /// straight.
   double min_radius = 0.0;
   double steepest_slope_angle = 0.0;  ///< largest slope angle anywhere [rad]
+  /// How the search within the limits ended, of the kind fastest with limits; none otherwise. Limits have the
+  /// names and the frame of the design file: finish.x, finish.z.
+  std::optional<OptimizeReport> search;
+  /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without
+  /// limits.
+  std::vector<LimitCheck> limit_checks;
 
   /// @return travel time on the straight line [s]; none if the body does not arrive there
   [[nodiscard]] std::optional<double> straight_travel_time() const;
 };
 
-/// Where a design's track leads, in the plane of its centerline.
+/// No track keeps the limits of a design, or none was found. Its issue names those that contradict each other
+/// and the smallest relaxations that would do.
+class LimitsConflict : public InfeasibleError {
+ public:
+  LimitsConflict(Issue issue, OptimizeReport report)
+      : InfeasibleError(std::move(issue)), report_(std::move(report)) {}
+  [[nodiscard]] const OptimizeReport& report() const noexcept { return report_; }
+
+ private:
+  OptimizeReport report_;
+};
+
+/// Where a design's track leads, in the plane of its centerline. Of a free finish it is some place within its
+/// range.
 [[nodiscard]] Endpoints endpoints_of(const Design& design);
 
-/// The curve that a design asks for.
+/// A design as the optimiser takes it: run and drop from the start.
+[[nodiscard]] Problem problem_of(const Design& design);
+
+/// The curve that a design asks for, its limits left aside.
 /// @throws InputError, InfeasibleError, ConvergenceError, FileError with the location in the design
 [[nodiscard]] CenterlinePtr make_centerline(const Design& design);
 
-/// The ride of the design's body down a given centerline, and what it is measured by.
+/// The ride of the design's body down a given centerline, what it is measured by, and its limits checked.
 [[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline);
 
-/// Design to centerline and motion. A body that stalls or leaves the track is a result, not an error.
-/// @throws InputError with everything that check() finds; else as make_centerline()
+/// Design to centerline and motion. With limits, the kind fastest is searched for within them; on other kinds
+/// they are checked. A body that stalls or leaves the track is a result, not an error, and so is a broken
+/// limit, or a search that ends early with a track (Track::search).
+/// @throws InputError with everything that check() finds; LimitsConflict if no track keeps the limits;
+///         ConvergenceError or Interrupted if the search ended before it found a track that does; else as
+///         make_centerline()
 [[nodiscard]] Track solve(const Design& design, const RunContext& context = {});
 
 /// Why a ride is not what was wanted: the body stalls or leaves the track.
 /// @return the problem with the place and what is missing there; none if the body arrives
 [[nodiscard]] std::optional<Issue> ride_problem(const Design& design, const Track& track);
+
+/// Why a track is not what its limits ask for.
+/// @return the problem, every broken limit with the place and by how much; none if all are kept
+[[nodiscard]] std::optional<Issue> limits_problem(const Design& design, const Track& track);
+
+/// Whether a search within limits ended before it converged.
+/// @return how it ended and what that means; none if it converged, or there was none
+[[nodiscard]] std::optional<Issue> search_problem(const Design& design, const Track& track);
 
 /// The outline that a design asks for.
 /// @throws InputError if the measures do not make a cross-section
@@ -87,8 +124,9 @@ struct Build {
 /// Design to files in `directory` (made if missing), each named after the design file. Either all of them
 /// appear, or the directory stays as it was, files of an earlier build included.
 /// @throws as solve(); InputError if the design has no cross_section or the section cannot follow the track;
-///         InfeasibleError if the body does not arrive; FileError if a file cannot be written;
-///         Interrupted if the context's stop token asks for it; InternalError if a mesh turns out faulty
+///         InfeasibleError if the body does not arrive or a limit is broken; FileError if a file cannot be
+///         written; Interrupted if the context's stop token asks for it; InternalError if a mesh turns out
+///         faulty
 [[nodiscard]] Build build(const Design& design, const std::filesystem::path& directory,
                           const RunContext& context = {});
 

@@ -359,11 +359,6 @@ void check_objective(const Design& design, Collected& findings) {
 std::vector<Finding> check_limits(const Design& design) {
   Collected findings;
   if (!design.limits) return findings;
-  if (design.centerline.kind != CenterlineKind::fastest) {
-    report(findings, {"limits", "centerline.kind"},
-           {"", "limits shape no centerline of kind " + std::string(word(design.centerline.kind)),
-            "They are kept by the kind that is found within them: fastest.", "kind: fastest, or no limits"});
-  }
   check_slopes(*design.limits, findings);
   check_curvature(*design.limits, findings);
   check_loads(*design.limits, findings);

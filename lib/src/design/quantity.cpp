@@ -62,6 +62,9 @@ constexpr std::array kUnits = {
     Unit{"m2/s2", Dimension::specific_energy, 1.0, 1.0, false},
     Unit{"m\u00b2/s\u00b2", Dimension::specific_energy, 1.0, 1.0, false},
     Unit{"J/kg", Dimension::specific_energy, 1.0, 1.0, true},
+    Unit{"s", Dimension::time, 1.0, 1.0, true},
+    Unit{"ms", Dimension::time, 1.0, 1e3, true},
+    Unit{"min", Dimension::time, 60.0, 1.0, true},
     Unit{"s/(m/s)", Dimension::time_per_speed, 1.0, 1.0, true},
     Unit{"s^2/m", Dimension::time_per_speed, 1.0, 1.0, true},
 };
@@ -84,6 +87,8 @@ std::string_view noun(Dimension dimension) {
       return "value per area";
     case Dimension::specific_energy:
       return "squared speed";
+    case Dimension::time:
+      return "time";
     case Dimension::time_per_speed:
       return "time per speed";
   }

@@ -31,26 +31,30 @@ double relaxed_bound(const LimitSpec& limit, double t, double measured) {
   return limit.bound_si + limit.side * t * limit.scale / limit.per_si;
 }
 
-std::string quantity(double value, const std::string& unit) {
-  if (unit == "rad") return angle_text(value);
-  if (unit == "m") return length_text(value);
-  return rounded_text(value, 4) + " " + unit;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
-    text += words[i];
-  }
-  return text;
-}
-
 struct Attempt {
   std::shared_ptr<ScaledProblem> problem;
   Mesh mesh;
   Relaxed relaxed;
 };
+
+/// The least by which one limit must give way when all others hold: from the track that breaks all of them
+/// least, and from the product's own starts, since not every descent finds its way.
+std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elastic, SearchControl& control) {
+  constexpr double kKept = 1e-6;
+  const Vector margins(attempt.problem->limits.size(), 0.0);
+  std::vector<Vector> beginnings{attempt.relaxed.found.z};
+  for (const GuessCurve& start : starts(*attempt.problem)) {
+    beginnings.push_back(fit(start, Transcription(attempt.mesh)));
+  }
+  std::optional<Relaxed> least;
+  for (const Vector& beginning : beginnings) {
+    if (control.stop()) break;
+    Relaxed alone = least_violation(*attempt.problem, attempt.mesh, beginning, elastic, margins, control);
+    if (alone.found.violation > kKept || alone.t <= 0.0) continue;
+    if (!least || alone.t < least->t) least = std::move(alone);
+  }
+  return least;
+}
 
 }  // namespace
 
@@ -60,7 +64,7 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
   const double run = std::fabs(problem.endpoints.run);
   if (problem.endpoints.drop > friction.coefficient() * run) return std::nullopt;
   Conflict conflict;
-  conflict.limits = {"friction", "finish"};
+  conflict.limits = {{"friction", {}, ""}, {"finish", {}, ""}};
   conflict.relaxations.push_back({"finish.drop", problem.endpoints.drop, friction.coefficient() * run, "m"});
   conflict.text = "from rest, no track reaches the finish at a friction angle of " +
                   angle_text(friction.angle().radians()) + ": the mean slope is " +
@@ -111,22 +115,21 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   }
   Conflict conflict;
   constexpr double kPartOf = 1e-4;
-  std::vector<std::string> words;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     if (share[i] <= kPartOf) continue;
     const LimitSpec& limit = limits[i];
-    if (std::find(conflict.limits.begin(), conflict.limits.end(), limit.key) != conflict.limits.end())
-      continue;
-    conflict.limits.push_back(limit.key);
-    words.push_back(limit.built_in ? limit.key : limit.key + " " + quantity(limit.bound_si, limit.unit));
+    const auto same = [&](const StatedLimit& known) { return known.limit == limit.key; };
+    if (std::any_of(conflict.limits.begin(), conflict.limits.end(), same)) continue;
+    conflict.limits.push_back(
+        {limit.key, limit.built_in ? std::nullopt : std::optional(limit.bound_si), limit.unit});
     if (limit.built_in || (limit.measure == Measure::curvature && limit.bound == 0.0)) continue;
     Elastic elastic;
     elastic.equalities = false;
     elastic.limits.assign(limits.size(), false);
     for (std::size_t k = 0; k < limits.size(); ++k) elastic.limits[k] = limits[k].key == limit.key;
-    const Vector margins(limits.size(), 0.0);
-    const Relaxed alone = least_violation(*best->problem, best->mesh, found.z, elastic, margins, control);
-    if (alone.found.violation > 1e-6 || alone.t <= 0.0) continue;
+    const std::optional<Relaxed> least = relaxed_alone(*best, elastic, control);
+    if (!least) continue;
+    const Relaxed& alone = *least;
     double measured = 0.0;
     if (limit.side == 0) {
       Vector value;
@@ -144,12 +147,7 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
     conflict.relaxations.push_back(
         {limit.key, limit.bound_si, relaxed_bound(limit, alone.t, measured), limit.unit});
   }
-  conflict.text = joined(words) + " cannot be met together";
-  for (std::size_t i = 0; i < conflict.relaxations.size(); ++i) {
-    const Relaxation& relaxation = conflict.relaxations[i];
-    conflict.text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit + " " +
-                     quantity(relaxation.needed, relaxation.unit);
-  }
+  conflict.text = conflict_text(conflict);
   explanation.conflict = std::move(conflict);
   return explanation;
 }

@@ -33,8 +33,6 @@ constexpr double kNearlyFeasible = 1e-3;
 // track.
 constexpr double kContactMargin = 1e-6;
 constexpr int kTighteningRounds = 12;
-// Ten times finer than the stations of the search, of which a piece has some seven.
-constexpr int kRefereeSamples = 70;
 constexpr std::size_t kMostPassages = 16;
 // So many starts without any track that keeps the limits end a search.
 constexpr int kMostHopeless = 2;
@@ -323,6 +321,15 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
 
 }  // namespace
 }  // namespace fastest
+
+std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track) {
+  Problem checked = problem;
+  // A body held from both sides cannot be searched for, but what else is asked of its track can be checked.
+  checked.limits.lowest_normal_load = problem.limits.lowest_normal_load.value_or(0.0);
+  fastest::require_valid(checked);
+  if (!track) throw InputError({"", "there is no track to hold against the limits", "", ""});
+  return fastest::judge_track(problem, track, fastest::kRefereeSamples, fastest::BrokenRides::judged).checks;
+}
 
 Optimum optimize(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
                  const Progress& progress) {

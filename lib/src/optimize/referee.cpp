@@ -1,10 +1,13 @@
 #include "optimize/referee.hpp"
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/motion/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace glissade::fastest {
 namespace {
@@ -50,14 +53,48 @@ double distance_to_profile(Vec2 point, const std::vector<Vec2>& line, double sid
   return behind ? -least : least;
 }
 
+/// Where a vertical line meets a polygon: the least drop and the greatest.
+std::optional<std::pair<double, double>> drops_at(const std::vector<Vec2>& outline, double run) {
+  std::optional<std::pair<double, double>> drops;
+  const auto meet = [&](double drop) {
+    if (!drops) drops.emplace(drop, drop);
+    drops->first = std::min(drops->first, drop);
+    drops->second = std::max(drops->second, drop);
+  };
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 a = outline[i];
+    const Vec2 b = outline[(i + 1) % outline.size()];
+    if (std::min(a.x, b.x) > run || std::max(a.x, b.x) < run) continue;
+    if (a.x == b.x) {
+      meet(a.y);
+      meet(b.y);
+    } else {
+      meet(a.y + (b.y - a.y) * (run - a.x) / (b.x - a.x));
+    }
+  }
+  return drops;
+}
+
+/// Distance from the area; negative within it, and where the area is passed on the wrong side.
+double distance_to_keep_out(Vec2 point, const KeepOut& keep_out) {
+  const double distance = distance_to_polygon(point, keep_out.outline);
+  if (keep_out.passage == Passage::either) return distance;
+  const auto drops = drops_at(keep_out.outline, point.x);
+  if (!drops) return distance;
+  const bool above = keep_out.passage == Passage::above;
+  const double beyond = above ? point.y - drops->first : drops->second - point.y;
+  return beyond > 0.0 ? -beyond : distance;
+}
+
 /// Keeps the worst value of one limit while the track is sampled.
 class Watch {
  public:
   Watch(std::string limit, const char* unit, int side, double bound, double scale)
-      : check_{std::move(limit), bound, 0.0, 0.0, scale, 0.0, unit}, side_(side) {}
+      : check_{std::move(limit), bound, 0.0, 0.0, scale, 0.0, unit, side} {}
 
   void see(double value, double where) {
-    const double excess = side_ == 0 ? std::fabs(value - check_.value) : side_ * (value - check_.value);
+    const double excess =
+        check_.side == 0 ? std::fabs(value - check_.value) : check_.side * (value - check_.value);
     if (seen_ && excess <= worst_) return;
     seen_ = true;
     worst_ = excess;
@@ -70,7 +107,6 @@ class Watch {
 
  private:
   LimitCheck check_;
-  int side_;
   bool seen_ = false;
   double worst_ = 0.0;
 };
@@ -82,6 +118,8 @@ std::vector<double> sampled(const Centerline& track, const Limits& limits, int s
     for (int k = 0; k < samples; ++k) {
       stations.push_back(breaks[i] + (breaks[i + 1] - breaks[i]) * k / samples);
     }
+    // At the break itself the values of the next piece hold.
+    stations.push_back(std::nextafter(breaks[i + 1], breaks[i]));
   }
   stations.push_back(breaks.back());
   if (limits.lowest_speed_from > 0.0 && limits.lowest_speed_from < breaks.back()) {
@@ -112,7 +150,7 @@ class Watches {
     }
     for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
       const KeepOut& keep_out = limits.keep_outs[i];
-      least(indexed("keep_outs", i), keep_out.clearance, distance_to_polygon(place, keep_out.outline), s);
+      least(indexed("keep_outs", i), keep_out.clearance, distance_to_keep_out(place, keep_out), s);
     }
     for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
       const Profile& profile = limits.stay_above[i];
@@ -141,9 +179,13 @@ class Watches {
     if (bound) watch("highest_curvature_rate", "1/m^2", +1, *bound, *bound).see(std::fabs(rate), s);
   }
 
-  void at_state(const MotionState& state, double curvature) {
+  void at_state(const MotionState& state, const CenterlinePoint& point) {
     const Limits& limits = problem_.limits;
     const double s = state.arc_length;
+    // Unbounded curvature at a start from rest loads the track all the same no more than finitely.
+    const double curvature_load = std::isfinite(point.curvature)
+                                      ? point.curvature * state.speed * state.speed
+                                      : state.normal_load - problem_.gravity * std::cos(point.slope_angle);
     const double speed_scale = std::sqrt(problem_.gravity * chord_);
     if (limits.highest_normal_load) {
       watch("highest_normal_load", "m/s^2", +1, *limits.highest_normal_load,
@@ -158,7 +200,7 @@ class Watches {
     if (limits.highest_curvature_load) {
       watch("highest_curvature_load", "m/s^2", +1, *limits.highest_curvature_load,
             load_scale(*limits.highest_curvature_load))
-          .see(curvature * state.speed * state.speed, s);
+          .see(curvature_load, s);
     }
     if (limits.speed.highest)
       watch("speed.highest", "m/s", +1, *limits.speed.highest, speed_scale).see(state.speed, s);
@@ -167,15 +209,18 @@ class Watches {
     }
   }
 
-  void at_end(const Centerline& track, double exit_speed) {
+  void at_exit_speed(double exit_speed, double end) {
+    range("exit_speed", "m/s", problem_.limits.exit_speed, std::sqrt(problem_.gravity * chord_), exit_speed,
+          end);
+  }
+
+  void at_end(const Centerline& track) {
     const Limits& limits = problem_.limits;
     const double end = track.length();
-    const double speed_scale = std::sqrt(problem_.gravity * chord_);
     const CenterlinePoint first = track.at(0.0);
     const CenterlinePoint last = track.at(end);
     range("entry_slope_angle", "rad", limits.entry_slope_angle, 1.0, first.slope_angle, 0.0);
     range("exit_slope_angle", "rad", limits.exit_slope_angle, 1.0, last.slope_angle, end);
-    range("exit_speed", "m/s", limits.exit_speed, speed_scale, exit_speed, end);
     range("arc_length", "m", limits.arc_length, chord_, end, end);
     const double miss_run = last.x - std::fabs(problem_.endpoints.run);
     const double miss_drop = last.drop - problem_.endpoints.drop;
@@ -194,6 +239,17 @@ class Watches {
         break;
     }
     watch("finish", "m", 0, 0.0, chord_).see(miss, end);
+  }
+
+  /// @param in,out  lengths of the straights that the track starts and ends with
+  void at_leads(double in, double out, double length) {
+    if (problem_.limits.lead_in > 0.0) least("lead_in", problem_.limits.lead_in, in, in);
+    if (problem_.limits.lead_out > 0.0) least("lead_out", problem_.limits.lead_out, out, length - out);
+  }
+
+  /// How far the body comes at a friction that is not the nominal one.
+  void at_arrival(const std::string& limit, double distance, double length) {
+    watch(limit, "m", -1, length, chord_).see(distance, distance);
   }
 
   void near(std::size_t waypoint, double distance, double s) {
@@ -264,6 +320,80 @@ double closest_approach(const Centerline& track, const std::vector<CenterlinePoi
   return norm(Vec2{point.x, point.drop} - target);
 }
 
+/// A spline's curvature is known at its joints, and linear between them.
+void see_curvature(const ClothoidSpline& spline, Watches& watches) {
+  double s = 0.0;
+  double before = spline.segments().front().entry_curvature;
+  for (const ClothoidSegment& segment : spline.segments()) {
+    if (segment.entry_curvature != before) watches.at_rate(s, std::numeric_limits<double>::infinity());
+    watches.at_curvature(s, segment.entry_curvature);
+    watches.at_rate(s, (segment.exit_curvature - segment.entry_curvature) / segment.length);
+    s += segment.length;
+    watches.at_curvature(s, segment.exit_curvature);
+    before = segment.exit_curvature;
+  }
+}
+
+void see_curvature(const Centerline& track, int samples, Watches& watches) {
+  if (const auto* spline = dynamic_cast<const ClothoidSpline*>(&track)) {
+    see_curvature(*spline, watches);
+    return;
+  }
+  constexpr double kJump = 1e-9;  // of curvature times length; below it is rounding
+  const std::vector<double> breaks = track.breaks();
+  double before = track.direction(0.0).curvature;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    double s_before = breaks[i];
+    for (int k = 0; k <= samples; ++k) {
+      const double s = k == samples ? std::nextafter(breaks[i + 1], breaks[i])
+                                    : breaks[i] + (breaks[i + 1] - breaks[i]) * k / samples;
+      const double curvature = track.direction(s).curvature;
+      watches.at_curvature(s, curvature);
+      const double change = std::fabs(curvature - before);
+      if (k > 0) {
+        watches.at_rate(s_before, change / (s - s_before));
+      } else if (!(change * track.length() <= kJump)) {
+        watches.at_rate(s, std::numeric_limits<double>::infinity());
+      }
+      before = curvature;
+      s_before = s;
+    }
+  }
+}
+
+/// @return lengths of the straights that a track starts and ends with, as far as its points tell
+std::pair<double, double> straight_ends(const std::vector<CenterlinePoint>& points) {
+  constexpr double kStraight = 1e-7;  // [rad]
+  const CenterlinePoint& first = points.front();
+  const CenterlinePoint& last = points.back();
+  double in = 0.0;
+  for (const CenterlinePoint& point : points) {
+    if (!(std::fabs(point.slope_angle - first.slope_angle) <= kStraight)) break;
+    in = point.arc_length;
+  }
+  double out = 0.0;
+  for (auto point = points.rbegin(); point != points.rend(); ++point) {
+    if (!(std::fabs(point->slope_angle - last.slope_angle) <= kStraight)) break;
+    out = last.arc_length - point->arc_length;
+  }
+  // The last point before the end is a rounding away from it.
+  constexpr double kNothing = 1e-12;
+  return {in > kNothing * last.arc_length ? in : 0.0, out > kNothing * last.arc_length ? out : 0.0};
+}
+
+/// A friction that limits hold at, and what the check of arriving there is called; empty: the nominal one.
+struct NamedFriction {
+  Friction friction;
+  std::string arrival;
+};
+
+std::vector<NamedFriction> frictions_of(const Problem& problem) {
+  std::vector<NamedFriction> frictions{{problem.body.friction, ""}};
+  if (problem.low_friction) frictions.push_back({*problem.low_friction, "arrival_at_low_friction"});
+  if (problem.high_friction) frictions.push_back({*problem.high_friction, "arrival_at_high_friction"});
+  return frictions;
+}
+
 }  // namespace
 
 const LimitCheck* Verdict::find(const std::string& limit) const {
@@ -272,7 +402,8 @@ const LimitCheck* Verdict::find(const std::string& limit) const {
   return found == checks.end() ? nullptr : &*found;
 }
 
-Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples) {
+Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
+                    BrokenRides broken_rides) {
   const CenterlinePoint end = track->at(track->length());
   const double chord = std::hypot(end.x, end.drop);
   const std::vector<double> stations = sampled(*track, problem.limits, samples);
@@ -282,14 +413,9 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
 
   Watches watches(problem, chord);
   for (const CenterlinePoint& point : points) watches.at_point(point);
-  const auto& segments = dynamic_cast<const ClothoidSpline&>(*track).segments();
-  double s = 0.0;
-  for (const ClothoidSegment& segment : segments) {
-    watches.at_curvature(s, segment.entry_curvature);
-    watches.at_rate(s, (segment.exit_curvature - segment.entry_curvature) / segment.length);
-    s += segment.length;
-    watches.at_curvature(s, segment.exit_curvature);
-  }
+  see_curvature(*track, samples, watches);
+  const auto [lead_in, lead_out] = straight_ends(points);
+  watches.at_leads(lead_in, lead_out, track->length());
   for (std::size_t i = 0; i < problem.limits.waypoints.size(); ++i) {
     double where = 0.0;
     const double distance = closest_approach(*track, points, problem.limits.waypoints[i], where);
@@ -298,26 +424,26 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
 
   Verdict verdict;
   verdict.arrived = true;
-  std::vector<Friction> frictions{problem.body.friction};
-  if (problem.low_friction) frictions.push_back(*problem.low_friction);
-  if (problem.high_friction) frictions.push_back(*problem.high_friction);
-  for (const Friction friction : frictions) {
+  for (const auto& [friction, arrival] : frictions_of(problem)) {
     Body body = problem.body;
     body.friction = friction;
     const Motion motion(track, body, problem.gravity);
+    if (!arrival.empty()) watches.at_arrival(arrival, motion.distance(), track->length());
     if (!motion.arrived()) {
       verdict.arrived = false;
       if (motion.lift_off()) verdict.lift_off = motion.lift_off()->arc_length;
-      continue;
+      if (broken_rides == BrokenRides::left_out) continue;
     }
-    if (friction == problem.body.friction) {
+    if (arrival.empty()) {
       verdict.travel_time = motion.travel_time();
       verdict.exit_speed = motion.exit_speed();
     }
-    const std::vector<MotionState> states = motion.at(stations);
-    for (std::size_t i = 0; i < states.size(); ++i) watches.at_state(states[i], points[i].curvature);
-    watches.at_end(*track, motion.exit_speed());
+    const auto ridden = std::upper_bound(stations.begin(), stations.end(), motion.distance());
+    const std::vector<MotionState> states = motion.at({stations.begin(), ridden});
+    for (std::size_t i = 0; i < states.size(); ++i) watches.at_state(states[i], points[i]);
+    if (motion.arrived()) watches.at_exit_speed(motion.exit_speed(), track->length());
   }
+  watches.at_end(*track);
   verdict.checks = watches.checks();
   for (const LimitCheck& check : verdict.checks) {
     verdict.worst = std::max(verdict.worst, check.violation / check.scale);

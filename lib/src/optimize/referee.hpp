@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/centerline.hpp"
 #include "glissade/optimize/optimize.hpp"
 
 #include <memory>
@@ -21,9 +21,17 @@ struct Verdict {
   [[nodiscard]] const LimitCheck* find(const std::string& limit) const;
 };
 
+/// Whether limits on motion are held against a ride that ends before the finish.
+enum class BrokenRides { left_out, judged };
+
+/// Points on each smooth piece: ten times as many as the stations of the search, of which a piece has some
+/// seven.
+inline constexpr int kRefereeSamples = 70;
+
 /// Rides the track with Motion and compares it with the problem as given, in SI, sharing no code with the
 /// search.
 /// @param samples  points on each smooth piece of the centerline
-[[nodiscard]] Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples);
+[[nodiscard]] Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
+                                  BrokenRides broken_rides = BrokenRides::left_out);
 
 }  // namespace glissade::fastest

@@ -3,7 +3,8 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/optimize/optimize.hpp"
 
-#include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace glissade {
 namespace {
@@ -14,6 +15,15 @@ std::string quantity(double value, const std::string& unit) {
   if (unit == "rad") return angle_text(value);
   if (unit == "m") return length_text(value);
   return rounded_text(value, 4) + " " + unit;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += words[i];
+  }
+  return text;
 }
 
 /// A price per unit that people use: degrees for angles.
@@ -47,6 +57,20 @@ std::string_view to_text(OptimizeStatus status) {
       return "no track found";
   }
   return "unknown";
+}
+
+std::string conflict_text(const Conflict& conflict) {
+  std::vector<std::string> words;
+  for (const StatedLimit& stated : conflict.limits) {
+    words.push_back(stated.value ? stated.limit + " " + quantity(*stated.value, stated.unit) : stated.limit);
+  }
+  std::string text = joined(words) + " cannot be met together";
+  for (std::size_t i = 0; i < conflict.relaxations.size(); ++i) {
+    const Relaxation& relaxation = conflict.relaxations[i];
+    text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit + " " +
+            quantity(relaxation.needed, relaxation.unit);
+  }
+  return text;
 }
 
 std::string OptimizeReport::brief() const {

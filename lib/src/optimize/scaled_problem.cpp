@@ -212,7 +212,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   const auto add_upright = [&](bool given, int side) {
     if (given) return;
     LimitSpec upright;
-    upright.key = "upright";
+    upright.key = side > 0 ? "no steeper than vertical" : "no climb beyond the vertical";
     upright.unit = "rad";
     upright.measure = Measure::slope_angle;
     upright.side = side;
@@ -225,7 +225,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   add_upright(limits.slope_angle.lowest.has_value(), -1);
   const auto add_length = [&](int side, double bound) {
     LimitSpec length;
-    length.key = "length";
+    length.key = side > 0 ? "no longer than 20 chords" : "no shorter than the chord";
     length.unit = "m";
     length.measure = Measure::arc_length;
     length.side = side;
@@ -244,7 +244,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
   constexpr double kCreep = 1e-6;
   LimitSpec arrival;
-  arrival.key = "arrives at the finish";
+  arrival.key = "arrival at the finish";
   arrival.measure = Measure::arrival;
   arrival.side = -1;
   arrival.bound = kCreep;

@@ -221,10 +221,14 @@ CrossSection make_cross_section(const CrossSectionDesign& design) {
   throw InternalError({"", "a kind of cross-section without a shape", "", ""});
 }
 
-Build build(const Design& design, const fs::path& directory, const RunContext& context) {
+Build build(const Design& design, const fs::path& directory, const RunContext& given_context) {
   require_buildable(design);
+  RunContext context = given_context;
   Track track = solve(design, context);
   if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
+  if (const auto problem = limits_problem(design, track)) throw InfeasibleError(*problem);
+  // The request to stop has been met: the search ended with the best track so far, which is built.
+  if (track.search && context.stop.stop_requested()) context.stop = {};
 
   enter(context, "making the mesh");
   const std::string place = design.where("cross_section");

@@ -8,11 +8,13 @@
 #include "glissade/pipeline.hpp"
 
 #include "pipeline/extremes.hpp"
+#include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
 
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace glissade {
 namespace {
@@ -105,8 +107,8 @@ CenterlinePtr make_centerline(const Design& design) {
 }
 
 Track ride(const Design& design, CenterlinePtr centerline) {
-  const Endpoints endpoints =
-      is_drawn(design.centerline.kind) ? endpoints_of(*centerline) : endpoints_of(design);
+  const bool chosen = is_drawn(design.centerline.kind) || design.track.free_finish != FreeFinish::none;
+  const Endpoints endpoints = chosen ? endpoints_of(*centerline) : endpoints_of(design);
   const Body body{design.body.friction, design.body.entry_speed, design.body.drag_per_metre};
 
   std::optional<Motion> optimum;
@@ -119,6 +121,7 @@ Track ride(const Design& design, CenterlinePtr centerline) {
   const double radius = smallest_radius(*centerline);
   const double steepest = steepest_slope_angle(*centerline);
   Motion motion(centerline, body, design.gravity);
+  std::vector<LimitCheck> limit_checks = checked_limits(design, endpoints, centerline);
   return {endpoints,
           Placement::through(design.track.start, design.track.finish),
           std::move(centerline),
@@ -127,13 +130,23 @@ Track ride(const Design& design, CenterlinePtr centerline) {
           std::move(optimum),
           optimum_travel_time,
           radius,
-          steepest};
+          steepest,
+          {},
+          std::move(limit_checks)};
 }
 
 Track solve(const Design& design, const RunContext& context) {
   require_sound(design);
   if (context.progress) context.progress("finding the track", -1.0);
-  return ride(design, make_centerline(design));
+  // The closed form knows neither limits nor a finish that it may choose.
+  const bool searched = design.limits || design.track.free_finish != FreeFinish::none;
+  if (!searched || design.centerline.kind != CenterlineKind::fastest) {
+    return ride(design, make_centerline(design));
+  }
+  Optimum optimum = search_within_limits(design, context);
+  Track track = ride(design, std::move(optimum.centerline));
+  track.search = std::move(optimum.report);
+  return track;
 }
 
 std::optional<Issue> ride_problem(const Design& design, const Track& track) {

@@ -115,7 +115,7 @@ struct Design {
   BodyDesign body;
   double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
   CenterlineDesign centerline;
-  std::optional<LimitsDesign> limits;  ///< of the kind `fastest`; none: the exact optimum is taken
+  std::optional<LimitsDesign> limits;  ///< the kind `fastest` is searched for within them, others are checked
   std::optional<CrossSectionDesign> cross_section;
   MeshDesign mesh;
   ExportDesign exports;

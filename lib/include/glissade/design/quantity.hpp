@@ -14,6 +14,7 @@ enum class Dimension {
   per_length,       ///< curvature, drag [1/m]
   per_area,         ///< rate of curvature along the track [1/m^2]
   specific_energy,  ///< energy per mass, the square of a speed [m^2/s^2]
+  time,             ///< [s]
   time_per_speed,   ///< what a unit of speed is worth in time [s/(m/s)]
 };
 

@@ -85,15 +85,22 @@ struct ActiveLimit {
   double price = 0.0;
 };
 
+/// Greatest violation of a limit that still counts as kept, in the scale of the limit.
+inline constexpr double kLimitAccuracy = 1e-6;
+
 /// How well the referee finds one limit kept.
 struct LimitCheck {
   std::string limit;
   double value = 0.0;      ///< the bound, SI
-  double reached = 0.0;    ///< the worst value that the referee found, SI
+  double reached = 0.0;    ///< the worst value that the referee found, SI; may be infinite (curvature rate)
   double violation = 0.0;  ///< by which it breaks the bound [unit]; 0 where kept
   double scale = 1.0;      ///< what a violation is measured against [unit]; > 0
   double where = 0.0;      ///< arc length of the worst value [m]
   std::string unit;
+  int side = 0;  ///< +1: at most `value`, -1: at least, 0: exactly
+
+  /// @return violation <= kLimitAccuracy * scale
+  [[nodiscard]] bool kept() const { return violation <= kLimitAccuracy * scale; }
 };
 
 /// The smallest change of one limit, all others kept, that would make the problem solvable.
@@ -104,12 +111,22 @@ struct Relaxation {
   std::string unit;
 };
 
+/// A limit as the problem states it.
+struct StatedLimit {
+  std::string limit;
+  std::optional<double> value;  ///< SI; none for what holds without being asked for
+  std::string unit;
+};
+
 /// Why there is no track.
 struct Conflict {
-  std::vector<std::string> limits;      ///< those that cannot be met together
+  std::vector<StatedLimit> limits;      ///< those that cannot be met together
   std::vector<Relaxation> relaxations;  ///< each of them alone would do; empty if no single change helps
   std::string text;                     ///< all of it as one sentence, angles in degrees
 };
+
+/// @return the limits that contradict each other and what would do, as one sentence
+[[nodiscard]] std::string conflict_text(const Conflict& conflict);
 
 struct OptimizeReport {
   OptimizeStatus status = OptimizeStatus::no_track_found;
@@ -123,7 +140,7 @@ struct OptimizeReport {
   /// Hessian; dimensionless. Half its square is about the relative time that could still be won nearby.
   double first_order_residual = 0.0;
   std::vector<LimitCheck> checks;   ///< one for each limit, sampled by the referee ten times finer
-  std::vector<ActiveLimit> active;  ///< by price, dearest first
+  std::vector<ActiveLimit> active;  ///< by name
   Conflict conflict;                ///< of an infeasible problem
 
   int iterations = 0;    ///< outer rounds: meshes, working sets, restarts
@@ -153,6 +170,14 @@ struct Optimum {
 /// @throws InputError if a field of problem or options breaks its stated bound
 [[nodiscard]] Optimum optimize(const Problem& problem, const OptimizeOptions& options = {},
                                const std::stop_token& stop = {}, const Progress& progress = {});
+
+/// Holds any track against the limits of a problem, sampled ten times finer than optimize() looks: each limit
+/// with its worst value and the place, at every friction of the range. Where a body of the range does not
+/// arrive, limits on its motion are held against the part that it rides, and "arrival_at_low_friction" or
+/// "arrival_at_high_friction" tells how far it comes; at the nominal friction Motion tells.
+/// @param track  leads to problem.finish; its own run counts towards the finish
+/// @throws InputError if there is no track, or as optimize()
+[[nodiscard]] std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track);
 
 /// Greatest relative excess of travel time over the exact optimum without limits, mu 0 to 1, H/L from 1.02 mu
 /// to 5, default options.

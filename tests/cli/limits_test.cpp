@@ -1,0 +1,255 @@
+// Limits from the design file to what the user is told: the search, the checks, prices, conflicts, early
+// ends.
+
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kInrun =
+    "glissade: 1\n"
+    "name: In-run\n"
+    "track: {start: {x: 0 m, z: 47.08 m}, finish: {x: 90.23 m, z: 0 m}}\n"
+    "body: {friction_coefficient: 0.03}\n"
+    "limits:\n"
+    "  slope_angle: {highest: 35 deg}\n"
+    "  exit_slope_angle: 11 deg\n"
+    "  lead_out: 6.9 m\n"
+    "  highest_curvature_load: 7.14 m/s^2\n"
+    "  concave: true\n"
+    "cross_section: {kind: slab, width: 2 m, thickness: 100 mm}\n"
+    "mesh: {tolerance: 20 mm}\n"
+    "export: [stl]\n";
+
+/// A design file for as long as a test runs.
+class DesignFile {
+ public:
+  explicit DesignFile(const std::string& text) { put_bytes(place_ / "design.yaml", text); }
+  [[nodiscard]] std::string path() const { return (place_ / "design.yaml").string(); }
+  [[nodiscard]] std::filesystem::path place() const { return place_.path(); }
+
+ private:
+  TempDir place_;
+};
+
+Outcome solve(const DesignFile& file, std::vector<std::string> arguments = {}) {
+  arguments.insert(arguments.begin(), {"solve", file.path()});
+  return glissade_run(arguments);
+}
+
+json solved(const DesignFile& file, std::vector<std::string> arguments = {}) {
+  arguments.push_back("--json");
+  const Outcome outcome = solve(file, arguments);
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  return json::parse(outcome.output);
+}
+
+json check_of(const json& track, const std::string& limit) {
+  for (const json& check : track["limits"]) {
+    if (check["limit"] == limit) return check;
+  }
+  FAIL(limit << " is not among the limits of " << track.dump());
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("solve finds the fastest track within limits and reports every one of them") {
+  const DesignFile file(kInrun);
+  const json track = solved(file);
+  CHECK(track["centerline"] == "fastest");
+  CHECK(track["search"]["status"] == "optimal");
+  CHECK(track["search"]["first_order_residual"].get<double>() <= 1e-6);
+  CHECK(track["search"]["excess_over_unlimited"].get<double>() > 0.0);
+  CHECK(track["search"]["rounds"].get<int>() > 0);
+  CHECK(track["exit_slope_angle_deg"].get<double>() == Approx(11.0).epsilon(1e-6));
+  CHECK(track["travel_time_s"].get<double>() > track["optimum_travel_time_s"].get<double>());
+  for (const json& check : track["limits"]) {
+    INFO(check.dump());
+    CHECK(check["kept"] == true);
+    CHECK(check["violation_of_scale"].get<double>() <= 1e-6);
+  }
+  CHECK(check_of(track, "slope_angle.highest")["reached"].get<double>() == Approx(35.0).epsilon(1e-6));
+  CHECK(check_of(track, "lead_out")["reached"].get<double>() >= 6.9 * (1.0 - 1e-6));
+  CHECK(check_of(track, "highest_curvature_load")["unit"] == "m/s^2");
+}
+
+TEST_CASE("the price of a limit in the report is what a re-solve with one unit more wins") {
+  const DesignFile file(kInrun);
+  const json track = solved(file);
+  const double steeper =
+      solved(file, {"--set", "limits.slope_angle.highest=35.2deg"})["travel_time_s"].get<double>();
+  const double flatter =
+      solved(file, {"--set", "limits.slope_angle.highest=34.8deg"})["travel_time_s"].get<double>();
+  for (const json& active : track["search"]["active"]) {
+    if (active["limit"] != "slope_angle.highest") continue;
+    CHECK(active["price_unit"] == "s per deg");
+    CHECK(active["price"].get<double>() == Approx((flatter - steeper) / 0.4).epsilon(0.02));
+    CHECK(active["where"][0]["from_m"].get<double>() < 1.0);
+    return;
+  }
+  FAIL("slope_angle.highest is not active");
+}
+
+TEST_CASE("the summary shows limits, what was reached, where, and prices") {
+  const Outcome outcome = solve(DesignFile(kInrun));
+  CHECK_THAT(outcome.output, Contains("fastest within the limits") &&
+                                 Contains("optimal: every limit holds") && Contains("slope_angle.highest") &&
+                                 Contains("<= 35 deg") && Contains("s per deg") &&
+                                 Contains("more than the least possible without"));
+}
+
+TEST_CASE("build makes a valid solid of the fastest track within limits") {
+  const DesignFile file(kInrun);
+  const Outcome outcome =
+      glissade_run({"build", file.path(), "-o", (file.place() / "out").string(), "--json"});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  const json built = json::parse(outcome.output);
+  CHECK(built["mesh"]["valid"] == true);
+  CHECK(built["search"]["status"] == "optimal");
+}
+
+TEST_CASE("a track of another kind is held against the limits, and a broken one has exit code 3") {
+  const DesignFile file(kInrun);
+  const Outcome outcome = solve(file, {"--set", "centerline.kind=straight", "--json"});
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors,
+             Contains("design.yaml:7:21: this track breaks limits of the design: exit_slope_angle 11 deg") &&
+                 Contains("is broken by 16.55 deg") && Contains("of kind straight is not shaped by limits"));
+  const json track = json::parse(outcome.output);
+  CHECK(track["search"].is_null());
+  CHECK(check_of(track, "slope_angle.highest")["kept"] == true);
+  const json exit = check_of(track, "exit_slope_angle");
+  CHECK(exit["kept"] == false);
+  // atan(47.08/90.23) against 11 deg.
+  CHECK(exit["reached"].get<double>() == Approx(27.55454).epsilon(1e-6));
+
+  const auto out = file.place() / "out";
+  const Outcome build =
+      glissade_run({"build", file.path(), "-o", out.string(), "--set", "centerline.kind=straight"});
+  CHECK(build.exit_code == 3);
+  CHECK_FALSE(std::filesystem::exists(out));
+  // Limits that it keeps are no obstacle.
+  CHECK(solve(file, {"--set", "centerline.kind=straight", "--set", "limits={slope_angle: {highest: 35 deg}}"})
+            .exit_code == 0);
+}
+
+TEST_CASE("limits on segments are checked on both sides of a jump of curvature") {
+  const DesignFile file(
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 9 m}}\n"
+      "body: {friction_coefficient: 0.1}\n"
+      "centerline:\n"
+      "  kind: segments\n"
+      "  entry_slope_angle: 60 deg\n"
+      "  segments: [{length: 4 m}, {length: 2 m, radius: 4 m}, {length: 3 m}]\n"
+      "limits: {smallest_valley_radius: 5 m, highest_curvature_rate: 10 1/m^2, lead_in: 3 m, lead_out: 5 "
+      "m}\n");
+  const Outcome outcome = solve(file, {"--json"});
+  CHECK(outcome.exit_code == 3);
+  const json track = json::parse(outcome.output);
+  CHECK(check_of(track, "smallest_valley_radius")["reached"].get<double>() == Approx(4.0));
+  CHECK(check_of(track, "smallest_valley_radius")["violation"].get<double>() == Approx(1.0));
+  CHECK(check_of(track, "highest_curvature_rate")["reached"].is_null());
+  CHECK(check_of(track, "highest_curvature_rate")["kept"] == false);
+  CHECK(check_of(track, "lead_in")["kept"] == true);
+  CHECK(check_of(track, "lead_in")["reached"].get<double>() == Approx(4.0).epsilon(1e-3));
+  CHECK(check_of(track, "lead_out")["reached"].get<double>() == Approx(3.0).epsilon(1e-3));
+  CHECK_THAT(outcome.errors, Contains("lead_out 5 m is broken by 2 m"));
+}
+
+TEST_CASE("limits that contradict each other are named with the smallest relaxations, and exit code 3") {
+  const DesignFile file(kInrun);
+  const Outcome outcome =
+      solve(file, {"--set", "limits.smallest_valley_radius=150m", "--set", "limits.concave=false", "--set",
+                   "body.drag=0.0013 1/m", "--set", "limits.lead_in=20m", "--json"});
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors, Contains("exit_slope_angle 11 deg") && Contains("slope_angle.highest 35 deg") &&
+                                 Contains("smallest_valley_radius 150 m") &&
+                                 Contains("cannot be met together") && Contains("Try: ") &&
+                                 Contains("each alone would do"));
+  const json report = json::parse(outcome.output);
+  CHECK(report["status"] == "infeasible");
+  const json& relaxations = report["search"]["relaxations"];
+  REQUIRE(relaxations.size() >= 2);
+  for (const json& relaxation : relaxations) {
+    if (relaxation["limit"] != "smallest_valley_radius") continue;
+    CHECK(relaxation["bound"].get<double>() == Approx(150.0));
+    // What the report says would do is enough.
+    const std::string radius = std::to_string(relaxation["needed"].get<double>() * 0.99) + "m";
+    CHECK(solve(file, {"--set", "limits.smallest_valley_radius=" + radius, "--set", "limits.concave=false",
+                       "--set", "body.drag=0.0013 1/m", "--set", "limits.lead_in=20m"})
+              .exit_code == 0);
+  }
+}
+
+TEST_CASE("a mirrored track has the same time, prices and places as its image") {
+  const std::string right =
+      "glissade: 1\n"
+      "track: {start: {x: 2 m, z: 4 m}, finish: {x: 7.4 m, z: {lowest: 1.6 m, highest: 1.9 m}}}\n"
+      "body: {friction_angle: {low: 14 deg, nominal: 17 deg, high: 20 deg}}\n"
+      "limits:\n"
+      "  speed: {highest: 4 m/s}\n"
+      "  keep_outs:\n"
+      "    - {outline: [[4 m, 3 m], [4.3 m, 3 m], [4.3 m, 3.4 m], [4 m, 3.4 m]], clearance: 300 mm, pass: "
+      "below}\n"
+      "  stay_above: [{line: [[2 m, 1 m], [8 m, 0 m]], clearance: 500 mm}]\n"
+      "  half_planes: [{line: [[8 m, 0 m], [8 m, 1 m]], stay: left}]\n";
+  const std::string left =
+      "glissade: 1\n"
+      "track: {start: {x: -2 m, z: 4 m}, finish: {x: -7.4 m, z: {lowest: 1.6 m, highest: 1.9 m}}}\n"
+      "body: {friction_angle: {low: 14 deg, nominal: 17 deg, high: 20 deg}}\n"
+      "limits:\n"
+      "  speed: {highest: 4 m/s}\n"
+      "  keep_outs:\n"
+      "    - {outline: [[-4 m, 3 m], [-4.3 m, 3 m], [-4.3 m, 3.4 m], [-4 m, 3.4 m]], clearance: 300 mm, "
+      "pass: below}\n"
+      "  stay_above: [{line: [[-8 m, 0 m], [-2 m, 1 m]], clearance: 500 mm}]\n"
+      "  half_planes: [{line: [[-8 m, 0 m], [-8 m, 1 m]], stay: right}]\n";
+  const json one = solved(DesignFile(right));
+  const json other = solved(DesignFile(left));
+  CHECK(other["travel_time_s"].get<double>() == Approx(one["travel_time_s"].get<double>()).epsilon(1e-9));
+  CHECK(check_of(one, "finish.z.lowest")["bound"].get<double>() == Approx(1.6));
+  CHECK(check_of(one, "finish.z.lowest")["side"] == "at least");
+  CHECK(check_of(one, "speed.highest")["reached"].get<double>() == Approx(4.0).epsilon(1e-4));
+  CHECK(one["search"]["active"].size() == other["search"]["active"].size());
+}
+
+TEST_CASE("the finish anywhere on a level is named by the design's x") {
+  const DesignFile file(
+      "glissade: 1\n"
+      "track: {start: {x: 1 m, z: 4 m}, finish: {x: {lowest: -9 m, highest: -5 m}, z: 1 m}}\n"
+      "body: {friction_angle: 10 deg}\n"
+      "limits: {slope_angle: {highest: 40 deg}}\n");
+  const json track = solved(file);
+  CHECK(track["run_m"].get<double>() == Approx(6.0).epsilon(1e-6));
+  const json nearest = check_of(track, "finish.x.highest");
+  CHECK(nearest["bound"].get<double>() == Approx(-5.0));
+  CHECK(nearest["reached"].get<double>() == Approx(-5.0));
+  CHECK(nearest["side"] == "at most");
+}
+
+TEST_CASE("a search that runs out of time says so, with exit code 4") {
+  const DesignFile file(kInrun);
+  const Outcome outcome = solve(file, {"--time-budget", "0.01ms"});
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.errors, Contains("design.yaml:5:1: ended early, before any track kept every limit") &&
+                                 Contains("--time-budget"));
+  CHECK(solve(file, {"--time-budget", "-1s"}).exit_code == 2);
+  const Outcome unit = solve(file, {"--time-budget", "10deg"});
+  CHECK(unit.exit_code == 2);
+  CHECK_THAT(unit.errors, Contains("--time-budget: 10deg is an angle, not a time"));
+}
