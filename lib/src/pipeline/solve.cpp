@@ -2,9 +2,11 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/centerline/cycloid.hpp"
+#include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/centerline/no_curvature_load.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/io/profile_csv.hpp"
 #include "glissade/pipeline.hpp"
 
 #include "pipeline/extremes.hpp"
@@ -47,6 +49,11 @@ CenterlinePtr make_segments(const CenterlineDesign& design) {
   return std::make_shared<ClothoidSpline>(design.entry_slope_angle, std::move(segments));
 }
 
+CenterlinePtr make_points(const CenterlineDesign& design) {
+  return std::make_shared<FittedProfile>(read_profile_csv(
+      design.points_file, {design.points_distance_column, design.points_height_column, design.points_unit}));
+}
+
 CenterlinePtr make_of_kind(const Design& design) {
   const Endpoints endpoints = endpoints_of(design);
   const Friction friction = design.body.friction;
@@ -64,7 +71,7 @@ CenterlinePtr make_of_kind(const Design& design) {
     case CenterlineKind::segments:
       return make_segments(design.centerline);
     case CenterlineKind::points:
-      break;
+      return make_points(design.centerline);
   }
   throw InternalError({"", "a centerline of this kind cannot be made", "", ""});
 }

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/vec.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace glissade {
+
+/// How smooth a FittedProfile is.
+struct ProfileFit {
+  /// The farthest that a point may lie from the curve [m]; > 0. The curve is the smoothest that keeps to it.
+  /// None: the smoothness is chosen by generalised cross-validation, which finds the noise of the points by
+  /// itself.
+  std::optional<double> max_deviation;
+};
+
+/// One measured point and the curve that was fitted to it.
+struct PointDeviation {
+  double arc_length = 0.0;  ///< of the place on the curve that is nearest to the point [m]
+  double deviation =
+      0.0;  ///< distance from there to the point, positive where the point lies below the curve [m]
+};
+
+/// A measured or hand-drawn profile as a smooth curve, so that an existing chute can be assessed.
+///
+/// Measured points cannot be slid on as they are: the curvature of a line through them is mostly their noise,
+/// and curvature drives the normal load. So the curve is a clothoid spline, curvature continuous, that
+/// minimises
+///   mean of (distance / length)^2 + smoothing * length^3 * integral of (d kappa/ds)^2 ds
+/// over all clothoid splines from the first point; straights, arcs and single clothoids come out as they are
+/// (for the first two at any smoothing). What the smoothing costs is told by the deviations.
+/// Frame: the first point is the start (0, 0); the finish is the place of the curve nearest to the last
+/// point. Where
+///   the last point lies to the left of the first, the profile is mirrored: x counts towards the finish.
+/// Curve: curvature is piecewise linear between knots(), which lie as dense as the points do, at most
+///   kMostProfileKnots of them.
+/// Identity: at the largest smoothing the curve is the arc, or straight, of least squares.
+class FittedProfile final : public Centerline {
+ public:
+  /// @param points  (run, drop) [m] in order along the track, at least 3; the run may go backwards where the
+  /// track
+  ///   does, the order may not. In any frame with x horizontal and y down.
+  /// @throws InputError naming the point if there are fewer than 3, a coordinate is not finite, a point
+  /// repeats the
+  ///   one before it, the points turn back on themselves, or max_deviation is not positive
+  /// @throws InfeasibleError if no curve of this kind comes as near to all points as max_deviation asks; it
+  /// says
+  ///   how near the best one comes
+  explicit FittedProfile(std::vector<Vec2> points, const ProfileFit& fit = {});
+
+  [[nodiscard]] std::string_view kind() const noexcept override { return "points"; }
+  [[nodiscard]] double length() const noexcept override { return curve_.length(); }
+  [[nodiscard]] CenterlinePoint at(double s) const override { return curve_.at(s); }
+  [[nodiscard]] double slope_angle(double s) const override { return curve_.slope_angle(s); }
+  [[nodiscard]] Direction direction(double s) const override { return curve_.direction(s); }
+  [[nodiscard]] std::vector<double> breaks() const override { return curve_.breaks(); }
+
+  /// @return the points (run, drop) [m] in the frame of the centerline
+  [[nodiscard]] const std::vector<Vec2>& points() const noexcept { return points_; }
+  /// @return what the fit cost, point by point
+  [[nodiscard]] const std::vector<PointDeviation>& deviations() const noexcept { return deviations_; }
+  /// @return the largest distance of a point from the curve [m]
+  [[nodiscard]] double max_deviation() const noexcept { return max_deviation_; }
+  /// @return root of the mean squared distance [m]
+  [[nodiscard]] double rms_deviation() const noexcept { return rms_deviation_; }
+  /// @return the fitted curve
+  [[nodiscard]] const ClothoidSpline& curve() const noexcept { return curve_; }
+
+ private:
+  std::vector<Vec2> points_;
+  ClothoidSpline curve_;
+  std::vector<PointDeviation> deviations_;
+  double max_deviation_ = 0.0;
+  double rms_deviation_ = 0.0;
+};
+
+/// The most knots that a FittedProfile has.
+inline constexpr int kMostProfileKnots = 120;
+
+}  // namespace glissade

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/core/vec.hpp"
+
+#include <vector>
+
+namespace glissade {
+
+/// Fits a clothoid spline from the origin, which is the first point, to points in order along it.
+/// @param points  at least 3, without repeated neighbours, in an order that a track can follow
+/// @throws InfeasibleError if fit.max_deviation cannot be met
+[[nodiscard]] ClothoidSpline fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit);
+
+/// @return for each point the nearest place on the curve, searched from where the points' order suggests
+[[nodiscard]] std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve,
+                                                          const std::vector<Vec2>& points);
+
+}  // namespace glissade

@@ -1,0 +1,172 @@
+#include "glissade/centerline/fitted_profile.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+using testing::Random;
+
+namespace {
+
+/// Roughly normal, of mean 0 and variance 1: the sum of twelve uniform numbers.
+double bell(Random& random) {
+  double sum = -6.0;
+  for (int i = 0; i < 12; ++i) sum += random.between(0.0, 1.0);
+  return sum;
+}
+
+/// Points at equal steps of arc length, each coordinate off by the noise.
+std::vector<Vec2> sampled(const Centerline& curve, int count, double noise, Random& random) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < count; ++i) {
+    const CenterlinePoint place = curve.at(curve.length() * i / (count - 1));
+    points.push_back({place.x + noise * bell(random), place.drop + noise * bell(random)});
+  }
+  return points;
+}
+
+double distance_to_chord(Vec2 point, Vec2 from, Vec2 to) {
+  const Vec2 chord = to - from;
+  const double share = std::clamp(dot(point - from, chord) / dot(chord, chord), 0.0, 1.0);
+  return norm(point - (from + share * chord));
+}
+
+/// Nearest distance by looking at every chord of a fine polygon: no Newton step, no order of points.
+double distance_by_looking(Vec2 point, const std::vector<Vec2>& polygon) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < polygon.size(); ++i) {
+    nearest = std::min(nearest, distance_to_chord(point, polygon[i], polygon[i + 1]));
+  }
+  return nearest;
+}
+
+std::vector<Vec2> polygon_of(const Centerline& curve, int chords) {
+  std::vector<Vec2> polygon;
+  for (int i = 0; i <= chords; ++i) {
+    const CenterlinePoint place = curve.at(curve.length() * (static_cast<double>(i) / chords));
+    polygon.push_back({place.x, place.drop});
+  }
+  return polygon;
+}
+
+ClothoidSpline easy_track() {
+  return {Angle::from_degrees(60.0),
+          {{2.0, 0.0, 0.0}, {1.0, 0.0, 0.4}, {2.0, 0.4, 0.4}, {1.0, 0.4, -0.1}, {2.0, -0.1, -0.1}}};
+}
+
+std::string refusal(std::vector<Vec2> points, const ProfileFit& fit = {}) {
+  try {
+    const FittedProfile profile(std::move(points), fit);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("points of a straight line or an arc give that line or arc") {
+  Random random(1);
+  const double curvature = GENERATE(0.0, 0.3, -0.2);
+  const ClothoidSpline truth(Angle::from_degrees(40.0), {{3.0, curvature, curvature}});
+  const int count = GENERATE(3, 4, 7, 8, 20, 100);
+  INFO(count << " points, curvature " << curvature);
+  const FittedProfile profile(sampled(truth, count, 0.0, random));
+  CHECK(profile.max_deviation() < 1e-13);
+  CHECK(profile.length() == Approx(truth.length()).epsilon(1e-12));
+  for (const double share : {0.0, 0.3, 1.0}) {
+    const CenterlinePoint place = profile.at(share * profile.length());
+    CHECK(place.slope_angle == Approx(truth.slope_angle(share * truth.length())).margin(1e-9));
+    CHECK(place.curvature == Approx(curvature).margin(1e-7));
+  }
+}
+
+TEST_CASE("noise of points is smoothed away, and the deviations tell how large it was") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr double kNoise = 1e-3;
+  const ClothoidSpline truth = easy_track();
+  const FittedProfile profile(sampled(truth, 300, kNoise, random));
+  // 300 draws: their root mean square lies within five of its standard errors, 1/sqrt(600); the fit takes
+  // some.
+  CHECK(profile.rms_deviation() == Approx(kNoise).epsilon(0.2));
+  CHECK(profile.max_deviation() < 6.0 * kNoise);
+  // Nearer to the truth than the points are.
+  const std::vector<Vec2> polygon = polygon_of(truth, 2000);
+  for (int i = 5; i <= 95; ++i) {
+    const CenterlinePoint place = profile.at(profile.length() * i / 100.0);
+    const Vec2 from_start{place.x + profile.points().front().x, place.drop};
+    CHECK(distance_by_looking(from_start, polygon) < 5.0 * kNoise);
+  }
+}
+
+TEST_CASE("deviations are the nearest distances that a search over the whole curve finds") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const double noise = GENERATE(1e-4, 5e-3, 3e-2);
+  INFO("noise " << noise);
+  const FittedProfile profile(sampled(easy_track(), 80, noise, random));
+  constexpr int kChords = 20000;
+  const std::vector<Vec2> polygon = polygon_of(profile, kChords);
+  const double chord = profile.length() / kChords;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < profile.points().size(); ++i) {
+    const Vec2 point = profile.points()[i];
+    const PointDeviation& told = profile.deviations()[i];
+    const double looked = distance_by_looking(point, polygon);
+    largest = std::max(largest, looked);
+    // A chord lies within chord^2 / 8 of the arc for curvatures up to 1 1/m.
+    CHECK(std::fabs(std::fabs(told.deviation) - looked) < chord * chord);
+    const CenterlinePoint place = profile.at(told.arc_length);
+    CHECK(norm(point - Vec2{place.x, place.drop}) == Approx(std::fabs(told.deviation)).margin(1e-14));
+    const bool below = dot(point - Vec2{place.x, place.drop},
+                           {-std::sin(place.slope_angle), std::cos(place.slope_angle)}) > 0.0;
+    CHECK(below == (told.deviation > 0.0));
+  }
+  CHECK(profile.max_deviation() == Approx(largest).margin(chord * chord));
+}
+
+TEST_CASE("exact points of the fastest track bring its curve back, closer as they get denser") {
+  Random random(1);
+  const CoulombBrachistochrone truth({10.0, 5.0}, Friction::from_coefficient(0.2), 9.81);
+  const FittedProfile coarse(sampled(truth, 30, 0.0, random));
+  const FittedProfile dense(sampled(truth, 200, 0.0, random));
+  CHECK(dense.length() == Approx(truth.length()).epsilon(1e-6));
+  CHECK(std::fabs(dense.length() - truth.length()) < std::fabs(coarse.length() - truth.length()));
+}
+
+TEST_CASE("a profile that leads to the left is mirrored, and begins where its first point is") {
+  Random random(1);
+  std::vector<Vec2> points = sampled(easy_track(), 40, 0.0, random);
+  const FittedProfile right(points);
+  for (Vec2& point : points) point = {7.0 - point.x, point.y - 3.0};
+  const FittedProfile left(points);
+  CHECK(left.at(0.0).x == 0.0);
+  CHECK(left.at(0.0).drop == 0.0);
+  CHECK(left.length() == Approx(right.length()).epsilon(1e-9));
+  CHECK(left.endpoints().run == Approx(right.endpoints().run).epsilon(1e-9));
+}
+
+TEST_CASE("what no track can follow is refused by the number of the point") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THAT(refusal({}), Contains("there are 0 of them") && Contains("at least 3"));
+  CHECK_THAT(refusal({{0.0, 0.0}, {1.0, 1.0}}), Contains("there are 2 of them") && Contains("straight"));
+  CHECK_THAT(refusal({{0.0, 0.0}, {1.0, kNan}, {2.0, 1.0}}),
+             Contains("point 2 (1, nan)") && Contains("finite"));
+  CHECK_THAT(refusal({{0.0, 0.0}, {1.0, 1.0}, {1.0, 1.0}, {2.0, 1.0}}),
+             Contains("point 3 (1, 1)") && Contains("repeats the point before it"));
+  CHECK_THAT(refusal({{0.0, 0.0}, {2.0, 1.0}, {1.0, 0.6}, {3.0, 1.0}}),
+             Contains("point 2 (2, 1)") && Contains("turns back on itself"));
+  CHECK_THAT(refusal({{0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}, {-1.0}), Contains("max_deviation: -1 m"));
+}

@@ -1,0 +1,56 @@
+#include "glissade/io/profile_csv.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<Vec2> read(const std::string& text, const ProfileCsvOptions& options = {}) {
+  const TempDir place;
+  put_bytes(place / "wall.csv", text);
+  return read_profile_csv(place / "wall.csv", options);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)read(text);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a profile reads by the names of its columns, height turned into drop") {
+  const std::vector<Vec2> expected = {{0.0, -2.0}, {0.5, -1.25}, {1.5, 0.5}};
+  CHECK(read("x,z\n0,2\n0.5,1.25\n1.5,-0.5\n") == expected);
+  CHECK(read("# measured by tape\nname;z;x\na;2;0\n\nb;1.25;0.5\r\nc;-0.5;1.5") == expected);
+  CHECK(read("\xEF\xBB\xBF\"x\"\t\"z\"\n0\t2\n0.5\t\"1.25\"\n1.5\t-0.5\n") == expected);
+}
+
+TEST_CASE("a profile in millimetres comes back in metres") {
+  const ProfileCsvOptions options{"distance", "height", LengthUnit::millimetre};
+  CHECK(read("distance,height\n250,1000\n", options) == std::vector<Vec2>{{0.25, -1.0}});
+}
+
+TEST_CASE("what is wrong with a profile is told with line and column") {
+  CHECK_THAT(refusal(""), Contains("wall.csv: the file is empty"));
+  CHECK_THAT(refusal("a,b\n1,2\n"),
+             Contains("wall.csv:1: there is no column") && Contains("a") && Contains("b"));
+  CHECK_THAT(refusal("x,z\n0,1\n1\n"), Contains("wall.csv:3: column") && Contains("is no number"));
+  CHECK_THAT(refusal("x;z\n0;1,5\n"),
+             Contains("wall.csv:2:") && Contains("1,5") && Contains("decimal point"));
+  CHECK_THAT(refusal("x,z\n0,nan\n"), Contains("nan"));
+  CHECK_THAT(refusal("x,z\n0,1 m\n"), Contains("1 m"));
+  const TempDir place;
+  CHECK_THROWS_AS(read_profile_csv(place / "nowhere.csv"), FileError);
+}
