@@ -466,9 +466,9 @@ Vec2 end_of_segments(const CenterlineDesign& centerline) {
   for (const SegmentDesign& segment : centerline.segments) {
     const double turn =
         std::max(std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)) * segment.length;
-    const double pieces = std::clamp(std::ceil(turn / kLargestTurn), 1.0, kMostPieces);
+    const int pieces = static_cast<int>(std::clamp(std::ceil(turn / kLargestTurn), 1.0, kMostPieces));
     const double half = 0.5 * segment.length / pieces;
-    for (double piece = 0.0; piece < pieces; ++piece) {
+    for (int piece = 0; piece < pieces; ++piece) {
       for (const auto& [node, weight] : kRule) {
         const double zeta = slope_at(segment, slope, half * (2.0 * piece + 1.0 + node));
         end = end + (weight * half) * Vec2{std::cos(zeta), -std::sin(zeta)};

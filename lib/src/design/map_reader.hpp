@@ -81,6 +81,7 @@ class MapReader {
   static std::vector<std::string_view> first_of(
       const std::vector<std::pair<std::string_view, Meaning>>& words) {
     std::vector<std::string_view> texts;
+    texts.reserve(words.size());
     for (const auto& word : words) texts.push_back(word.first);
     return texts;
   }

@@ -39,7 +39,7 @@ void read_version(MapReader& top, Findings& findings) {
 std::string read_name(MapReader& top, Findings& findings) {
   const std::optional<Value> value = top.find("name");
   if (!value) return {};
-  const std::string name = as_text(*value, findings).value_or("");
+  std::string name = as_text(*value, findings).value_or("");
   constexpr std::size_t kLongestName = 200;
   if (name.size() > kLongestName) {
     findings.add(value->node->at, value->key_path,

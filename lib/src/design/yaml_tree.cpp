@@ -265,7 +265,7 @@ void refuse_what_is_not_text(std::string_view text, const Lines& lines) {
 
 std::string hint_for(const std::string& message) {
   if (message == YAML::ErrorMsg::TAB_IN_INDENTATION) return "spaces instead of tabs";
-  return "indentation, closing brackets and quotes near here; quotes around a text with \": \" or \" #\"";
+  return R"(indentation, closing brackets and quotes near here; quotes around a text with ": " or " #")";
 }
 
 SyntaxProblem explained(const YAML::Exception& problem, const Lines& lines, const TreeBuilder& builder) {
