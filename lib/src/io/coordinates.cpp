@@ -5,9 +5,11 @@
 #include "glissade/io/mesh_file.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
+#include "io/parallel.hpp"
 #include "solid/position_index.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -175,6 +177,32 @@ TriangleMesh as_double_precision(const TriangleMesh& mesh, LengthUnit unit) {
   return result;
 }
 
+void require_in_range(Vec3 p, std::size_t vertex) {
+  if (std::isfinite(p.x + p.y + p.z) && largest_coordinate(p) <= kLargestMeshCoordinate) return;
+  throw InputError({vertex_name(vertex),
+                    "coordinates (" + rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " +
+                        rounded_text(p.z, 6) + ") m cannot be written",
+                    "Every coordinate must be a finite number of at most " +
+                        rounded_text(kLargestMeshCoordinate, 3) + " m.",
+                    ""});
+}
+
+void require_existing(const TriangleMesh& mesh, std::size_t triangle) {
+  for (const std::uint32_t vertex : mesh.triangles[triangle]) {
+    if (vertex < mesh.vertices.size()) continue;
+    throw InputError(
+        {"mesh, triangle " + std::to_string(triangle), "vertex " + std::to_string(vertex) + " does not exist",
+         "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.", ""});
+  }
+}
+
+InputError beyond_single_precision(std::size_t vertex, Vec3 p, LengthUnit unit) {
+  return InputError({vertex_name(vertex),
+                     "a coordinate of " + rounded_text(largest_coordinate(p), 3) + " " +
+                         std::string(unit_symbol(unit)) + " does not fit binary STL",
+                     "Single precision ends at 3.4e38.", "OFF or ASCII STL"});
+}
+
 }  // namespace
 
 double units_per_metre(LengthUnit unit) {
@@ -186,44 +214,42 @@ std::string_view unit_symbol(LengthUnit unit) {
 }
 
 void require_writable(const TriangleMesh& mesh) {
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& p = mesh.vertices[i];
-    const bool is_finite = std::isfinite(p.x + p.y + p.z);
-    if (is_finite && largest_coordinate(p) <= kLargestMeshCoordinate) continue;
-    throw InputError({vertex_name(i),
-                      "coordinates (" + rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " +
-                          rounded_text(p.z, 6) + ") m cannot be written",
-                      "Every coordinate must be a finite number of at most " +
-                          rounded_text(kLargestMeshCoordinate, 3) + " m.",
-                      ""});
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (const std::uint32_t vertex : mesh.triangles[i]) {
-      if (vertex < mesh.vertices.size()) continue;
-      throw InputError(
-          {"mesh, triangle " + std::to_string(i), "vertex " + std::to_string(vertex) + " does not exist",
-           "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.", ""});
+  // Whole ranges first, in loops without branches; one by one only where something is wrong.
+  in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
+    bool in_range = true;
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3 p = mesh.vertices[i];
+      in_range &= std::fabs(p.x) <= kLargestMeshCoordinate && std::fabs(p.y) <= kLargestMeshCoordinate &&
+                  std::fabs(p.z) <= kLargestMeshCoordinate;
     }
-  }
+    for (std::size_t i = first; !in_range && i < last; ++i) require_in_range(mesh.vertices[i], i);
+  });
+  in_ranges(mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::uint32_t largest = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      for (const std::uint32_t vertex : mesh.triangles[i]) largest = std::max(largest, vertex);
+    }
+    const bool exist = largest < mesh.vertices.size();
+    for (std::size_t i = first; !exist && i < last; ++i) require_existing(mesh, i);
+  });
 }
 
 std::vector<FloatPosition> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
   const std::vector<Vec3>& vertices = mesh.vertices;
   const double per_metre = units_per_metre(unit);
   std::vector<FloatPosition> rounded(vertices.size());
-  bool is_exact = true;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Vec3 p = per_metre * vertices[i];
-    if (!(largest_coordinate(p) <= kLargestFloat)) {
-      throw InputError({vertex_name(i),
-                        "a coordinate of " + rounded_text(largest_coordinate(p), 3) + " " +
-                            std::string(unit_symbol(unit)) + " does not fit binary STL",
-                        "Single precision ends at 3.4e38.", "OFF or ASCII STL"});
+  std::atomic<bool> is_exact = true;
+  in_ranges(vertices.size(), [&](std::size_t first, std::size_t last) {
+    bool exact = true;
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3 p = per_metre * vertices[i];
+      if (!(largest_coordinate(p) <= kLargestFloat)) throw beyond_single_precision(i, p, unit);
+      rounded[i] = nearest(p);
+      const Vec3 back{rounded[i][0] / per_metre, rounded[i][1] / per_metre, rounded[i][2] / per_metre};
+      exact = exact && back == vertices[i];
     }
-    rounded[i] = nearest(p);
-    const Vec3 back{rounded[i][0] / per_metre, rounded[i][1] / per_metre, rounded[i][2] / per_metre};
-    is_exact = is_exact && back == vertices[i];
-  }
+    if (!exact) is_exact = false;
+  });
   // What came out of as_written() rounds to itself: vertices that are apart stay so without a look.
   if (is_exact) return rounded;
 

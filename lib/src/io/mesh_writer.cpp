@@ -2,8 +2,8 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/mesh_file.hpp"
 
-#include "io/block_writer.hpp"
 #include "io/coordinates.hpp"
+#include "io/parallel.hpp"
 #include "io/printable_name.hpp"
 #include "io/stl_layout.hpp"
 #include "io/text_writer.hpp"
@@ -17,6 +17,9 @@
 
 namespace glissade {
 namespace {
+
+// Of the comment in a text file.
+constexpr std::size_t kLongestTitle = 240;
 
 /// @return unit normal; (0, 0, 0) where the facet has no area
 Vec3 normal_of(Vec3 a, Vec3 b, Vec3 c) {
@@ -39,39 +42,30 @@ std::string titled(std::string_view title, const MeshFileOptions& options, std::
   return name.empty() ? text : prefix + name;
 }
 
-/// The numbers of one facet as binary STL orders them: normal, then corners.
-using FacetNumbers = std::array<float, 12>;
-
-FacetNumbers facet_numbers(const FloatPosition& a, const FloatPosition& b, const FloatPosition& c) {
-  const Vec3 normal = normal_of(to_vec(a), to_vec(b), to_vec(c));
-  // Adding +0 turns -0 into +0.
-  return {static_cast<float>(normal.x) + 0.0F,
-          static_cast<float>(normal.y) + 0.0F,
-          static_cast<float>(normal.z) + 0.0F,
-          a[0],
-          a[1],
-          a[2],
-          b[0],
-          b[1],
-          b[2],
-          c[0],
-          c[1],
-          c[2]};
-}
-
-/// Puts numbers down with their lowest byte first.
-void put_numbers(char* place, const FacetNumbers& numbers) {
+/// Puts three numbers down, each with its lowest byte first.
+/// @return where the next ones go
+char* put_numbers(char* place, const FloatPosition& numbers) {
   if constexpr (std::endian::native == std::endian::little) {
     std::memcpy(place, numbers.data(), sizeof numbers);
-  } else {
-    for (const float number : numbers) {
-      auto bits = std::bit_cast<std::uint32_t>(number);
-      for (std::size_t i = 0; i < sizeof bits; ++i) {
-        *place++ = static_cast<char>(bits & 0xFFU);
-        bits >>= 8U;
-      }
+    return place + sizeof numbers;
+  }
+  for (const float number : numbers) {
+    auto bits = std::bit_cast<std::uint32_t>(number);
+    for (std::size_t i = 0; i < sizeof bits; ++i) {
+      *place++ = static_cast<char>(bits & 0xFFU);
+      bits >>= 8U;
     }
   }
+  return place;
+}
+
+/// A facet as binary STL has it: normal, corners, two bytes that stay as they are.
+char* put_facet(char* place, const FloatPosition& a, const FloatPosition& b, const FloatPosition& c) {
+  const Vec3 normal = normal_of(to_vec(a), to_vec(b), to_vec(c));
+  // Adding +0 turns -0 into +0.
+  place = put_numbers(place, {static_cast<float>(normal.x) + 0.0F, static_cast<float>(normal.y) + 0.0F,
+                              static_cast<float>(normal.z) + 0.0F});
+  return put_numbers(put_numbers(put_numbers(place, a), b), c) + 2;
 }
 
 std::array<char, stl::kPrefixBytes> stl_prefix(const TriangleMesh& mesh, const MeshFileOptions& options) {
@@ -93,26 +87,18 @@ void write_stl_binary(AtomicFile& file, const TriangleMesh& mesh, const MeshFile
     throw InputError({"mesh", std::to_string(mesh.triangles.size()) + " triangles do not fit binary STL",
                       "The format counts to 4294967295.", "a coarser tolerance"});
   }
-  constexpr std::size_t kFacetsPerBlock = BlockWriter::kBlockBytes / stl::kFacetBytes;
   const std::vector<FloatPosition> positions = single_precision(mesh, options.unit);
   const auto prefix = stl_prefix(mesh, options);
   file.write(prefix.data(), prefix.size());
 
-  BlockWriter blocks(file);
-  std::size_t used = 0;
-  for (std::size_t first = 0; first < mesh.triangles.size(); first += kFacetsPerBlock) {
-    if (first > 0) blocks.next(used);
-    const std::size_t last = std::min(first + kFacetsPerBlock, mesh.triangles.size());
-    char* place = blocks.block();
-    for (std::size_t i = first; i < last; ++i) {
-      const auto& [a, b, c] = mesh.triangles[i];
-      // The last two bytes of each facet stay 0 from the start.
-      put_numbers(place, facet_numbers(positions[a], positions[b], positions[c]));
-      place += stl::kFacetBytes;
-    }
-    used = (last - first) * stl::kFacetBytes;
-  }
-  blocks.finish(used);
+  write_in_order(
+      file, {mesh.triangles.size(), stl::kFacetBytes, [&](std::size_t first, std::size_t last, char* place) {
+               for (std::size_t i = first; i < last; ++i) {
+                 const auto& [a, b, c] = mesh.triangles[i];
+                 place = put_facet(place, positions[a], positions[b], positions[c]);
+               }
+               return place;
+             }});
 }
 
 std::vector<Vec3> in_unit(const std::vector<Vec3>& vertices, LengthUnit unit) {
@@ -123,39 +109,57 @@ std::vector<Vec3> in_unit(const std::vector<Vec3>& vertices, LengthUnit unit) {
   return scaled;
 }
 
+void put_facet(TextCursor& text, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 normal = normal_of(a, b, c);
+  text.put("facet normal ", static_cast<float>(normal.x), ' ', static_cast<float>(normal.y), ' ',
+           static_cast<float>(normal.z), "\nouter loop\n");
+  for (const Vec3 corner : {a, b, c}) text.put("vertex ", corner.x, ' ', corner.y, ' ', corner.z, '\n');
+  text.put("endloop\nendfacet\n");
+}
+
 void write_stl_ascii(AtomicFile& file, const TriangleMesh& mesh, const MeshFileOptions& options) {
-  constexpr std::size_t kLongestTitle = 240;
+  constexpr std::size_t kWordsOfFacet = 80;
+  constexpr std::size_t kLongestFacet = kWordsOfFacet + 12 * (TextCursor::kLongestNumber + 1);
   const std::vector<Vec3> vertices = in_unit(mesh.vertices, options.unit);
   const std::string title = titled("Glissade; ", options, kLongestTitle);
   TextWriter text(file);
   text.put("solid ", title, '\n');
-  for (const auto& triangle : mesh.triangles) {
-    const Vec3 a = vertices[triangle[0]];
-    const Vec3 b = vertices[triangle[1]];
-    const Vec3 c = vertices[triangle[2]];
-    const Vec3 normal = normal_of(a, b, c);
-    text.put("facet normal ", static_cast<float>(normal.x), ' ', static_cast<float>(normal.y), ' ',
-             static_cast<float>(normal.z), "\nouter loop\n");
-    for (const Vec3 corner : {a, b, c}) {
-      text.put("vertex ", corner.x, ' ', corner.y, ' ', corner.z, '\n');
-    }
-    text.put("endloop\nendfacet\n");
-  }
+  write_in_order(
+      file, {mesh.triangles.size(), kLongestFacet, [&](std::size_t first, std::size_t last, char* block) {
+               TextCursor cursor(block);
+               for (std::size_t i = first; i < last; ++i) {
+                 const auto& [a, b, c] = mesh.triangles[i];
+                 put_facet(cursor, vertices[a], vertices[b], vertices[c]);
+               }
+               return cursor.place();
+             }});
   text.put("endsolid ", title, '\n');
-  text.finish();
 }
 
 void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshFileOptions& options) {
-  constexpr std::size_t kLongestTitle = 240;
+  constexpr std::size_t kLongestLine = 2 + 3 * (TextCursor::kLongestNumber + 1);
   const double per_metre = units_per_metre(options.unit);
   TextWriter text(file);
   text.put("OFF\n# ", titled("Glissade; ", options, kLongestTitle), '\n');
   text.put(mesh.vertices.size(), ' ', mesh.triangles.size(), " 0\n");
-  for (const Vec3& p : mesh.vertices) {
-    text.put(p.x * per_metre, ' ', p.y * per_metre, ' ', p.z * per_metre, '\n');
-  }
-  for (const auto& [a, b, c] : mesh.triangles) text.put("3 ", a, ' ', b, ' ', c, '\n');
-  text.finish();
+  write_in_order(file,
+                 {mesh.vertices.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
+                    TextCursor cursor(block);
+                    for (std::size_t i = first; i < last; ++i) {
+                      const Vec3 p = per_metre * mesh.vertices[i];
+                      cursor.put(p.x, ' ', p.y, ' ', p.z, '\n');
+                    }
+                    return cursor.place();
+                  }});
+  write_in_order(file,
+                 {mesh.triangles.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
+                    TextCursor cursor(block);
+                    for (std::size_t i = first; i < last; ++i) {
+                      const auto& [a, b, c] = mesh.triangles[i];
+                      cursor.put("3 ", a, ' ', b, ' ', c, '\n');
+                    }
+                    return cursor.place();
+                  }});
 }
 
 }  // namespace

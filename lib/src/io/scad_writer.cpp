@@ -4,6 +4,7 @@
 #include "glissade/io/scad_file.hpp"
 
 #include "io/coordinates.hpp"
+#include "io/parallel.hpp"
 #include "io/printable_name.hpp"
 #include "io/text_writer.hpp"
 
@@ -72,24 +73,38 @@ void require_centerline(const std::vector<Vec3>& centerline) {
   }
 }
 
-void write_points(TextWriter& text, const std::vector<Vec3>& points, double per_metre) {
-  text.put('[');
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 p = per_metre * points[i];
-    text.put((i == 0 ? "\n" : ",\n"), '[', p.x, ',', p.y, ',', p.z, ']');
-  }
-  text.put("\n]");
+std::string_view before_item(std::size_t item) {
+  return item == 0 ? "\n" : ",\n";
+}
+
+void write_points(AtomicFile& file, const std::vector<Vec3>& points, double per_metre) {
+  constexpr std::size_t kLongestLine = 4 + 3 * (TextCursor::kLongestNumber + 1);
+  file.write("[");
+  write_in_order(file, {points.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
+                          TextCursor cursor(block);
+                          for (std::size_t i = first; i < last; ++i) {
+                            const Vec3 p = per_metre * points[i];
+                            cursor.put(before_item(i), '[', p.x, ',', p.y, ',', p.z, ']');
+                          }
+                          return cursor.place();
+                        }});
+  file.write("\n]");
 }
 
 /// OpenSCAD winds facets clockwise as seen from outside, Glissade the other way.
-void write_faces(TextWriter& text, const TriangleMesh& mesh) {
-  text.put('[');
-  bool is_first = true;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    text.put((is_first ? "\n" : ",\n"), '[', a, ',', c, ',', b, ']');
-    is_first = false;
-  }
-  text.put("\n]");
+void write_faces(AtomicFile& file, const TriangleMesh& mesh) {
+  constexpr std::size_t kLongestLine = 4 + 3 * (TextCursor::kLongestNumber + 1);
+  file.write("[");
+  write_in_order(file,
+                 {mesh.triangles.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
+                    TextCursor cursor(block);
+                    for (std::size_t i = first; i < last; ++i) {
+                      const auto& [a, b, c] = mesh.triangles[i];
+                      cursor.put(before_item(i), '[', a, ',', c, ',', b, ']');
+                    }
+                    return cursor.place();
+                  }});
+  file.write("\n]");
 }
 
 }  // namespace
@@ -104,14 +119,13 @@ void write_scad(const std::filesystem::path& file, const TriangleMesh& mesh,
   text.put("// Glissade; unit: ", unit_symbol(options.unit), "; ", printable_name(options.name), '\n');
   if (!options.section.empty()) text.put("// Cross-section: ", printable_name(options.section), '\n');
   text.put(kUsage, "module glissade_solid() {\n  polyhedron(convexity = 10, points = ");
-  write_points(text, mesh.vertices, per_metre);
+  write_points(output, mesh.vertices, per_metre);
   text.put(", faces = ");
-  write_faces(text, mesh);
+  write_faces(output, mesh);
   text.put(");\n}\n\nfunction glissade_centerline_points() = ");
-  write_points(text, centerline, per_metre);
+  write_points(output, centerline, per_metre);
   const Vec3 along = direction_of(centerline);
   text.put(";\n\nfunction glissade_direction() = [", along.x, ',', along.y, ",0];\n\n", kCenterlineModule);
-  text.finish();
   output.commit();
 }
 

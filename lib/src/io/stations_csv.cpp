@@ -72,7 +72,6 @@ void write_stations_csv(const std::filesystem::path& file, const std::vector<Sta
     }
     text.put('\n');
   }
-  text.finish();
   output.commit();
 }
 

@@ -1,0 +1,117 @@
+#include "io/parallel.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace glissade {
+namespace {
+
+// A block stays in the cache of the core that formats it until the system has copied it.
+constexpr std::size_t kBlockBytes = std::size_t{1} << 19U;
+// More threads than this wait for each other: copying to the system is one after the other.
+constexpr std::size_t kMostThreads = 8;
+
+std::size_t thread_count() {
+  return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+}
+
+class OrderedWriting {
+ public:
+  OrderedWriting(AtomicFile& file, const BlockPlan& plan)
+      : file_(file),
+        plan_(plan),
+        items_per_block_(std::max<std::size_t>(1, kBlockBytes / plan.most_bytes_per_item)),
+        blocks_((plan.items + items_per_block_ - 1) / items_per_block_) {}
+
+  void run() {
+    {
+      std::vector<std::jthread> helpers;
+      for (std::size_t i = 1; i < std::min(thread_count(), blocks_); ++i)
+        helpers.emplace_back([this] { work(); });
+      work();
+    }
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void work() {
+    try {
+      std::vector<char> block(items_per_block_ * plan_.most_bytes_per_item);
+      while (const std::optional<std::size_t> number = take()) {
+        const std::size_t first = *number * items_per_block_;
+        const std::size_t last = std::min(first + items_per_block_, plan_.items);
+        const char* const end = plan_.format(first, last, block.data());
+        if (!wait_for_turn(*number)) return;
+        file_.write(block.data(), static_cast<std::size_t>(end - block.data()));
+        pass_turn();
+      }
+    } catch (...) {
+      fail(std::current_exception());
+    }
+  }
+
+  [[nodiscard]] std::optional<std::size_t> take() {
+    const std::scoped_lock lock(mutex_);
+    if (failure_ || taken_ == blocks_) return std::nullopt;
+    return taken_++;
+  }
+
+  /// @return false if another thread failed: the block will never have its turn
+  [[nodiscard]] bool wait_for_turn(std::size_t number) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failure_ || written_ == number; });
+    return !failure_;
+  }
+
+  void pass_turn() {
+    {
+      const std::scoped_lock lock(mutex_);
+      ++written_;
+    }
+    changed_.notify_all();
+  }
+
+  void fail(const std::exception_ptr& failure) {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!failure_) failure_ = failure;
+    }
+    changed_.notify_all();
+  }
+
+  AtomicFile& file_;
+  const BlockPlan& plan_;
+  std::size_t items_per_block_;
+  std::size_t blocks_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t taken_ = 0;
+  std::size_t written_ = 0;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+void write_in_order(AtomicFile& file, const BlockPlan& plan) {
+  OrderedWriting(file, plan).run();
+}
+
+void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work) {
+  // Fewer items than this are done before a thread has started.
+  constexpr std::size_t kWorthAThread = 20'000;
+  const std::size_t ranges = std::clamp<std::size_t>(count / kWorthAThread, 1, thread_count());
+  std::vector<std::future<void>> others;
+  for (std::size_t i = 1; i < ranges; ++i) {
+    others.push_back(std::async(std::launch::async, work, i * count / ranges, (i + 1) * count / ranges));
+  }
+  work(0, count / ranges);
+  for (std::future<void>& other : others) other.get();
+}
+
+}  // namespace glissade

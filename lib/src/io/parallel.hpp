@@ -1,0 +1,29 @@
+#pragma once
+
+#include "glissade/io/atomic_file.hpp"
+
+#include <cstddef>
+#include <functional>
+
+namespace glissade {
+
+/// A long row of items that becomes a row of blocks of bytes.
+struct BlockPlan {
+  std::size_t items = 0;
+  std::size_t most_bytes_per_item = 0;
+  /// Fills a block, zeros at first and whatever it held before later, with items [first, last) and returns
+  /// its end. Runs on several threads at once; must depend on its arguments alone.
+  std::function<char*(std::size_t first, std::size_t last, char* block)> format;
+};
+
+/// Formats blocks on every core and writes them in their order: while one thread hands its block to the
+/// system, which takes about as long as formatting it, the others format. The bytes do not depend on how many
+/// threads there are.
+/// @throws FileError as AtomicFile, or what `format` throws
+void write_in_order(AtomicFile& file, const BlockPlan& plan);
+
+/// Splits [0, count) among the cores: `work` gets [first, last) and runs on several threads at once.
+/// @throws what `work` throws; where several do, that of the lowest range
+void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work);
+
+}  // namespace glissade
