@@ -36,6 +36,7 @@ struct Options {
   std::string directory;
   Overrides overrides;
   TimeBudget time_budget;
+  bool no_report = false;
   bool json = false;
   bool quiet = false;
 };
@@ -51,7 +52,8 @@ ExitCode build_design(const Options& options) {
   const Build built = [&] {
     ProgressLine progress(options.quiet);
     return build(design, directory_of(options),
-                 {progress.callback(), interrupt.token(), options.time_budget.seconds()});
+                 {progress.callback(), interrupt.token(), options.time_budget.seconds()},
+                 {.report = !options.no_report});
   }();
   if (options.json) {
     print(document(build_json(design, built)));
@@ -74,6 +76,7 @@ void add_build(CLI::App& program, Action& action) {
       ->type_name("DIR");
   options->overrides.add_to(command);
   options->time_budget.add_to(command);
+  command.add_flag("--no-report", options->no_report, "Write no report.html");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors (and what --json asks for)");
   command.callback([options, &action] { action = [options] { return build_design(*options); }; });

@@ -24,6 +24,7 @@ constexpr const char* kFooter =
     "  glissade build chute.yaml                                 everything, into out/chute/\n"
     "  glissade solve --run 10 --drop 5 --friction-angle 11deg   the numbers alone\n"
     "  glissade compare chute.yaml                               every kind of centerline side by side\n"
+    "  glissade plot chute.yaml -o chute.svg                     profile, speed, load, ... as a picture\n"
     "\n"
     "Exit codes: 0 done; 1 the inspected mesh is faulty; 2 wrong usage or design; 3 infeasible, or the\n"
     "body does not arrive; 4 not converged; 5 a file cannot be read or written; 70 a defect of Glissade;\n"
@@ -54,6 +55,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_build(program, action);
   add_solve(program, action);
   add_compare(program, action);
+  add_plot(program, action);
   add_inspect(program, action);
   add_init(program, action);
 

@@ -17,6 +17,7 @@ using Action = std::function<ExitCode()>;
 void add_build(CLI::App& program, Action& action);
 void add_solve(CLI::App& program, Action& action);
 void add_compare(CLI::App& program, Action& action);
+void add_plot(CLI::App& program, Action& action);
 void add_inspect(CLI::App& program, Action& action);
 void add_init(CLI::App& program, Action& action);
 

@@ -1,9 +1,12 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/version.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
+#include "glissade/report/figure_page.hpp"
 
 #include "app/command_line.hpp"
+#include "app/comparison.hpp"
 #include "app/console.hpp"
 #include "app/json.hpp"
 #include "app/option_value.hpp"
@@ -12,7 +15,7 @@
 #include "app/track_input.hpp"
 
 #include <cmath>
-#include <functional>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,7 +31,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kDescription =
-    "Put every kind of centerline between the same two points side by side.\n"
+    "Put every kind of centerline between the same two points side by side, or several designs.\n"
     "\n"
     "With --friction-sweep: the constant-speed curve (Pudasaini's) over a list of friction angles, as in\n"
     "figure 1 of his paper, beside the fastest track and the straight line.";
@@ -39,49 +42,19 @@ constexpr const char* kFooter =
     "  glissade compare --run 10 --drop 5 --friction-coefficient 0.2 --json\n"
     "  glissade compare --run 2.5 --drop 2.5 --p 100 --friction-sweep "
     "11deg,13deg,15deg,17deg,20deg,25deg,40deg\n"
+    "  glissade compare designs/grain_chute.yaml --html chute.html     figures too, for a browser or paper\n"
+    "  glissade compare designs/marble_run.yaml designs/grain_chute.yaml --svg both.svg\n"
     "  glissade compare designs/grain_chute.yaml --csv curves.csv      the curves themselves";
 
 struct Options {
   TrackInput input{TrackInput::Scope::every_kind};
   std::vector<std::string> frictions;
+  std::vector<std::string> others;
   std::string csv;
+  std::string html;
+  std::string svg;
   bool json = false;
 };
-
-/// One line of a comparison: a track, or why there is none.
-struct Entry {
-  Design design;
-  std::optional<Track> track;
-  std::string problem;
-};
-
-Entry entry_of(Design design, const std::function<Track(const Design&)>& make) {
-  Entry entry{std::move(design), {}, {}};
-  try {
-    entry.track = make(entry.design);
-  } catch (const InputError& error) {
-    entry.problem = error.issues().front().what;
-  } catch (const InfeasibleError& error) {
-    entry.problem = error.issues().front().what;
-  } catch (const ConvergenceError& error) {
-    entry.problem = error.issues().front().what;
-  }
-  return entry;
-}
-
-Design of_kind(Design design, CenterlineKind kind) {
-  design.centerline.kind = kind;
-  return design;
-}
-
-std::vector<CenterlineKind> kinds_for(const Design& design) {
-  std::vector<CenterlineKind> kinds = {CenterlineKind::fastest, CenterlineKind::constant_speed,
-                                       CenterlineKind::straight, CenterlineKind::cycloid,
-                                       CenterlineKind::no_curvature_load};
-  const CenterlineKind own = design.centerline.kind;
-  if (own == CenterlineKind::segments || own == CenterlineKind::points) kinds.insert(kinds.begin(), own);
-  return kinds;
-}
 
 std::string ride_text(const Motion& motion) {
   if (motion.arrived()) return time_text(motion.travel_time());
@@ -92,13 +65,23 @@ std::string exit_text(const Motion& motion) {
   return motion.arrived() ? speed_text(motion.exit_speed()) : "-";
 }
 
-std::string kinds_table(const std::vector<Entry>& entries) {
-  Table table({"Centerline", "travel time", "above least", "exit speed", "steepest", "highest load",
-               "arc length", "least radius"});
+std::vector<std::string> names_of(const std::vector<Entry>& entries) {
+  std::vector<std::string> names;
   for (const Entry& entry : entries) {
-    const std::string kind(word(entry.design.centerline.kind));
+    names.push_back(entry.design.name.empty() ? entry.design.file.stem().string() : entry.design.name);
+  }
+  return names;
+}
+
+/// One row a track.
+Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
+                  const std::vector<std::string>& names) {
+  Table table({heading, "travel time", "above least", "exit speed", "steepest", "highest load", "arc length",
+               "least radius"});
+  for (std::size_t index = 0; index < entries.size(); ++index) {
+    const Entry& entry = entries[index];
     if (!entry.track) {
-      table.add({kind, entry.problem});
+      table.add({names[index], entry.problem});
       continue;
     }
     const Track& track = *entry.track;
@@ -108,15 +91,26 @@ std::string kinds_table(const std::vector<Entry>& entries) {
       const double percent = 100.0 * (motion.travel_time() / *track.optimum_travel_time - 1.0);
       excess = rounded_text(std::round(percent * 100.0) / 100.0, 4) + " %";
     }
-    table.add({kind, ride_text(motion), excess, exit_text(motion), angle_text(track.steepest_slope_angle, 3),
+    table.add({names[index], ride_text(motion), excess, exit_text(motion),
+               angle_text(track.steepest_slope_angle, 3),
                rounded_text(motion.highest_load().normal_load, 4) + " m/s^2",
                length_text(track.centerline->length()),
                std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)});
   }
-  return table.text();
+  return table;
 }
 
-std::string sweep_table(const std::vector<Entry>& entries) {
+Table kinds_table(const std::vector<Entry>& entries) {
+  std::vector<std::string> kinds;
+  for (const Entry& entry : entries) kinds.emplace_back(word(entry.design.centerline.kind));
+  return rides_table("Centerline", entries, kinds);
+}
+
+Table designs_table(const std::vector<Entry>& entries) {
+  return rides_table("Design", entries, names_of(entries));
+}
+
+Table sweep_table(const std::vector<Entry>& entries) {
   Table table({"Friction angle", "P", "slope at start", "at finish", "arc length", "at constant speed",
                "from rest", "fastest track", "straight line"});
   for (const Entry& entry : entries) {
@@ -134,7 +128,7 @@ std::string sweep_table(const std::vector<Entry>& entries) {
                track.optimum_travel_time ? time_text(*track.optimum_travel_time) : "none arrives",
                track.straight ? ride_text(*track.straight) : "stalls"});
   }
-  return table.text();
+  return table;
 }
 
 /// Every curve as points, for a plotting program.
@@ -157,8 +151,8 @@ std::string curves_csv(const std::vector<Entry>& entries) {
   return table.csv();
 }
 
-Json comparison_json(const Design& design, const std::vector<Entry>& entries) {
-  Json json = input_json(design);
+Json comparison_json(const Options& options, const Design& design, const std::vector<Entry>& entries) {
+  Json json = options.others.empty() ? input_json(design) : Json{{"glissade", version()}};
   json["tracks"] = Json::array();
   for (const Entry& entry : entries) {
     if (entry.track) {
@@ -183,45 +177,83 @@ std::vector<Friction> frictions_of(const std::vector<std::string>& texts) {
   return frictions;
 }
 
-std::vector<Entry> sweep(const Design& design, const std::vector<Friction>& frictions) {
+std::vector<Entry> designs_given(const Options& options, Design first) {
   std::vector<Entry> entries;
-  for (const Friction friction : frictions) {
-    Design swept = of_kind(design, CenterlineKind::constant_speed);
-    swept.body.friction = friction;
-    // The curve is there whether or not a body from rest arrives on it.
-    entries.push_back(
-        entry_of(std::move(swept), [](const Design& one) { return ride(one, make_centerline(one)); }));
+  std::vector<Design> designs = {std::move(first)};
+  for (const std::string& file : options.others) designs.push_back(read_design(file));
+  for (Design& design : designs) {
+    entries.push_back(entry_of(std::move(design), [](const Design& one) { return solve(one); }));
   }
   return entries;
 }
 
-std::vector<Entry> every_kind(const Design& design) {
+/// What is compared with what.
+struct Comparison {
+  std::string heading;
+  std::string task;
   std::vector<Entry> entries;
-  for (const CenterlineKind kind : kinds_for(design)) {
-    entries.push_back(entry_of(of_kind(design, kind), [](const Design& one) { return solve(one); }));
+  Table table;
+};
+
+Comparison comparison_of(const Options& options, const Design& design,
+                         const std::vector<Friction>& frictions) {
+  const std::string heading = design.name.empty() ? std::string("Comparison") : design.name;
+  const std::string span = span_line(design, endpoints_of(design));
+  if (!options.others.empty()) {
+    std::vector<Entry> entries = designs_given(options, design);
+    Table table = designs_table(entries);
+    return {"Comparison of designs", listed(names_of(entries)), std::move(entries), std::move(table)};
   }
-  return entries;
+  if (!frictions.empty()) {
+    std::vector<Entry> entries = friction_sweep(design, frictions);
+    Table table = sweep_table(entries);
+    return {heading, span + ", constant-speed", std::move(entries), std::move(table)};
+  }
+  std::vector<Entry> entries = every_kind(design);
+  Table table = kinds_table(entries);
+  return {heading, task_line(design, endpoints_of(design)), std::move(entries), std::move(table)};
+}
+
+std::vector<Figure> figures_of(const Options& options, const Design& design,
+                               const std::vector<Entry>& entries) {
+  if (!options.others.empty()) return design_figures(entries);
+  return options.frictions.empty() ? kinds_figures(design, entries) : sweep_figures(entries);
+}
+
+void write_text(const std::string& file, const std::string& text) {
+  AtomicFile target(file);
+  target.write(text);
+  target.commit();
+}
+
+void write_figures(const Options& options, const Design& design, const Comparison& comparison) {
+  if (options.svg.empty() && options.html.empty()) return;
+  const std::vector<Figure> figures = figures_of(options, design, comparison.entries);
+  if (!options.svg.empty()) write_text(options.svg, figures_svg(figures));
+  if (options.html.empty()) return;
+  const auto& rows = comparison.table.rows();
+  write_text(
+      options.html,
+      figure_page_html(
+          {comparison.heading, comparison.task, figures, {rows.front(), {rows.begin() + 1, rows.end()}}}));
 }
 
 ExitCode compare(const Options& options) {
   const std::vector<Friction> frictions = frictions_of(options.frictions);
   const Design design =
       options.input.design(frictions.empty() ? std::nullopt : std::optional(frictions.front()));
-  const std::vector<Entry> entries = frictions.empty() ? every_kind(design) : sweep(design, frictions);
-  if (!options.csv.empty()) {
-    AtomicFile file(options.csv);
-    file.write(curves_csv(entries));
-    file.commit();
+  if (!options.others.empty() && !frictions.empty()) {
+    throw InputError({"--friction-sweep", "it cannot be combined with several designs", "", ""});
   }
+  const Comparison comparison = comparison_of(options, design, frictions);
+  if (!options.csv.empty()) write_text(options.csv, curves_csv(comparison.entries));
+  write_figures(options, design, comparison);
   if (options.json) {
-    print(document(comparison_json(design, entries)));
+    print(document(comparison_json(options, design, comparison.entries)));
     return ExitCode::done;
   }
-  const std::string heading = design.name.empty() ? std::string("Comparison") : design.name;
-  const std::string task = frictions.empty() ? task_line(design, endpoints_of(design))
-                                             : span_line(design, endpoints_of(design)) + ", constant-speed";
-  print(emphasised(heading, Emphasis::heading) + "\n  " + task + "\n\n" +
-        (frictions.empty() ? kinds_table(entries) : sweep_table(entries)));
+  print(emphasised(comparison.heading, Emphasis::heading) + "\n  " + comparison.task + "\n\n" +
+        comparison.table.text());
   return ExitCode::done;
 }
 
@@ -237,6 +269,13 @@ void add_compare(CLI::App& program, Action& action) {
       ->type_name("ANGLES")
       ->delimiter(',')
       ->group("Options");
+  command.add_option("others", options->others, "More design files: each on its own line, beside the first")
+      ->type_name("DESIGN.yaml...");
+  command
+      .add_option("--html", options->html, "Write a page with figures and the table, for a browser or paper")
+      ->type_name("FILE")
+      ->group("Options");
+  command.add_option("--svg", options->svg, "Write the figures alone")->type_name("FILE")->group("Options");
   command.add_option("--csv", options->csv, "Write the curves as points, one line each")
       ->type_name("FILE")
       ->group("Options");

@@ -14,6 +14,9 @@ class Table {
   /// A row shorter than the headings ends with a remark that may be as long as it likes.
   void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
+  /// @return the headings and then the rows
+  [[nodiscard]] const std::vector<std::vector<std::string>>& rows() const { return rows_; }
+
   [[nodiscard]] std::string text() const;
   /// @return the same as comma-separated values, quoted where a cell needs it
   [[nodiscard]] std::string csv() const;

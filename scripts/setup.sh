@@ -49,6 +49,24 @@ install_packages() {
         "a working network, or 'apt-get update && apt-get install $missing' by hand"; }
 }
 
+# node_is_usable: node 18 or later and npm are on the PATH, wherever they come from
+node_is_usable() {
+  command -v npm >/dev/null && command -v node >/dev/null &&
+    node -e 'process.exit(Number(process.versions.node.split(".")[0]) >= 18 ? 0 : 1)'
+}
+
+# install_node_packages LOG FOLDER: what the folder's lock file names, where it has changed since the last time
+install_node_packages() {
+  local log=$1 folder=$2
+  cmp -s "$folder/package-lock.json" "$folder/node_modules/.installed" && return 0
+  say "installing the npm packages of $folder (once)"
+  if node_is_usable && (cd "$folder" && npm ci --no-audit --no-fund) >"$log" 2>&1 </dev/null; then
+    cp "$folder/package-lock.json" "$folder/node_modules/.installed"
+  else
+    say "they could not be installed: the tests report_page and report_bundle are skipped (why: $log)"
+  fi
+}
+
 # parallel_jobs: one a processor, as long as each compiler finds 1.5 GB of memory
 parallel_jobs() {
   local processors fitting

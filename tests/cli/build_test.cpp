@@ -59,7 +59,8 @@ TEST_CASE("build writes the files that the design names, proves the mesh and say
   CHECK_THAT(outcome.output, StartsWith("Test chute\n") && Contains("Travel time") &&
                                  Contains("watertight") && Contains("chute.stl"));
   CHECK_THAT(outcome.output, !Contains("\033"));
-  CHECK(names_in(place / "out/chute") == std::vector<std::string>{"chute.off", "chute.scad", "chute.stl"});
+  CHECK(names_in(place / "out/chute") ==
+        std::vector<std::string>{"chute.off", "chute.scad", "chute.stl", "report.html"});
 }
 
 TEST_CASE("build --json tells of the track, the mesh and the files") {
@@ -82,7 +83,7 @@ TEST_CASE("build --json tells of the track, the mesh and the files") {
   CHECK(mesh["triangles"].get<int>() > 100);
   CHECK(mesh["volume_m3"].get<double>() > 0.0);
   CHECK(mesh["max_deviation_m"].get<double>() <= 2e-3);
-  REQUIRE(built["files"].size() == 3);
+  REQUIRE(built["files"].size() == 4);
   for (const json& file : built["files"]) {
     CHECK(fs::file_size(place.path() / file["path"].get<std::string>()) == file["bytes"]);
   }
@@ -99,7 +100,7 @@ TEST_CASE("the same design gives the same bytes") {
   REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "one"}, {place.path(), {}, {}}).exit_code == 0);
   REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "two"}, {place.path(), {}, {}}).exit_code == 0);
   const std::vector<std::string> names = names_in(place / "one");
-  CHECK(names.size() == 5);
+  CHECK(names.size() == 6);  // the report counts
   CHECK(names == names_in(place / "two"));
   for (const std::string& name : names) {
     INFO(name);
@@ -248,7 +249,8 @@ TEST_CASE("a full disk leaves nothing behind, and files of an earlier build as t
   const Outcome second =
       glissade_run({"build", "chute.yaml", "-o", "out", "--set", "mesh.tolerance=1mm"}, limits);
   CHECK(second.exit_code == 5);
-  CHECK(names_in(place / "out") == std::vector<std::string>{"chute.off", "chute.scad", "chute.stl"});
+  CHECK(names_in(place / "out") ==
+        std::vector<std::string>{"chute.off", "chute.scad", "chute.stl", "report.html"});
   CHECK(bytes_of(place / "out/chute.stl") == before);
 }
 

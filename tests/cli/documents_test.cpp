@@ -41,7 +41,7 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
   const std::string path = kProject + "/docs/cli.md";
   std::string text = bytes_of(path);
   const bool update = std::getenv("GLISSADE_UPDATE_GOLDEN") != nullptr;
-  for (const std::string command : {"", "build", "solve", "compare", "inspect", "init"}) {
+  for (const std::string command : {"", "build", "solve", "compare", "plot", "inspect", "init"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = glissade_run(arguments);

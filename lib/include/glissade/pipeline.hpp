@@ -121,13 +121,18 @@ struct Build {
   std::vector<WrittenFile> files;
 };
 
-/// Design to files in `directory` (made if missing), each named after the design file. Either all of them
+struct BuildOptions {
+  bool report = true;  ///< write report.html beside the meshes
+};
+
+/// Design to files in `directory` (made if missing), each named after the design file, and report.html, which
+/// shows all of them to people. Either all of them
 /// appear, or the directory stays as it was, files of an earlier build included.
 /// @throws as solve(); InputError if the design has no cross_section or the section cannot follow the track;
 ///         InfeasibleError if the body does not arrive or a limit is broken; FileError if a file cannot be
 ///         written; Interrupted if the context's stop token asks for it; InternalError if a mesh turns out
 ///         faulty
 [[nodiscard]] Build build(const Design& design, const std::filesystem::path& directory,
-                          const RunContext& context = {});
+                          const RunContext& context = {}, const BuildOptions& options = {});
 
 }  // namespace glissade

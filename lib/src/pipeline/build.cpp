@@ -1,10 +1,12 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/io/atomic_file.hpp"
 #include "glissade/io/mesh_file.hpp"
 #include "glissade/io/scad_file.hpp"
 #include "glissade/io/stations_csv.hpp"
 #include "glissade/pipeline.hpp"
 
 #include "pipeline/located.hpp"
+#include "pipeline/report.hpp"
 #include "pipeline/staging.hpp"
 
 #include <algorithm>
@@ -16,6 +18,8 @@ namespace glissade {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kReportName = "report.html";
 
 /// A mesh as one or more of the formats hold it, and what was measured on it.
 struct MeasuredMesh {
@@ -194,6 +198,24 @@ void write_file(const fs::path& path, ExportFormat format, const Design& design,
   }
 }
 
+/// The mesh as the least precise of the files holds it: binary STL rounds to single precision.
+const MeasuredMesh& least_precise(const std::vector<MeasuredMesh>& meshes) {
+  const bool has_stl = std::any_of(meshes.begin(), meshes.end(), [](const MeasuredMesh& mesh) {
+    return std::find(mesh.formats.begin(), mesh.formats.end(), MeshFormat::stl_binary) != mesh.formats.end();
+  });
+  return has_stl ? as_held_by(meshes, MeshFormat::stl_binary) : meshes.front();
+}
+
+bool is_read_back(ExportFormat format) {
+  return format == ExportFormat::stl || format == ExportFormat::stl_ascii || format == ExportFormat::off;
+}
+
+void write_report(const fs::path& path, const Design& design, const BuildForReport& build) {
+  AtomicFile file(path);
+  file.write(report_html(report_input(design, build)));
+  file.commit();
+}
+
 void require_buildable(const Design& design) {
   if (design.cross_section) return;
   throw InputError(
@@ -223,7 +245,8 @@ CrossSection make_cross_section(const CrossSectionDesign& design) {
   throw InternalError({"", "a kind of cross-section without a shape", "", ""});
 }
 
-Build build(const Design& design, const fs::path& directory, const RunContext& given_context) {
+Build build(const Design& design, const fs::path& directory, const RunContext& given_context,
+            const BuildOptions& options) {
   require_buildable(design);
   RunContext context = given_context;
   Track track = solve(design, context);
@@ -235,9 +258,9 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   enter(context, "making the mesh");
   const std::string place = design.where("cross_section");
   CrossSection section = at_place(place, [&] { return make_cross_section(*design.cross_section); });
-  SweepOptions options;
-  options.tolerance = design.mesh.tolerance;
-  Solid solid = at_place(place, [&] { return sweep(*track.centerline, section, track.placement, options); });
+  Solid solid = at_place(place, [&] {
+    return sweep(*track.centerline, section, track.placement, {.tolerance = design.mesh.tolerance});
+  });
 
   std::vector<MeasuredMesh> meshes = measured(design, solid, context);
   if (meshes.empty()) {
@@ -247,21 +270,27 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
     meshes.push_back({{}, solid.mesh, facts});
   }
 
+  MeshFacts facts = least_precise(meshes).facts;
   Staging staging(directory);
+  std::vector<fs::path> made;
+  std::vector<fs::path> read_back;
   for (const ExportFormat format : design.exports.formats) {
     const std::string name = file_name(design, format);
     enter(context, "writing " + name);
-    write_file(staging.path_for(name), format, design, track, solid, meshes);
+    made.push_back(staging.path_for(name));
+    write_file(made.back(), format, design, track, solid, meshes);
+    if (is_read_back(format)) read_back.push_back(made.back());
+  }
+  if (options.report) {
+    // Last of all: it lists the others.
+    enter(context, std::string("writing ") + kReportName);
+    write_report(staging.path_for(kReportName), design,
+                 {track, section, solid, facts, std::move(made), std::move(read_back)});
   }
   require_going(context);
 
   std::vector<WrittenFile> files;
   for (const fs::path& path : staging.publish()) files.push_back({path, fs::file_size(path)});
-  // Binary STL is the least precise of the formats.
-  const bool has_stl = std::any_of(meshes.begin(), meshes.end(), [](const MeasuredMesh& mesh) {
-    return std::find(mesh.formats.begin(), mesh.formats.end(), MeshFormat::stl_binary) != mesh.formats.end();
-  });
-  MeshFacts facts = has_stl ? as_held_by(meshes, MeshFormat::stl_binary).facts : meshes.front().facts;
   return {std::move(track), std::move(section), std::move(solid), std::move(facts), std::move(files)};
 }
 

@@ -2,10 +2,13 @@
 
 #include "glissade/core/version.hpp"
 
+#include "report/ride_stations.hpp"
 #include "report/view_mesh.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <openssl/evp.h>
@@ -16,7 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr int kStations = 400;
 
 /// JSON has no infinity: null stands for a value that does not exist or is unbounded.
 Json finite(double value) {
@@ -25,28 +27,6 @@ Json finite(double value) {
 
 Json vector_of(Vec3 v) {
   return Json::array({v.x, v.y, v.z});
-}
-
-/// Stations over the ride: closer together near the start, where a body at rest and an unbounded curvature
-/// change most, and one at every break of curvature.
-std::vector<double> ride_stations(const Motion& motion) {
-  const double distance = motion.distance();
-  std::vector<double> stations;
-  for (int i = 0; i <= kStations; ++i) {
-    const double fraction = static_cast<double>(i) / kStations;
-    stations.push_back(distance * std::pow(fraction, 1.5));
-  }
-  for (const double s : motion.centerline().breaks()) {
-    if (s < distance) stations.push_back(s);
-  }
-  std::sort(stations.begin(), stations.end());
-  const double least_gap = 1e-9 * distance;
-  std::vector<double> kept;
-  for (const double s : stations) {
-    if (kept.empty() || s - kept.back() > least_gap) kept.push_back(s);
-  }
-  kept.back() = distance;
-  return kept;
 }
 
 Json ride_line(const Motion& motion, double start_height) {
@@ -90,6 +70,14 @@ Radius smallest_radius(const Motion& motion) {
   return least;
 }
 
+double steepest_slope_angle(const Motion& motion) {
+  double steepest = -std::numeric_limits<double>::infinity();
+  for (const double s : ride_stations(motion)) {
+    steepest = std::max(steepest, motion.centerline().slope_angle(s));
+  }
+  return steepest;
+}
+
 Json ride_facts(const ReportInput& input) {
   const Motion& motion = *input.motion;
   const Centerline& centerline = motion.centerline();
@@ -104,9 +92,10 @@ Json ride_facts(const ReportInput& input) {
   facts["entry_slope_angle_deg"] = centerline.slope_angle(0.0) * kDegrees;
   facts["exit_slope_angle_deg"] = centerline.slope_angle(centerline.length()) * kDegrees;
   facts["arc_length_m"] = centerline.length();
+  facts["steepest_slope_angle_deg"] = steepest_slope_angle(motion) * kDegrees;
   facts["max_normal_load_m_per_s2"] = highest.normal_load;
   facts["max_normal_load_at_m"] = highest.arc_length;
-  facts["min_radius_m"] = finite(radius.value);
+  facts["min_radius_m"] = finite(input.min_radius.value_or(radius.value));
   facts["min_radius_at_m"] = radius.arc_length;
   facts["stall"] = nullptr;
   if (motion.stall()) {

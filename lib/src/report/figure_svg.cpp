@@ -2,6 +2,8 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/report/figure.hpp"
 
+#include "report/markup.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,29 +37,6 @@ struct Range {
   }
   [[nodiscard]] double span() const { return high - low; }
 };
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return result;
-}
 
 double round_step(double span, double count) {
   const double rough = span / count;
@@ -106,9 +85,9 @@ class Panel {
 
   [[nodiscard]] std::string svg(double top) const {
     std::string text = fmt::format("<g transform=\"translate(0 {:.2f})\" role=\"group\" aria-label=\"{}\">\n",
-                                   top, escaped(figure_.title));
-    text +=
-        fmt::format("<text class=\"title\" x=\"{:.2f}\" y=\"22\">{}</text>\n", kLeft, escaped(figure_.title));
+                                   top, escaped_markup(figure_.title));
+    text += fmt::format("<text class=\"title\" x=\"{:.2f}\" y=\"22\">{}</text>\n", kLeft,
+                        escaped_markup(figure_.title));
     text += axes();
     text += fmt::format(
         "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" overflow=\"hidden\" "
@@ -118,12 +97,12 @@ class Panel {
     const auto to_y = [this](double y) { return at_y(y); };
     for (const FigureArea& area : figure_.areas) {
       text += fmt::format("<path class=\"area\" d=\"{}Z\"><title>{}</title></path>\n",
-                          points_text(area.xs, area.ys, to_x, to_y), escaped(area.name));
+                          points_text(area.xs, area.ys, to_x, to_y), escaped_markup(area.name));
     }
     for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
       const FigureLine& line = figure_.lines[i];
       text += fmt::format("<path class=\"line\" {} d=\"{}\"><title>{}</title></path>\n", stroke(i),
-                          points_text(line.xs, line.ys, to_x, to_y), escaped(line.name));
+                          points_text(line.xs, line.ys, to_x, to_y), escaped_markup(line.name));
     }
     return text + "</svg>\n" + legend() + "</g>\n";
   }
@@ -191,10 +170,10 @@ class Panel {
         fmt::format("<rect class=\"frame\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>\n",
                     kLeft, kTop, inner_width_, inner_height_);
     text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>\n",
-                        0.5 * (kLeft + right), bottom + 40.0, escaped(figure_.x_label));
+                        0.5 * (kLeft + right), bottom + 40.0, escaped_markup(figure_.x_label));
     text +=
         fmt::format("<text transform=\"translate(18 {:.2f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                    0.5 * (kTop + bottom), escaped(figure_.y_label));
+                    0.5 * (kTop + bottom), escaped_markup(figure_.y_label));
     return text;
   }
 
@@ -239,7 +218,7 @@ class Panel {
       const double y = top + kLegendLine * row;
       text += fmt::format(
           "<path class=\"line\" {} d=\"M{:.2f} {:.2f}h28\"/><text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n",
-          stroke(i), x, y - 4.0, x + 34.0, y, escaped(figure_.lines[i].name));
+          stroke(i), x, y - 4.0, x + 34.0, y, escaped_markup(figure_.lines[i].name));
     });
     return text;
   }

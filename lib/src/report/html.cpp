@@ -1,5 +1,6 @@
 #include "glissade/report/report.hpp"
 
+#include "report/markup.hpp"
 #include "report/page_assets.hpp"
 
 #include <string>
@@ -7,29 +8,6 @@
 
 namespace glissade {
 namespace {
-
-std::string escaped_markup(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 /// JSON inside a script element: "</script" and "<!--" must not occur, and a JSON string may spell '<' as
 /// \u003c.
@@ -69,7 +47,7 @@ std::string report_html(const ReportInput& input) {
   page +=
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
       "'unsafe-inline'; "
-      "style-src 'unsafe-inline'; img-src data: blob:\">\n";
+      "style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n";
   page += "<title>" + escaped_markup(input.design->name) + "</title>\n<style>\n";
   page += page_assets::kStyle;
   page +=

@@ -18,7 +18,7 @@ struct Station {
 std::vector<Station> stations_of(const Centerline& centerline, int count) {
   std::vector<Station> stations;
   for (int i = 0; i <= count; ++i) {
-    const CenterlinePoint point = centerline.at(centerline.length() * i / count);
+    const CenterlinePoint point = centerline.at(centerline.length() * (static_cast<double>(i) / count));
     stations.push_back({point.x, point.drop, point.arc_length});
   }
   return stations;

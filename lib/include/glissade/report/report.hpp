@@ -3,6 +3,7 @@
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/optimize/optimize.hpp"
 #include "glissade/solid/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/placement.hpp"
@@ -65,12 +66,22 @@ struct ReportInput {
   const Motion* straight = nullptr;  ///< the same body on the straight line; null if it does not arrive there
   const Motion* optimum =
       nullptr;  ///< from rest on the exact optimum without limits; null where that does not apply
+  /// Smallest radius of curvature, 0 where it vanishes at the start [m]; none: the smallest at the stations.
+  std::optional<double> min_radius;
   ReportSolid solid;
   std::vector<ReportCheck> checks;
   std::vector<ReportLimit> limits;
   std::vector<ReportKeepOut> keep_outs;
   std::vector<ReportFile> files;
 };
+
+/// What the optimiser's referee found of each limit, in the units that people use: one row a limit, a limit
+/// that holds the track back with what it costs.
+[[nodiscard]] std::vector<ReportLimit> report_limits(const OptimizeReport& report);
+
+/// Where a design keeps its track out: polygons, grounds and ceilings (open lines), half-planes (an open line
+/// as long as the chord). Clearances are not drawn.
+[[nodiscard]] std::vector<ReportKeepOut> report_keep_outs(const Design& design);
 
 /// The report's data as one JSON document, "glissade-report/1": docs/report-data.md describes each field.
 /// Bytes depend on the input alone. The view of a solid above kViewTriangles is swept anew at a coarser

@@ -44,6 +44,13 @@ const outputs = result.outputFiles.map((file) => ({
 }));
 outputs.push({ name: "LICENSES.txt", bytes: Buffer.from(await licences(result.metafile)) });
 
+// The script stands inside an element of the page: these would end it, or open another, whatever surrounds them.
+for (const { name, bytes } of outputs.filter(({ name }) => name.endsWith(".js"))) {
+  for (const end of ["<!--", "</script", "]]>"]) {
+    if (bytes.toString("latin1").toLowerCase().includes(end)) throw new Error(`dist/${name} contains ${end}`);
+  }
+}
+
 let stale = 0;
 await mkdir(path.join(here, "dist"), { recursive: true });
 for (const { name, bytes } of outputs) {

@@ -31,7 +31,7 @@ function start() {
   const doc = readDocument();
   document.title = doc.design.name;
   const units = new Units(doc.body.gravity_m_per_s2);
-  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto" });
+  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false });
   const profile = profileSection(doc, store, units);
   const plots = plotSection(doc, store, units);
   const view = viewSection(doc, store, units);
@@ -47,10 +47,23 @@ function start() {
   profile.draw();
   plots.draw();
   view?.draw();
+  // Paper is white: what is drawn on canvases is drawn anew for it, and again for the screen.
+  const paper = (printing) => {
+    document.documentElement.dataset.printing = String(printing);
+    store.set("paper", printing);
+  };
+  window.addEventListener("beforeprint", () => paper(true));
+  window.addEventListener("afterprint", () => paper(false));
+  matchMedia("print").addEventListener("change", (event) => paper(event.matches));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => store.set("theme", `auto-${event.matches}`));
   // For readers who want the numbers from the console.
   window.glissadeReport = { document: doc, store, charts: plots.charts };
   document.documentElement.dataset.ready = "true";
 }
 
-start();
+try {
+  start();
+} catch (error) {
+  document.getElementById("page").replaceChildren(element("p", { role: "alert" }, `This report cannot be shown: ${error.message}`));
+  throw error;
+}

@@ -1,6 +1,6 @@
 import uPlot from "uplot";
 import { button, element, section, select, themeColour } from "./dom.js";
-import { number } from "./units.js";
+import { columnText, number } from "./units.js";
 
 const SYNC = "glissade";
 
@@ -35,7 +35,7 @@ function charts(doc) {
     { id: "radius", title: "Radius of curvature", quantity: "length", clip: true, series: [["radius", radius, "--series-5"]] },
     {
       id: "energy",
-      title: "Energy per mass, from the lowest point up",
+      title: "Energy per mass",
       quantity: "energy",
       legend: true,
       series: [
@@ -62,16 +62,27 @@ function clippedRange(columns) {
   return [Math.min(low - margin, 0), high + margin];
 }
 
+// The values of one chart at a station, in words.
+function valuesAt({ chart, units }, station) {
+  if (chart.series.length > 1) return "";
+  const column = chart.series[0][1];
+  const value = column[station];
+  if (value === null) return chart.id === "radius" ? "straight" : "unbounded";
+  const largest = Math.max(...column.map((v) => Math.abs(v ?? 0)));
+  return units.text(chart.quantity, Math.abs(value) < 1e-9 * largest ? 0 : value, 4);
+}
+
 class Chart {
   constructor(chart, doc, store, units) {
     Object.assign(this, { chart, doc, store, units });
     this.holder = element("div", { class: "chart-canvas" });
-    this.value = element("output", { class: "chart-value" });
-    const legend = chart.legend ? element("ul", { class: "legend" }, chart.series.map(([name, , colour]) =>
-      element("li", {}, element("span", { class: "swatch", style: `background: var(${colour})` }), name))) : null;
+    this.value = element("span", { class: "chart-value" });
+    this.parts = chart.legend ? chart.series.map(() => element("span", { class: "chart-part" })) : [];
+    const legend = chart.legend ? element("ul", { class: "legend" }, chart.series.map(([name, , colour], i) =>
+      element("li", {}, element("span", { class: "swatch", style: `border-color: var(${colour})` }), name, this.parts[i]))) : null;
     this.node = element("figure", {
       class: "chart", id: `chart-${chart.id}`, tabindex: 0, role: "group",
-      "aria-label": `${chart.title}. Arrow keys move the cursor along the track.`,
+      "aria-label": `${chart.title}. Arrow keys move the cursor along the track, plus and minus zoom, 0 shows all.`,
       onkeydown: (event) => this.key(event),
     }, element("figcaption", {}, element("span", { class: "chart-title" }, chart.title), this.value), legend, this.holder);
     store.on("station", (station) => this.show(station));
@@ -87,6 +98,7 @@ class Chart {
   }
 
   draw() {
+    const zoom = this.plot ? { ...this.plot.scales.x } : null;
     this.plot?.destroy();
     const { units, chart } = this;
     const data = this.columns();
@@ -110,6 +122,9 @@ class Chart {
         label: name, stroke: themeColour(colour), width: 2, points: { show: false },
       }))],
       hooks: {
+        setScale: [(plot, key) => {
+          if (key === "x" && plot === this.plot) this.onzoom?.(plot.scales.x);
+        }],
         setCursor: [(plot) => {
           if (plot.cursor.idx !== null && plot.cursor.idx !== undefined && plot.cursor.left >= 0) {
             this.store.set("station", plot.cursor.idx);
@@ -117,11 +132,27 @@ class Chart {
         }],
       },
     }, data, this.holder);
+    if (zoom && this.axisDrawn === this.axisKey()) this.plot.setScale("x", { min: zoom.min, max: zoom.max });
+    this.axisDrawn = this.axisKey();
     this.show(this.store.get("station"));
   }
 
   resize() {
     this.plot?.setSize({ width: Math.max(this.holder.clientWidth, 200), height: 220 });
+  }
+
+  axisKey() {
+    return `${this.store.get("axis")} ${this.store.get("units")}`;
+  }
+
+  // Zooms about the cursor.
+  zoomBy(factor) {
+    const xs = this.plot.data[0];
+    const { min, max } = this.plot.scales.x;
+    const middle = Math.min(Math.max(xs[this.store.get("station")], min), max);
+    this.plot.setScale("x", {
+      min: Math.max(middle + factor * (min - middle), xs[0]), max: Math.min(middle + factor * (max - middle), xs[xs.length - 1]),
+    });
   }
 
   resetZoom() {
@@ -130,10 +161,10 @@ class Chart {
   }
 
   show(station) {
-    const { units, chart } = this;
-    this.value.textContent = chart.series
-      .map(([name, column]) => (chart.series.length > 1 ? `${name} ` : "") + units.text(chart.quantity, column[station], 4))
-      .join("  ");
+    this.value.textContent = valuesAt(this, station);
+    this.parts.forEach((part, i) => {
+      part.textContent = this.units.text(this.chart.quantity, this.chart.series[i][1][station], 4);
+    });
     if (this.plot) {
       const left = this.plot.valToPos(this.plot.data[0][station], "x");
       this.plot.setCursor({ left, top: 10 }, false);
@@ -141,6 +172,12 @@ class Chart {
   }
 
   key(event) {
+    const zooms = { "+": () => this.zoomBy(0.7), "-": () => this.zoomBy(1 / 0.7), 0: () => this.resetZoom() };
+    if (zooms[event.key]) {
+      event.preventDefault();
+      zooms[event.key]();
+      return;
+    }
     const last = this.doc.stations.arc_length_m.length - 1;
     const step = event.shiftKey ? 10 : 1;
     const now = this.store.get("station");
@@ -153,34 +190,60 @@ class Chart {
 
 function readout(doc, store, units) {
   const { stations } = doc;
-  const list = element("dl", { class: "readout", id: "readout", "aria-label": "At the cursor" });
+  const list = element("dl", { class: "readout", id: "readout", "aria-label": "At the cursor", "aria-live": "polite" });
   const fields = [
     ["s", "length", "arc_length_m"], ["x", "length", "x_m"], ["z", "length", "z_m"], ["time", "time", "time_s"],
     ["speed", "speed", "speed_m_per_s"], ["slope", "angle", "slope_angle_deg"], ["load", "load", "normal_load_m_per_s2"],
   ];
+  let texts = [];
+  const measure = () => {
+    texts = fields.map(([, quantity, key]) => {
+      const text = columnText(stations[key].map((v) => units.convert(quantity, v)), 5);
+      return (value) => `${text(units.convert(quantity, value))}\u00a0${units.unit(quantity)}`;
+    });
+  };
   const draw = () => {
     const station = store.get("station");
-    list.replaceChildren(...fields.map(([name, quantity, key]) => element("div", {},
-      element("dt", {}, name), element("dd", { "data-field": key }, units.text(quantity, stations[key][station], 5)))));
+    list.replaceChildren(...fields.map(([name, , key], i) => element("div", {},
+      element("dt", {}, name), element("dd", { "data-field": key }, texts[i](stations[key][station])))));
   };
+  measure();
   draw();
   store.on("station", draw);
-  store.on("units", draw);
+  store.on("units", () => {
+    measure();
+    draw();
+  });
   return list;
 }
 
 export function plotSection(doc, store, units) {
   const all = charts(doc).map((chart) => new Chart(chart, doc, store, units));
+  let following = false;
+  for (const chart of all) {
+    // One zoom for all: each plot takes the range of the one that was zoomed.
+    chart.onzoom = ({ min, max }) => {
+      if (following) return;
+      following = true;
+      for (const other of all) if (other !== chart && other.plot) other.plot.setScale("x", { min, max });
+      following = false;
+    };
+  }
   const axes = Object.entries(AXES).filter(([key]) => isAscending(doc.stations[key]));
   const control = select("Against", axes.map(([key, [name]]) => [key, name]), (value) => store.set("axis", value));
-  const redraw = () => all.forEach((chart) => chart.draw());
-  for (const key of ["axis", "units", "theme"]) store.on(key, redraw);
+  const redraw = () => {
+    following = true;
+    all.forEach((chart) => chart.draw());
+    following = false;
+  };
+  for (const key of ["axis", "units", "theme", "paper"]) store.on(key, redraw);
   new ResizeObserver(() => all.forEach((chart) => chart.resize())).observe(document.body);
   const node = section("plots", "Along the track",
     element("div", { class: "controls" }, control,
       button("Whole track", () => all.forEach((chart) => chart.resetZoom()))),
     readout(doc, store, units),
-    element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all; arrow keys move the cursor."),
+    element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all. Keys, once a plot is selected: arrows move the cursor, + and \u2212 zoom, 0 shows all. "
+      + "Potential energy counts from the lowest point of the track. Where a curvature is unbounded, its axis ends before."),
     element("div", { class: "charts" }, all.map((chart) => chart.node)));
   return { node, draw: redraw, charts: all };
 }

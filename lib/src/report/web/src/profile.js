@@ -16,7 +16,8 @@ class Profile {
     Object.assign(this, { doc, store, units });
     this.svg = svgElement("svg", {
       class: "profile", role: "img", tabindex: 0,
-      "aria-label": `Side view to scale: run ${number(doc.endpoints.run_m, 5)} m, drop ${number(doc.endpoints.drop_m, 5)} m`,
+      "aria-label": `Side view to scale: run ${number(doc.endpoints.run_m, 5)} m, drop ${number(doc.endpoints.drop_m, 5)} m. `
+        + "Arrow keys move the cursor, plus and minus zoom, 0 shows the whole track.",
     });
     this.view = this.wholeView();
     this.svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
@@ -245,6 +246,13 @@ class Ride {
     return [this.toggle, element("label", { class: "control" }, this.slow, element("span", {}, "slow motion")), this.label];
   }
 
+  result() {
+    const { ride, straight } = this.doc;
+    const times = [`this track ${ride.travel_time_s.toFixed(3)}\u00a0s`];
+    if (straight) times.push(`straight line ${straight.time_s.at(-1).toFixed(3)}\u00a0s`);
+    return times.join(", ");
+  }
+
   start() {
     this.running = true;
     this.toggle.textContent = "Stop";
@@ -257,7 +265,7 @@ class Ride {
     this.running = false;
     this.toggle.textContent = "Let go";
     this.profile.moveBodies(null);
-    this.label.textContent = "";
+    this.label.textContent = this.seconds > this.duration ? this.result() : "";
   }
 
   step(now) {
@@ -268,7 +276,7 @@ class Ride {
     this.profile.moveBodies(clamped);
     this.store.set("station", stationAt(this.doc.stations.time_s, clamped));
     this.label.textContent = `${clamped.toFixed(2)} s`;
-    if (this.seconds > this.duration + 0.8) this.stop();
+    if (this.seconds > this.duration + 1.5) this.stop();
     else requestAnimationFrame((next) => this.step(next));
   }
 }
@@ -283,7 +291,8 @@ export function profileSection(doc, store, units) {
       button("Zoom in", () => profile.key({ key: "+", preventDefault() {} })),
       button("Zoom out", () => profile.key({ key: "-", preventDefault() {} })),
       button("Whole track", () => profile.whole())),
-    legend, element("div", { class: "profile-holder" }, profile.svg));
+    legend, element("p", { class: "hint" }, "Drag to move; the wheel zooms once the drawing is selected."),
+    element("div", { class: "profile-holder" }, profile.svg));
   new ResizeObserver(() => profile.draw()).observe(node);
   return { node, draw: () => profile.draw() };
 }

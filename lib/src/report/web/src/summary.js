@@ -6,20 +6,21 @@ function figures(doc, units) {
   const versus = (time) =>
     time === null || ride.travel_time_s === null ? null : 100 * (ride.travel_time_s / time - 1);
   const against = (percent) =>
-    percent === null ? "does not apply" : `${percent >= 0 ? "+" : "\u2212"}${number(Math.abs(percent), 3)}\u00a0%`;
+    percent === null ? "does not apply" : Math.abs(percent) < 5e-4 ? "equal" : `${percent >= 0 ? "+" : "\u2212"}${number(Math.abs(percent), 3)}\u00a0%`;
   const rows = [
     ["Travel time", units.text("time", ride.travel_time_s, 6), "key"],
     ["against the exact optimum", ride.optimum_travel_time_s === null ? "does not apply"
       : `${against(versus(ride.optimum_travel_time_s))} (${units.text("time", ride.optimum_travel_time_s, 6)})`],
-    ["against the straight line", ride.straight_travel_time_s === null ? "a body does not arrive on it"
+    ["against the straight line", ride.straight_travel_time_s === null ? "the body does not arrive on it"
       : `${against(versus(ride.straight_travel_time_s))} (${units.text("time", ride.straight_travel_time_s, 6)})`],
     ["Exit speed", units.text("speed", ride.exit_speed_m_per_s, 5), "key"],
     ["Exit slope angle", units.text("angle", ride.exit_slope_angle_deg, 5)],
     ["Entry slope angle", units.text("angle", ride.entry_slope_angle_deg, 5)],
+    ["Steepest slope angle", units.text("angle", Math.max(...doc.stations.slope_angle_deg), 5)],
     ["Highest normal load", `${units.text("load", ride.max_normal_load_m_per_s2, 4)} at s = `
       + units.text("length", ride.max_normal_load_at_m, 4), "key"],
     ["Smallest radius", ride.min_radius_m === null ? "straight"
-      : `${units.text("length", ride.min_radius_m, 4)} at s = ${units.text("length", ride.min_radius_at_m, 4)}`],
+      : ride.min_radius_m === 0 ? "0, at the vertical start" : `${units.text("length", ride.min_radius_m, 4)} at s = ${units.text("length", ride.min_radius_at_m, 4)}`],
     ["Arc length", units.text("length", ride.arc_length_m, 6)],
     ["Run and drop", `${units.text("length", endpoints.run_m, 6)} and ${units.text("length", endpoints.drop_m, 6)}`],
     ["Friction angle", `${units.text("angle", body.friction_angle_deg, 5)} (coefficient ${number(body.friction_coefficient, 5)})`],
@@ -34,6 +35,22 @@ function figures(doc, units) {
   return element("dl", { class: "figures" },
     rows.map(([name, value, role]) => element("div", { class: role },
       element("dt", {}, name), element("dd", {}, value))));
+}
+
+function mesh(doc, units) {
+  const { mesh: facts } = doc;
+  if (facts === null) return null;
+  const sides = [0, 1, 2].map((axis) => units.text("length", facts.upper_m[axis] - facts.lower_m[axis], 5));
+  const rows = [
+    ["Facets and vertices", `${number(facts.triangles, 9)} and ${number(facts.vertices, 9)}`],
+    ["Volume", `${number(facts.volume_m3, 5)}\u00a0m\u00b3`],
+    ["Surface", `${number(facts.area_m2, 5)}\u00a0m\u00b2`],
+    ["Bounding box (x, y, z)", sides.join(" \u00d7 ")],
+    ["Largest deviation", units.text("length", facts.max_deviation_m, 3)],
+    ["Smallest angle of a facet", units.text("angle", facts.smallest_angle_deg, 3)],
+  ];
+  return element("dl", { class: "figures" },
+    rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
 }
 
 const VERDICTS = {
@@ -67,5 +84,6 @@ function files(doc) {
 export function summary(doc, units) {
   return section("summary", "Summary", figures(doc, units),
     element("h3", {}, "Verdicts"), checks(doc),
+    doc.mesh === null ? null : element("h3", {}, "Mesh"), mesh(doc, units),
     doc.files.length ? element("h3", {}, "Files") : null, files(doc));
 }

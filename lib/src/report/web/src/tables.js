@@ -1,6 +1,6 @@
 import { button, element, section, select } from "./dom.js";
 import { interpolate } from "./data.js";
-import { number } from "./units.js";
+import { columnText, number } from "./units.js";
 
 const COLUMNS = [
   ["s", "length", "arc_length_m"],
@@ -13,6 +13,8 @@ const COLUMNS = [
   ["time", "time", "time_s"],
   ["normal load", "load", "normal_load_m_per_s2"],
 ];
+
+const MISSING = { curvature_per_m: "unbounded", radius_m: "straight" };
 
 // Rows at a spacing, interpolated between the stations of the document; the radius from the curvature.
 export function rowsAt(stations, spacing) {
@@ -66,8 +68,14 @@ export function stationTable(doc, store, units) {
   const draw = () => {
     head.replaceChildren(element("tr", {}, COLUMNS.map(([name, quantity]) =>
       element("th", { scope: "col" }, name, element("span", { class: "unit" }, ` [${units.unit(quantity)}]`)))));
-    body.replaceChildren(...rows().map((row) => element("tr", {}, COLUMNS.map(([, quantity, key]) =>
-      element("td", {}, number(units.convert(quantity, row[key]), 6))))));
+    const shown = rows();
+    const columns = COLUMNS.map(([, quantity, key]) => {
+      const values = shown.map((row) => units.convert(quantity, row[key]));
+      const text = columnText(values);
+      return values.map((value) => (value === null ? MISSING[key] ?? "\u2013" : text(value)));
+    });
+    body.replaceChildren(...shown.map((_, i) =>
+      element("tr", {}, columns.map((column) => element("td", {}, column[i])))));
   };
   draw();
   store.on("units", draw);
@@ -90,11 +98,17 @@ export function stationTable(doc, store, units) {
     status.textContent = "Saved as CSV.";
   };
 
-  const control = select("Spacing", options.map((d) => [String(d), units.text("length", d, 3)]), (value) => {
+  const control = select("Spacing", [], (value) => {
     spacing = Number(value);
     draw();
   });
-  control.querySelector("select").value = String(spacing);
+  const label = () => {
+    const list = control.querySelector("select");
+    list.replaceChildren(...options.map((d) => element("option", { value: d }, units.text("length", d, 3))));
+    list.value = String(spacing);
+  };
+  label();
+  store.on("units", label);
   return section("stations", "Stations",
     element("div", { class: "controls" }, control, button("Copy", copy), button("CSV", save), status),
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Table of stations" },
@@ -106,7 +120,7 @@ export function limitTable(doc) {
   return section("limits", "Limits and what they cost",
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Table of limits" },
       element("table", { class: "limits" },
-        element("thead", {}, element("tr", {}, ["Limit", "Bound", "Reached", "Where", "Verdict", "Price"]
+        element("thead", {}, element("tr", {}, ["Limit", "Bound", "Reached", "Where", "Status", "Price"]
           .map((head) => element("th", { scope: "col" }, head)))),
         element("tbody", {}, doc.limits.map((limit) => element("tr", { class: limit.status },
           element("th", { scope: "row" }, limit.name),
@@ -114,5 +128,6 @@ export function limitTable(doc) {
           element("td", {}, limit.reached),
           element("td", {}, limit.where),
           element("td", {}, limit.status),
-          element("td", {}, limit.price === null ? "\u2013" : `${number(limit.price, 3)} ${limit.price_unit}`)))))));
+          element("td", {}, limit.price === null ? "\u2013" : `${number(limit.price, 3)} ${limit.price_unit}`)))))),
+    element("p", { class: "hint" }, "Active: the track lies at this bound. The price is what one unit of relief wins."));
 }

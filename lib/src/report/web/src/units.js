@@ -12,9 +12,16 @@ const SYSTEMS = {
   },
   "m, km/h": {
     length: ["m", 1], curvature: ["1/m", 1], speed: ["km/h", 3.6], time: ["s", 1], angle: ["deg", 1],
+    load: ["g", null], energy: ["J/kg", 1],
+  },
+  "m, m/s, loads in m/s\u00b2": {
+    length: ["m", 1], curvature: ["1/m", 1], speed: ["m/s", 1], time: ["s", 1], angle: ["deg", 1],
     load: ["m/s\u00b2", 1], energy: ["J/kg", 1],
   },
 };
+
+// What a missing value of a quantity means: a curvature without bound has no number.
+const MISSING = { curvature: "unbounded" };
 
 export class Units {
   constructor(gravity) {
@@ -37,7 +44,7 @@ export class Units {
   }
 
   text(quantity, value, digits = 5) {
-    if (value === null || value === undefined) return "\u2013";
+    if (value === null || value === undefined) return MISSING[quantity] ?? "\u2013";
     return `${number(this.convert(quantity, value), digits)}\u00a0${this.unit(quantity)}`;
   }
 }
@@ -48,6 +55,15 @@ export function number(value, digits = 5) {
   const size = Math.abs(value);
   if (size >= 1e7 || size < 1e-4) return value.toExponential(digits - 1);
   return String(Number(value.toPrecision(digits)));
+}
+
+// Writes the values of one column with the same number of decimals, so that digits stand below digits; what is
+// far below the column's own size is rounding, not a value.
+export function columnText(values, digits = 6) {
+  const largest = Math.max(...values.map((v) => (v === null || !Number.isFinite(v) ? 0 : Math.abs(v))), 0);
+  if (largest === 0 || largest >= 1e7 || largest < 1e-6) return (value) => number(value, digits);
+  const decimals = Math.min(Math.max(digits - 1 - Math.floor(Math.log10(largest)), 0), 9);
+  return (value) => (value === null || !Number.isFinite(value) ? "\u2013" : value.toFixed(decimals).replace(/^-(0(\.0+)?)$/, "$1"));
 }
 
 export function bytesText(bytes) {

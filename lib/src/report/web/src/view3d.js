@@ -1,6 +1,6 @@
 import {
   AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Mesh,
-  MeshLambertMaterial, PerspectiveCamera, Plane, Scene, Vector3, WebGLRenderer,
+  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { decodeArray, interpolate } from "./data.js";
@@ -15,6 +15,9 @@ const COLOURINGS = [
 ];
 
 const DIRECTIONS = { "Three-quarter": [-0.75, -1.1, 0.75], Side: [0, -1, 0.02], Top: [0, -0.02, 1], "Along the track": [1, 0, 0.35] };
+
+// Section planes, by the direction in which they are moved; what lies before the plane goes.
+const SECTIONS = { None: null, Lengthwise: "left", Across: "along", Level: "up" };
 
 // Vertices of the view in metres about the middle of the bounding box, and the arc length beside each.
 function unpack(view) {
@@ -65,11 +68,21 @@ class View {
     this.radius = this.geometry.boundingSphere.radius;
     this.box = new Box3().setFromBufferAttribute(this.geometry.getAttribute("position"));
     this.frame = new Box3Helper(this.box, new Color(0x888888));
+    this.marker = new Mesh(new SphereGeometry(0.012 * this.radius, 16, 12), new MeshBasicMaterial({ color: 0xd0342c }));
+    this.scene.add(this.marker);
     this.scene.add(this.frame, new AmbientLight(0xffffff, 1.4));
     this.lamp = new DirectionalLight(0xffffff, 2.2);
     this.scene.add(this.lamp);
     this.controls = new OrbitControls(this.camera, canvas);
+    // The wheel scrolls the page past the view unless the view is what the reader works with.
+    canvas.addEventListener("wheel", (event) => {
+      this.controls.enableZoom = event.ctrlKey || document.activeElement === canvas;
+    }, { capture: true, passive: true });
+    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
     this.controls.addEventListener("change", () => this.render());
+    this.controls.addEventListener("start", () => {
+      this.direction = null;
+    });
     this.look("Three-quarter");
   }
 
@@ -80,31 +93,75 @@ class View {
     return { low, high };
   }
 
+  get azimuth() {
+    return (this.doc.placement.azimuth_deg * Math.PI) / 180;
+  }
+
+  // Puts the marker beside a station of the ride.
+  mark(station) {
+    const { placement, view, stations } = this.doc;
+    const x = stations.x_m[station];
+    const at = [
+      placement.start_m[0] + x * Math.cos(this.azimuth), placement.start_m[1] + x * Math.sin(this.azimuth), stations.z_m[station],
+    ];
+    this.marker.position.set(...at.map((value, axis) => value - (view.lower_m[axis] + view.upper_m[axis]) / 2));
+    this.render();
+  }
+
+  corners() {
+    const { min, max } = this.box;
+    return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
+  }
+
+  // Where a camera that looks along -`direction` sees the whole box, as near as that goes.
+  framing(direction) {
+    const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
+    const above = new Vector3().crossVectors(direction, right);
+    const tall = Math.tan(((this.camera.fov / 2) * Math.PI) / 180) / 1.12;
+    const wide = tall * this.camera.aspect;
+    const seen = this.corners().map((corner) => [corner.dot(right), corner.dot(above), corner.dot(direction)]);
+    // Each side of the picture bounds a wedge; the camera stands where opposite wedges meet, at the greater depth.
+    const span = (index, slope) => {
+      const low = Math.max(...seen.map((p) => p[2] - p[index] / slope));
+      const high = Math.max(...seen.map((p) => p[2] + p[index] / slope));
+      return { middle: (slope * (high - low)) / 2, depth: (high + low) / 2 };
+    };
+    const [across, upward] = [span(0, wide), span(1, tall)];
+    const target = right.multiplyScalar(across.middle).add(above.multiplyScalar(upward.middle));
+    return { target, distance: Math.max(across.depth, upward.depth) };
+  }
+
   // Directions are told relative to the run: x along it, y to its left.
   look(name) {
     const [along, left, up] = DIRECTIONS[name];
-    const azimuth = (this.doc.placement.azimuth_deg * Math.PI) / 180;
+    const { azimuth } = this;
+    this.direction = name;
     const direction = new Vector3(
       along * Math.cos(azimuth) - left * Math.sin(azimuth), along * Math.sin(azimuth) + left * Math.cos(azimuth), up).normalize();
-    const distance = this.radius / Math.sin(((this.camera.fov / 2) * Math.PI) / 180) / Math.min(this.camera.aspect, 1);
-    this.camera.position.copy(direction.multiplyScalar(1.05 * distance));
-    this.camera.near = distance / 1000;
-    this.camera.far = distance * 10;
+    const { target, distance } = this.framing(direction);
+    this.camera.position.copy(target).addScaledVector(direction, distance);
+    this.camera.near = Math.max(distance - 3 * this.radius, 0.005 * this.radius);
+    this.camera.far = distance + 20 * this.radius;
     this.camera.updateProjectionMatrix();
-    this.controls.target.set(0, 0, 0);
+    this.controls.target.copy(target);
     this.controls.update();
     this.render();
   }
 
-  // Cuts away what lies to the right of the plane at `fraction` of the width across the track; null: no cut.
-  cut(fraction) {
-    if (fraction === null) {
+  // Cuts away what lies before the plane at `fraction` of the solid's reach in its direction.
+  cut(name, fraction) {
+    const { azimuth } = this;
+    const kind = SECTIONS[name];
+    if (kind === null) {
       this.material.clippingPlanes = [];
     } else {
-      const azimuth = (this.doc.placement.azimuth_deg * Math.PI) / 180;
-      const left = new Vector3(-Math.sin(azimuth), Math.cos(azimuth), 0);
-      const reach = this.reach(left);
-      this.plane.normal.copy(left);
+      const normal = {
+        left: new Vector3(-Math.sin(azimuth), Math.cos(azimuth), 0),
+        along: new Vector3(Math.cos(azimuth), Math.sin(azimuth), 0),
+        up: new Vector3(0, 0, -1),
+      }[kind];
+      const reach = this.reach(normal);
+      this.plane.normal.copy(normal);
       this.plane.constant = -(reach.low + fraction * (reach.high - reach.low));
       this.material.clippingPlanes = [this.plane];
     }
@@ -128,13 +185,36 @@ class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (this.direction !== null) this.look(this.direction);
     this.render();
+  }
+
+  // Labels of the three sides of the box, each at an edge that faces the reader.
+  dimensions(labels) {
+    this.labels = labels;
+    this.render();
+  }
+
+  placeLabels() {
+    const { min, max } = this.box;
+    const { position } = this.camera;
+    const near = { x: position.x < 0 ? min.x : max.x, y: position.y < 0 ? min.y : max.y, z: min.z };
+    const far = { x: position.x < 0 ? max.x : min.x, y: position.y < 0 ? max.y : min.y };
+    const at = [new Vector3(0, near.y, near.z), new Vector3(near.x, 0, near.z), new Vector3(far.x, near.y, 0)];
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    at.forEach((point, axis) => {
+      const seen = point.project(this.camera);
+      const label = this.labels[axis];
+      label.style.left = `${Math.min(Math.max((seen.x + 1) / 2 * width, 40), width - 40)}px`;
+      label.style.top = `${Math.min(Math.max((1 - seen.y) / 2 * height, 12), height - 12)}px`;
+    });
   }
 
   render() {
     this.renderer.setClearColor(new Color(themeColour("--panel") || "#ffffff"));
     this.lamp.position.copy(this.camera.position).add(new Vector3(0, 0, this.radius));
     this.renderer.render(this.scene, this.camera);
+    if (this.labels) this.placeLabels();
   }
 
   key(event) {
@@ -151,6 +231,7 @@ class View {
     };
     if (!actions[event.key]) return;
     event.preventDefault();
+    this.direction = null;
     actions[event.key]();
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
@@ -227,9 +308,10 @@ export function viewSection(doc, store, units) {
   const canvas = element("canvas", { id: "view", tabindex: 0, role: "img",
     "aria-label": "The solid in three dimensions. Arrow keys turn it, plus and minus zoom." });
   const colours = legend(units);
-  const size = element("p", { class: "hint", id: "view-size" });
+  const size = element("p", { id: "view-size" });
+  const labels = ["x", "y", "z"].map((axis) => element("span", { class: "dimension", "aria-hidden": "true", "data-axis": axis }));
   const controls = element("div", { class: "controls" });
-  const node = section("solid", "The solid", controls, element("div", { class: "view-holder" }, canvas), colours.node, size,
+  const node = section("solid", "The solid", controls, element("div", { class: "view-holder" }, canvas, labels), colours.node, size,
     doc.view.note ? element("p", { class: "hint" }, doc.view.note) : null);
 
   let key = COLOURINGS[0][0];
@@ -238,6 +320,9 @@ export function viewSection(doc, store, units) {
     const [dx, dy, dz] = [0, 1, 2].map((axis) => doc.mesh.upper_m[axis] - doc.mesh.lower_m[axis]);
     size.textContent = `Bounding box ${units.text("length", dx, 6)} (x) by ${units.text("length", dy, 6)} (y) by `
       + `${units.text("length", dz, 6)} (z); ${number(doc.mesh.triangles, 9)} facets written.`;
+    [dx, dy, dz].forEach((side, axis) => {
+      labels[axis].textContent = `${"xyz"[axis]} ${units.text("length", side, 4)}`;
+    });
   };
 
   const draw = () => {
@@ -247,6 +332,7 @@ export function viewSection(doc, store, units) {
       view = new View(doc, canvas, solid);
     } catch {
       node.dataset.still = "true";
+      labels.forEach((label) => label.remove());
     }
     const paint = () => {
       const width = Math.max(canvas.parentElement.clientWidth, 200);
@@ -262,18 +348,26 @@ export function viewSection(doc, store, units) {
     }));
     if (view !== null) {
       const position = element("input", { type: "range", min: 0, max: 1, step: 0.01, value: 0.5, "aria-label": "Position of the section plane", disabled: true });
-      const cut = element("input", { type: "checkbox", id: "cut" });
+      let section = "None";
       const update = () => {
-        position.disabled = !cut.checked;
-        view.cut(cut.checked ? Number(position.value) : null);
+        position.disabled = section === "None";
+        view.cut(section, Number(position.value));
       };
-      cut.addEventListener("change", update);
+      const cut = select("Section plane", Object.keys(SECTIONS).map((name) => [name, name.toLowerCase()]), (name) => {
+        section = name;
+        update();
+      });
       position.addEventListener("input", update);
       controls.append(select("Seen from", Object.keys(DIRECTIONS).map((name) => [name, name.toLowerCase()]), (name) => view.look(name)),
-        element("label", { class: "control" }, cut, element("span", {}, "cut lengthwise")), position,
+        cut, position,
         button("Zoom in", () => view.key({ key: "+", preventDefault() {} })),
         button("Zoom out", () => view.key({ key: "-", preventDefault() {} })));
       canvas.addEventListener("keydown", (event) => view.key(event));
+      store.on("station", (station) => view.mark(station));
+      view.mark(store.get("station"));
+      view.dimensions(labels);
+      size.before(element("p", { class: "hint" }, "Drag to turn, right button to move; the wheel zooms once the view is selected. "
+        + "The red ball is the cursor."));
     } else {
       size.before(element("p", { class: "hint" }, "This browser offers no WebGL: a still picture instead."));
     }
@@ -283,6 +377,7 @@ export function viewSection(doc, store, units) {
       paint();
     });
     store.on("theme", paint);
+    store.on("paper", paint);
     new ResizeObserver(paint).observe(canvas.parentElement);
     paint();
   };

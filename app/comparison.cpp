@@ -1,0 +1,157 @@
+#include "app/comparison.hpp"
+
+#include "glissade/centerline/constant_speed_curve.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/report/ride_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace glissade::app {
+namespace {
+
+Design of_kind(Design design, CenterlineKind kind) {
+  design.centerline.kind = kind;
+  return design;
+}
+
+std::vector<CenterlineKind> kinds_for(const Design& design) {
+  std::vector<CenterlineKind> kinds = {CenterlineKind::fastest, CenterlineKind::constant_speed,
+                                       CenterlineKind::straight, CenterlineKind::cycloid,
+                                       CenterlineKind::no_curvature_load};
+  const CenterlineKind own = design.centerline.kind;
+  if (own == CenterlineKind::segments || own == CenterlineKind::points) kinds.insert(kinds.begin(), own);
+  return kinds;
+}
+
+Entry solved(Design design) {
+  return entry_of(std::move(design), [](const Design& one) { return solve(one); });
+}
+
+using Naming = std::function<std::string(const Entry&)>;
+
+std::vector<FigureRide> rides_of(const std::vector<Entry>& entries, const Naming& name) {
+  std::vector<FigureRide> rides;
+  for (const Entry& entry : entries) {
+    if (entry.track) rides.push_back({name(entry), &entry.track->motion});
+  }
+  return rides;
+}
+
+std::string kind_name(const Entry& entry) {
+  return std::string(word(entry.design.centerline.kind));
+}
+
+std::string friction_name(const Entry& entry) {
+  return angle_text(entry.design.body.friction.angle().radians());
+}
+
+std::string design_name(const Entry& entry) {
+  const Design& design = entry.design;
+  return design.name.empty() ? design.file.stem().string() : design.name;
+}
+
+/// Friction angles from none to a little below the mean slope, where from rest nothing arrives any more.
+std::vector<double> friction_angles_deg(const Design& design) {
+  constexpr int kSteps = 24;
+  constexpr double kMostOfMeanSlope = 0.98;
+  constexpr double kLargest = 60.0;
+  const Endpoints endpoints = endpoints_of(design);
+  const double mean_slope = Angle::from_radians(std::atan2(endpoints.drop, endpoints.run)).degrees();
+  const double highest = mean_slope > 0.0 ? std::min(kMostOfMeanSlope * mean_slope, kLargest) : kLargest;
+  std::vector<double> angles;
+  for (int step = 0; step <= kSteps; ++step) angles.push_back(highest * step / kSteps);
+  return angles;
+}
+
+/// Two panels over the friction angle: travel time, and the steepest slope anywhere on the track.
+std::vector<Figure> over_friction(const Design& design) {
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  Figure time{"Travel time over friction", "friction angle [deg]", "travel time [s]", {}, {}, false};
+  Figure slope{
+      "Steepest slope over friction", "friction angle [deg]", "steepest slope angle [deg]", {}, {}, false};
+  for (const CenterlineKind kind : kinds_for(design)) {
+    FigureLine times{std::string(word(kind)), {}, {}, false};
+    FigureLine slopes = times;
+    for (const double angle : friction_angles_deg(design)) {
+      Design one = of_kind(design, kind);
+      one.body.friction = Friction::from_angle(Angle::from_degrees(angle));
+      const Entry entry = solved(std::move(one));
+      const bool arrives = entry.track && entry.track->motion.arrived();
+      times.xs.push_back(angle);
+      times.ys.push_back(arrives ? entry.track->motion.travel_time() : missing);
+      slopes.xs.push_back(angle);
+      slopes.ys.push_back(entry.track ? Angle::from_radians(entry.track->steepest_slope_angle).degrees()
+                                      : missing);
+    }
+    time.lines.push_back(std::move(times));
+    slope.lines.push_back(std::move(slopes));
+  }
+  return {std::move(time), std::move(slope)};
+}
+
+}  // namespace
+
+Entry entry_of(Design design, const std::function<Track(const Design&)>& make) {
+  Entry entry{std::move(design), {}, {}};
+  try {
+    entry.track = make(entry.design);
+  } catch (const InputError& error) {
+    entry.problem = error.issues().front().what;
+  } catch (const InfeasibleError& error) {
+    entry.problem = error.issues().front().what;
+  } catch (const ConvergenceError& error) {
+    entry.problem = error.issues().front().what;
+  }
+  return entry;
+}
+
+std::vector<Entry> every_kind(const Design& design) {
+  std::vector<Entry> entries;
+  for (const CenterlineKind kind : kinds_for(design)) entries.push_back(solved(of_kind(design, kind)));
+  return entries;
+}
+
+std::vector<Entry> friction_sweep(const Design& design, const std::vector<Friction>& frictions) {
+  std::vector<Entry> entries;
+  for (const Friction friction : frictions) {
+    Design swept = of_kind(design, CenterlineKind::constant_speed);
+    swept.body.friction = friction;
+    // The curve is there whether or not a body from rest arrives on it.
+    entries.push_back(
+        entry_of(std::move(swept), [](const Design& one) { return ride(one, make_centerline(one)); }));
+  }
+  return entries;
+}
+
+std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries) {
+  const std::vector<FigureRide> rides = rides_of(entries, kind_name);
+  std::vector<Figure> figures = {ride_figure(RideQuantity::profile, rides),
+                                 ride_figure(RideQuantity::speed, rides)};
+  for (Figure& figure : over_friction(design)) figures.push_back(std::move(figure));
+  return figures;
+}
+
+std::vector<Figure> sweep_figures(const std::vector<Entry>& entries) {
+  const std::vector<FigureRide> rides = rides_of(entries, friction_name);
+  std::vector<Figure> figures = {ride_figure(RideQuantity::profile, rides),
+                                 ride_figure(RideQuantity::slope, rides)};
+  figures.front().title = "Constant-speed tracks by friction angle";
+  const auto& p = entries.front().design.centerline.constant_speed_p;
+  if (p) figures.front().title += ", P = " + rounded_text(*p, 6) + " m\u00b2/s\u00b2";
+  return figures;
+}
+
+std::vector<Figure> design_figures(const std::vector<Entry>& entries) {
+  const std::vector<FigureRide> rides = rides_of(entries, design_name);
+  std::vector<Figure> figures;
+  for (const RideQuantity quantity :
+       {RideQuantity::profile, RideQuantity::slope, RideQuantity::speed, RideQuantity::load}) {
+    figures.push_back(ride_figure(quantity, rides));
+  }
+  return figures;
+}
+
+}  // namespace glissade::app

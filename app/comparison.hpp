@@ -1,0 +1,38 @@
+#pragma once
+
+#include "glissade/pipeline.hpp"
+#include "glissade/report/figure.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glissade::app {
+
+/// One line of a comparison: a track, or why there is none.
+struct Entry {
+  Design design;
+  std::optional<Track> track;
+  std::string problem;
+};
+
+/// @param make  may throw what a design that cannot be built throws; it becomes the entry's problem
+[[nodiscard]] Entry entry_of(Design design, const std::function<Track(const Design&)>& make);
+
+/// The design with a centerline of every kind that two points define, its own first where it is a drawn one.
+[[nodiscard]] std::vector<Entry> every_kind(const Design& design);
+
+/// The constant-speed curve of the design at each friction.
+[[nodiscard]] std::vector<Entry> friction_sweep(const Design& design, const std::vector<Friction>& frictions);
+
+/// Shapes and speeds of every kind, travel time and steepest slope of each over friction.
+[[nodiscard]] std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries);
+
+/// The curves of a friction sweep, drawn as the paper draws its figure 1.
+[[nodiscard]] std::vector<Figure> sweep_figures(const std::vector<Entry>& entries);
+
+/// Profile, slope angle, speed and load of several designs.
+[[nodiscard]] std::vector<Figure> design_figures(const std::vector<Entry>& entries);
+
+}  // namespace glissade::app

@@ -1,0 +1,123 @@
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/report/figure.hpp"
+#include "glissade/report/report.hpp"
+#include "glissade/report/ride_figure.hpp"
+
+#include "app/command_line.hpp"
+#include "app/track_input.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Draw a track and the ride down it as an SVG or PNG file: profile, slope, speed, load, curvature, "
+    "energy.\n"
+    "\n"
+    "A profile shows the straight line and the fastest track beside the one that is asked for.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade plot designs/grain_chute.yaml -o chute.svg\n"
+    "  glissade plot designs/grain_chute.yaml --what speed,load -o ride.png\n"
+    "  glissade plot --run 10 --drop 5 --friction-angle 11deg --what energy -o energy.svg";
+
+struct Options {
+  TrackInput input{TrackInput::Scope::one_kind};
+  std::vector<std::string> what = {"profile"};
+  std::string output;
+};
+
+RideQuantity quantity_named(const std::string& text) {
+  if (const auto quantity = ride_quantity(text)) return *quantity;
+  std::vector<std::string> words;
+  for (const RideQuantity quantity : ride_quantities()) words.emplace_back(word(quantity));
+  throw InputError({"--what", "'" + text + "' cannot be drawn", "", listed(words)});
+}
+
+/// A picture's format by the end of its name.
+bool is_png(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending == ".png") return true;
+  if (ending == ".svg") return false;
+  throw InputError({"--output", file.string() + " is neither a .svg nor a .png file",
+                    "The end of the name says what is drawn.", "-o track.svg"});
+}
+
+void add_keep_outs(Figure& figure, const Design& design) {
+  for (const ReportKeepOut& area : report_keep_outs(design)) {
+    FigureArea drawn{area.name, {}, {}};
+    for (const Vec2& point : area.points) {
+      drawn.xs.push_back(point.x);
+      drawn.ys.push_back(point.y - design.track.start.z);
+    }
+    if (area.open) {
+      figure.lines.push_back({drawn.name, drawn.xs, drawn.ys, true});
+    } else {
+      figure.areas.push_back(std::move(drawn));
+    }
+  }
+}
+
+Figure figure_of(RideQuantity quantity, const Design& design, const Track& track) {
+  const std::string kind(track.centerline->kind());
+  std::vector<FigureRide> rides = {{kind, &track.motion}};
+  if (quantity != RideQuantity::profile) return ride_figure(quantity, rides);
+  if (track.optimum && kind != "fastest") rides.push_back({"fastest", &*track.optimum, true});
+  if (track.straight && kind != "straight") rides.push_back({"straight line", &*track.straight, true});
+  Figure figure = ride_figure(quantity, rides);
+  add_keep_outs(figure, design);
+  return figure;
+}
+
+ExitCode plot(const Options& options) {
+  const std::filesystem::path file = options.output;
+  const bool png = is_png(file);
+  std::vector<RideQuantity> quantities;
+  for (const std::string& text : options.what) quantities.push_back(quantity_named(text));
+  const Design design = options.input.design();
+  const Track track = solve(design);
+  std::vector<Figure> figures;
+  for (const RideQuantity quantity : quantities) {
+    figures.push_back(figure_of(quantity, design, track));
+    if (!design.name.empty()) figures.back().title = design.name + ": " + figures.back().title;
+  }
+  const std::string svg = figures_svg(figures);
+  if (png) {
+    write_png(file, svg);
+  } else {
+    AtomicFile drawing(file);
+    drawing.write(svg);
+    drawing.commit();
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("plot", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  options->input.add_to(command);
+  command
+      .add_option("--what", options->what,
+                  "What to draw, separated by commas: profile, slope, speed, load, curvature, energy\n"
+                  "[default: profile]")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->group("Options");
+  command.add_option("-o,--output", options->output, "File to write, .svg or .png")
+      ->type_name("FILE")
+      ->required()
+      ->group("Options");
+  command.callback([options, &action] { action = [options] { return plot(*options); }; });
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "glissade/report/figure.hpp"
+
+#include <string>
+#include <vector>
+
+namespace glissade {
+
+struct PageTable {
+  std::vector<std::string> headings;
+  std::vector<std::vector<std::string>> rows;  ///< a row that is shorter ends with a remark over the rest
+};
+
+/// A page of figures above a table, for comparisons.
+struct FigurePage {
+  std::string title;
+  std::string subtitle;
+  std::vector<Figure> figures;
+  PageTable table;
+};
+
+/// The page as one self-contained file: drawings inside, no script, no request to anywhere. Text is escaped.
+/// @throws InputError as figures_svg()
+[[nodiscard]] std::string figure_page_html(const FigurePage& page);
+
+}  // namespace glissade

@@ -1,0 +1,142 @@
+#include "pipeline/report.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Closed form and referee agree better than this, relative: ten times the stated accuracy of either.
+constexpr double kAgreement = 10.0 * kMotionAccuracy;
+
+Verdict verdict(bool holds) {
+  return holds ? Verdict::pass : Verdict::fail;
+}
+
+std::string g_text(double load, double gravity) {
+  // The cosine of a right angle is not quite 0 in a computer.
+  const double in_g = load / gravity;
+  return rounded_text(std::fabs(in_g) < 1e-12 ? 0.0 : in_g, 4) + " g";
+}
+
+ReportCheck arrival(const Track& track) {
+  const Motion& motion = track.motion;
+  return {"The body arrives", verdict(motion.arrived()),
+          "rode " + length_text(motion.distance()) + " of " + length_text(track.centerline->length())};
+}
+
+ReportCheck contact(const Track& track, double gravity) {
+  const MotionState lowest = track.motion.lowest_load();
+  return {"It never leaves the track", verdict(!track.motion.lift_off() && track.motion.arrived()),
+          "lowest normal load " + g_text(lowest.normal_load, gravity) +
+              " at s = " + length_text(lowest.arc_length)};
+}
+
+/// Kinetic energy and losses at the finish against the height lost.
+ReportCheck energy(const Track& track, double gravity) {
+  const Motion& motion = track.motion;
+  const MotionState end = motion.at(motion.distance());
+  const double drop = track.centerline->at(motion.distance()).drop;
+  const double entry = motion.body().entry_speed;
+  const double given = gravity * drop + 0.5 * entry * entry;
+  const double found = 0.5 * end.speed * end.speed + end.friction_loss + end.drag_loss;
+  const double scale = std::fabs(given) + end.friction_loss + end.drag_loss;
+  const double error = std::fabs(found - given) / scale;
+  return {"Energy is accounted for", verdict(error <= kAgreement),
+          "kinetic energy and losses at the finish against the height lost: " + rounded_text(error, 2) +
+              " relative difference"};
+}
+
+ReportCheck optimality(const Track& track) {
+  const std::string name = "No faster than the exact optimum";
+  if (!track.optimum_travel_time) {
+    return {name, Verdict::not_checked, "the exact optimum is known from rest and without drag only"};
+  }
+  const double excess = track.motion.travel_time() / *track.optimum_travel_time - 1.0;
+  if (track.centerline->kind() == "fastest") {
+    return {"Travel time by two routes", verdict(std::fabs(excess) <= kAgreement),
+            "ride integrated along the track against the closed form: " + rounded_text(std::fabs(excess), 2) +
+                " relative difference"};
+  }
+  return {name, verdict(excess >= -kAgreement),
+          "travel time is " + rounded_text(100.0 * excess, 3) + " % above the closed form of the optimum"};
+}
+
+ReportCheck watertight(const MeshFacts& facts, const Solid& solid) {
+  const bool one_piece = facts.components == 1 && facts.euler_characteristic == solid.expected_euler;
+  return {"The solid is watertight", verdict(facts.watertight() && facts.oriented_outward && one_piece),
+          "closed, manifold, one piece, oriented outward; " + std::to_string(facts.triangles) + " facets"};
+}
+
+ReportCheck self_intersections(const MeshFacts& facts) {
+  const bool none = facts.self_intersections == 0 && facts.self_intersections_complete;
+  return {"It does not intersect itself", verdict(none && facts.degenerate_facets == 0),
+          std::to_string(facts.self_intersections) + " pairs of facets meet where they must not, " +
+              std::to_string(facts.degenerate_facets) + " facets without area"};
+}
+
+ReportCheck deviation(const Design& design, const Solid& solid) {
+  return {"The facets follow the track", verdict(solid.max_deviation <= design.mesh.tolerance),
+          "largest deviation " + length_text(solid.max_deviation, 3) + ", tolerance " +
+              length_text(design.mesh.tolerance, 3)};
+}
+
+ReportCheck read_back(const std::vector<fs::path>& files) {
+  ReportCheck check{"Files hold this solid", Verdict::not_checked,
+                    "no mesh file was written that can be read back"};
+  if (files.empty()) return check;
+  // A difference would have ended the build: a faulty file is never published.
+  check.verdict = Verdict::pass;
+  check.detail = "read back and compared facet by facet:";
+  for (const fs::path& file : files) check.detail += " " + file.filename().string() + ",";
+  check.detail.pop_back();
+  return check;
+}
+
+ReportCheck limits(const Design& design, const std::vector<ReportLimit>& limits) {
+  if (limits.empty()) {
+    return {
+        "Limits", Verdict::not_checked,
+        design.limits ? "the limits of the design were not held against this track" : "the design has none"};
+  }
+  std::size_t violated = 0;
+  for (const ReportLimit& limit : limits) violated += limit.status == "violated" ? 1 : 0;
+  return {"Limits", verdict(violated == 0),
+          std::to_string(limits.size() - violated) + " of " + std::to_string(limits.size()) + " kept"};
+}
+
+}  // namespace
+
+ReportInput report_input(const Design& design, const BuildForReport& build) {
+  const Track& track = build.track;
+  ReportInput input;
+  input.design = &design;
+  input.endpoints = track.endpoints;
+  input.placement = track.placement;
+  input.motion = &track.motion;
+  input.straight = track.straight ? &*track.straight : nullptr;
+  input.optimum = track.optimum ? &*track.optimum : nullptr;
+  input.min_radius = track.min_radius;
+  input.solid = {&build.solid, &build.facts, &build.section};
+  input.keep_outs = report_keep_outs(design);
+  for (const fs::path& file : build.files) {
+    input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file)});
+  }
+  input.checks = {arrival(track),
+                  contact(track, design.gravity),
+                  energy(track, design.gravity),
+                  optimality(track),
+                  limits(design, input.limits),
+                  watertight(build.facts, build.solid),
+                  self_intersections(build.facts),
+                  deviation(design, build.solid),
+                  read_back(build.read_back_files)};
+  return input;
+}
+
+}  // namespace glissade

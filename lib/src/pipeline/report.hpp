@@ -1,0 +1,25 @@
+#pragma once
+
+#include "glissade/pipeline.hpp"
+#include "glissade/report/report.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace glissade {
+
+/// What a build has made so far, for the report that goes beside it.
+struct BuildForReport {
+  const Track& track;
+  const CrossSection& section;
+  const Solid& solid;
+  const MeshFacts& facts;
+  std::vector<std::filesystem::path> files;            ///< as they stand, in the order of the build
+  std::vector<std::filesystem::path> read_back_files;  ///< those that were read again and compared
+};
+
+/// @return what the report page of a build is made from; a verdict is a pass only where this build compared
+///         the numbers that stand beside it
+[[nodiscard]] ReportInput report_input(const Design& design, const BuildForReport& build);
+
+}  // namespace glissade

@@ -1,0 +1,74 @@
+#include "glissade/report/figure_page.hpp"
+
+#include "glissade/core/version.hpp"
+
+#include "report/markup.hpp"
+
+#include <cstddef>
+
+namespace glissade {
+namespace {
+
+constexpr const char* kStyle =
+    ":root{color-scheme:light dark;--paper:#f6f7f8;--panel:#fff;--ink:#16202a;--soft:#52606d;--grid:#dfe4e8}"
+    "@media (prefers-color-scheme:dark){:root{--paper:#12171c;--panel:#1a2129;--ink:#e8edf2;--soft:#a3b0bd;"
+    "--grid:#303b46}}"
+    "body{margin:0 auto;max-width:1240px;padding:20px;background:var(--paper);color:var(--ink);"
+    "font:15px/1.5 system-ui,'DejaVu Sans',sans-serif}"
+    "h1{font-size:1.7rem;line-height:1.2;margin:0;overflow-wrap:anywhere}p{color:var(--soft);margin:4px 0 "
+    "16px}"
+    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(520px,100%),1fr));gap:14px}"
+    "figure{margin:0;background:#fff;border:1px solid var(--grid);border-radius:8px;padding:8px;min-width:0}"
+    "figure svg{display:block;width:100%;height:auto}"
+    ".scroll{overflow-x:auto;margin:16px 0;background:var(--panel);border:1px solid var(--grid);"
+    "border-radius:8px;padding:8px}"
+    "table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}"
+    "th,td{padding:5px 10px;border-bottom:1px solid var(--grid);text-align:right}"
+    "th:first-child,td.remark{text-align:left}td.remark{color:var(--soft)}"
+    "@media "
+    "print{@page{margin:14mm}:root{--paper:#fff;--panel:#fff;--ink:#16202a;--soft:#52606d;--grid:#dfe4e8}"
+    "body{max-width:none;padding:0;font-size:9pt}figure{border:0;break-inside:avoid}"
+    ".scroll{border:0;overflow:visible;padding:0}tr{break-inside:avoid}th,td{padding:2px 5px}}";
+
+std::string row_of(const std::vector<std::string>& cells, std::size_t columns) {
+  std::string row = "<tr><th scope=\"row\">" + escaped_markup(cells.empty() ? "" : cells.front()) + "</th>";
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    const bool remark = i + 1 == cells.size() && cells.size() < columns;
+    row += remark ? "<td class=\"remark\" colspan=\"" + std::to_string(columns - i) + "\">"
+                  : std::string("<td>");
+    row += escaped_markup(cells[i]) + "</td>";
+  }
+  return row + "</tr>\n";
+}
+
+std::string table_of(const PageTable& table) {
+  std::string text =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Comparison\"><table><thead><tr>";
+  for (const std::string& heading : table.headings) {
+    text += "<th scope=\"col\">" + escaped_markup(heading) + "</th>";
+  }
+  text += "</tr></thead><tbody>\n";
+  for (const auto& row : table.rows) text += row_of(row, table.headings.size());
+  return text + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string figure_page_html(const FigurePage& page) {
+  std::string text =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+      "base-uri 'none'; form-action 'none'\">\n";
+  text +=
+      "<title>" + escaped_markup(page.title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
+  text += "<h1>" + escaped_markup(page.title) + "</h1>\n<p>" + escaped_markup(page.subtitle) + "</p>\n";
+  text += "<main>\n";
+  if (!page.table.rows.empty()) text += table_of(page.table);
+  text += "<div class=\"figures\">\n";
+  for (const Figure& figure : page.figures) text += "<figure>" + figures_svg({figure}, 760.0) + "</figure>\n";
+  text += "</div>\n</main>\n<p>Made by Glissade " + std::string(version()) + ".</p>\n</body>\n</html>\n";
+  return text;
+}
+
+}  // namespace glissade

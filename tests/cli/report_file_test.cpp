@@ -1,0 +1,101 @@
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+json data_of(const std::string& page) {
+  const std::string opening = "<script type=\"application/json\" id=\"glissade-data\">";
+  const std::size_t from = page.find(opening) + opening.size();
+  REQUIRE(from > opening.size());
+  return json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+}  // namespace
+
+TEST_CASE("report.html tells what --json tells, and lists the files as they are") {
+  const TempDir place;
+  const Outcome outcome =
+      glissade_run({"build", shipped("grain_chute"), "-o", "out", "--json"}, {place.path(), {}, {}});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  const json built = json::parse(outcome.output);
+  const json report = data_of(bytes_of(place / "out/report.html"));
+  CHECK(report["schema"] == "glissade-report/1");
+  for (const char* key : {"travel_time_s", "straight_travel_time_s", "exit_speed_m_per_s",
+                          "exit_slope_angle_deg", "entry_slope_angle_deg", "arc_length_m",
+                          "max_normal_load_m_per_s2", "max_normal_load_at_m", "min_radius_m"}) {
+    INFO(key);
+    CHECK(report["ride"][key] == built[key]);
+  }
+  CHECK(report["mesh"]["triangles"] == built["mesh"]["triangles"]);
+  CHECK(report["mesh"]["volume_m3"] == built["mesh"]["volume_m3"]);
+  // Every file but the report itself, which stands last.
+  CHECK_THAT(built["files"].back()["path"].get<std::string>(), Contains("report.html"));
+  REQUIRE(report["files"].size() + 1 == built["files"].size());
+  for (const json& file : report["files"]) {
+    const std::filesystem::path path = place / "out" / file["name"].get<std::string>();
+    INFO(path);
+    CHECK(file["bytes"] == std::filesystem::file_size(path));
+    const Outcome sum = run_program("/usr/bin/sha256sum", {path.string()});
+    CHECK(sum.output.substr(0, 64) == file["sha256"]);
+  }
+}
+
+TEST_CASE("the report's verdicts pass for what the build checked, and say what it did not check") {
+  const TempDir place;
+  REQUIRE(glissade_run({"build", shipped("grain_chute"), "-o", "out"}, {place.path(), {}, {}}).exit_code ==
+          0);
+  std::map<std::string, std::string> verdicts;
+  const json report = data_of(bytes_of(place / "out/report.html"));
+  for (const json& check : report["checks"]) {
+    verdicts[check["name"]] = check["verdict"];
+    CHECK(check["detail"].get<std::string>().size() > 5);
+  }
+  for (const char* name :
+       {"The body arrives", "It never leaves the track", "Energy is accounted for", "The solid is watertight",
+        "It does not intersect itself", "The facets follow the track", "Files hold this solid"}) {
+    INFO(name);
+    CHECK(verdicts[name] == "pass");
+  }
+}
+
+TEST_CASE("with only a table to write, the report does not claim that files were read back") {
+  const TempDir place;
+  REQUIRE(glissade_run({"build", shipped("grain_chute"), "-o", "out", "--set", "export=[csv]"},
+                       {place.path(), {}, {}})
+              .exit_code == 0);
+  const json report = data_of(bytes_of(place / "out/report.html"));
+  std::string verdict;
+  for (const json& check : report["checks"]) {
+    if (check["name"] == "Files hold this solid") verdict = check["verdict"];
+  }
+  CHECK(verdict == "not-checked");
+}
+
+TEST_CASE("--no-report leaves the page out") {
+  const TempDir place;
+  const Outcome outcome =
+      glissade_run({"build", shipped("grain_chute"), "-o", "out", "--no-report"}, {place.path(), {}, {}});
+  CHECK(outcome.exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(place / "out/report.html"));
+  CHECK(std::filesystem::exists(place / "out/grain_chute.stl"));
+}
+
+TEST_CASE("the same design gives the same report, byte for byte") {
+  const TempDir place;
+  for (const char* folder : {"one", "two"}) {
+    REQUIRE(glissade_run({"build", shipped("grain_chute"), "-o", folder}, {place.path(), {}, {}}).exit_code ==
+            0);
+  }
+  CHECK(bytes_of(place / "one/report.html") == bytes_of(place / "two/report.html"));
+}

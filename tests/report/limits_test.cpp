@@ -1,0 +1,60 @@
+#include "glissade/report/report.hpp"
+
+#include "support/catch.hpp"
+
+#include <numbers>
+
+using namespace glissade;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+OptimizeReport report_with_exit_slope(double violation) {
+  OptimizeReport report;
+  report.checks = {
+      {"exit_slope_angle.highest", 11.0 * kDegree, 11.0 * kDegree + violation, violation, 1.0, 91.2, "rad"},
+      {"smallest_valley_radius", 3.0, 3.5, 0.0, 1.0, 4.0, "m"},
+      {"highest_normal_load", 19.6133, 18.0, 0.0, 9.81, 12.0, "m/s^2"}};
+  report.active = {{"exit_slope_angle.highest", 11.0 * kDegree, "rad", {{91.2, 91.2}}, 0.5}};
+  return report;
+}
+
+}  // namespace
+
+TEST_CASE("limits are told in the units that people use, with the price per degree") {
+  const std::vector<ReportLimit> rows = report_limits(report_with_exit_slope(0.0));
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].name == "exit slope angle");
+  CHECK(rows[0].bound == "at most 11 deg");
+  CHECK(rows[0].where == "s = 91.2 m");
+  CHECK(rows[0].status == "active");
+  CHECK(*rows[0].price == Approx(0.5 * kDegree));
+  CHECK(rows[0].price_unit == "s per deg");
+  CHECK(rows[1].bound == "at least 3 m");
+  CHECK(rows[1].status == "kept");
+  CHECK_FALSE(rows[1].price);
+  CHECK(rows[2].bound == "at most 19.613 m/s^2 (2 g)");
+}
+
+TEST_CASE("a limit that is broken by more than the tolerance is violated, active or not") {
+  CHECK(report_limits(report_with_exit_slope(1e-3)).front().status == "violated");
+  CHECK(report_limits(report_with_exit_slope(std::numeric_limits<double>::quiet_NaN())).front().status ==
+        "violated");
+}
+
+TEST_CASE("keep-outs are drawn where the design has them, heights as the design counts them") {
+  Design design;
+  design.track.start = {2.0, 0.0, 10.0};
+  design.track.finish = {12.0, 0.0, 4.0};
+  CHECK(report_keep_outs(design).empty());
+  design.limits.emplace();
+  design.limits->keep_outs = {{{{5.0, 6.0}, {6.0, 6.0}, {6.0, 7.0}}, 0.0, PassageDesign::either}};
+  design.limits->stay_above = {{{{2.0, 3.0}, {12.0, 2.0}}, 0.1}};
+  const std::vector<ReportKeepOut> areas = report_keep_outs(design);
+  REQUIRE(areas.size() == 2);
+  CHECK_FALSE(areas[0].open);
+  CHECK(areas[0].points.front() == Vec2{3.0, 6.0});
+  CHECK(areas[1].open);
+  CHECK(areas[1].points.back() == Vec2{10.0, 2.0});
+}
