@@ -2,7 +2,9 @@
 
 #include "support/catch.hpp"
 
+#include <limits>
 #include <numbers>
+#include <vector>
 
 using namespace glissade;
 
@@ -10,21 +12,23 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-OptimizeReport report_with_exit_slope(double violation) {
-  OptimizeReport report;
-  report.checks = {
-      {"exit_slope_angle.highest", 11.0 * kDegree, 11.0 * kDegree + violation, violation, 1.0, 91.2, "rad"},
-      {"smallest_valley_radius", 3.0, 3.5, 0.0, 1.0, 4.0, "m"},
-      {"highest_normal_load", 19.6133, 18.0, 0.0, 9.81, 12.0, "m/s^2"}};
-  report.active = {{"exit_slope_angle.highest", 11.0 * kDegree, "rad", {{91.2, 91.2}}, 0.5}};
-  return report;
+std::vector<LimitCheck> checks_with_exit_slope(double violation) {
+  return {{"exit_slope_angle.highest", 11.0 * kDegree, 11.0 * kDegree + violation, violation, 1.0, 91.2,
+           "rad", 1},
+          {"smallest_valley_radius", 3.0, 3.5, 0.0, 1.0, 4.0, "m", -1},
+          {"highest_normal_load", 19.6133, 18.0, 0.0, 9.81, 12.0, "m/s^2", 1},
+          {"keep_outs[1]", 0.2, 0.25, 0.0, 100.0, 12.0, "m", -1},
+          {"concave", 0.0, 1e-9, 0.0, 0.01, 12.0, "1/m", -1}};
 }
+
+const std::vector<ActiveLimit> kActive = {
+    {"exit_slope_angle.highest", 11.0 * kDegree, "rad", {{91.2, 91.2}}, 0.5}};
 
 }  // namespace
 
 TEST_CASE("limits are told in the units that people use, with the price per degree") {
-  const std::vector<ReportLimit> rows = report_limits(report_with_exit_slope(0.0));
-  REQUIRE(rows.size() == 3);
+  const std::vector<ReportLimit> rows = report_limits(checks_with_exit_slope(0.0), kActive);
+  REQUIRE(rows.size() == 5);
   CHECK(rows[0].name == "exit slope angle");
   CHECK(rows[0].bound == "at most 11 deg");
   CHECK(rows[0].where == "s = 91.2 m");
@@ -35,12 +39,18 @@ TEST_CASE("limits are told in the units that people use, with the price per degr
   CHECK(rows[1].status == "kept");
   CHECK_FALSE(rows[1].price);
   CHECK(rows[2].bound == "at most 19.613 m/s^2 (2 g)");
+  CHECK(rows[3].name == "keep-out 2");
+  CHECK(rows[4].bound == "no crest");
+  CHECK(rows[4].reached == "no crest");
+  CHECK(report_limits(checks_with_exit_slope(0.0), kActive, "m/s")[0].price_unit == "m/s per deg");
 }
 
-TEST_CASE("a limit that is broken by more than the tolerance is violated, active or not") {
-  CHECK(report_limits(report_with_exit_slope(1e-3)).front().status == "violated");
-  CHECK(report_limits(report_with_exit_slope(std::numeric_limits<double>::quiet_NaN())).front().status ==
-        "violated");
+TEST_CASE("a limit that is broken by more than the tolerance is violated, active or not, and has no price") {
+  const ReportLimit broken = report_limits(checks_with_exit_slope(1e-3), kActive).front();
+  CHECK(broken.status == "violated");
+  CHECK_FALSE(broken.price);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  CHECK(report_limits(checks_with_exit_slope(unknown), kActive).front().status == "violated");
 }
 
 TEST_CASE("keep-outs are drawn where the design has them, heights as the design counts them") {

@@ -2,7 +2,9 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -98,16 +100,26 @@ ReportCheck read_back(const std::vector<fs::path>& files) {
   return check;
 }
 
-ReportCheck limits(const Design& design, const std::vector<ReportLimit>& limits) {
-  if (limits.empty()) {
-    return {
-        "Limits", Verdict::not_checked,
-        design.limits ? "the limits of the design were not held against this track" : "the design has none"};
-  }
-  std::size_t violated = 0;
-  for (const ReportLimit& limit : limits) violated += limit.status == "violated" ? 1 : 0;
+ReportCheck limits(const std::vector<ReportLimit>& limits) {
+  if (limits.empty()) return {"Limits", Verdict::not_checked, "the design has none"};
+  const auto violated = std::count_if(limits.begin(), limits.end(),
+                                      [](const ReportLimit& limit) { return limit.status == "violated"; });
   return {"Limits", verdict(violated == 0),
-          std::to_string(limits.size() - violated) + " of " + std::to_string(limits.size()) + " kept"};
+          std::to_string(static_cast<std::ptrdiff_t>(limits.size()) - violated) + " of " +
+              std::to_string(limits.size()) + " kept, each asked of the finished track"};
+}
+
+ReportCheck search(const OptimizeReport& search) {
+  const bool optimal = search.status == OptimizeStatus::optimal;
+  return {"Fastest within the limits", verdict(optimal),
+          std::string(to_text(search.status)) + ": first-order residual " +
+              rounded_text(search.first_order_residual, 2)};
+}
+
+std::vector<ReportLimit> limits_of(const Design& design, const Track& track) {
+  const bool speed_counts = design.limits && design.limits->objective.kind == ObjectiveDesignKind::exit_speed;
+  return report_limits(track.limit_checks, track.search ? track.search->active : std::vector<ActiveLimit>{},
+                       speed_counts ? "m/s" : "s");
 }
 
 }  // namespace
@@ -124,6 +136,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.min_radius = track.min_radius;
   input.solid = {&build.solid, &build.facts, &build.section};
   input.keep_outs = report_keep_outs(design);
+  input.limits = limits_of(design, track);
   for (const fs::path& file : build.files) {
     input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file)});
   }
@@ -131,11 +144,12 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
                   contact(track, design.gravity),
                   energy(track, design.gravity),
                   optimality(track),
-                  limits(design, input.limits),
+                  limits(input.limits),
                   watertight(build.facts, build.solid),
                   self_intersections(build.facts),
                   deviation(design, build.solid),
                   read_back(build.read_back_files)};
+  if (track.search) input.checks.insert(input.checks.begin() + 4, search(*track.search));
   return input;
 }
 

@@ -75,9 +75,12 @@ struct ReportInput {
   std::vector<ReportFile> files;
 };
 
-/// What the optimiser's referee found of each limit, in the units that people use: one row a limit, a limit
-/// that holds the track back with what it costs.
-[[nodiscard]] std::vector<ReportLimit> report_limits(const OptimizeReport& report);
+/// What the referee found of each limit, in the units that people use: one row a limit, a limit that holds
+/// the track back with what it costs. "violated" is what LimitCheck::kept() denies.
+/// @param objective_unit  of the prices: "s", or "m/s" where the objective is the exit speed
+[[nodiscard]] std::vector<ReportLimit> report_limits(const std::vector<LimitCheck>& checks,
+                                                     const std::vector<ActiveLimit>& active = {},
+                                                     const std::string& objective_unit = "s");
 
 /// Where a design keeps its track out: polygons, grounds and ceilings (open lines), half-planes (an open line
 /// as long as the chord). Clearances are not drawn.
