@@ -1,6 +1,7 @@
 #include "glissade/solid/sweep.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/solid/mesh_facts.hpp"
@@ -8,9 +9,13 @@
 #include "support/catch.hpp"
 #include "support/cycloid_track.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,6 +64,100 @@ std::string message_of(auto&& call) {
     return error.what();
   }
   return "nothing was thrown";
+}
+
+// Cavalieri: the areas of upright slices along the track, integrated across it. Between two neighbouring
+// vertices a slice's area is quadratic in its place, so that two Gauss points integrate it exactly.
+double volume_by_slices(const TriangleMesh& mesh) {
+  const auto twice_area_at = [&mesh](double across) {
+    double twice = 0.0;
+    for (const auto& triangle : mesh.triangles) {
+      std::array<Vec2, 2> ends{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 a = mesh.vertices[triangle[i]];
+        const Vec3 b = mesh.vertices[triangle[(i + 1) % 3]];
+        if ((a.y < across) == (b.y < across)) continue;
+        const Vec3 p = a + ((across - a.y) / (b.y - a.y)) * (b - a);
+        ends[a.y < across ? 0 : 1] = {p.x, p.z};
+      }
+      twice += cross(ends[0], ends[1]);
+    }
+    return std::fabs(twice);
+  };
+  std::set<double> places;
+  for (const Vec3 vertex : mesh.vertices) places.insert(vertex.y);
+  double volume = 0.0;
+  for (auto low = places.begin(), high = std::next(low); high != places.end(); ++low, ++high) {
+    const double half = 0.5 * (*high - *low);
+    const double shift = half / std::sqrt(3.0);
+    volume += 0.5 * half * (twice_area_at(*low + half - shift) + twice_area_at(*low + half + shift));
+  }
+  return volume;
+}
+
+/// Signed distance of a point of the plane (z up) to a track, by nothing but the track's own points.
+double height_by_search(const Centerline& track, Vec2 point) {
+  constexpr int kCoarse = 100;
+  const auto distance = [&](double s) {
+    const CenterlinePoint at = track.at(std::clamp(s, 0.0, track.length()));
+    return norm(point - Vec2{at.x, -at.drop});
+  };
+  const double step = track.length() / kCoarse;
+  int nearest = 0;
+  for (int i = 1; i <= kCoarse; ++i) {
+    if (distance(i * step) < distance(nearest * step)) nearest = i;
+  }
+  double low = (nearest - 1) * step;
+  double high = (nearest + 1) * step;
+  for (int i = 0; i < 40; ++i) {
+    const double third = (high - low) / 3.0;
+    if (distance(low + third) < distance(high - third)) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  const CenterlinePoint foot = track.at(std::clamp(0.5 * (low + high), 0.0, track.length()));
+  const Vec2 normal{std::sin(foot.slope_angle), std::cos(foot.slope_angle)};
+  const Vec2 away = point - Vec2{foot.x, -foot.drop};
+  return std::copysign(norm(away), dot(away, normal));
+}
+
+double distance_to_outline(const CrossSection::Polygon& loop, Vec2 point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 along = loop[(i + 1) % loop.size()] - loop[i];
+    const double t = std::clamp(dot(point - loop[i], along) / dot(along, along), 0.0, 1.0);
+    least = std::min(least, norm(point - (loop[i] + t * along)));
+  }
+  return least;
+}
+
+/// Greatest distance from the ideal surface of points in the facets, their edges and corners; end faces left
+/// out.
+double deviation_by_sampling(const TriangleMesh& mesh, const Centerline& track, const CrossSection& section) {
+  const std::vector<CrossSection::Polygon> loops{section.outline(1e-6), section.bore(1e-6)};
+  const CenterlinePoint finish = track.at(track.length());
+  const auto on_end_face = [&](Vec3 p) {
+    const double beyond =
+        (p.x - finish.x) * std::cos(finish.slope_angle) - (p.z + finish.drop) * std::sin(finish.slope_angle);
+    return std::fabs(p.z) < 1e-9 || std::fabs(beyond) < 1e-9;
+  };
+  double worst = 0.0;
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const Vec3 a = mesh.vertices[ia];
+    const Vec3 b = mesh.vertices[ib];
+    const Vec3 c = mesh.vertices[ic];
+    const Vec3 centre = (1.0 / 3.0) * (a + b + c);
+    if (on_end_face(centre)) continue;
+    for (const Vec3 p : {a, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), centre}) {
+      const Vec2 place{p.y, height_by_search(track, {p.x, p.z})};
+      double off = std::numeric_limits<double>::infinity();
+      for (const CrossSection::Polygon& loop : loops) off = std::min(off, distance_to_outline(loop, place));
+      worst = std::max(worst, off);
+    }
+  }
+  return worst;
 }
 
 }  // namespace
@@ -158,6 +257,114 @@ TEST_CASE("sweep: a wall higher than the start has room for is refused with the 
   CHECK(named > 1.97);
   CHECK(named <= 2.0);
   check_solid(build(named), options);
+}
+
+TEST_CASE(
+    "sweep: a wall, trough or pipe that the start has no room for names a size that works, the next does "
+    "not") {
+  const CycloidTrack track(1.0, 4.0);
+  SweepOptions options;
+  options.tolerance = 5e-3;
+  options.shape_triangles = 5000;
+  struct Kind {
+    const char* name;
+    CrossSection (*of_reach)(double);
+  };
+  const std::vector<Kind> kinds = {
+      {"slab", [](double reach) { return CrossSection::slab(0.4, 0.02, reach, 0.05); }},
+      {"u-channel", [](double reach) { return CrossSection::u_channel(0.4, reach, 0.02); }},
+      {"trapezoid",
+       [](double reach) { return CrossSection::trapezoid(0.4, reach, Angle::from_degrees(20.0), 0.02); }},
+      {"half-pipe", [](double reach) { return CrossSection::half_pipe(2.0 * reach, 0.02); }},
+      {"half-pipe with sides", [](double reach) { return CrossSection::half_pipe(0.4, 0.02, reach - 0.2); }},
+      {"pipe", [](double reach) { return CrossSection::pipe(reach - 0.02, 0.02); }},
+      {"polygon", [](double reach) {
+         return CrossSection::polygon({{0.0, 0.0}, {-0.2, reach}, {-0.3, -0.1}, {0.3, -0.1}});
+       }}};
+  for (const Kind& kind : kinds) {
+    INFO(kind.name);
+    const auto build = [&](double reach) { return sweep(track, kind.of_reach(reach), Placement(), options); };
+    const std::string message = message_of([&] { return build(2.3); });
+    CHECK_THAT(message, Catch::Matchers::StartsWith("cross_section: it reaches 2.3 m above the floor") &&
+                            contains_text("radius is 0 there") && contains_text("arc length 0 "));
+    const std::string lead = "Try: a section that reaches at most ";
+    const auto at = message.find(lead);
+    INFO(message);
+    REQUIRE(at != std::string::npos);
+    const double named = std::stod(message.substr(at + lead.size()));
+    check_solid(build(named), options);
+    // No normal of a cycloid meets the plane of its start beyond 2 a: the truth is 2 m.
+    CHECK(named > 1.97);
+    CHECK_THAT(message_of([&] { return build(2.0 + 1e-3); }),
+               contains_text("cross_section: it reaches 2.001 m"));
+  }
+}
+
+TEST_CASE("sweep: the fastest track with a floor alone meets V = A S - M dphi to 1e-8") {
+  const CoulombBrachistochrone track(Endpoints{5.4, 5.1}, Friction::from_angle(Angle::from_degrees(17.0)));
+  const CrossSection section = CrossSection::slab(0.4, 0.02);
+  const double turn = track.slope_angle(0.0) - track.slope_angle(track.length());
+  const double exact = section.area() * track.length() - section.first_moment() * turn;
+  SweepOptions options;
+  options.shape_triangles = 2000;
+  double last_error = 1.0;
+  for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+    options.tolerance = tolerance;
+    const Solid solid = sweep(track, section, Placement({1.0, 2.0, 6.2}, Angle::from_degrees(31.0)), options);
+    CHECK_FALSE(solid.trimmed);
+    CHECK(solid.exact_volume == Approx(exact).epsilon(1e-13));
+    const double error = std::fabs(volume_of(solid.mesh) / exact - 1.0);
+    CHECK(error < 0.5 * last_error);
+    last_error = error;
+  }
+  CHECK(last_error < 1e-8);
+}
+
+TEST_CASE("sweep: the volume of a trimmed mesh tends to the exact volume of the trimmed solid") {
+  const CycloidTrack track(1.0, 4.0);
+  for (const CrossSection& section : {CrossSection::u_channel(0.4, 0.7, 0.01), CrossSection::pipe(0.5, 0.01),
+                                      CrossSection::trapezoid(0.3, 0.5, Angle::from_degrees(30.0), 0.02)}) {
+    INFO(section.kind());
+    SweepOptions options;
+    options.shape_triangles = 2000;
+    double last_error = 1.0;
+    for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+      options.tolerance = tolerance;
+      const Solid solid = sweep(track, section, Placement(), options);
+      CHECK(solid.trimmed);
+      const double error = std::fabs(volume_of(solid.mesh) / solid.exact_volume - 1.0);
+      CHECK(error < 0.5 * last_error);
+      last_error = error;
+    }
+    CHECK(last_error < 3e-5);
+  }
+}
+
+TEST_CASE("sweep: a mesh has the volume of the solid that it bounds, cut into slices") {
+  SweepOptions options;
+  options.tolerance = 5e-3;
+  options.shape_triangles = 1000;
+  for (const CrossSection& section : one_of_each(0.3)) {
+    INFO(section.kind());
+    const Solid solid = sweep(CycloidTrack(1.0, 4.0), section, Placement(), options);
+    CHECK(volume_by_slices(solid.mesh) == Approx(measure(solid.mesh).volume).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("sweep: no point of the surface is further from the ideal solid than max_deviation says") {
+  SweepOptions options;
+  options.tolerance = 4e-3;
+  options.shape_triangles = 1000;
+  const CycloidTrack track(1.0, 4.0);
+  for (const CrossSection& section : one_of_each(0.3)) {
+    INFO(section.kind());
+    const Solid solid = sweep(track, section, Placement(), options);
+    const double worst = deviation_by_sampling(solid.mesh, track, section);
+    CHECK(worst <= options.tolerance);
+    CHECK(worst <= 1.05 * solid.max_deviation + 1e-9);
+    // Not a bound that means nothing: the mesh does get there.
+    CHECK(worst >= 0.3 * solid.max_deviation);
+  }
 }
 
 TEST_CASE("sweep: a mesh that would not fit is refused at once, with its size and a tolerance that fits") {
