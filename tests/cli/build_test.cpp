@@ -287,16 +287,3 @@ TEST_CASE("every shipped design builds, and admesh finds nothing to repair in it
   }
   CHECK(count >= 7);
 }
-
-TEST_CASE("OpenSCAD takes each kind of file of a build for the same closed solid") {
-  const TempDir place;
-  put_bytes(place / "chute.yaml", kChute);
-  REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "."}, {place.path(), {}, {}}).exit_code == 0);
-  for (const char* name : {"chute.scad", "chute.stl", "chute.off"}) {
-    const OpenscadResult rendered = openscad_check(place / name);
-    INFO(name);
-    INFO(rendered.output);
-    CHECK(rendered.simple());
-    CHECK(rendered.clean());
-  }
-}

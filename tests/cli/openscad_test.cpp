@@ -1,0 +1,43 @@
+// A program not ours opens what is built. Apart from the other tests of the program because it takes longest.
+
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/openscad_check.hpp"
+#include "support/temp_dir.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+TEST_CASE("OpenSCAD takes every shipped design for a closed solid", "[external]") {
+  std::size_t checked = 0;
+  for (const auto& entry : fs::directory_iterator(GLISSADE_DESIGNS)) {
+    if (entry.path().extension() != ".yaml") continue;
+    const TempDir place;
+    const std::string stem = entry.path().stem().string();
+    // Coarse: its exact arithmetic takes seconds for what the designs ask. The end faces, trims and plates
+    // are the same.
+    const Outcome outcome = glissade_run({"build", entry.path().string(), "-q", "-o", ".", "--set",
+                                          "mesh.tolerance=20mm", "--set", "export=[stl, off, scad]"},
+                                         {place.path(), {}, {}});
+    INFO(stem);
+    INFO(outcome.errors);
+    REQUIRE(outcome.exit_code == 0);
+    // The largest ones take it so long that one format has to do: it holds the same numbers as the OFF file.
+    constexpr std::uintmax_t kLargest = 500'000;
+    const bool is_small = fs::file_size(place / (stem + ".off")) < kLargest;
+    std::vector<std::string> endings{".scad"};
+    if (is_small) endings.insert(endings.end(), {".stl", ".off"});
+    checked += endings.size();
+    for (const std::string& ending : endings) {
+      const OpenscadResult rendered = openscad_check(place / (stem + ending));
+      INFO(ending);
+      INFO(rendered.output);
+      CHECK(rendered.simple());
+      CHECK(rendered.clean());
+    }
+  }
+  CHECK(checked >= 7 + 2 * 4);
+}
