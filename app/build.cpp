@@ -38,7 +38,7 @@ struct Options {
   TimeBudget time_budget;
   bool no_report = false;
   bool json = false;
-  bool quiet = false;
+  Verbosity verbosity;
 };
 
 std::filesystem::path directory_of(const Options& options) {
@@ -50,14 +50,14 @@ ExitCode build_design(const Options& options) {
   const Design design = read_design(options.design, options.overrides.values());
   const Interrupt interrupt;
   const Build built = [&] {
-    ProgressLine progress(options.quiet);
+    ProgressLine progress(options.verbosity);
     return build(design, directory_of(options),
                  {progress.callback(), interrupt.token(), options.time_budget.seconds()},
                  {.report = !options.no_report});
   }();
   if (options.json) {
     print(document(build_json(design, built)));
-  } else if (!options.quiet) {
+  } else if (!options.verbosity.quiet()) {
     print(build_summary(design, built));
   }
   if (const auto problem = search_problem(design, built.track)) throw ConvergenceError(*problem);
@@ -78,7 +78,7 @@ void add_build(CLI::App& program, Action& action) {
   options->time_budget.add_to(command);
   command.add_flag("--no-report", options->no_report, "Write no report.html");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors (and what --json asks for)");
+  options->verbosity.add_to(command, "Print nothing but errors (and what --json asks for)");
   command.callback([options, &action] { action = [options] { return build_design(*options); }; });
 }
 

@@ -8,8 +8,10 @@
 #include "app/command_line.hpp"
 #include "app/comparison.hpp"
 #include "app/console.hpp"
+#include "app/interrupt.hpp"
 #include "app/json.hpp"
 #include "app/option_value.hpp"
+#include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
 #include "app/track_input.hpp"
@@ -54,6 +56,7 @@ struct Options {
   std::string html;
   std::string svg;
   bool json = false;
+  Verbosity verbosity;
 };
 
 std::string ride_text(const Motion& motion) {
@@ -89,7 +92,7 @@ Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
     std::string excess = "-";
     if (motion.arrived() && track.optimum_travel_time) {
       const double percent = 100.0 * (motion.travel_time() / *track.optimum_travel_time - 1.0);
-      excess = rounded_text(std::round(percent * 100.0) / 100.0, 4) + " %";
+      excess = rounded_text(std::round(percent * 100.0) / 100.0 + 0.0, 4) + " %";
     }
     table.add({names[index], ride_text(motion), excess, exit_text(motion),
                angle_text(track.steepest_slope_angle, 3),
@@ -177,14 +180,10 @@ std::vector<Friction> frictions_of(const std::vector<std::string>& texts) {
   return frictions;
 }
 
-std::vector<Entry> designs_given(const Options& options, Design first) {
-  std::vector<Entry> entries;
+std::vector<Entry> designs_given(const Options& options, Design first, const RunContext& context) {
   std::vector<Design> designs = {std::move(first)};
   for (const std::string& file : options.others) designs.push_back(read_design(file));
-  for (Design& design : designs) {
-    entries.push_back(entry_of(std::move(design), [](const Design& one) { return solve(one); }));
-  }
-  return entries;
+  return every_design(std::move(designs), context);
 }
 
 /// What is compared with what.
@@ -195,12 +194,12 @@ struct Comparison {
   Table table;
 };
 
-Comparison comparison_of(const Options& options, const Design& design,
-                         const std::vector<Friction>& frictions) {
+Comparison comparison_of(const Options& options, const Design& design, const std::vector<Friction>& frictions,
+                         const RunContext& context) {
   const std::string heading = design.name.empty() ? std::string("Comparison") : design.name;
   const std::string span = span_line(design, endpoints_of(design));
   if (!options.others.empty()) {
-    std::vector<Entry> entries = designs_given(options, design);
+    std::vector<Entry> entries = designs_given(options, design, context);
     Table table = designs_table(entries);
     return {"Comparison of designs", listed(names_of(entries)), std::move(entries), std::move(table)};
   }
@@ -209,15 +208,15 @@ Comparison comparison_of(const Options& options, const Design& design,
     Table table = sweep_table(entries);
     return {heading, span + ", constant-speed", std::move(entries), std::move(table)};
   }
-  std::vector<Entry> entries = every_kind(design);
+  std::vector<Entry> entries = every_kind(design, context);
   Table table = kinds_table(entries);
   return {heading, task_line(design, endpoints_of(design)), std::move(entries), std::move(table)};
 }
 
 std::vector<Figure> figures_of(const Options& options, const Design& design,
-                               const std::vector<Entry>& entries) {
+                               const std::vector<Entry>& entries, const RunContext& context) {
   if (!options.others.empty()) return design_figures(entries);
-  return options.frictions.empty() ? kinds_figures(design, entries) : sweep_figures(entries);
+  return options.frictions.empty() ? kinds_figures(design, entries, context) : sweep_figures(entries);
 }
 
 void write_text(const std::string& file, const std::string& text) {
@@ -226,9 +225,10 @@ void write_text(const std::string& file, const std::string& text) {
   target.commit();
 }
 
-void write_figures(const Options& options, const Design& design, const Comparison& comparison) {
+void write_figures(const Options& options, const Design& design, const Comparison& comparison,
+                   const RunContext& context) {
   if (options.svg.empty() && options.html.empty()) return;
-  const std::vector<Figure> figures = figures_of(options, design, comparison.entries);
+  const std::vector<Figure> figures = figures_of(options, design, comparison.entries, context);
   if (!options.svg.empty()) write_text(options.svg, figures_svg(figures));
   if (options.html.empty()) return;
   const auto& rows = comparison.table.rows();
@@ -245,9 +245,15 @@ ExitCode compare(const Options& options) {
   if (!options.others.empty() && !frictions.empty()) {
     throw InputError({"--friction-sweep", "it cannot be combined with several designs", "", ""});
   }
-  const Comparison comparison = comparison_of(options, design, frictions);
+  const Comparison comparison = [&] {
+    const Interrupt interrupt;
+    ProgressLine progress(options.verbosity);
+    const RunContext context{progress.callback(), interrupt.token()};
+    Comparison made = comparison_of(options, design, frictions, context);
+    write_figures(options, design, made, context);
+    return made;
+  }();
   if (!options.csv.empty()) write_text(options.csv, curves_csv(comparison.entries));
-  write_figures(options, design, comparison);
   if (options.json) {
     print(document(comparison_json(options, design, comparison.entries)));
     return ExitCode::done;
@@ -280,6 +286,7 @@ void add_compare(CLI::App& program, Action& action) {
       ->type_name("FILE")
       ->group("Options");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return compare(*options); }; });
 }
 

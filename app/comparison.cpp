@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -26,8 +27,13 @@ std::vector<CenterlineKind> kinds_for(const Design& design) {
   return kinds;
 }
 
-Entry solved(Design design) {
-  return entry_of(std::move(design), [](const Design& one) { return solve(one); });
+Entry solved(Design design, const RunContext& context) {
+  return entry_of(std::move(design), [&](const Design& one) { return solve(one, context); });
+}
+
+void enter(const RunContext& context, const std::string& stage, std::size_t done, std::size_t all) {
+  if (context.stop.stop_requested()) throw Interrupted({"", "interrupted", "", ""});
+  if (context.progress) context.progress(stage, static_cast<double>(done) / static_cast<double>(all));
 }
 
 using Naming = std::function<std::string(const Entry&)>;
@@ -55,30 +61,44 @@ std::string design_name(const Entry& entry) {
 
 /// Friction angles from none to a little below the mean slope, where from rest nothing arrives any more.
 std::vector<double> friction_angles_deg(const Design& design) {
-  constexpr int kSteps = 24;
+  constexpr int kSteps = 40;
   constexpr double kMostOfMeanSlope = 0.98;
   constexpr double kLargest = 60.0;
   const Endpoints endpoints = endpoints_of(design);
   const double mean_slope = Angle::from_radians(std::atan2(endpoints.drop, endpoints.run)).degrees();
   const double highest = mean_slope > 0.0 ? std::min(kMostOfMeanSlope * mean_slope, kLargest) : kLargest;
   std::vector<double> angles;
-  for (int step = 0; step <= kSteps; ++step) angles.push_back(highest * step / kSteps);
+  for (int step = 0; step <= kSteps; ++step) {
+    // Closer together towards the end, where times grow without bound.
+    const double left = 1.0 - static_cast<double>(step) / kSteps;
+    angles.push_back(highest * (1.0 - left * left));
+  }
   return angles;
 }
 
 /// Two panels over the friction angle: travel time, and the steepest slope anywhere on the track.
-std::vector<Figure> over_friction(const Design& design) {
+/// Limits are left aside: a search for each friction would take minutes.
+std::vector<Figure> over_friction(Design design, const RunContext& context) {
+  const std::string aside = design.limits ? ", without limits" : "";
+  design.limits.reset();
   const double missing = std::numeric_limits<double>::quiet_NaN();
-  Figure time{"Travel time over friction", "friction angle [deg]", "travel time [s]", {}, {}, false};
-  Figure slope{
-      "Steepest slope over friction", "friction angle [deg]", "steepest slope angle [deg]", {}, {}, false};
-  for (const CenterlineKind kind : kinds_for(design)) {
+  Figure time{"Travel time over friction" + aside, "friction angle [deg]", "travel time [s]", {}, {}, false};
+  Figure slope{"Steepest slope over friction" + aside,
+               "friction angle [deg]",
+               "steepest slope angle [deg]",
+               {},
+               {},
+               false};
+  const std::vector<CenterlineKind> kinds = kinds_for(design);
+  for (std::size_t index = 0; index < kinds.size(); ++index) {
+    const CenterlineKind kind = kinds[index];
+    enter(context, "travel times over friction", index, kinds.size());
     FigureLine times{std::string(word(kind)), {}, {}, false};
     FigureLine slopes = times;
     for (const double angle : friction_angles_deg(design)) {
       Design one = of_kind(design, kind);
       one.body.friction = Friction::from_angle(Angle::from_degrees(angle));
-      const Entry entry = solved(std::move(one));
+      const Entry entry = solved(std::move(one), {});
       const bool arrives = entry.track && entry.track->motion.arrived();
       times.xs.push_back(angle);
       times.ys.push_back(arrives ? entry.track->motion.travel_time() : missing);
@@ -108,9 +128,17 @@ Entry entry_of(Design design, const std::function<Track(const Design&)>& make) {
   return entry;
 }
 
-std::vector<Entry> every_kind(const Design& design) {
+std::vector<Entry> every_kind(const Design& design, const RunContext& context) {
   std::vector<Entry> entries;
-  for (const CenterlineKind kind : kinds_for(design)) entries.push_back(solved(of_kind(design, kind)));
+  for (const CenterlineKind kind : kinds_for(design)) {
+    entries.push_back(solved(of_kind(design, kind), context));
+  }
+  return entries;
+}
+
+std::vector<Entry> every_design(std::vector<Design> designs, const RunContext& context) {
+  std::vector<Entry> entries;
+  for (Design& design : designs) entries.push_back(solved(std::move(design), context));
   return entries;
 }
 
@@ -126,11 +154,12 @@ std::vector<Entry> friction_sweep(const Design& design, const std::vector<Fricti
   return entries;
 }
 
-std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries) {
+std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries,
+                                  const RunContext& context) {
   const std::vector<FigureRide> rides = rides_of(entries, kind_name);
   std::vector<Figure> figures = {ride_figure(RideQuantity::profile, rides),
                                  ride_figure(RideQuantity::speed, rides)};
-  for (Figure& figure : over_friction(design)) figures.push_back(std::move(figure));
+  for (Figure& figure : over_friction(design, context)) figures.push_back(std::move(figure));
   return figures;
 }
 

@@ -21,13 +21,17 @@ struct Entry {
 [[nodiscard]] Entry entry_of(Design design, const std::function<Track(const Design&)>& make);
 
 /// The design with a centerline of every kind that two points define, its own first where it is a drawn one.
-[[nodiscard]] std::vector<Entry> every_kind(const Design& design);
+[[nodiscard]] std::vector<Entry> every_kind(const Design& design, const RunContext& context);
+
+/// Each design with its own track.
+[[nodiscard]] std::vector<Entry> every_design(std::vector<Design> designs, const RunContext& context);
 
 /// The constant-speed curve of the design at each friction.
 [[nodiscard]] std::vector<Entry> friction_sweep(const Design& design, const std::vector<Friction>& frictions);
 
 /// Shapes and speeds of every kind, travel time and steepest slope of each over friction.
-[[nodiscard]] std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries);
+[[nodiscard]] std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries,
+                                                const RunContext& context);
 
 /// The curves of a friction sweep, drawn as the paper draws its figure 1.
 [[nodiscard]] std::vector<Figure> sweep_figures(const std::vector<Entry>& entries);

@@ -5,6 +5,8 @@
 #include "glissade/report/ride_figure.hpp"
 
 #include "app/command_line.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress_line.hpp"
 #include "app/track_input.hpp"
 
 #include <filesystem>
@@ -33,6 +35,7 @@ struct Options {
   TrackInput input{TrackInput::Scope::one_kind};
   std::vector<std::string> what = {"profile"};
   std::string output;
+  Verbosity verbosity;
 };
 
 RideQuantity quantity_named(const std::string& text) {
@@ -83,7 +86,9 @@ ExitCode plot(const Options& options) {
   std::vector<RideQuantity> quantities;
   for (const std::string& text : options.what) quantities.push_back(quantity_named(text));
   const Design design = options.input.design();
-  const Track track = solve(design);
+  const Interrupt interrupt;
+  ProgressLine progress(options.verbosity);
+  const Track track = solve(design, {progress.callback(), interrupt.token()});
   std::vector<Figure> figures;
   for (const RideQuantity quantity : quantities) {
     figures.push_back(figure_of(quantity, design, track));
@@ -117,6 +122,7 @@ void add_plot(CLI::App& program, Action& action) {
       ->type_name("FILE")
       ->required()
       ->group("Options");
+  options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return plot(*options); }; });
 }
 

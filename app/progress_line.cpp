@@ -19,7 +19,9 @@ std::string time_left(double elapsed, double fraction) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet) : enabled_(!quiet && error_is_terminal()) {}
+ProgressLine::ProgressLine(const Verbosity& verbosity)
+    : enabled_(verbosity.verbose() || (!verbosity.quiet() && error_is_terminal())),
+      verbose_(verbosity.verbose()) {}
 
 ProgressLine::~ProgressLine() {
   if (shown_) print_error("\r\033[K");
@@ -27,7 +29,21 @@ ProgressLine::~ProgressLine() {
 
 Progress ProgressLine::callback() {
   if (!enabled_) return {};
-  return [this](std::string_view stage, double fraction) { show(stage, fraction); };
+  return [this](std::string_view stage, double fraction) {
+    if (verbose_) {
+      tell(stage);
+    } else {
+      show(stage, fraction);
+    }
+  };
+}
+
+void ProgressLine::tell(std::string_view stage) {
+  if (stage == stage_) return;
+  stage_ = stage;
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  print_error("glissade: after " + rounded_text(std::round(elapsed * 100.0) / 100.0, 6) + " s: " + stage_ +
+              "\n");
 }
 
 void ProgressLine::show(std::string_view stage, double fraction) {

@@ -2,16 +2,19 @@
 
 #include "glissade/core/progress.hpp"
 
+#include "app/verbosity.hpp"
+
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace glissade::app {
 
 /// One line on a terminal that tells what long work does and how long it still takes; nothing in the first
-/// second, nothing where standard error is no terminal.
+/// second, nothing where standard error is no terminal. Verbose: a line for each step, wherever it goes.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet);
+  explicit ProgressLine(const Verbosity& verbosity);
   /// Wipes the line.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
@@ -24,8 +27,10 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
 
   void show(std::string_view stage, double fraction);
+  void tell(std::string_view stage);
 
   bool enabled_;
+  bool verbose_;
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point stage_start_ = start_;

@@ -34,12 +34,13 @@ constexpr const char* kFooter =
 struct Options {
   TrackInput input{TrackInput::Scope::one_kind};
   TimeBudget time_budget;
+  Verbosity verbosity;
   bool json = false;
 };
 
 Track solved(const Design& design, const Options& options) {
   const Interrupt interrupt;
-  ProgressLine progress(false);
+  ProgressLine progress(options.verbosity);
   return solve(design, {progress.callback(), interrupt.token(), options.time_budget.seconds()});
 }
 
@@ -70,6 +71,7 @@ void add_solve(CLI::App& program, Action& action) {
   options->input.add_to(command);
   options->time_budget.add_to(command);
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
+  options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return solve_track(*options); }; });
 }
 

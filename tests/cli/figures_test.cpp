@@ -116,3 +116,30 @@ TEST_CASE("a design named <script> stays text in the pages and figures of a comp
   CHECK_THAT(bytes_of(place / "page.html"), !Contains("<script"));
   CHECK_THAT(bytes_of(place / "figure.svg"), !Contains("<script"));
 }
+
+TEST_CASE(
+    "in a pipe a build says nothing while it works; --verbose tells each step, --quiet nothing at all") {
+  const TempDir place;
+  const std::vector<std::string> build = {"build", shipped("grain_chute"), "-o", "out"};
+  CHECK(glissade_run(build, {place.path(), {}, {}}).errors.empty());
+  const Outcome verbose = glissade_run(with(build, {"--verbose"}), {place.path(), {}, {}});
+  CHECK_THAT(verbose.errors, Contains("finding the track") && Contains("making the mesh") &&
+                                 Contains("writing grain_chute.stl") && Contains("writing report.html"));
+  const Outcome quiet = glissade_run(with(build, {"--quiet"}), {place.path(), {}, {}});
+  CHECK(quiet.output.empty());
+  CHECK(quiet.errors.empty());
+  const Outcome both = glissade_run(with(build, {"--quiet", "--verbose"}), {place.path(), {}, {}});
+  CHECK(both.exit_code == 2);
+  CHECK_THAT(both.errors, Contains("--verbose") && Contains("--quiet"));
+}
+
+TEST_CASE("a comparison of a design with limits draws its curves over friction without them, and says so") {
+  const TempDir place;
+  std::string design = bytes_of(shipped("ski_jump_inrun"));
+  put_bytes(place / "limited.yaml", design + "\nlimits: {slope_angle: {highest: 60 deg}}\n");
+  const Outcome outcome =
+      glissade_run({"compare", "limited.yaml", "--svg", "figures.svg"}, {place.path(), {}, {}});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(bytes_of(place / "figures.svg"), Contains("Travel time over friction, without limits"));
+}

@@ -128,6 +128,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   const Track& track = build.track;
   ReportInput input;
   input.design = &design;
+  input.centerline = track.search ? "fastest within the limits" : std::string(word(design.centerline.kind));
   input.endpoints = track.endpoints;
   input.placement = track.placement;
   input.motion = &track.motion;

@@ -221,7 +221,8 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["design"] = {
       {"name", design.name.empty() ? "Untitled design" : design.name},
       {"stem", design.file.empty() ? "design" : design.file.stem().string()},
-      {"centerline", std::string(input.motion->centerline().kind())},
+      {"centerline",
+       input.centerline.empty() ? std::string(input.motion->centerline().kind()) : input.centerline},
       {"cross_section", input.solid.section ? std::string(input.solid.section->kind()) : "none"}};
   document["placement"] = {{"start_m", vector_of(design.track.start)},
                            {"finish_m", vector_of(design.track.finish)},

@@ -4,7 +4,10 @@
 
 #include "report/markup.hpp"
 
+#include <array>
 #include <cstddef>
+#include <string_view>
+#include <utility>
 
 namespace glissade {
 namespace {
@@ -17,8 +20,9 @@ constexpr const char* kStyle =
     "font:15px/1.5 system-ui,'DejaVu Sans',sans-serif}"
     "h1{font-size:1.7rem;line-height:1.2;margin:0;overflow-wrap:anywhere}p{color:var(--soft);margin:4px 0 "
     "16px}"
-    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(520px,100%),1fr));gap:14px}"
-    "figure{margin:0;background:#fff;border:1px solid var(--grid);border-radius:8px;padding:8px;min-width:0}"
+    ".figures{columns:2 480px;column-gap:14px}"
+    "figure{margin:0 0 14px;break-inside:avoid;background:#fff;border:1px solid "
+    "var(--grid);border-radius:8px;padding:8px;min-width:0}"
     "figure svg{display:block;width:100%;height:auto}"
     ".scroll{overflow-x:auto;margin:16px 0;background:var(--panel);border:1px solid var(--grid);"
     "border-radius:8px;padding:8px}"
@@ -30,13 +34,25 @@ constexpr const char* kStyle =
     "body{max-width:none;padding:0;font-size:9pt}figure{border:0;break-inside:avoid}"
     ".scroll{border:0;overflow:visible;padding:0}tr{break-inside:avoid}th,td{padding:2px 5px}}";
 
+/// A table's cell: units with their exponents raised.
+std::string cell_text(std::string text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kExponents = {
+      {{"^2", "\u00b2"}, {"^3", "\u00b3"}}};
+  for (const auto& [plain, raised] : kExponents) {
+    for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain, at)) {
+      text.replace(at, plain.size(), raised);
+    }
+  }
+  return escaped_markup(text);
+}
+
 std::string row_of(const std::vector<std::string>& cells, std::size_t columns) {
   std::string row = "<tr><th scope=\"row\">" + escaped_markup(cells.empty() ? "" : cells.front()) + "</th>";
   for (std::size_t i = 1; i < cells.size(); ++i) {
     const bool remark = i + 1 == cells.size() && cells.size() < columns;
     row += remark ? "<td class=\"remark\" colspan=\"" + std::to_string(columns - i) + "\">"
                   : std::string("<td>");
-    row += escaped_markup(cells[i]) + "</td>";
+    row += cell_text(cells[i]) + "</td>";
   }
   return row + "</tr>\n";
 }
@@ -66,7 +82,7 @@ std::string figure_page_html(const FigurePage& page) {
   text += "<main>\n";
   if (!page.table.rows.empty()) text += table_of(page.table);
   text += "<div class=\"figures\">\n";
-  for (const Figure& figure : page.figures) text += "<figure>" + figures_svg({figure}, 760.0) + "</figure>\n";
+  for (const Figure& figure : page.figures) text += "<figure>" + figures_svg({figure}, 640.0) + "</figure>\n";
   text += "</div>\n</main>\n<p>Made by Glissade " + std::string(version()) + ".</p>\n</body>\n</html>\n";
   return text;
 }

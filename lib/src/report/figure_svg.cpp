@@ -47,6 +47,11 @@ double round_step(double span, double count) {
   return 10.0 * decade;
 }
 
+/// No "-0" on an axis.
+double tick(double count, double step) {
+  return count == 0.0 ? 0.0 : count * step;
+}
+
 std::string points_text(const std::vector<double>& xs, const std::vector<double>& ys, auto&& to_x,
                         auto&& to_y) {
   std::string path;
@@ -156,7 +161,7 @@ class Panel {
       text += fmt::format(
           "<path class=\"grid\" d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/><text x=\"{0:.2f}\" y=\"{3:.2f}\" "
           "text-anchor=\"middle\">{4}</text>\n",
-          x, kTop, bottom, bottom + 18.0, rounded_text(k * x_step, 6));
+          x, kTop, bottom, bottom + 18.0, rounded_text(tick(k, x_step), 6));
     }
     const double y_step = round_step(y_.span(), inner_height_ / 50.0);
     for (double k = std::ceil(y_.low / y_step); k * y_step <= y_.high; ++k) {
@@ -164,7 +169,7 @@ class Panel {
       text += fmt::format(
           "<path class=\"grid\" d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/><text x=\"{3:.2f}\" y=\"{4:.2f}\" "
           "text-anchor=\"end\">{5}</text>\n",
-          kLeft, y, right, kLeft - 8.0, y + 4.0, rounded_text(k * y_step, 6));
+          kLeft, y, right, kLeft - 8.0, y + 4.0, rounded_text(tick(k, y_step), 6));
     }
     text +=
         fmt::format("<rect class=\"frame\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>\n",
@@ -179,7 +184,10 @@ class Panel {
 
   [[nodiscard]] std::string stroke(std::size_t index) const {
     const bool dashed = figure_.lines[index].dashed;
-    const std::size_t style = dashed ? 1 + index % 3 : (index / kColours.size()) % kDashes.size();
+    const bool marked = std::any_of(figure_.lines.begin(), figure_.lines.end(),
+                                    [](const FigureLine& line) { return line.dashed; });
+    // Where the caller marks none, lines that lie on each other stay visible through the gaps.
+    const std::size_t style = dashed ? 1 + index % 3 : marked ? 0 : index % kDashes.size();
     return fmt::format("stroke=\"{}\"{}", kColours[index % kColours.size()],
                        style == 0 ? "" : fmt::format(" stroke-dasharray=\"{}\"", kDashes[style]));
   }
@@ -193,6 +201,8 @@ class Panel {
     double x = 0.0;
     int row = 0;
     bool any = false;
+    // The title names a line that is alone.
+    if (figure_.lines.size() == 1 && figure_.areas.empty()) return 0;
     for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
       if (figure_.lines[i].name.empty()) continue;
       const double needed = entry_width(figure_.lines[i]);

@@ -60,6 +60,7 @@ struct ReportSolid {
 /// What a report is made from. Everything was computed elsewhere: a report measures nothing of its own.
 struct ReportInput {
   const Design* design = nullptr;
+  std::string centerline;  ///< how the track came about, in words; empty: the kind of the curve
   Endpoints endpoints;
   Placement placement;
   const Motion* motion = nullptr;

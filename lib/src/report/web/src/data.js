@@ -11,6 +11,14 @@ export function readDocument() {
   return doc;
 }
 
+// Radius of curvature beside each station: 0 where the curvature is unbounded, none where the track is straight. A
+// piece that turns by less than a millionth of a radian over the whole track's length is straight.
+export function radiusOf(stations) {
+  const length = stations.arc_length_m[stations.arc_length_m.length - 1];
+  const straight = 1e-6 / length;
+  return stations.curvature_per_m.map((k) => (k === null ? 0 : Math.abs(k) < straight ? null : 1 / Math.abs(k)));
+}
+
 const BYTES = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array };
 
 // Arrays of the 3-D view travel as {type, data}: little-endian integers in base64.

@@ -1,4 +1,5 @@
 import uPlot from "uplot";
+import { radiusOf } from "./data.js";
 import { button, element, section, select, themeColour } from "./dom.js";
 import { columnText, number } from "./units.js";
 
@@ -25,7 +26,7 @@ function energies(doc) {
 
 function charts(doc) {
   const { stations } = doc;
-  const radius = stations.curvature_per_m.map((k) => (k === null ? 0 : k === 0 ? null : 1 / Math.abs(k)));
+  const radius = radiusOf(stations);
   const energy = energies(doc);
   return [
     { id: "slope", title: "Slope angle", quantity: "angle", series: [["slope angle", stations.slope_angle_deg, "--series-1"]] },
@@ -59,7 +60,7 @@ function clippedRange(columns) {
   const low = values[Math.floor(0.02 * (values.length - 1))];
   const high = values[Math.ceil(0.96 * (values.length - 1))];
   const margin = 0.08 * (high - low || Math.abs(high) || 1);
-  return [Math.min(low - margin, 0), high + margin];
+  return [low < 0 ? low - margin : 0, high + margin];
 }
 
 // The values of one chart at a station, in words.

@@ -32,7 +32,8 @@ class Profile {
     const { doc } = this;
     return [
       ["straight line", doc.straight, "line-straight"],
-      ["exact optimum", doc.optimum, "line-optimum"],
+      // Of the fastest track itself it would lie below the track.
+      [doc.limits.length > 0 ? "exact optimum without limits" : "exact optimum", doc.design.centerline === "fastest" ? null : doc.optimum, "line-optimum"],
       ["this track", doc.stations, "line-track"],
     ].filter(([, line]) => line !== null);
   }
@@ -78,7 +79,7 @@ class Profile {
     const nodes = [];
     const right = MARGIN.left + at.inner;
     const bottom = MARGIN.top + at.plotHeight;
-    const step = niceStep(Math.max(at.inner, at.plotHeight) / at.scale, 8);
+    const step = niceStep(Math.max(at.inner, at.plotHeight) / at.scale, Math.max(at.inner, at.plotHeight) / 75);
     const label = (k) => number(units.convert("length", k * step), 4);
     const multiples = (low, high) => {
       const first = Math.ceil(low / step);
@@ -285,7 +286,8 @@ export function profileSection(doc, store, units) {
   const profile = new Profile(doc, store, units);
   const ride = new Ride(doc, profile, store);
   const legend = element("ul", { class: "legend" }, profile.lines().map(([name, , style]) =>
-    element("li", {}, element("span", { class: `swatch ${style}` }), name)));
+    element("li", {}, element("span", { class: `swatch ${style}` }), name)),
+    doc.keep_outs.length === 0 ? null : element("li", {}, element("span", { class: "swatch swatch-area" }), "where the track may not go"));
   const node = section("profile", "Profile, to scale",
     element("div", { class: "controls" }, ride.controls(),
       button("Zoom in", () => profile.key({ key: "+", preventDefault() {} })),

@@ -1,76 +1,111 @@
 import { element, section } from "./dom.js";
-import { bytesText, number } from "./units.js";
+import { bytesText, countText, number, volumeText } from "./units.js";
 
-function figures(doc, units) {
-  const { ride, endpoints, body } = doc;
-  const versus = (time) =>
-    time === null || ride.travel_time_s === null ? null : 100 * (ride.travel_time_s / time - 1);
-  const against = (percent) =>
-    percent === null ? "does not apply" : Math.abs(percent) < 5e-4 ? "equal" : `${percent >= 0 ? "+" : "\u2212"}${number(Math.abs(percent), 3)}\u00a0%`;
-  const rows = [
-    ["Travel time", units.text("time", ride.travel_time_s, 6), "key"],
-    ["against the exact optimum", ride.optimum_travel_time_s === null ? "does not apply"
-      : `${against(versus(ride.optimum_travel_time_s))} (${units.text("time", ride.optimum_travel_time_s, 6)})`],
-    ["against the straight line", ride.straight_travel_time_s === null ? "the body does not arrive on it"
-      : `${against(versus(ride.straight_travel_time_s))} (${units.text("time", ride.straight_travel_time_s, 6)})`],
-    ["Exit speed", units.text("speed", ride.exit_speed_m_per_s, 5), "key"],
-    ["Exit slope angle", units.text("angle", ride.exit_slope_angle_deg, 5)],
-    ["Entry slope angle", units.text("angle", ride.entry_slope_angle_deg, 5)],
-    ["Steepest slope angle", units.text("angle", Math.max(...doc.stations.slope_angle_deg), 5)],
-    ["Highest normal load", `${units.text("load", ride.max_normal_load_m_per_s2, 4)} at s = `
-      + units.text("length", ride.max_normal_load_at_m, 4), "key"],
-    ["Smallest radius", ride.min_radius_m === null ? "straight"
-      : ride.min_radius_m === 0 ? "0, at the vertical start" : `${units.text("length", ride.min_radius_m, 4)} at s = ${units.text("length", ride.min_radius_at_m, 4)}`],
-    ["Arc length", units.text("length", ride.arc_length_m, 6)],
-    ["Run and drop", `${units.text("length", endpoints.run_m, 6)} and ${units.text("length", endpoints.drop_m, 6)}`],
-    ["Friction angle", `${units.text("angle", body.friction_angle_deg, 5)} (coefficient ${number(body.friction_coefficient, 5)})`],
-    ["Entry speed", body.entry_speed_m_per_s === 0 ? "from rest" : units.text("speed", body.entry_speed_m_per_s, 5)],
-    ["Drag", body.drag_per_m === 0 ? "none" : `${number(body.drag_per_m, 4)}\u00a01/m`],
-    ["Gravity", `${number(body.gravity_m_per_s2, 7)}\u00a0m/s\u00b2`],
-    ["Start (x, y, z)", doc.placement.start_m.map((v) => units.text("length", v, 6)).join(", ")],
-    ["Finish (x, y, z)", doc.placement.finish_m.map((v) => units.text("length", v, 6)).join(", ")],
-    ["Centerline", doc.design.centerline],
-    ["Cross-section", doc.design.cross_section],
-  ];
-  return element("dl", { class: "figures" },
-    rows.map(([name, value, role]) => element("div", { class: role },
-      element("dt", {}, name), element("dd", {}, value))));
+const NO_BREAK = "\u00a0";
+
+function against(time, other) {
+  const percent = 100 * (time / other - 1);
+  if (Math.abs(percent) < 5e-4) return "as fast as";
+  return `${number(Math.abs(percent), 3)}${NO_BREAK}% ${percent > 0 ? "slower" : "faster"} than`;
 }
 
-function mesh(doc, units) {
-  const { mesh: facts } = doc;
-  if (facts === null) return null;
-  const sides = [0, 1, 2].map((axis) => units.text("length", facts.upper_m[axis] - facts.lower_m[axis], 5));
-  const rows = [
-    ["Facets and vertices", `${number(facts.triangles, 9)} and ${number(facts.vertices, 9)}`],
-    ["Volume", `${number(facts.volume_m3, 5)}\u00a0m\u00b3`],
-    ["Surface", `${number(facts.area_m2, 5)}\u00a0m\u00b2`],
-    ["Bounding box (x, y, z)", sides.join(" \u00d7 ")],
+function timeRemarks({ ride, limits }, units) {
+  if (ride.travel_time_s === null) return ["the body does not arrive"];
+  const time = (seconds) => units.text("time", seconds, 4);
+  const optimum = limits.length > 0 ? "the exact optimum without limits" : "the exact optimum";
+  return [
+    ride.optimum_travel_time_s === null ? "the exact optimum is not known here"
+      : `${against(ride.travel_time_s, ride.optimum_travel_time_s)} ${optimum}, ${time(ride.optimum_travel_time_s)}`,
+    ride.straight_travel_time_s === null ? "on the straight line the body does not arrive"
+      : `${against(ride.travel_time_s, ride.straight_travel_time_s)} the straight line, ${time(ride.straight_travel_time_s)}`,
+  ];
+}
+
+function tiles(doc, units) {
+  const { ride } = doc;
+  const place = (s) => `at s = ${units.text("length", s, 4)}`;
+  const radius = {
+    text: ride.min_radius_m === null ? "straight" : ride.min_radius_m === 0 ? "0" : units.text("length", ride.min_radius_m, 4),
+    remark: ride.min_radius_m === null ? "no curve anywhere" : ride.min_radius_m === 0 ? "at the vertical start" : place(ride.min_radius_at_m),
+  };
+  const all = [
+    ["Travel time", units.text("time", ride.travel_time_s, 5), timeRemarks(doc, units)],
+    ["Exit speed", units.text("speed", ride.exit_speed_m_per_s, 4), [`${units.text("angle", ride.exit_slope_angle_deg, 4)} below the horizontal`]],
+    ["Highest normal load", units.text("load", ride.max_normal_load_m_per_s2, 4), [place(ride.max_normal_load_at_m)]],
+    ["Smallest radius", radius.text, [radius.remark]],
+  ];
+  return element("dl", { class: "tiles" }, all.map(([name, value, remarks]) => element("div", {},
+    element("dt", {}, name), element("dd", { class: "value" }, value),
+    remarks.map((remark) => element("dd", { class: "remark" }, remark)))));
+}
+
+function list(rows) {
+  return element("dl", { class: "figures" }, rows.map(([name, value]) => element("div", {},
+    element("dt", {}, name), element("dd", {}, value))));
+}
+
+function task({ endpoints, body, placement }, units) {
+  const point = (values) => values.map((v) => number(units.convert("length", v), 5)).join(", ") + NO_BREAK + units.unit("length");
+  return list([
+    ["Run and drop", `${units.text("length", endpoints.run_m, 5)} and ${units.text("length", endpoints.drop_m, 5)}`],
+    ["Start (x, y, z)", point(placement.start_m)],
+    ["Finish (x, y, z)", point(placement.finish_m)],
+    ["Friction angle", `${units.text("angle", body.friction_angle_deg, 4)} (coefficient ${number(body.friction_coefficient, 4)})`],
+    ["Entry speed", body.entry_speed_m_per_s === 0 ? "from rest" : units.text("speed", body.entry_speed_m_per_s, 4)],
+    ["Drag", body.drag_per_m === 0 ? "none" : `${number(body.drag_per_m, 4)}${NO_BREAK}1/m`],
+    ["Gravity", `${number(body.gravity_m_per_s2, 6)}${NO_BREAK}m/s\u00b2`],
+  ]);
+}
+
+function track({ ride, design }, units) {
+  return list([
+    ["Centerline", design.centerline],
+    ["Cross-section", design.cross_section],
+    ["Arc length", units.text("length", ride.arc_length_m, 5)],
+    ["Entry slope angle", units.text("angle", ride.entry_slope_angle_deg, 4)],
+    ["Steepest slope angle", units.text("angle", ride.steepest_slope_angle_deg, 4)],
+    ["Exit slope angle", units.text("angle", ride.exit_slope_angle_deg, 4)],
+  ]);
+}
+
+function mesh({ mesh: facts }, units) {
+  const sides = [0, 1, 2].map((axis) => units.text("length", facts.upper_m[axis] - facts.lower_m[axis], 4));
+  return list([
+    ["Facets and vertices", `${countText(facts.triangles)} and ${countText(facts.vertices)}`],
+    ["Volume", volumeText(facts.volume_m3)],
+    ["Surface", `${number(facts.area_m2, 4)}${NO_BREAK}m\u00b2`],
+    ["Bounding box (x \u00d7 y \u00d7 z)", sides.join(" \u00d7 ")],
     ["Largest deviation", units.text("length", facts.max_deviation_m, 3)],
     ["Smallest angle of a facet", units.text("angle", facts.smallest_angle_deg, 3)],
-  ];
-  return element("dl", { class: "figures" },
-    rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  ]);
 }
 
 const VERDICTS = {
-  pass: ["\u2713", "checked, holds"],
-  fail: ["\u2717", "checked, does not hold"],
-  "not-checked": ["\u2013", "not checked"],
+  pass: ["\u2713", "checked, holds: "],
+  fail: ["\u2717", "checked, does not hold: "],
+  "not-checked": ["\u2013", "not checked: "],
 };
+
+function tally({ checks }) {
+  const count = (verdict) => checks.filter((check) => check.verdict === verdict).length;
+  const [held, failed, open] = [count("pass"), count("fail"), count("not-checked")];
+  const text = (failed === 0 ? `${held} of ${held} checks hold` : `${failed} of ${held + failed} checks fail`)
+    + (open === 0 ? "." : `; ${open} not checked.`);
+  return element("p", { class: `tally ${failed > 0 ? "fail" : held > 0 ? "pass" : "not-checked"}` }, text);
+}
 
 function checks(doc) {
   return element("ul", { class: "checks" }, doc.checks.map((check) => {
     const [sign, words] = VERDICTS[check.verdict];
     return element("li", { class: check.verdict },
       element("span", { class: "sign", "aria-hidden": "true" }, sign),
-      element("span", {}, element("strong", {}, check.name), ` \u2013 ${words}`,
+      element("span", {}, element("span", { class: "spoken" }, words), element("strong", {}, check.name),
+        check.verdict === "not-checked" ? " \u2013 not checked" : null,
         check.detail ? element("span", { class: "detail" }, check.detail) : null));
   }));
 }
 
 function files(doc) {
-  if (doc.files.length === 0) return null;
   return element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Files" },
     element("table", { class: "files" },
       element("thead", {}, element("tr", {},
@@ -82,8 +117,11 @@ function files(doc) {
 }
 
 export function summary(doc, units) {
-  return section("summary", "Summary", figures(doc, units),
-    element("h3", {}, "Verdicts"), checks(doc),
-    doc.mesh === null ? null : element("h3", {}, "Mesh"), mesh(doc, units),
-    doc.files.length ? element("h3", {}, "Files") : null, files(doc));
+  const heading = (text) => element("h3", {}, text);
+  return section("summary", "Summary", tiles(doc, units),
+    heading("Verdicts"), tally(doc), checks(doc),
+    heading("Task"), task(doc, units),
+    heading("Track"), track(doc, units),
+    doc.mesh === null ? null : [heading("Mesh"), mesh(doc, units)],
+    doc.files.length === 0 ? null : [heading("Files"), files(doc)]);
 }

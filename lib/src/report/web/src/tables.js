@@ -29,7 +29,7 @@ export function rowsAt(stations, spacing) {
       if (key !== "radius_m") row[key] = valueAt(stations, key, s);
     }
     const { curvature_per_m: curvature } = row;
-    row.radius_m = curvature === null ? 0 : curvature === 0 ? null : 1 / Math.abs(curvature);
+    row.radius_m = curvature === null ? 0 : Math.abs(curvature) < 1e-6 / length ? null : 1 / Math.abs(curvature);
     return row;
   });
 }
@@ -115,6 +115,8 @@ export function stationTable(doc, store, units) {
       element("table", { class: "stations" }, head, body)));
 }
 
+const superscripts = (text) => text.replaceAll("^2", "\u00b2").replaceAll("^3", "\u00b3");
+
 export function limitTable(doc) {
   if (doc.limits.length === 0) return null;
   return section("limits", "Limits and what they cost",
@@ -124,10 +126,10 @@ export function limitTable(doc) {
           .map((head) => element("th", { scope: "col" }, head)))),
         element("tbody", {}, doc.limits.map((limit) => element("tr", { class: limit.status },
           element("th", { scope: "row" }, limit.name),
-          element("td", {}, limit.bound),
-          element("td", {}, limit.reached),
+          element("td", {}, superscripts(limit.bound)),
+          element("td", {}, superscripts(limit.reached)),
           element("td", {}, limit.where),
           element("td", {}, limit.status),
-          element("td", {}, limit.price === null ? "\u2013" : `${number(limit.price, 3)} ${limit.price_unit}`)))))),
-    element("p", { class: "hint" }, "Active: the track lies at this bound. The price is what one unit of relief wins."));
+          element("td", {}, limit.price === null ? "\u2013" : `${number(limit.price, 3)} ${superscripts(limit.price_unit)}`)))))),
+    element("p", { class: "note" }, "Active: the track lies at this bound. The price is what one unit of relief wins."));
 }

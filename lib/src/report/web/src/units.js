@@ -45,6 +45,9 @@ export class Units {
 
   text(quantity, value, digits = 5) {
     if (value === null || value === undefined) return MISSING[quantity] ?? "\u2013";
+    // A tolerance reads better in millimetres, whatever the unit of the track.
+    const small = quantity === "length" && this.unit("length") === "m" && value !== 0 && Math.abs(value) < 0.01;
+    if (small) return `${number(1e3 * value, digits)}\u00a0mm`;
     return `${number(this.convert(quantity, value), digits)}\u00a0${this.unit(quantity)}`;
   }
 }
@@ -59,11 +62,20 @@ export function number(value, digits = 5) {
 
 // Writes the values of one column with the same number of decimals, so that digits stand below digits; what is
 // far below the column's own size is rounding, not a value.
-export function columnText(values, digits = 6) {
+export function columnText(values, digits = 5) {
   const largest = Math.max(...values.map((v) => (v === null || !Number.isFinite(v) ? 0 : Math.abs(v))), 0);
   if (largest === 0 || largest >= 1e7 || largest < 1e-6) return (value) => number(value, digits);
   const decimals = Math.min(Math.max(digits - 1 - Math.floor(Math.log10(largest)), 0), 9);
   return (value) => (value === null || !Number.isFinite(value) ? "\u2013" : value.toFixed(decimals).replace(/^-(0(\.0+)?)$/, "$1"));
+}
+
+// A count with its thousands apart.
+export function countText(count) {
+  return String(count).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
+}
+
+export function volumeText(cubicMetres) {
+  return cubicMetres < 1 ? `${number(1e3 * cubicMetres, 4)}\u00a0litres` : `${number(cubicMetres, 4)}\u00a0m\u00b3`;
 }
 
 export function bytesText(bytes) {

@@ -1,12 +1,12 @@
 import {
   AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Mesh,
-  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { decodeArray, interpolate } from "./data.js";
 import { button, element, section, select, themeColour } from "./dom.js";
 import { colourAt, stops } from "./colours.js";
-import { number } from "./units.js";
+import { countText } from "./units.js";
 
 const COLOURINGS = [
   ["speed_m_per_s", "speed", "speed"],
@@ -70,8 +70,8 @@ class View {
     this.frame = new Box3Helper(this.box, new Color(0x888888));
     this.marker = new Mesh(new SphereGeometry(0.012 * this.radius, 16, 12), new MeshBasicMaterial({ color: 0xd0342c }));
     this.scene.add(this.marker);
-    this.scene.add(this.frame, new AmbientLight(0xffffff, 1.4));
-    this.lamp = new DirectionalLight(0xffffff, 2.2);
+    this.scene.add(this.frame, new AmbientLight(0xffffff, 1.7));
+    this.lamp = new DirectionalLight(0xffffff, 1.9);
     this.scene.add(this.lamp);
     this.controls = new OrbitControls(this.camera, canvas);
     // The wheel scrolls the page past the view unless the view is what the reader works with.
@@ -88,6 +88,11 @@ class View {
 
   colour(key) {
     const { colours, low, high } = colouring(this.doc, this.solid.arcLength, key);
+    // The renderer shades linear light.
+    const colour = new Color();
+    for (let i = 0; i < colours.length; i += 3) {
+      colour.setRGB(colours[i], colours[i + 1], colours[i + 2], SRGBColorSpace).toArray(colours, i);
+    }
     this.geometry.setAttribute("color", new BufferAttribute(colours, 3));
     this.render();
     return { low, high };
@@ -205,8 +210,9 @@ class View {
     at.forEach((point, axis) => {
       const seen = point.project(this.camera);
       const label = this.labels[axis];
-      label.style.left = `${Math.min(Math.max((seen.x + 1) / 2 * width, 40), width - 40)}px`;
-      label.style.top = `${Math.min(Math.max((1 - seen.y) / 2 * height, 12), height - 12)}px`;
+      // In parts of the picture, which is smaller on paper.
+      label.style.left = `${100 * Math.min(Math.max((seen.x + 1) / 2, 48 / width), 1 - 48 / width)}%`;
+      label.style.top = `${100 * Math.min(Math.max((1 - seen.y) / 2, 12 / height), 1 - 12 / height)}%`;
     });
   }
 
@@ -318,8 +324,8 @@ export function viewSection(doc, store, units) {
   const quantity = () => COLOURINGS.find(([name]) => name === key)[2];
   const describe = () => {
     const [dx, dy, dz] = [0, 1, 2].map((axis) => doc.mesh.upper_m[axis] - doc.mesh.lower_m[axis]);
-    size.textContent = `Bounding box ${units.text("length", dx, 6)} (x) by ${units.text("length", dy, 6)} (y) by `
-      + `${units.text("length", dz, 6)} (z); ${number(doc.mesh.triangles, 9)} facets written.`;
+    size.textContent = `Bounding box ${units.text("length", dx, 5)} (x) by ${units.text("length", dy, 5)} (y) by `
+      + `${units.text("length", dz, 5)} (z); ${countText(doc.mesh.triangles)} facets written.`;
     [dx, dy, dz].forEach((side, axis) => {
       labels[axis].textContent = `${"xyz"[axis]} ${units.text("length", side, 4)}`;
     });
