@@ -6,12 +6,14 @@
 #include "solid/cap_triangulation.hpp"
 #include "solid/level_curves.hpp"
 #include "solid/stations.hpp"
+#include "solid/sweep_plan.hpp"
+#include "solid/sweep_refusal.hpp"
+#include "solid/swept_volume.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,22 +24,11 @@ namespace {
 
 using Polygon = CrossSection::Polygon;
 
-// Steps are planned for this share of the tolerance: one step beside a trim may be that much longer.
-constexpr double kPlannedShare = 0.75;
-// A plate is never meshed coarser than this share of its thickness, whatever the tolerance: its two faces
-// must not meet.
-constexpr double kShareOfPlate = 0.25;
-// Facets at the narrowest side of a section are at most about this many times longer than wide.
-constexpr double kLongestAspect = 8.0;
 // Distances below this share of the track's size are lost in the single precision of a binary STL.
 constexpr double kShortestShare = 1e-6;
-// Facets smaller than this share of the coordinates' size lose their shape when those are rounded.
-constexpr double kCoordinateShare = 4096.0 * std::numeric_limits<double>::epsilon();
 // The point that a level has on a crease is within this share of the chord tolerance of its place.
 constexpr double kTrimShare = 0.1;
 constexpr int kMostRefinements = 12;
-constexpr double kBytesPerVertex = sizeof(Vec3);
-constexpr double kBytesPerTriangle = sizeof(std::array<std::uint32_t, 3>);
 
 double distance_to_line(Vec2 point, Vec2 a, Vec2 b) {
   const Vec2 along = b - a;
@@ -50,140 +41,6 @@ double distance_to_side(Vec2 point, Vec2 a, Vec2 b) {
   const double t = std::clamp(dot(point - a, along) / dot(along, along), 0.0, 1.0);
   return norm(point - (a + t * along));
 }
-
-double coordinate_size(const Centerline& centerline, const CrossSection& section,
-                       const Placement& placement) {
-  const Vec3 start = placement.start();
-  return std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) + centerline.length() +
-         section.highest() - section.lowest();
-}
-
-// The smallest length that means something in a mesh there.
-double finest_length(const Centerline& centerline, const CrossSection& section, const Placement& placement) {
-  return kCoordinateShare * coordinate_size(centerline, section, placement);
-}
-
-// ---- how fine, decided before anything is made
-// --------------------------------------------------------------
-
-struct Fineness {
-  double outline_tolerance = 0.0;  // of round outlines
-  double chord_tolerance = 0.0;    // of the level curves
-  double longest_step = 0.0;       // between stations
-  double steps = 0.0;              // how many of them
-  double side_piece = 0.0;         // length that the sides of the section are cut into
-  double section_vertices = 0.0;   // how many that gives
-
-  [[nodiscard]] double triangles() const { return 2.0 * section_vertices * (steps + 1.0); }
-};
-
-class Planner {
- public:
-  Planner(const Centerline& centerline, const CrossSection& section, const SweepOptions& options)
-      : centerline_(centerline), section_(section), options_(options) {}
-
-  [[nodiscard]] Fineness fineness(double tolerance) const {
-    Fineness fineness;
-    const double finest = std::min(tolerance, kShareOfPlate * section_.narrowest());
-    const bool round = section_.chord_error(finest) > 0.0;
-    const double track_share = round ? 0.5 * finest : finest;
-    fineness.outline_tolerance = 0.5 * finest;
-    fineness.chord_tolerance = kPlannedShare * track_share;
-    const double corners = section_.vertex_count(fineness.outline_tolerance);
-    fineness.section_vertices = corners;
-    fineness.steps = 1.0;
-    if (fineness.triangles() > limit()) return fineness;
-
-    const Sides sides = sides_of(section_, fineness.outline_tolerance);
-    const double length = centerline_.length();
-    const double budget = std::min(static_cast<double>(options_.shape_triangles), 0.5 * limit());
-    fineness.longest_step =
-        std::max({std::min(kLongestAspect * sides.shortest, sides.longest),
-                  std::sqrt(2.0 * length * sides.total / budget), 2.0 * length * corners / budget});
-    fineness.steps = StationPlan(centerline_, limits(fineness)).steps();
-    const double spare = 0.5 * budget / fineness.steps - corners;
-    const double step = length / fineness.steps;
-    fineness.side_piece =
-        spare > 0.0 ? std::max(step, sides.total / spare) : std::numeric_limits<double>::infinity();
-    fineness.section_vertices = corners + sides.total / fineness.side_piece;
-    return fineness;
-  }
-
-  [[nodiscard]] StationLimits limits(const Fineness& fineness) const {
-    return {fineness.chord_tolerance, -section_.lowest(), section_.highest(), fineness.longest_step};
-  }
-
-  void require_room(double triangles) const {
-    if (triangles <= limit()) return;
-    const double bytes = triangles * (kBytesPerTriangle + 0.5 * kBytesPerVertex);
-    Issue issue;
-    issue.what = "tolerance: " + length_text(options_.tolerance) + " needs " + count_text(triangles) +
-                 " triangles, " + bytes_text(bytes) + " of memory";
-    issue.why = "A mesh may have at most " + count_text(limit()) + " triangles.";
-    const double fitting = fitting_tolerance();
-    issue.hint = fitting > 0.0 ? "a tolerance of " + length_text(fitting) + " or coarser"
-                               : "a higher limit: no tolerance makes this section and track fit";
-    throw InputError(issue);
-  }
-
-  [[nodiscard]] double limit() const { return static_cast<double>(options_.max_triangles); }
-
- private:
-  struct Sides {
-    double total = 0.0;
-    double shortest = std::numeric_limits<double>::infinity();
-    double longest = 0.0;
-  };
-
-  static Sides sides_of(const CrossSection& section, double tolerance) {
-    Sides sides;
-    for (const Polygon& loop : {section.outline(tolerance), section.bore(tolerance)}) {
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const double side = norm(loop[(i + 1) % loop.size()] - loop[i]);
-        sides.total += side;
-        sides.shortest = std::min(sides.shortest, side);
-        sides.longest = std::max(sides.longest, side);
-      }
-    }
-    return sides;
-  }
-
-  static std::string count_text(double count) {
-    if (count >= 1e9) return rounded_text(count * 1e-9, 3) + " billion";
-    if (count >= 1e6) return rounded_text(count * 1e-6, 3) + " million";
-    return rounded_text(count, 3);
-  }
-
-  static std::string bytes_text(double bytes) {
-    if (bytes >= 1e9) return rounded_text(bytes * 1e-9, 3) + " GB";
-    return rounded_text(bytes * 1e-6, 3) + " MB";
-  }
-
-  // The finest tolerance with two digits that leaves the limit some air, 0 if there is none.
-  [[nodiscard]] double fitting_tolerance() const {
-    constexpr double kAir = 0.8;
-    const auto fits = [this](double tolerance) { return fineness(tolerance).triangles() <= kAir * limit(); };
-    double coarse = options_.tolerance;
-    do {
-      coarse *= 4.0;
-      if (coarse > 1e3 * centerline_.length()) return 0.0;
-    } while (!fits(coarse));
-    double fine = 0.25 * coarse;
-    while (coarse > 1.02 * fine) {
-      const double middle = std::sqrt(fine * coarse);
-      (fits(middle) ? coarse : fine) = middle;
-    }
-    const double unit = std::pow(10.0, std::floor(std::log10(coarse)) - 1.0);
-    return std::ceil(coarse / unit) * unit;
-  }
-
-  const Centerline& centerline_;
-  const CrossSection& section_;
-  const SweepOptions& options_;
-};
-
-// ---- stations
-// -----------------------------------------------------------------------------------------------
 
 // Greatest distance between the chord of two stations and the level curves of `heights` halfway between them.
 double chord_deviation(const Station& a, const Station& middle, const Station& b,
@@ -225,9 +82,6 @@ CheckedStations check_steps(const Centerline& centerline, std::vector<Station> p
   }
   return checked;
 }
-
-// ---- the section's loops, each vertex with its level curve
-// ------------------------------------------------------
 
 struct Level {
   LevelCurve curve;
@@ -314,14 +168,14 @@ class Sweeper {
     return deviation_ + section_.chord_error(fineness_.outline_tolerance);
   }
 
-  [[noreturn]] void refuse() const;
+  [[noreturn]] void refuse() const { refuse_section(centerline_, section_, *curves_, blocked_height_); }
 
   [[nodiscard]] Solid make() const {
     Solid solid;
     emit(solid);
     solid.max_deviation = deviation();
     solid.expected_euler = loops_.size() == 1 ? 2 : 0;
-    solid.exact_volume = volume();
+    solid.exact_volume = swept_volume(centerline_, section_, *curves_);
     for (const Station& station : curves_->stations()) solid.stations.push_back(station.s);
     for (const auto& [height, level] : levels_) solid.trimmed = solid.trimmed || level.curve.trimmed;
     return solid;
@@ -504,7 +358,6 @@ class Sweeper {
     }
   }
 
-  [[nodiscard]] double volume() const;
   const Centerline& centerline_;
   const CrossSection& section_;
   const Placement& placement_;
@@ -517,134 +370,6 @@ class Sweeper {
   Levels levels_;
   std::vector<Loop> loops_;
 };
-
-// ---- volume
-// -------------------------------------------------------------------------------------------------
-
-// How much of a line at `height` lies inside the loops.
-double width_at(const std::vector<Polygon>& loops, double height) {
-  double width = 0.0;
-  for (const Polygon& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vec2 a = loop[i];
-      const Vec2 b = loop[(i + 1) % loop.size()];
-      if ((a.y <= height) == (b.y <= height)) continue;
-      const double across = a.x + (height - a.y) / (b.y - a.y) * (b.x - a.x);
-      width += b.y > a.y ? across : -across;
-    }
-  }
-  return width;
-}
-
-// V = A S - M dphi, less the integral of width(n) times the length that level n loses (coarea formula, |grad
-// d| = 1).
-double Sweeper::volume() const {
-  const double turn = curves_->stations().front().slope - curves_->stations().back().slope;
-  double volume = section_.area() * centerline_.length() - section_.first_moment() * turn;
-  constexpr double kOutlineShare = 1e-6;
-  constexpr double kPanels = 64.0;
-  constexpr std::array<double, 3> kNodes{-0.7745966692414834, 0.0, 0.7745966692414834};
-  constexpr std::array<double, 3> kWeights{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-  const double size = section_.highest() - section_.lowest();
-  const std::vector<Polygon> outlines{section_.outline(kOutlineShare * size),
-                                      section_.bore(kOutlineShare * size)};
-  for (const int side : {1, -1}) {
-    const double least = curves_->least_room(side);
-    const double reach = side > 0 ? section_.highest() : -section_.lowest();
-    if (!(least < reach)) continue;
-    std::vector<double> heights{least, reach};
-    for (const Polygon& outline : outlines) {
-      for (const Vec2 corner : outline) {
-        if (side * corner.y > least && side * corner.y < reach) heights.push_back(side * corner.y);
-      }
-    }
-    std::sort(heights.begin(), heights.end());
-    for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
-      const double span = heights[i + 1] - heights[i];
-      const double panels = std::ceil(kPanels * span / (reach - least));
-      for (double panel = 0.0; panel < panels; ++panel) {
-        const double half = 0.5 * span / panels;
-        const double centre = heights[i] + (2.0 * panel + 1.0) * half;
-        for (std::size_t k = 0; k < kNodes.size(); ++k) {
-          const double height = side * (centre + kNodes[k] * half);
-          volume -= kWeights[k] * half * width_at(outlines, height) * curves_->missing_length(height);
-        }
-      }
-    }
-  }
-  return volume;
-}
-
-// ---- refusals
-// -------------------------------------------------------------------------------------------------
-
-std::string place_text(const Station& station) {
-  return "arc length " + length_text(station.s) + " (" + length_text(station.point.x) + " along, " +
-         length_text(-station.point.y) + " down)";
-}
-
-std::string radius_text(double curvature) {
-  const double bend = std::fabs(curvature);
-  if (bend == 0.0) return "the track is straight there";
-  if (!std::isfinite(bend)) return "its radius is 0 there";
-  return "its radius is " + length_text(1.0 / bend) + " there";
-}
-
-void Sweeper::refuse() const {
-  const double height = blocked_height_;
-  const Obstacle obstacle = *curves_->trims(height).obstacle;
-  const Station station = station_at(centerline_, obstacle.s);
-  const int side = height > 0.0 ? 1 : -1;
-  const double reach = side > 0 ? section_.highest() : -section_.lowest();
-  const std::string direction = side > 0 ? "above the floor" : "below the floor";
-  double largest = curves_->largest_height(side);
-  const double unit = std::pow(10.0, std::floor(std::log10(largest)) - 2.0);
-  while (largest > 0.0 && curves_->trims(side * largest).obstacle.has_value()) largest -= unit;
-  largest = largest > 0.0 ? std::floor(0.999 * largest / unit) * unit : 0.0;
-
-  Issue issue;
-  issue.what = "cross_section: it reaches " + length_text(reach) + " " + direction +
-               ", further than the track has room for at " + place_text(station) + "; " +
-               radius_text(station.kappa);
-  switch (obstacle.kind) {
-    case Obstacle::Kind::start_face:
-      issue.why = "That part of the section lies behind the start face, or bends back over it, all the way.";
-      break;
-    case Obstacle::Kind::finish_face:
-      issue.why = "That part of the section lies beyond the finish face, or bends back over it, all the way.";
-      break;
-    case Obstacle::Kind::reach:
-      issue.why = "Another part of the track comes within the section's reach there.";
-      break;
-  }
-  issue.hint = largest > 0.0 ? "a section that reaches at most " + length_text(largest) + " " + direction
-                             : "a track that does not meet itself";
-  throw InputError(issue);
-}
-
-void check_options(const Centerline& centerline, const CrossSection& section, const Placement& placement,
-                   const SweepOptions& options) {
-  if (!(std::isfinite(options.tolerance) && options.tolerance > 0.0)) {
-    throw InputError({"", "tolerance: " + length_text(options.tolerance) + " is not a distance",
-                      "The mesh stays within the tolerance of the ideal solid; it is finite and above zero.",
-                      "0.5 mm for a sheet-metal chute"});
-  }
-  if (options.max_triangles < 1000) {
-    throw InputError({"", "max_triangles: " + std::to_string(options.max_triangles) + " is too few",
-                      "The limit is at least 1000.", ""});
-  }
-  const double size = coordinate_size(centerline, section, placement);
-  const double finest = finest_length(centerline, section, placement);
-  if (options.tolerance >= finest && kShareOfPlate * section.narrowest() >= finest) return;
-  const bool plate = options.tolerance >= finest;
-  throw InputError(
-      {"",
-       plate ? "cross_section: its narrowest place, " + length_text(section.narrowest()) + ", is too thin"
-             : "tolerance: " + length_text(options.tolerance) + " is finer than the coordinates can carry",
-       "Coordinates as large as " + length_text(size) + " are rounded to about " + length_text(finest) + ".",
-       plate ? "a thicker section, or a start nearer the origin"
-             : "a tolerance of " + length_text(2.0 * finest, 1)});
-}
 
 }  // namespace
 

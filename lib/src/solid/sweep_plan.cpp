@@ -1,0 +1,153 @@
+#include "solid/sweep_plan.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace glissade {
+namespace {
+
+using Polygon = CrossSection::Polygon;
+
+// A plate is never meshed coarser than this share of its thickness, whatever the tolerance: its two faces
+// must not meet.
+constexpr double kShareOfPlate = 0.25;
+// Facets at the narrowest side of a section are at most about this many times longer than wide.
+constexpr double kLongestAspect = 8.0;
+// Facets smaller than this share of the coordinates' size lose their shape when those are rounded.
+constexpr double kCoordinateShare = 4096.0 * std::numeric_limits<double>::epsilon();
+constexpr double kBytesPerVertex = sizeof(Vec3);
+constexpr double kBytesPerTriangle = sizeof(std::array<std::uint32_t, 3>);
+
+double coordinate_size(const Centerline& centerline, const CrossSection& section,
+                       const Placement& placement) {
+  const Vec3 start = placement.start();
+  return std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) + centerline.length() +
+         section.highest() - section.lowest();
+}
+
+struct Sides {
+  double total = 0.0;
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0.0;
+};
+
+Sides sides_of(const CrossSection& section, double tolerance) {
+  Sides sides;
+  for (const Polygon& loop : {section.outline(tolerance), section.bore(tolerance)}) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const double side = norm(loop[(i + 1) % loop.size()] - loop[i]);
+      sides.total += side;
+      sides.shortest = std::min(sides.shortest, side);
+      sides.longest = std::max(sides.longest, side);
+    }
+  }
+  return sides;
+}
+
+std::string count_text(double count) {
+  if (count >= 1e9) return rounded_text(count * 1e-9, 3) + " billion";
+  if (count >= 1e6) return rounded_text(count * 1e-6, 3) + " million";
+  return rounded_text(count, 3);
+}
+
+std::string bytes_text(double bytes) {
+  if (bytes >= 1e9) return rounded_text(bytes * 1e-9, 3) + " GB";
+  return rounded_text(bytes * 1e-6, 3) + " MB";
+}
+
+}  // namespace
+
+Fineness Planner::fineness(double tolerance) const {
+  Fineness fineness;
+  const double finest = std::min(tolerance, kShareOfPlate * section_.narrowest());
+  const bool round = section_.chord_error(finest) > 0.0;
+  const double track_share = round ? 0.5 * finest : finest;
+  fineness.outline_tolerance = 0.5 * finest;
+  fineness.chord_tolerance = kPlannedShare * track_share;
+  const double corners = section_.vertex_count(fineness.outline_tolerance);
+  fineness.section_vertices = corners;
+  fineness.steps = 1.0;
+  if (fineness.triangles() > limit()) return fineness;
+
+  const Sides sides = sides_of(section_, fineness.outline_tolerance);
+  const double length = centerline_.length();
+  const double budget = std::min(static_cast<double>(options_.shape_triangles), 0.5 * limit());
+  fineness.longest_step =
+      std::max({std::min(kLongestAspect * sides.shortest, sides.longest),
+                std::sqrt(2.0 * length * sides.total / budget), 2.0 * length * corners / budget});
+  fineness.steps = StationPlan(centerline_, limits(fineness)).steps();
+  const double spare = 0.5 * budget / fineness.steps - corners;
+  const double step = length / fineness.steps;
+  fineness.side_piece =
+      spare > 0.0 ? std::max(step, sides.total / spare) : std::numeric_limits<double>::infinity();
+  fineness.section_vertices = corners + sides.total / fineness.side_piece;
+  return fineness;
+}
+
+void Planner::require_room(double triangles) const {
+  if (triangles <= limit()) return;
+  const double bytes = triangles * (kBytesPerTriangle + 0.5 * kBytesPerVertex);
+  Issue issue;
+  issue.what = "tolerance: " + length_text(options_.tolerance) + " needs " + count_text(triangles) +
+               " triangles, " + bytes_text(bytes) + " of memory";
+  issue.why = "A mesh may have at most " + count_text(limit()) + " triangles.";
+  const double fitting = fitting_tolerance();
+  issue.hint = fitting > 0.0 ? "a tolerance of " + length_text(fitting) + " or coarser"
+                             : "a higher limit: no tolerance makes this section and track fit";
+  throw InputError(issue);
+}
+
+// The finest tolerance with two digits that leaves the limit some air, 0 if there is none.
+double Planner::fitting_tolerance() const {
+  constexpr double kAir = 0.8;
+  const auto fits = [this](double tolerance) { return fineness(tolerance).triangles() <= kAir * limit(); };
+  double coarse = options_.tolerance;
+  do {
+    coarse *= 4.0;
+    if (coarse > 1e3 * centerline_.length()) return 0.0;
+  } while (!fits(coarse));
+  double fine = 0.25 * coarse;
+  while (coarse > 1.02 * fine) {
+    const double middle = std::sqrt(fine * coarse);
+    (fits(middle) ? coarse : fine) = middle;
+  }
+  const double unit = std::pow(10.0, std::floor(std::log10(coarse)) - 1.0);
+  return std::ceil(coarse / unit) * unit;
+}
+
+double finest_length(const Centerline& centerline, const CrossSection& section, const Placement& placement) {
+  return kCoordinateShare * coordinate_size(centerline, section, placement);
+}
+
+void check_options(const Centerline& centerline, const CrossSection& section, const Placement& placement,
+                   const SweepOptions& options) {
+  if (!(std::isfinite(options.tolerance) && options.tolerance > 0.0)) {
+    throw InputError({"", "tolerance: " + length_text(options.tolerance) + " is not a distance",
+                      "The mesh stays within the tolerance of the ideal solid; it is finite and above zero.",
+                      "0.5 mm for a sheet-metal chute"});
+  }
+  if (options.max_triangles < 1000) {
+    throw InputError({"", "max_triangles: " + std::to_string(options.max_triangles) + " is too few",
+                      "The limit is at least 1000.", ""});
+  }
+  const double size = coordinate_size(centerline, section, placement);
+  const double finest = finest_length(centerline, section, placement);
+  if (options.tolerance >= finest && kShareOfPlate * section.narrowest() >= finest) return;
+  const bool plate = options.tolerance >= finest;
+  throw InputError(
+      {"",
+       plate ? "cross_section: its narrowest place, " + length_text(section.narrowest()) + ", is too thin"
+             : "tolerance: " + length_text(options.tolerance) + " is finer than the coordinates can carry",
+       "Coordinates as large as " + length_text(size) + " are rounded to about " + length_text(finest) + ".",
+       plate ? "a thicker section, or a start nearer the origin"
+             : "a tolerance of " + length_text(2.0 * finest, 1)});
+}
+
+}  // namespace glissade

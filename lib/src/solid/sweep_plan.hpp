@@ -1,0 +1,60 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/solid/cross_section.hpp"
+#include "glissade/solid/placement.hpp"
+#include "glissade/solid/sweep.hpp"
+
+#include "solid/stations.hpp"
+
+namespace glissade {
+
+/// Steps are planned for this share of the tolerance: one step beside a trim may be that much longer.
+inline constexpr double kPlannedShare = 0.75;
+
+/// How fine a mesh is to be, decided before anything of its size is made.
+struct Fineness {
+  double outline_tolerance = 0.0;  // of round outlines
+  double chord_tolerance = 0.0;    // of the level curves
+  double longest_step = 0.0;       // between stations
+  double steps = 0.0;              // how many of them
+  double side_piece = 0.0;         // length that the sides of the section are cut into
+  double section_vertices = 0.0;   // how many that gives
+
+  [[nodiscard]] double triangles() const { return 2.0 * section_vertices * (steps + 1.0); }
+};
+
+/// Finds the fineness that a tolerance asks for, and what is left of the budget for the shape of facets.
+class Planner {
+ public:
+  Planner(const Centerline& centerline, const CrossSection& section, const SweepOptions& options)
+      : centerline_(centerline), section_(section), options_(options) {}
+
+  [[nodiscard]] Fineness fineness(double tolerance) const;
+
+  [[nodiscard]] StationLimits limits(const Fineness& fineness) const {
+    return {fineness.chord_tolerance, -section_.lowest(), section_.highest(), fineness.longest_step};
+  }
+
+  /// @throws InputError if the mesh would be larger than the options allow; names a tolerance that fits
+  void require_room(double triangles) const;
+
+  [[nodiscard]] double limit() const { return static_cast<double>(options_.max_triangles); }
+
+ private:
+  [[nodiscard]] double fitting_tolerance() const;
+
+  const Centerline& centerline_;
+  const CrossSection& section_;
+  const SweepOptions& options_;
+};
+
+/// @return the smallest length that means something in a mesh there [m]
+[[nodiscard]] double finest_length(const Centerline& centerline, const CrossSection& section,
+                                   const Placement& placement);
+
+/// @throws InputError if the options, or the section's thinnest place, are out of range (see sweep())
+void check_options(const Centerline& centerline, const CrossSection& section, const Placement& placement,
+                   const SweepOptions& options);
+
+}  // namespace glissade

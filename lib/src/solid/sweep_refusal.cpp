@@ -1,0 +1,58 @@
+#include "solid/sweep_refusal.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace glissade {
+namespace {
+
+std::string place_text(const Station& station) {
+  return "arc length " + length_text(station.s) + " (" + length_text(station.point.x) + " along, " +
+         length_text(-station.point.y) + " down)";
+}
+
+std::string radius_text(double curvature) {
+  const double bend = std::fabs(curvature);
+  if (bend == 0.0) return "the track is straight there";
+  if (!std::isfinite(bend)) return "its radius is 0 there";
+  return "its radius is " + length_text(1.0 / bend) + " there";
+}
+
+}  // namespace
+
+void refuse_section(const Centerline& centerline, const CrossSection& section, const LevelCurves& curves,
+                    double height) {
+  const Obstacle obstacle = *curves.trims(height).obstacle;
+  const Station station = station_at(centerline, obstacle.s);
+  const int side = height > 0.0 ? 1 : -1;
+  const double reach = side > 0 ? section.highest() : -section.lowest();
+  const std::string direction = side > 0 ? "above the floor" : "below the floor";
+  double largest = curves.largest_height(side);
+  const double unit = std::pow(10.0, std::floor(std::log10(largest)) - 2.0);
+  while (largest > 0.0 && curves.trims(side * largest).obstacle.has_value()) largest -= unit;
+  largest = largest > 0.0 ? std::floor(0.999 * largest / unit) * unit : 0.0;
+
+  Issue issue;
+  issue.what = "cross_section: it reaches " + length_text(reach) + " " + direction +
+               ", further than the track has room for at " + place_text(station) + "; " +
+               radius_text(station.kappa);
+  switch (obstacle.kind) {
+    case Obstacle::Kind::start_face:
+      issue.why = "That part of the section lies behind the start face, or bends back over it, all the way.";
+      break;
+    case Obstacle::Kind::finish_face:
+      issue.why = "That part of the section lies beyond the finish face, or bends back over it, all the way.";
+      break;
+    case Obstacle::Kind::reach:
+      issue.why = "Another part of the track comes within the section's reach there.";
+      break;
+  }
+  issue.hint = largest > 0.0 ? "a section that reaches at most " + length_text(largest) + " " + direction
+                             : "a track that does not meet itself";
+  throw InputError(issue);
+}
+
+}  // namespace glissade

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/solid/cross_section.hpp"
+
+#include "solid/level_curves.hpp"
+
+namespace glissade {
+
+/// @param curves  the level curves of that centerline over the reach of the section
+/// @return volume of the ideal solid to kSweepVolumeAccuracy, arcs round, trims cut [m^3]
+[[nodiscard]] double swept_volume(const Centerline& centerline, const CrossSection& section,
+                                  const LevelCurves& curves);
+
+}  // namespace glissade
