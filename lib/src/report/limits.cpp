@@ -13,13 +13,14 @@ namespace {
 
 constexpr double kStandardGravity = 9.80665;
 constexpr int kDigits = 5;
+constexpr int kReachedDigits = 4;
 constexpr int kPlaceDigits = 3;
 
-std::string value_text(double value, std::string_view unit) {
+std::string value_text(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return "unbounded";
-  if (unit == "rad") return angle_text(value, kDigits);
-  if (unit == "m") return length_text(value, kDigits);
-  std::string text = rounded_text(value, kDigits) + " " + std::string(unit);
+  if (unit == "rad") return angle_text(value, digits);
+  if (unit == "m") return length_text(value, digits);
+  std::string text = rounded_text(value, digits) + " " + std::string(unit);
   if (unit == "m/s^2") text += " (" + rounded_text(value / kStandardGravity, 3) + " g)";
   return text;
 }
@@ -55,7 +56,7 @@ std::optional<std::string> plain_words(const std::string& limit) {
 std::string bound_text(const LimitCheck& check) {
   if (const auto words = plain_words(check.limit)) return *words;
   const std::string_view side = check.side > 0 ? "at most " : check.side < 0 ? "at least " : "";
-  return std::string(side) + value_text(check.value, check.unit);
+  return std::string(side) + value_text(check.value, check.unit, kDigits);
 }
 
 std::string reached_text(const LimitCheck& check) {
@@ -64,7 +65,7 @@ std::string reached_text(const LimitCheck& check) {
   constexpr double kAlmostStraight = 1e6;
   const bool radius = check.limit.find("radius") != std::string::npos;
   if (radius && check.reached > kAlmostStraight * check.scale) return "straight";
-  return value_text(check.reached, check.unit);
+  return value_text(check.reached, check.unit, kReachedDigits);
 }
 
 std::string places_text(const LimitCheck& check, const ActiveLimit* active) {

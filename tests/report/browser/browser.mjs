@@ -38,5 +38,13 @@ export async function open(browser, file, options = {}) {
   });
   await page.goto(url);
   await page.waitForSelector("html[data-ready]", { timeout: 30000 });
+  await drawn(page);
   return { page, complaints };
+}
+
+// Waits until what has changed is on the canvases.
+export function drawn(page) {
+  return page.evaluate(() => new Promise((done) => {
+    requestAnimationFrame(() => requestAnimationFrame(done));
+  }));
 }

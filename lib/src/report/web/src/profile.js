@@ -79,7 +79,7 @@ class Profile {
     const nodes = [];
     const right = MARGIN.left + at.inner;
     const bottom = MARGIN.top + at.plotHeight;
-    const step = niceStep(Math.max(at.inner, at.plotHeight) / at.scale, Math.max(at.inner, at.plotHeight) / 75);
+    const step = niceStep(Math.max(at.inner, at.plotHeight) / at.scale, Math.max(Math.max(at.inner, at.plotHeight) / 75, 4));
     const label = (k) => number(units.convert("length", k * step), 4);
     const multiples = (low, high) => {
       const first = Math.ceil(low / step);

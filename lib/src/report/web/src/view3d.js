@@ -216,7 +216,14 @@ class View {
     });
   }
 
+  // Draws with the next frame, once for all that changed until then.
   render() {
+    this.pending ??= requestAnimationFrame(() => this.renderNow());
+  }
+
+  renderNow() {
+    cancelAnimationFrame(this.pending);
+    this.pending = undefined;
     this.renderer.setClearColor(new Color(themeColour("--panel") || "#ffffff"));
     this.lamp.position.copy(this.camera.position).add(new Vector3(0, 0, this.radius));
     this.renderer.render(this.scene, this.camera);
@@ -383,7 +390,11 @@ export function viewSection(doc, store, units) {
       paint();
     });
     store.on("theme", paint);
-    store.on("paper", paint);
+    store.on("paper", () => {
+      paint();
+      // Paper does not wait for a frame.
+      view?.renderNow();
+    });
     new ResizeObserver(paint).observe(canvas.parentElement);
     paint();
   };
