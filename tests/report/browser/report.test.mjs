@@ -189,6 +189,13 @@ describe("profile", () => {
 });
 
 describe("solid", () => {
+  let page;
+  let complaints;
+  before(async () => {
+    ({ page, complaints } = await open(browser, chute.file));
+  });
+  after(() => page.close());
+
   const colours = async (page) => {
     await drawn(page);
     return page.locator("#view").evaluate(coloursOf);
@@ -209,7 +216,6 @@ describe("solid", () => {
   };
 
   test("is drawn, and turns with the arrow keys", async () => {
-    const { page, complaints } = await open(browser, chute.file);
     const first = await colours(page);
     assert.ok(first.distinct > 100 && first.drawn > 0.02, JSON.stringify(first));
     const shot = async () => {
@@ -221,11 +227,9 @@ describe("solid", () => {
     for (let i = 0; i < 4; i += 1) await page.keyboard.press("ArrowRight");
     assert.notEqual(await shot(), before);
     assert.deepEqual(complaints, []);
-    await page.close();
   });
 
   test("is cut by a section plane three ways, and coloured by load", async () => {
-    const { page } = await open(browser, chute.file);
     const whole = await colours(page);
     for (const plane of ["Lengthwise", "Across", "Level"]) {
       await page.getByLabel("Section plane").first().selectOption(plane);
@@ -234,17 +238,14 @@ describe("solid", () => {
     }
     await page.getByLabel("Colour by").selectOption("normal_load_m_per_s2");
     assert.match(await page.locator(".colour-legend").textContent(), /g/);
-    await page.close();
   });
 
   test("shows the sides of its bounding box beside it", async () => {
-    const { page } = await open(browser, chute.file);
     const texts = await page.locator(".dimension").allTextContents();
     const sides = [0, 1, 2].map((axis) => chute.json.mesh.upper_m[axis] - chute.json.mesh.lower_m[axis]);
     texts.forEach((text, axis) => {
       assert.ok(Math.abs(Number.parseFloat(text.slice(2)) - sides[axis]) < 1e-3 * sides[axis], `${text} for ${sides[axis]} m`);
     });
-    await page.close();
   });
 
   test("falls back to a still picture without WebGL", async () => {
@@ -257,11 +258,73 @@ describe("solid", () => {
   });
 });
 
+describe("a design with limits", () => {
+  const design = `glissade: 1
+name: In-run
+track: {start: {x: 0 m, z: 47.08 m}, finish: {x: 90.23 m, z: 0 m}}
+body: {friction_coefficient: 0.03}
+limits:
+  slope_angle: {highest: 35 deg}
+  highest_curvature_load: 7.14 m/s^2
+  keep_outs:
+    - {outline: [[30 m, 13 m], [40 m, 13 m], [40 m, 17 m], [30 m, 17 m]]}
+cross_section: {kind: slab, width: 2 m, thickness: 100 mm}
+mesh: {tolerance: 20 mm}
+export: [stl]
+`;
+
+  test("shows each limit with its verdict and price, the keep-out, and the exact optimum beside the track", async () => {
+    const file = path.join(work, "limited.yaml");
+    writeFileSync(file, design);
+    const { file: report, json } = build(file);
+    const { page, complaints } = await open(browser, report);
+    const rows = await page.locator("#limits tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
+    assert.equal(rows.length, json.limits.length);
+    const slope = rows.find(([name]) => name === "slope angle");
+    assert.equal(slope[1], "at most 35 deg");
+    assert.equal(slope[4], "active");
+    const price = json.limits.find(({ limit }) => limit === "slope_angle.highest");
+    assert.ok(price, "the limit is among those of --json");
+    assert.match(slope[5], /^0\.\d+ s per deg$/);
+    assert.match(await page.locator("#summary .tally").textContent(), /^(\d+) of \1 checks hold/);
+    const box = await page.locator("svg.profile polygon.keep-out").evaluate((area) => {
+      const { width, height } = area.getBBox();
+      return width / height;
+    });
+    assert.ok(Math.abs(box - 10 / 4) < 0.01, `keep-out to scale: ${box}`);
+    assert.equal(await page.locator("svg.profile .line-optimum").count(), 1);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+});
+
+describe("a comparison", () => {
+  test("opens without complaint, and no drawing or table sticks out", async () => {
+    const file = path.join(work, "kinds.html");
+    execFileSync(program, ["compare", path.join(designs, "grain_chute.yaml"), "--html", file]);
+    const page = await browser.newPage();
+    const complaints = [];
+    page.on("console", (message) => complaints.push(message.text()));
+    page.on("request", (request) => {
+      if (!request.url().startsWith("file://")) complaints.push(request.url());
+    });
+    await page.goto(`file://${file}`);
+    for (const width of [1440, 390]) {
+      await page.setViewportSize({ width, height: 900 });
+      const [content, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+      assert.ok(content <= room, `${content} px of content in ${room}`);
+    }
+    assert.equal(await page.locator("figure").count(), 4);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+});
+
 describe("page", () => {
   test("a design named <script> is harmless", async () => {
     const name = "<script>alert(1)</script><img src=x onerror=alert(2)> & \"quotes\" </title>";
     const text = readFileSync(path.join(designs, "grain_chute.yaml"), "utf8").replace(/^name:.*$/m, `name: '${name}'`);
-    const design = path.join(work, "hostile.yaml");
+    const design = path.join(work, "<img src=x onerror=alert(3)>.yaml");
     writeFileSync(design, text);
     const { page, complaints } = await open(browser, build(design).file);
     assert.equal(await page.locator("h1").textContent(), name);
