@@ -241,7 +241,7 @@ void write_figures(const Options& options, const Design& design, const Compariso
 ExitCode compare(const Options& options) {
   const std::vector<Friction> frictions = frictions_of(options.frictions);
   const Design design =
-      options.input.design(frictions.empty() ? std::nullopt : std::optional(frictions.front()));
+      with_finish(options.input.design(frictions.empty() ? std::nullopt : std::optional(frictions.front())));
   if (!options.others.empty() && !frictions.empty()) {
     throw InputError({"--friction-sweep", "it cannot be combined with several designs", "", ""});
   }

@@ -1,5 +1,6 @@
 #include "app/json.hpp"
 
+#include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/version.hpp"
 
 #include <cmath>
@@ -26,6 +27,13 @@ Json number(const std::optional<double>& value) {
 
 Json point(const Vec3& position) {
   return Json::array({position.x, position.y, position.z});
+}
+
+Json profile_json(const FittedProfile& profile) {
+  return {{"points", profile.points().size()},
+          {"max_deviation_m", profile.max_deviation()},
+          {"max_deviation_at_point", profile.farthest_point() + 1},
+          {"rms_deviation_m", profile.rms_deviation()}};
 }
 
 Json stall_json(const std::optional<Stall>& stall) {
@@ -147,6 +155,9 @@ Json track_json(const Design& design, const Track& track) {
   json["drag_loss_j_per_kg"] = end.drag_loss;
   json["stall"] = stall_json(motion.stall());
   json["lift_off"] = lift_off_json(motion.lift_off());
+  if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline)) {
+    json["profile"] = profile_json(*profile);
+  }
   json["limits"] = Json::array();
   for (const LimitCheck& check : track.limit_checks) json["limits"].push_back(check_json(check));
   json["search"] = track.search ? search_json(design, *track.search) : Json(nullptr);

@@ -5,6 +5,11 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
 using Catch::Matchers::Contains;
 
 TEST_CASE("init prints a design that build accepts") {
@@ -52,4 +57,51 @@ TEST_CASE("init of an unknown kind names those that there are") {
   CHECK(outcome.exit_code == 2);
   CHECK_THAT(outcome.errors,
              Contains("rollercoaster") && Contains(std::string(glissade::design_templates().back().kind)));
+}
+
+TEST_CASE("init of points comes with a profile that build, solve and compare accept, its deviation told") {
+  const TempDir place;
+  const RunLimits here{place.path(), {}, {}};
+  REQUIRE(glissade_run({"init", "points", "-o", "wall.yaml"}, here).exit_code == 0);
+  CHECK(std::filesystem::exists(place / "profile.csv"));
+  const Outcome built = glissade_run({"build", "wall.yaml"}, here);
+  INFO(built.errors);
+  CHECK(built.exit_code == 0);
+  CHECK_THAT(built.output, Contains("run 2 m"));
+  const nlohmann::json solved =
+      nlohmann::json::parse(glissade_run({"solve", "wall.yaml", "--json"}, here).output);
+  CHECK(solved["profile"]["points"] == 11);
+  CHECK(solved["profile"]["max_deviation_m"].get<double>() < 1e-9);
+  CHECK(solved["run_m"].get<double>() == Approx(2.0).epsilon(1e-9));
+  CHECK(solved["drop_m"].get<double>() == Approx(1.9).epsilon(1e-9));
+  // The other kinds lead to where the profile ends.
+  const nlohmann::json compared =
+      nlohmann::json::parse(glissade_run({"compare", "wall.yaml", "--json"}, here).output);
+  REQUIRE(compared["tracks"].size() == 6);
+  for (const nlohmann::json& track : compared["tracks"]) {
+    INFO(track.dump());
+    CHECK(track["problem"].is_null());
+    CHECK(track["run_m"].get<double>() == Approx(2.0).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a profile that is no profile is refused with file, line and column") {
+  const TempDir place;
+  const RunLimits here{place.path(), {}, {}};
+  REQUIRE(glissade_run({"init", "points", "-o", "wall.yaml"}, here).exit_code == 0);
+  const auto refusal = [&](const std::string& text, int exit_code) {
+    put_bytes(place / "profile.csv", text);
+    const Outcome outcome = glissade_run({"solve", "wall.yaml"}, here);
+    CHECK(outcome.exit_code == exit_code);
+    return outcome.errors;
+  };
+  CHECK_THAT(refusal("x,z\n0,2\n1,nan\n2,0\n", 5), Contains("profile.csv:3:3: ") && Contains("nan"));
+  CHECK_THAT(refusal("x,z\n0,2\n", 2), Contains("profile.csv: there is 1 of them") && Contains("at least 3"));
+  CHECK_THAT(refusal("x,z\n0,2\n1,1\n\n1,1\n2,0\n", 2), Contains("profile.csv:5: ") && Contains("repeats"));
+  CHECK_THAT(refusal("x,z\n0,2\n2,1\n1,1.5\n3,0\n", 2),
+             Contains("profile.csv:3: ") && Contains("turns back"));
+  CHECK_THAT(refusal("It was a dark\nand stormy night\n", 5),
+             Contains("profile.csv:1: ") && Contains("columns"));
+  std::filesystem::remove(place / "profile.csv");
+  CHECK(glissade_run({"solve", "wall.yaml"}, here).exit_code == 5);
 }

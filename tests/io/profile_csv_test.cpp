@@ -16,7 +16,7 @@ namespace {
 std::vector<Vec2> read(const std::string& text, const ProfileCsvOptions& options = {}) {
   const TempDir place;
   put_bytes(place / "wall.csv", text);
-  return read_profile_csv(place / "wall.csv", options);
+  return read_profile_csv(place / "wall.csv", options).points;
 }
 
 std::string refusal(const std::string& text) {
@@ -46,11 +46,30 @@ TEST_CASE("what is wrong with a profile is told with line and column") {
   CHECK_THAT(refusal(""), Contains("wall.csv: the file is empty"));
   CHECK_THAT(refusal("a,b\n1,2\n"),
              Contains("wall.csv:1: there is no column") && Contains("a") && Contains("b"));
-  CHECK_THAT(refusal("x,z\n0,1\n1\n"), Contains("wall.csv:3: column") && Contains("is no number"));
+  CHECK_THAT(refusal("x,z\n0,1\n1\n"),
+             Contains("wall.csv:3: column") && Contains("is missing") && Contains("1 of 2"));
   CHECK_THAT(refusal("x;z\n0;1,5\n"),
-             Contains("wall.csv:2:") && Contains("1,5") && Contains("decimal point"));
-  CHECK_THAT(refusal("x,z\n0,nan\n"), Contains("nan"));
+             Contains("wall.csv:2:3: ") && Contains("1,5") && Contains("decimal point"));
+  CHECK_THAT(refusal("x,z\n0,nan\n"), Contains("wall.csv:2:3: ") && Contains("nan"));
+  CHECK_THAT(refusal("x,z\n\n0,\n"), Contains("wall.csv:3:3: ") && Contains("is no number"));
+  CHECK_THAT(refusal("x,z\n1e999,1\n"), Contains("wall.csv:2:1: ") && Contains("is no number"));
+  CHECK_THAT(refusal("x,z\n1,2\n2e7,1\n"),
+             Contains("wall.csv:3:1: ") && Contains("too large") && Contains("unit"));
+  CHECK_THAT(refusal(std::string(300, '\xff') + "\n\x01\n"), Contains("there is no column"));
   CHECK_THAT(refusal("x,z\n0,1 m\n"), Contains("1 m"));
   const TempDir place;
   CHECK_THROWS_AS(read_profile_csv(place / "nowhere.csv"), FileError);
+}
+
+TEST_CASE("a profile of more than 64 MiB is refused before it is read") {
+  const TempDir place;
+  put_bytes(place / "wall.csv", "x,z\n0,1\n");
+  std::filesystem::resize_file(place / "wall.csv", 100'000'000);
+  CHECK_THROWS_WITH(read_profile_csv(place / "wall.csv"), Contains("larger than 64 MiB"));
+}
+
+TEST_CASE("points remember their lines") {
+  const TempDir place;
+  put_bytes(place / "wall.csv", "# taken in May\nx,z\n0,1\n\n1,0\n");
+  CHECK(read_profile_csv(place / "wall.csv").lines == std::vector<std::size_t>{3, 5});
 }

@@ -76,6 +76,11 @@ class LimitsConflict : public InfeasibleError {
 /// A design as the optimiser takes it: run and drop from the start.
 [[nodiscard]] Problem problem_of(const Design& design);
 
+/// A design whose finish is where its centerline ends, for those that leave it to `segments` or `points`;
+/// with it, other kinds of centerline can be put in its place.
+/// @throws as make_centerline()
+[[nodiscard]] Design with_finish(Design design);
+
 /// The curve that a design asks for, its limits left aside.
 /// @throws InputError, InfeasibleError, ConvergenceError, FileError with the location in the design
 [[nodiscard]] CenterlinePtr make_centerline(const Design& design);

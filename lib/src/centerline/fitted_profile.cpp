@@ -23,40 +23,19 @@ constexpr double kSharpestTurnCosine = -0.5;
 /// Chords shorter than this share of the profile may turn as noise makes them.
 constexpr double kLongChord = 0.02;
 
-void require_distinct_numbers(const std::vector<Vec2>& points) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) {
-      throw InputError({point_text(points, i), "it is not finite", "A profile is made of places.", ""});
-    }
-    if (i > 0 && points[i] == points[i - 1]) {
-      throw InputError({point_text(points, i), "it repeats the point before it",
-                        "The direction of the profile is lost between equal points.",
-                        "leave one of them out"});
-    }
-  }
-}
-
-void require_order(const std::vector<Vec2>& points) {
+double reach_of(const std::vector<Vec2>& points) {
   double reach = 0.0;
   for (const Vec2& point : points) reach = std::max(reach, norm(point - points.front()));
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const Vec2 before = points[i] - points[i - 1];
-    const Vec2 after = points[i + 1] - points[i];
-    if (std::min(norm(before), norm(after)) < kLongChord * reach) continue;
-    if (dot(before, after) >= kSharpestTurnCosine * norm(before) * norm(after)) continue;
-    throw InputError({point_text(points, i), "the profile turns back on itself here",
-                      "Points are read in order from start to finish; a track has no spikes.",
-                      "the points sorted along the track"});
-  }
+  return reach;
+}
+
+bool turns_back(Vec2 before, Vec2 after, double long_chord) {
+  if (std::min(norm(before), norm(after)) < long_chord) return false;
+  return dot(before, after) < kSharpestTurnCosine * norm(before) * norm(after);
 }
 
 std::vector<Vec2> in_track_frame(std::vector<Vec2> points) {
-  if (points.size() < 3) {
-    throw InputError({"points", "there are " + std::to_string(points.size()) + " of them",
-                      "A curve needs at least 3 points.", "the kind straight for two points"});
-  }
-  require_distinct_numbers(points);
-  require_order(points);
+  if (const auto fault = profile_fault(points)) throw InputError(fault->issue);
   const Vec2 start = points.front();
   const double side = points.back().x < start.x ? -1.0 : 1.0;
   for (Vec2& point : points) point = {side * (point.x - start.x), point.y - start.y};
@@ -73,14 +52,45 @@ const ProfileFit& checked(const ProfileFit& fit) {
 
 }  // namespace
 
+std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
+  const auto fault = [&](std::size_t index, std::string what, std::string why, std::string hint) {
+    return ProfileFault{index, {point_text(points, index), std::move(what), std::move(why), std::move(hint)}};
+  };
+  if (points.size() < 3) {
+    const std::string count =
+        points.size() == 1 ? "there is 1" : "there are " + std::to_string(points.size());
+    return ProfileFault{points.size(),
+                        {"points", count + " of them", "A curve needs at least 3 points.",
+                         "more points; between two, the kind straight"}};
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) {
+      return fault(i, "it is not finite", "A profile is made of places.", "");
+    }
+    if (i > 0 && points[i] == points[i - 1]) {
+      return fault(i, "it repeats the point before it",
+                   "The direction of the profile is lost between equal points.", "leave one of them out");
+    }
+  }
+  const double long_chord = kLongChord * reach_of(points);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    if (!turns_back(points[i] - points[i - 1], points[i + 1] - points[i], long_chord)) continue;
+    return fault(i, "the profile turns back on itself here",
+                 "Points are read in order from start to finish; a track has no spikes.",
+                 "the points sorted along the track");
+  }
+  return {};
+}
+
 FittedProfile::FittedProfile(std::vector<Vec2> points, const ProfileFit& fit)
     : points_(in_track_frame(std::move(points))),
       curve_(fit_clothoid_spline(points_, checked(fit))),
       deviations_(deviations_from(curve_, points_)) {
   double sum = 0.0;
-  for (const PointDeviation& point : deviations_) {
-    max_deviation_ = std::max(max_deviation_, std::fabs(point.deviation));
-    sum += point.deviation * point.deviation;
+  for (std::size_t i = 0; i < deviations_.size(); ++i) {
+    const double deviation = deviations_[i].deviation;
+    if (std::fabs(deviation) > max_deviation()) farthest_point_ = i;
+    sum += deviation * deviation;
   }
   rms_deviation_ = std::sqrt(sum / static_cast<double>(points_.size()));
 }

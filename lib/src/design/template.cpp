@@ -136,7 +136,7 @@ body:
   friction_angle: 17 deg
 centerline:
   kind: points
-  file: profile.csv                    # beside this file
+  file: profile.csv                    # beside this file; init -o FILE writes one to start from
   columns: [x, z]                      # horizontal distance and height
   unit: m
 cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}

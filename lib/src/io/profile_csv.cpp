@@ -36,7 +36,7 @@ std::string read_text(const std::filesystem::path& file) {
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
   const std::size_t from = text.find_first_not_of(kBlanks);
-  if (from == std::string_view::npos) return {};
+  if (from == std::string_view::npos) return text.substr(text.size());
   text = text.substr(from, text.find_last_not_of(kBlanks) + 1 - from);
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
   return quoted ? text.substr(1, text.size() - 2) : text;
@@ -96,7 +96,7 @@ std::size_t column_named(const std::vector<std::string_view>& names, const std::
 
 }  // namespace
 
-std::vector<Vec2> read_profile_csv(const std::filesystem::path& file, const ProfileCsvOptions& options) {
+ProfilePoints read_profile_csv(const std::filesystem::path& file, const ProfileCsvOptions& options) {
   const std::string text = read_text(file);
   const double scale = options.unit == LengthUnit::millimetre ? 1e-3 : 1.0;
   Lines lines(text);
@@ -110,22 +110,35 @@ std::vector<Vec2> read_profile_csv(const std::filesystem::path& file, const Prof
   const std::size_t distance_column = column_named(names, options.distance_column, place());
   const std::size_t height_column = column_named(names, options.height_column, place());
 
-  const auto value = [&](const std::vector<std::string_view>& cells, std::size_t column) {
-    const std::string_view cell = column < cells.size() ? cells[column] : std::string_view{};
+  const auto value = [&](std::string_view line, const std::vector<std::string_view>& cells,
+                         std::size_t column) {
+    if (column >= cells.size()) {
+      throw FileError({place(), "column " + in_quotes(names[column]) + " is missing",
+                       "The line has " + std::to_string(cells.size()) + " of " +
+                           std::to_string(names.size()) + " columns.",
+                       "a value in every line"});
+    }
+    const std::string_view cell = cells[column];
+    const std::string here = place() + ":" + std::to_string(cell.data() - line.data() + 1);
     double number = 0.0;
     const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (status == std::errc() && rest == cell.data() + cell.size() && std::isfinite(number)) {
-      return number * scale;
+    if (status != std::errc() || rest != cell.data() + cell.size() || !std::isfinite(number)) {
+      throw FileError({here, "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is no number",
+                       "", "numbers with a decimal point and without a unit"});
     }
-    throw FileError({place(), "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is no number",
-                     "", "numbers with a decimal point and without a unit"});
+    if (std::fabs(number * scale) > kLargestProfileCoordinate) {
+      throw FileError({here, "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is too large",
+                       "Coordinates lie within 10000 km of the origin.", "the unit of the file"});
+    }
+    return number * scale;
   };
-  std::vector<Vec2> points;
+  ProfilePoints profile;
   while (const auto line = lines.next()) {
     const std::vector<std::string_view> cells = cells_of(*line, separator);
-    points.push_back({value(cells, distance_column), -value(cells, height_column)});
+    profile.points.push_back({value(*line, cells, distance_column), -value(*line, cells, height_column)});
+    profile.lines.push_back(lines.number());
   }
-  return points;
+  return profile;
 }
 
 }  // namespace glissade

@@ -50,8 +50,15 @@ CenterlinePtr make_segments(const CenterlineDesign& design) {
 }
 
 CenterlinePtr make_points(const CenterlineDesign& design) {
-  return std::make_shared<FittedProfile>(read_profile_csv(
-      design.points_file, {design.points_distance_column, design.points_height_column, design.points_unit}));
+  ProfilePoints profile = read_profile_csv(
+      design.points_file, {design.points_distance_column, design.points_height_column, design.points_unit});
+  if (const auto fault = profile_fault(profile.points)) {
+    Issue issue = fault->issue;
+    issue.where = design.points_file.string();
+    if (fault->index < profile.lines.size()) issue.where += ":" + std::to_string(profile.lines[fault->index]);
+    throw InputError(issue);
+  }
+  return std::make_shared<FittedProfile>(std::move(profile.points));
 }
 
 CenterlinePtr make_of_kind(const Design& design) {
@@ -107,6 +114,14 @@ std::optional<double> Track::straight_travel_time() const {
 Endpoints endpoints_of(const Design& design) {
   const Vec3 way = design.track.finish - design.track.start;
   return {std::hypot(way.x, way.y), -way.z};
+}
+
+Design with_finish(Design design) {
+  if (design.track.finish_given) return design;
+  const Endpoints end = make_centerline(design)->endpoints();
+  design.track.finish = design.track.start + Vec3{end.run, 0.0, -end.drop};
+  design.track.finish_given = true;
+  return design;
 }
 
 CenterlinePtr make_centerline(const Design& design) {

@@ -17,17 +17,26 @@ struct ProfileCsvOptions {
   LengthUnit unit = LengthUnit::metre;
 };
 
+/// The points of a profile's file and where they stand in it.
+struct ProfilePoints {
+  std::vector<Vec2> points;  ///< (distance, drop) [m], in the file's order; drop = -height, positive DOWN
+  std::vector<std::size_t> lines;  ///< of each point, counted from 1
+};
+
 /// Reads a measured profile from comma-separated values.
 ///
 /// The first line names the columns; values are parted by commas, semicolons or tabs, whichever that line
 /// has, and may stand in double quotes. Decimals have a point. Empty lines and lines that begin with # are
 /// skipped, other columns too.
-/// @return (distance, drop) of each line [m], in the file's order; drop = -height, positive DOWN
 /// @throws FileError if the file cannot be read, is larger than kLargestProfileFile, lacks a column (names
-///         those that it has) or has a value that is no finite number (names line and column)
-[[nodiscard]] std::vector<Vec2> read_profile_csv(const std::filesystem::path& file,
-                                                 const ProfileCsvOptions& options = {});
+///         those that it has) or has a value that is no finite number or larger than
+///         kLargestProfileCoordinate (names line and column)
+[[nodiscard]] ProfilePoints read_profile_csv(const std::filesystem::path& file,
+                                             const ProfileCsvOptions& options = {});
 
+/// [m]
+inline constexpr double kLargestProfileCoordinate = 1e7;
+/// [bytes]
 inline constexpr std::size_t kLargestProfileFile = std::size_t{64} << 20U;
 
 }  // namespace glissade
