@@ -287,3 +287,26 @@ TEST_CASE("the location of a key that is not in the file is that of its parent")
   CHECK(design.where("track.finish.z") == "d.yaml:5:25");
   CHECK(design.where("gravity") == "d.yaml");
 }
+
+TEST_CASE("a curvature beyond all measure is one problem, and no finish is sought at the end of it") {
+  const std::string without_finish = sound_design_with("  finish: {x: 5.4 m, z: 1.1 m}\n", "");
+  const auto refusal_of = [&](const std::string& segment) {
+    std::string text = without_finish;
+    const std::string kind = "{kind: fastest}";
+    text.replace(text.find(kind), kind.size(),
+                 "{kind: segments, entry_slope_angle: 55 deg, segments: [" + segment + "]}");
+    return problems_of(text);
+  };
+  for (const std::string segment :
+       {"{length: 1 m, curvature: 1e300 1/m}", "{length: 1 m, curvature: -1e300 1/m}",
+        "{length: 1000 m, radius: 1e-9 m}",
+        "{length: 1 m, entry_curvature: 1e200 1/m, exit_curvature: -1e200 1/m}"}) {
+    const std::string refusal = refusal_of(segment);
+    INFO(segment << "\n" << refusal);
+    CHECK_THAT(refusal, StartsWith("d.yaml:7:"));
+    CHECK_THAT(refusal, Contains("overhangs"));
+    CHECK(refusal.find("d.yaml", 1) == std::string::npos);
+    CHECK_THAT(refusal, !Contains("finish"));
+  }
+  CHECK(refusal_of("{length: 2 m, curvature: 0.2 1/m}").empty());
+}
