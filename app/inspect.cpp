@@ -47,7 +47,7 @@ std::string facts_summary(const std::string& file, const MeshFacts& facts) {
   std::string text = emphasised(file, Emphasis::heading) + "\n\n";
   text += count("Triangles", facts.triangles) + count("Vertices", facts.vertices) +
           count("Pieces", facts.components);
-  text += labelled("Volume", rounded_text(facts.volume * 1e3, 6) + " litres");
+  text += labelled("Volume", volume_text(facts.volume, 6));
   text += labelled("Surface", rounded_text(facts.area, 6) + " m^2");
   text += labelled("Size", length_text(facts.upper.x - facts.lower.x) + " x " +
                                length_text(facts.upper.y - facts.lower.y) + " x " +

@@ -91,10 +91,10 @@ std::string radius_text(const Track& track) {
 
 std::string solid_lines(const Design& design, const Build& build) {
   const MeshFacts& facts = build.facts;
-  std::string text =
-      count_text(facts.triangles) + " triangles, volume " + rounded_text(facts.volume * 1e3, 4) +
-      " litres, " + length_text(facts.upper.x - facts.lower.x) + " x " +
-      length_text(facts.upper.y - facts.lower.y) + " x " + length_text(facts.upper.z - facts.lower.z);
+  std::string text = count_text(facts.triangles) + " triangles, volume " + volume_text(facts.volume, 4) +
+                     ", " + length_text(facts.upper.x - facts.lower.x) + " x " +
+                     length_text(facts.upper.y - facts.lower.y) + " x " +
+                     length_text(facts.upper.z - facts.lower.z);
   text += "\ndeparts from the exact shape by " + length_text(build.solid.max_deviation, 2) +
           " at most (tolerance " + length_text(design.mesh.tolerance, 3) + ")";
   if (build.solid.trimmed) text += "\ntrimmed where the section would have folded over itself";
@@ -126,6 +126,11 @@ std::string load_text(double metres_per_second_squared) {
   if (std::fabs(metres_per_second_squared) < kNothing) metres_per_second_squared = 0.0;
   return rounded_text(metres_per_second_squared, 4) + " m/s^2 (" +
          rounded_text(metres_per_second_squared / kStandardGravity, 3) + " g)";
+}
+
+std::string volume_text(double cubic_metres, int digits) {
+  if (std::fabs(cubic_metres) < 1.0) return rounded_text(cubic_metres * 1e3, digits) + " litres";
+  return rounded_text(cubic_metres, digits) + " m^3";
 }
 
 std::string size_text(double bytes) {

@@ -69,7 +69,7 @@ void TrackInput::add_to(CLI::App& command) {
         ->type_name(unit)
         ->group("Instead of a design file (plain numbers in SI units, or with a unit: 400mm)");
   };
-  add("--run", run_, "LENGTH", "Horizontal distance from start to finish");
+  add("--run", run_, "LENGTH", "Horizontal distance from start to finish; negative for a finish on the left");
   add("--drop", drop_, "LENGTH", "Height of the start above the finish");
   add("--friction-angle", friction_angle_, "ANGLE", "Friction angle of body on track, with its unit: 11deg");
   add("--friction-coefficient", friction_coefficient_, "NUMBER", "The same as its tangent; 0 for none");
@@ -138,7 +138,8 @@ Friction TrackInput::friction(const std::optional<Friction>& default_friction) c
         option_value(friction_coefficient_, Dimension::number, "--friction-coefficient"));
   } catch (const InputError& error) {
     Issue issue = error.issues().front();
-    if (issue.where.empty()) issue.where = as_angle ? "--friction-angle" : "--friction-coefficient";
+    const std::string option = as_angle ? "--friction-angle" : "--friction-coefficient";
+    if (issue.where.empty() && !issue.what.starts_with(option)) issue.where = option;
     throw InputError(issue);
   }
 }
@@ -151,9 +152,6 @@ Design TrackInput::from_options(const std::optional<Friction>& default_friction)
   }
   Design design;
   const double run = option_value(run_, Dimension::length, "--run");
-  if (!(run >= 0.0)) {
-    throw InputError({"--run", run_ + " is negative", "It is the horizontal distance to the finish.", ""});
-  }
   const double drop = option_value(drop_, Dimension::length, "--drop");
   if (!(drop > 0.0) && entry_speed_.empty()) {
     throw InputError({"--drop", drop_ + " is not positive",

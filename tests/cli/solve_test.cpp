@@ -82,6 +82,12 @@ TEST_CASE("solve takes plain SI numbers and values with a unit alike") {
   CHECK(plain == united);
 }
 
+TEST_CASE("a finish on the left is the mirror image: the same ride") {
+  const json right = solved({"--run", "10", "--drop", "5", "--friction-angle", "11deg"});
+  const json left = solved({"--run", "-10", "--drop", "5", "--friction-angle", "11deg"});
+  CHECK(left == right);
+}
+
 TEST_CASE("solve --json: theory's travel times at friction 0.2 over 10 m and 5 m") {
   // docs/theory.md, table of travel times: exact optimum and straight line.
   const json track = solved({"--run", "10", "--drop", "5", "--friction-coefficient", "0.2"});

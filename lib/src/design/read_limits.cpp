@@ -217,7 +217,7 @@ LimitRange read_range(const Value& value, Dimension dimension, Findings& finding
 std::optional<LimitsDesign> read_limits(MapReader& top, Findings& findings) {
   const std::optional<Value> value = top.find("limits");
   if (!value) return {};
-  MapReader map(*value, "The limits", "{slope_angle: {highest: 35 deg}}", findings);
+  MapReader map(*value, "A group of limits", "{slope_angle: {highest: 35 deg}}", findings);
   LimitsDesign limits;
   read_slopes(map, limits, findings);
   read_curvature(map, limits, findings);
