@@ -1,5 +1,6 @@
 #include "app/summary.hpp"
 
+#include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "app/console.hpp"
@@ -16,8 +17,17 @@ namespace {
 
 constexpr double kStandardGravity = 9.80665;
 
+std::string profile_text(const FittedProfile& profile) {
+  return "points (a smooth curve fitted to " + count_text(profile.points().size()) +
+         " of them)\nit passes them by " + length_text(profile.max_deviation(), 3) + " at most (point " +
+         count_text(profile.farthest_point() + 1) + "), " + length_text(profile.rms_deviation(), 3) +
+         " in the root of the mean square";
+}
+
 std::string kind_text(const Track& track) {
   const Centerline& centerline = *track.centerline;
+  if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline))
+    return profile_text(*profile);
   if (track.search) return "fastest within the limits";
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
   if (centerline.kind() == "constant-speed") return "constant-speed (Pudasaini's curve)";

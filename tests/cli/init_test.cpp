@@ -67,7 +67,7 @@ TEST_CASE("init of points comes with a profile that build, solve and compare acc
   const Outcome built = glissade_run({"build", "wall.yaml"}, here);
   INFO(built.errors);
   CHECK(built.exit_code == 0);
-  CHECK_THAT(built.output, Contains("run 2 m"));
+  CHECK_THAT(built.output, Contains("fitted to 11") && Contains("passes them by") && Contains("run 2 m"));
   const nlohmann::json solved =
       nlohmann::json::parse(glissade_run({"solve", "wall.yaml", "--json"}, here).output);
   CHECK(solved["profile"]["points"] == 11);
