@@ -70,10 +70,13 @@ void add_keep_outs(Figure& figure, const Design& design) {
 }
 
 Figure figure_of(RideQuantity quantity, const Design& design, const Track& track) {
-  const std::string kind(track.centerline->kind());
+  const std::string kind =
+      track.search ? "fastest within the limits" : std::string(word(design.centerline.kind));
   std::vector<FigureRide> rides = {{kind, &track.motion}};
   if (quantity != RideQuantity::profile) return ride_figure(quantity, rides);
-  if (track.optimum && kind != "fastest") rides.push_back({"fastest", &*track.optimum, true});
+  if (track.optimum && kind != "fastest") {
+    rides.push_back({design.limits ? "fastest without limits" : "fastest", &*track.optimum, true});
+  }
   if (track.straight && kind != "straight") rides.push_back({"straight line", &*track.straight, true});
   Figure figure = ride_figure(quantity, rides);
   add_keep_outs(figure, design);
