@@ -22,17 +22,19 @@ constexpr const char* kStyle =
     "16px}"
     ".figures{columns:2 480px;column-gap:14px}"
     "figure{margin:0 0 14px;break-inside:avoid;background:#fff;border:1px solid "
-    "var(--grid);border-radius:8px;padding:8px;min-width:0}"
+    "var(--grid);border-radius:8px;padding:8px}"
     "figure svg{display:block;width:100%;height:auto}"
     ".scroll{overflow-x:auto;margin:16px 0;background:var(--panel);border:1px solid var(--grid);"
     "border-radius:8px;padding:8px}"
     "table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}"
-    "th,td{padding:5px 10px;border-bottom:1px solid var(--grid);text-align:right}"
-    "th:first-child,td.remark{text-align:left}td.remark{color:var(--soft)}"
+    "th,td{padding:5px 10px;border-bottom:1px solid var(--grid);text-align:right;white-space:nowrap}"
+    "th:first-child,td.remark{text-align:left}th:first-child{white-space:normal;min-width:8em}td.remark{"
+    "color:var(--soft);white-space:normal}"
     "@media "
     "print{@page{margin:14mm}:root{--paper:#fff;--panel:#fff;--ink:#16202a;--soft:#52606d;--grid:#dfe4e8}"
     "body{max-width:none;padding:0;font-size:9pt}figure{border:0;break-inside:avoid}"
-    ".scroll{border:0;overflow:visible;padding:0}tr{break-inside:avoid}th,td{padding:2px 5px}}";
+    ".scroll{border:0;overflow:visible;padding:0}tr{break-inside:avoid}th,td{padding:2px "
+    "5px;white-space:normal}}";
 
 /// A table's cell: units with their exponents raised.
 std::string cell_text(std::string text) {
@@ -82,7 +84,7 @@ std::string figure_page_html(const FigurePage& page) {
   text += "<main>\n";
   if (!page.table.rows.empty()) text += table_of(page.table);
   text += "<div class=\"figures\">\n";
-  for (const Figure& figure : page.figures) text += "<figure>" + figures_svg({figure}, 640.0) + "</figure>\n";
+  for (const Figure& figure : page.figures) text += "<figure>" + figures_svg({figure}, 540.0) + "</figure>\n";
   text += "</div>\n</main>\n<p>Made by Glissade " + std::string(version()) + ".</p>\n</body>\n</html>\n";
   return text;
 }

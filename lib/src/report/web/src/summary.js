@@ -11,7 +11,7 @@ function against(time, other) {
 
 function timeRemarks({ ride, limits }, units) {
   if (ride.travel_time_s === null) return ["the body does not arrive"];
-  const time = (seconds) => units.text("time", seconds, 4);
+  const time = (seconds) => units.text("time", seconds, 5);
   const optimum = limits.length > 0 ? "the exact optimum without limits" : "the exact optimum";
   return [
     ride.optimum_travel_time_s === null ? "the exact optimum is not known here"
@@ -19,6 +19,11 @@ function timeRemarks({ ride, limits }, units) {
     ride.straight_travel_time_s === null ? "on the straight line the body does not arrive"
       : `${against(ride.travel_time_s, ride.straight_travel_time_s)} the straight line, ${time(ride.straight_travel_time_s)}`,
   ];
+}
+
+function directionText(slope, units) {
+  if (Math.abs(slope) < 5e-4) return "level";
+  return `${units.text("angle", Math.abs(slope), 4)} ${slope > 0 ? "below" : "above"} the horizontal`;
 }
 
 function tiles(doc, units) {
@@ -30,7 +35,7 @@ function tiles(doc, units) {
   };
   const all = [
     ["Travel time", units.text("time", ride.travel_time_s, 5), timeRemarks(doc, units)],
-    ["Exit speed", units.text("speed", ride.exit_speed_m_per_s, 4), [`${units.text("angle", ride.exit_slope_angle_deg, 4)} below the horizontal`]],
+    ["Exit speed", units.text("speed", ride.exit_speed_m_per_s, 4), [directionText(ride.exit_slope_angle_deg, units)]],
     ["Highest normal load", units.text("load", ride.max_normal_load_m_per_s2, 4), [place(ride.max_normal_load_at_m)]],
     ["Smallest radius", radius.text, [radius.remark]],
   ];
