@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kPieces = 24;
 // Below this the limits count as met: finer meshes win that much.
 constexpr double kContradiction = 1e-5;
+// Below this a finer mesh may make up for what is left.
+constexpr double kNearly = 0.005;
 
 /// The bound after relaxing it by t scales, in the user's unit.
 double relaxed_bound(const LimitSpec& limit, double t, double measured) {
@@ -38,22 +40,18 @@ struct Attempt {
 };
 
 /// The least by which one limit must give way when all others hold: from the track that breaks all of them
-/// least, and from the product's own starts, since not every descent finds its way.
+/// least; where that descent loses its way, from the straight line.
 std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elastic, SearchControl& control) {
   constexpr double kKept = 1e-6;
   const Vector margins(attempt.problem->limits.size(), 0.0);
   std::vector<Vector> beginnings{attempt.relaxed.found.z};
-  for (const GuessCurve& start : starts(*attempt.problem)) {
-    beginnings.push_back(fit(start, Transcription(attempt.mesh)));
-  }
-  std::optional<Relaxed> least;
+  beginnings.push_back(fit(starts(*attempt.problem).back(), Transcription(attempt.mesh)));
   for (const Vector& beginning : beginnings) {
     if (control.stop()) break;
     Relaxed alone = least_violation(*attempt.problem, attempt.mesh, beginning, elastic, margins, control);
-    if (alone.found.violation > kKept || alone.t <= 0.0) continue;
-    if (!least || alone.t < least->t) least = std::move(alone);
+    if (alone.found.violation <= kKept && alone.t > 0.0) return alone;
   }
-  return least;
+  return {};
 }
 
 }  // namespace
@@ -74,27 +72,60 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
   return conflict;
 }
 
+namespace {
+
+Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
+  Mesh mesh;
+  mesh.knots = std::move(knots);
+  mesh.lead_in = problem.lead_in;
+  mesh.lead_out = problem.lead_out;
+  mesh.core_length = core_length;
+  mesh.entry_speed2 = problem.entry_speed2;
+  return mesh;
+}
+
+Relaxed all_relaxed(const ScaledProblem& problem, const Mesh& mesh, const GuessCurve& curve,
+                    SearchControl& control) {
+  Elastic elastic;
+  elastic.limits.assign(problem.limits.size(), true);
+  const Vector margins(problem.limits.size(), 0.0);
+  return least_violation(problem, mesh, fit(curve, Transcription(mesh)), elastic, margins, control);
+}
+
+/// The mesh follows the track, finer where it bends: what is left over then is no fault of the mesh.
+void follow(Attempt& attempt, SearchControl& control) {
+  constexpr std::size_t kFiner[] = {32, 48};
+  constexpr double kPays = 0.7;
+  for (const std::size_t pieces : kFiner) {
+    if (attempt.relaxed.t <= kContradiction || control.stop()) return;
+    const Found& found = attempt.relaxed.found;
+    const ScaledProblem& problem = *attempt.problem;
+    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, pieces),
+                              found.z[found.track->layout().length()]);
+    Relaxed finer = all_relaxed(problem, mesh, curve_of(*found.track, found.z), control);
+    const bool pays = finer.t < kPays * attempt.relaxed.t;
+    if (finer.t < attempt.relaxed.t) {
+      attempt.mesh = mesh;
+      attempt.relaxed = std::move(finer);
+    }
+    if (!pays) return;
+  }
+}
+
+}  // namespace
+
 Explanation explain(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control) {
   std::optional<Attempt> best;
   Explanation explanation;
   for (std::size_t way = 0; way < passages.size(); ++way) {
     const auto scaled_problem = std::make_shared<ScaledProblem>(scaled(problem, passages[way]));
-    std::vector<GuessCurve> curves = starts(*scaled_problem);
-    if (curves.size() > 2) curves.erase(curves.begin() + 1, curves.end() - 1);
-    for (const GuessCurve& start : curves) {
+    for (const GuessCurve& start : starts(*scaled_problem)) {
       if (control.stop()) return explanation;
       Attempt attempt;
       attempt.problem = scaled_problem;
-      attempt.mesh.knots = graded_knots(start, kPieces, 1.0);
-      attempt.mesh.lead_in = scaled_problem->lead_in;
-      attempt.mesh.lead_out = scaled_problem->lead_out;
-      attempt.mesh.core_length = start.length;
-      attempt.mesh.entry_speed2 = scaled_problem->entry_speed2;
-      Elastic elastic;
-      elastic.limits.assign(scaled_problem->limits.size(), true);
-      const Vector margins(scaled_problem->limits.size(), 0.0);
-      attempt.relaxed = least_violation(*scaled_problem, attempt.mesh,
-                                        fit(start, Transcription(attempt.mesh)), elastic, margins, control);
+      attempt.mesh = mesh_of(*scaled_problem, graded_knots(start, kPieces, 1.0), start.length);
+      attempt.relaxed = all_relaxed(*scaled_problem, attempt.mesh, start, control);
+      if (attempt.relaxed.t < kNearly) follow(attempt, control);
       if (best && best->relaxed.t <= attempt.relaxed.t) continue;
       best = std::move(attempt);
       explanation.passages = way;
@@ -103,6 +134,13 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
       explanation.z = best->relaxed.found.z;
       return explanation;
     }
+  }
+
+  if (best->relaxed.t >= kNearly) follow(*best, control);
+  if (best->relaxed.t <= kContradiction) {
+    explanation.mesh = best->mesh;
+    explanation.z = best->relaxed.found.z;
+    return explanation;
   }
 
   const std::vector<LimitSpec>& limits = best->problem->limits;
@@ -144,8 +182,11 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
         }
       }
     }
-    conflict.relaxations.push_back(
-        {limit.key, limit.bound_si, relaxed_bound(limit, alone.t, measured), limit.unit});
+    const double needed = relaxed_bound(limit, alone.t, measured);
+    // A beam cannot be closer than touched: then it is the beam that would have to move.
+    if (limit.key.starts_with("keep_outs") && needed < 0.0) continue;
+    if (limit.measure == Measure::normal_load && needed < 0.0) continue;
+    conflict.relaxations.push_back({limit.key, limit.bound_si, needed, limit.unit});
   }
   conflict.text = conflict_text(conflict);
   explanation.conflict = std::move(conflict);

@@ -171,10 +171,14 @@ class Searcher {
   /// Finer meshes, then tightening until the referee is content.
   void refine(Candidate& candidate, Found found, bool unlimited) {
     const ScaledProblem& problem = *candidate.problem;
-    const auto pieces = static_cast<std::size_t>(options_.pieces);
+    // A track that only a finer mesh could find is not taken back to a coarser one.
+    const std::size_t pieces =
+        std::max(static_cast<std::size_t>(options_.pieces), found.track->mesh().knots.size() - 1);
     std::vector<std::size_t> levels;
     if (!unlimited) {
-      if (pieces > kMiddlePieces) levels.push_back(kMiddlePieces);
+      if (found.track->mesh().knots.size() <= kMiddlePieces && pieces > kMiddlePieces) {
+        levels.push_back(kMiddlePieces);
+      }
       levels.push_back(pieces);
       levels.push_back(pieces);
     }

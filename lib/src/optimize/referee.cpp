@@ -320,12 +320,16 @@ double closest_approach(const Centerline& track, const std::vector<CenterlinePoi
   return norm(Vec2{point.x, point.drop} - target);
 }
 
+/// A change of curvature from one piece to the next, times the track's length; below it is rounding.
+constexpr double kJump = 1e-9;
+
 /// A spline's curvature is known at its joints, and linear between them.
 void see_curvature(const ClothoidSpline& spline, Watches& watches) {
   double s = 0.0;
   double before = spline.segments().front().entry_curvature;
   for (const ClothoidSegment& segment : spline.segments()) {
-    if (segment.entry_curvature != before) watches.at_rate(s, std::numeric_limits<double>::infinity());
+    const double jump = std::fabs(segment.entry_curvature - before) * spline.length();
+    if (jump > kJump) watches.at_rate(s, std::numeric_limits<double>::infinity());
     watches.at_curvature(s, segment.entry_curvature);
     watches.at_rate(s, (segment.exit_curvature - segment.entry_curvature) / segment.length);
     s += segment.length;
@@ -339,7 +343,6 @@ void see_curvature(const Centerline& track, int samples, Watches& watches) {
     see_curvature(*spline, watches);
     return;
   }
-  constexpr double kJump = 1e-9;  // of curvature times length; below it is rounding
   const std::vector<double> breaks = track.breaks();
   double before = track.direction(0.0).curvature;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {

@@ -259,17 +259,22 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
     return limit == nullptr ? elastic.equalities : static_cast<bool>(elastic.limits[*limit]);
   };
 
+  constexpr double kStuck = 1e-2;
+  constexpr double kStiffer = 10.0;
+  constexpr double kStiffest = 999.0;
   Vector z = start;
   State state = rows->state(z, true);
   double t = 0.0;
   std::vector<Row> kept;
   double last_t = std::numeric_limits<double>::infinity();
+  double stiffness = 1.0;
   for (int round = 0; round < control.most_rounds; ++round) {
     ++control.rounds;
     Vector value;
     Matrix jacobian;
     rows->equalities(state, value, jacobian);
-    std::vector<Row> set = rows->candidates(state, round < 2 ? kEverything : 2.0 * kBand);
+    std::vector<Row> set =
+        rows->candidates(state, round < 2 && mesh.knots.size() <= kCoarse + 1 ? kEverything : 2.0 * kBand);
     set.insert(set.end(), kept.begin(), kept.end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
@@ -293,6 +298,9 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
     }
     const std::size_t at_length = track->layout().length();
     gram(at_length, at_length) = 1.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) gram(i, j) *= stiffness;
+    }
     gram(n, n) = 1.0;
     Vector diagonal(n + 1);
     for (std::size_t i = 0; i <= n; ++i) diagonal[i] = gram(i, i);
@@ -396,7 +404,11 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
     found.violation = worst;
     if (descent.stopped || (t <= 0.0 && worst <= 1e-9)) break;
     if (found.residual < 1e-4 && worst <= 1e-7) break;
-    if (worst <= 1e-7 && std::fabs(last_t - t) <= 1e-7) break;
+    if (worst <= 1e-7 && std::fabs(last_t - t) <= 1e-7) {
+      // Far from a stationary point and without progress: the steps were too long for their linear models.
+      if (found.residual < kStuck || stiffness > kStiffest) break;
+      stiffness *= kStiffer;
+    }
     last_t = t;
   }
   relaxed.t = t;
