@@ -10,12 +10,15 @@
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
 #include "app/json.hpp"
+#include "app/limits_text.hpp"
 #include "app/option_value.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
+#include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -35,6 +38,10 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kDescription =
     "Put every kind of centerline between the same two points side by side, or several designs.\n"
     "\n"
+    "A design with limits shows the fastest track within them beside the fastest without; the others are "
+    "held\n"
+    "against the limits.\n"
+    "\n"
     "With --friction-sweep: the constant-speed curve (Pudasaini's) over a list of friction angles, as in\n"
     "figure 1 of his paper, beside the fastest track and the straight line.";
 
@@ -52,6 +59,7 @@ struct Options {
   TrackInput input{TrackInput::Scope::every_kind};
   std::vector<std::string> frictions;
   std::vector<std::string> others;
+  TimeBudget time_budget;
   std::string csv;
   std::string html;
   std::string svg;
@@ -79,8 +87,12 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries) {
 /// One row a track.
 Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
                   const std::vector<std::string>& names) {
-  Table table({heading, "travel time", "above least", "exit speed", "steepest", "highest load", "arc length",
-               "least radius"});
+  const bool limited = std::any_of(entries.begin(), entries.end(),
+                                   [](const Entry& entry) { return entry.design.limits.has_value(); });
+  std::vector<std::string> headings = {heading,    "travel time",  "above least", "exit speed",
+                                       "steepest", "highest load", "arc length",  "least radius"};
+  if (limited) headings.emplace_back("limits");
+  Table table(std::move(headings));
   for (std::size_t index = 0; index < entries.size(); ++index) {
     const Entry& entry = entries[index];
     if (!entry.track) {
@@ -94,18 +106,24 @@ Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
       const double percent = 100.0 * (motion.travel_time() / *track.optimum_travel_time - 1.0);
       excess = rounded_text(std::round(percent * 100.0) / 100.0 + 0.0, 4) + " %";
     }
-    table.add({names[index], ride_text(motion), excess, exit_text(motion),
-               angle_text(track.steepest_slope_angle, 3),
-               rounded_text(motion.highest_load().normal_load, 4) + " m/s^2",
-               length_text(track.centerline->length()),
-               std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)});
+    std::vector<std::string> row = {
+        names[index],
+        ride_text(motion),
+        excess,
+        exit_text(motion),
+        angle_text(track.steepest_slope_angle, 3),
+        rounded_text(motion.highest_load().normal_load, 4) + " m/s^2",
+        length_text(track.centerline->length()),
+        std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)};
+    if (limited) row.push_back(limits_verdict(track));
+    table.add(std::move(row));
   }
   return table;
 }
 
 Table kinds_table(const std::vector<Entry>& entries) {
   std::vector<std::string> kinds;
-  for (const Entry& entry : entries) kinds.emplace_back(word(entry.design.centerline.kind));
+  for (const Entry& entry : entries) kinds.push_back(entry_name(entry));
   return rides_table("Centerline", entries, kinds);
 }
 
@@ -145,9 +163,8 @@ std::string curves_csv(const std::vector<Entry>& entries) {
       // Crowded towards the start, where the curves bend most.
       const double part = static_cast<double>(index) / kPoints;
       const CenterlinePoint point = centerline.at(centerline.length() * part * part);
-      table.add({std::string(word(entry.design.centerline.kind)),
-                 exact_text(entry.design.body.friction.angle().degrees()), exact_text(point.arc_length),
-                 exact_text(point.x), exact_text(point.drop),
+      table.add({entry_name(entry), exact_text(entry.design.body.friction.angle().degrees()),
+                 exact_text(point.arc_length), exact_text(point.x), exact_text(point.drop),
                  exact_text(Angle::from_radians(point.slope_angle).degrees())});
     }
   }
@@ -197,7 +214,6 @@ struct Comparison {
 Comparison comparison_of(const Options& options, const Design& design, const std::vector<Friction>& frictions,
                          const RunContext& context) {
   const std::string heading = design.name.empty() ? std::string("Comparison") : design.name;
-  const std::string span = span_line(design, endpoints_of(design));
   if (!options.others.empty()) {
     std::vector<Entry> entries = designs_given(options, design, context);
     Table table = designs_table(entries);
@@ -206,11 +222,14 @@ Comparison comparison_of(const Options& options, const Design& design, const std
   if (!frictions.empty()) {
     std::vector<Entry> entries = friction_sweep(design, frictions);
     Table table = sweep_table(entries);
-    return {heading, span + ", constant-speed", std::move(entries), std::move(table)};
+    return {heading, span_line(design, endpoints_of(design)) + ", constant-speed", std::move(entries),
+            std::move(table)};
   }
   std::vector<Entry> entries = every_kind(design, context);
   Table table = kinds_table(entries);
-  return {heading, task_line(design, endpoints_of(design)), std::move(entries), std::move(table)};
+  const Entry& first = entries.front();
+  const Endpoints endpoints = first.track ? first.track->endpoints : endpoints_of(design);
+  return {heading, task_line(design, endpoints), std::move(entries), std::move(table)};
 }
 
 std::vector<Figure> figures_of(const Options& options, const Design& design,
@@ -248,7 +267,7 @@ ExitCode compare(const Options& options) {
   const Comparison comparison = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
-    const RunContext context{progress.callback(), interrupt.token()};
+    const RunContext context{progress.callback(), interrupt.token(), options.time_budget.seconds()};
     Comparison made = comparison_of(options, design, frictions, context);
     write_figures(options, design, made, context);
     return made;
@@ -275,6 +294,7 @@ void add_compare(CLI::App& program, Action& action) {
       ->type_name("ANGLES")
       ->delimiter(',')
       ->group("Options");
+  options->time_budget.add_to(command);
   command.add_option("others", options->others, "More design files: each on its own line, beside the first")
       ->type_name("DESIGN.yaml...");
   command

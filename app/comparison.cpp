@@ -36,6 +36,27 @@ void enter(const RunContext& context, const std::string& stage, std::size_t done
   if (context.progress) context.progress(stage, static_cast<double>(done) / static_cast<double>(all));
 }
 
+/// What the closed form of the fastest track takes: no limits, no range of friction.
+Design without_limits(Design design) {
+  design.limits.reset();
+  design.body.low_friction.reset();
+  design.body.high_friction.reset();
+  return design;
+}
+
+/// A free finish fixed to where a track ends.
+Design finishing_like(Design design, const Track& track) {
+  const CenterlinePoint end = track.centerline->at(track.centerline->length());
+  design.track.finish = track.placement.to_space(end.x, end.drop, 0.0);
+  design.track.free_finish = FreeFinish::none;
+  return design;
+}
+
+bool is_searched(const Design& design) {
+  return design.centerline.kind == CenterlineKind::fastest &&
+         (design.limits || design.track.free_finish != FreeFinish::none);
+}
+
 using Naming = std::function<std::string(const Entry&)>;
 
 std::vector<FigureRide> rides_of(const std::vector<Entry>& entries, const Naming& name) {
@@ -44,10 +65,6 @@ std::vector<FigureRide> rides_of(const std::vector<Entry>& entries, const Naming
     if (entry.track) rides.push_back({name(entry), &entry.track->motion});
   }
   return rides;
-}
-
-std::string kind_name(const Entry& entry) {
-  return std::string(word(entry.design.centerline.kind));
 }
 
 std::string friction_name(const Entry& entry) {
@@ -80,7 +97,7 @@ std::vector<double> friction_angles_deg(const Design& design) {
 /// Limits are left aside: a search for each friction would take minutes.
 std::vector<Figure> over_friction(Design design, const RunContext& context) {
   const std::string aside = design.limits ? ", without limits" : "";
-  design.limits.reset();
+  design = without_limits(std::move(design));
   const double missing = std::numeric_limits<double>::quiet_NaN();
   Figure time{"Travel time over friction" + aside, "friction angle [deg]", "travel time [s]", {}, {}, false};
   Figure slope{"Steepest slope over friction" + aside,
@@ -128,10 +145,24 @@ Entry entry_of(Design design, const std::function<Track(const Design&)>& make) {
   return entry;
 }
 
+std::string entry_name(const Entry& entry) {
+  return is_searched(entry.design) ? "fastest in limits" : std::string(word(entry.design.centerline.kind));
+}
+
 std::vector<Entry> every_kind(const Design& design, const RunContext& context) {
   std::vector<Entry> entries;
-  for (const CenterlineKind kind : kinds_for(design)) {
-    entries.push_back(solved(of_kind(design, kind), context));
+  Design others = design;
+  const Design searched = of_kind(design, CenterlineKind::fastest);
+  if (is_searched(searched)) {
+    entries.push_back(solved(searched, context));
+    const bool free_finish = design.track.free_finish != FreeFinish::none;
+    if (free_finish && !entries.back().track) return entries;
+    if (free_finish) others = finishing_like(others, *entries.back().track);
+  }
+  for (const CenterlineKind kind : kinds_for(others)) {
+    Design one = of_kind(others, kind);
+    if (kind == CenterlineKind::fastest) one = without_limits(std::move(one));
+    entries.push_back(solved(std::move(one), context));
   }
   return entries;
 }
@@ -156,10 +187,12 @@ std::vector<Entry> friction_sweep(const Design& design, const std::vector<Fricti
 
 std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries,
                                   const RunContext& context) {
-  const std::vector<FigureRide> rides = rides_of(entries, kind_name);
+  const std::vector<FigureRide> rides = rides_of(entries, entry_name);
   std::vector<Figure> figures = {ride_figure(RideQuantity::profile, rides),
                                  ride_figure(RideQuantity::speed, rides)};
-  for (Figure& figure : over_friction(design, context)) figures.push_back(std::move(figure));
+  // A free finish is by now where the track within the limits ends.
+  const Design fixed = of_kind(entries.back().design, design.centerline.kind);
+  for (Figure& figure : over_friction(fixed, context)) figures.push_back(std::move(figure));
   return figures;
 }
 

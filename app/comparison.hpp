@@ -17,10 +17,15 @@ struct Entry {
   std::string problem;
 };
 
+/// @return the kind as the design file names it; "fastest in limits" where it is searched for within them
+[[nodiscard]] std::string entry_name(const Entry& entry);
+
 /// @param make  may throw what a design that cannot be built throws; it becomes the entry's problem
 [[nodiscard]] Entry entry_of(Design design, const std::function<Track(const Design&)>& make);
 
 /// The design with a centerline of every kind that two points define, its own first where it is a drawn one.
+/// With limits the fastest track comes twice: within them and, second, without; all other kinds are held
+/// against them. A free finish is then where the track within the limits ends.
 [[nodiscard]] std::vector<Entry> every_kind(const Design& design, const RunContext& context);
 
 /// Each design with its own track.

@@ -280,10 +280,13 @@ TEST_CASE("every shipped design builds, and admesh finds nothing to repair in it
     const json built = json::parse(outcome.output);
     CHECK(built["status"] == "arrived");
     CHECK(built["mesh"]["valid"] == true);
-    CHECK(built["travel_time_s"].get<double>() >=
-          built["optimum_travel_time_s"].get<double>() * (1.0 - 1e-9));
+    // With an entry speed or drag there is no closed form to compare with.
+    if (!built["optimum_travel_time_s"].is_null()) {
+      CHECK(built["travel_time_s"].get<double>() >=
+            built["optimum_travel_time_s"].get<double>() * (1.0 - 1e-9));
+    }
     CHECK(built["travel_time_s"].get<double>() < built["straight_travel_time_s"].get<double>());
     CHECK(admesh_check(place / "out" / stem / (stem + ".stl")).repaired_nothing());
   }
-  CHECK(count >= 7);
+  CHECK(count >= 10);
 }

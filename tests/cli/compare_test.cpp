@@ -76,3 +76,22 @@ TEST_CASE("compare --csv writes every curve from the start to the finish") {
   while (std::getline(lines, line)) ++count;
   CHECK(count == 5 * 201);
 }
+
+TEST_CASE("compare shows the fastest track within limits beside the others, each held against the limits") {
+  const Outcome outcome = glissade_run({"compare", shipped("grain_chute_with_limits")});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output, Contains("fastest in limits") && Contains("kept") && Contains(" broken"));
+  const json tracks = compared({shipped("grain_chute_with_limits")});
+  REQUIRE(tracks.size() == 6);
+  CHECK(tracks[0]["search"]["status"] == "optimal");
+  CHECK(tracks[1]["centerline"] == "fastest");
+  CHECK(tracks[1]["search"].is_null());
+  // Without limits it is faster, between the same two points.
+  CHECK(tracks[1]["travel_time_s"].get<double>() < tracks[0]["travel_time_s"].get<double>());
+  for (const json& track : tracks) {
+    if (!track["problem"].is_null()) continue;
+    CHECK(track["drop_m"].get<double>() == Approx(tracks[0]["drop_m"].get<double>()));
+  }
+  CHECK(tracks[3]["centerline"] == "straight");
+  CHECK_FALSE(tracks[3]["limits"].empty());
+}

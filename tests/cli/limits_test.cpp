@@ -253,3 +253,16 @@ TEST_CASE("a search that runs out of time says so, with exit code 4") {
   CHECK(unit.exit_code == 2);
   CHECK_THAT(unit.errors, Contains("--time-budget: 10deg is an angle, not a time"));
 }
+
+TEST_CASE("the shipped designs with limits are solved to the optimum") {
+  for (const char* name : {"ski_jump_inrun_with_limits", "grain_chute_with_limits", "toboggan_on_terrain"}) {
+    INFO(name);
+    const Outcome outcome = glissade_run({"solve", shipped(name), "--json"});
+    INFO(outcome.errors);
+    REQUIRE(outcome.exit_code == 0);
+    const json track = json::parse(outcome.output);
+    CHECK(track["search"]["status"] == "optimal");
+    CHECK(track["search"]["active"].size() >= 3);
+    for (const json& check : track["limits"]) CHECK(check["kept"] == true);
+  }
+}

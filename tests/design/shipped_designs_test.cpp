@@ -22,7 +22,8 @@ TEST_CASE("every design in designs/ is sound") {
     names.insert(entry.path().stem().string());
   }
   for (const char* name : {"grain_chute", "ski_jump_inrun", "sand_ski_ramp", "toboggan_run", "powder_chute",
-                           "pudasaini_figure_1", "marble_run"}) {
+                           "pudasaini_figure_1", "marble_run", "ski_jump_inrun_with_limits",
+                           "grain_chute_with_limits", "toboggan_on_terrain"}) {
     CHECK(names.contains(name));
   }
 }
