@@ -39,19 +39,45 @@ struct Attempt {
   Relaxed relaxed;
 };
 
+Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
+  Mesh mesh;
+  mesh.knots = std::move(knots);
+  mesh.lead_in = problem.lead_in;
+  mesh.lead_out = problem.lead_out;
+  mesh.core_length = core_length;
+  mesh.entry_speed2 = problem.entry_speed2;
+  return mesh;
+}
+
 /// The least by which one limit must give way when all others hold: from the track that breaks all of them
-/// least; where that descent loses its way, from the straight line.
+/// least, and from the straight line, since a descent may end in the wrong valley.
 std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elastic, SearchControl& control) {
   constexpr double kKept = 1e-6;
-  const Vector margins(attempt.problem->limits.size(), 0.0);
-  std::vector<Vector> beginnings{attempt.relaxed.found.z};
-  beginnings.push_back(fit(starts(*attempt.problem).back(), Transcription(attempt.mesh)));
-  for (const Vector& beginning : beginnings) {
-    if (control.stop()) break;
-    Relaxed alone = least_violation(*attempt.problem, attempt.mesh, beginning, elastic, margins, control);
-    if (alone.found.violation <= kKept && alone.t > 0.0) return alone;
+  constexpr std::size_t kFollowing = 4;
+  constexpr std::size_t kFiner = 32;
+  constexpr double kPays = 0.98;
+  const ScaledProblem& problem = *attempt.problem;
+  const Vector margins(problem.limits.size(), 0.0);
+  std::optional<Relaxed> least;
+  const auto descend = [&](const Mesh& mesh, const Vector& beginning) {
+    Relaxed alone = least_violation(problem, mesh, beginning, elastic, margins, control);
+    if (alone.found.violation > kKept || alone.t <= 0.0) return false;
+    const bool pays = !least || alone.t < kPays * least->t;
+    if (!least || alone.t < least->t) least = std::move(alone);
+    return pays;
+  };
+  descend(attempt.mesh, attempt.relaxed.found.z);
+  if (!control.stop()) {
+    descend(attempt.mesh, fit(starts(problem).back(), Transcription(attempt.mesh)));
   }
-  return {};
+  // The mesh follows the track: where it bends in the end need not be where it bent in the beginning.
+  for (std::size_t round = 0; least && round < kFollowing && !control.stop(); ++round) {
+    const Found& found = least->found;
+    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, kFiner),
+                              found.z[found.track->layout().length()]);
+    if (!descend(mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)))) break;
+  }
+  return least;
 }
 
 }  // namespace
@@ -73,16 +99,6 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
 }
 
 namespace {
-
-Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
-  Mesh mesh;
-  mesh.knots = std::move(knots);
-  mesh.lead_in = problem.lead_in;
-  mesh.lead_out = problem.lead_out;
-  mesh.core_length = core_length;
-  mesh.entry_speed2 = problem.entry_speed2;
-  return mesh;
-}
 
 Relaxed all_relaxed(const ScaledProblem& problem, const Mesh& mesh, const GuessCurve& curve,
                     SearchControl& control) {

@@ -33,6 +33,10 @@ constexpr double kNearlyFeasible = 1e-3;
 // track.
 constexpr double kContactMargin = 1e-6;
 constexpr int kTighteningRounds = 12;
+// In the first of them limits are held at the places that the referee names; later they are tightened.
+constexpr int kHoldingRounds = 4;
+// A body that stalled between two stations is kept this much faster, squared, over free fall.
+constexpr double kStallMargin = 1e-5;
 constexpr std::size_t kMostPassages = 16;
 // So many starts without any track that keeps the limits end a search.
 constexpr int kMostHopeless = 2;
@@ -201,7 +205,7 @@ class Searcher {
     }
     candidate.stopped = candidate.stopped || found.stopped;
     tell("referee", 0.9);
-    Vector lift_offs;
+    Vector held;  // places, of the core's length, at which limits are held beside the stations
     for (int round = 0; round < kTighteningRounds; ++round) {
       const CenterlinePtr track = track_of(problem, found);
       const Verdict verdict = judge_track(problem_, track, kRefereeSamples);
@@ -215,22 +219,34 @@ class Searcher {
         candidate.kept = kept;
       }
       if (kept || found.stopped) break;
-      tighten(problem, verdict);
+      tighten(problem, verdict, round);
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 10;
       const double core_length = found.z[found.track->layout().length()];
       Mesh mesh = mesh_with(problem, found.track->mesh().knots, core_length);
-      if (verdict.lift_off) {
-        // Hold the load exactly where the body left the track, too.
-        const double sigma = (*verdict.lift_off / problem.chord - problem.lead_in) / core_length;
-        if (sigma > 0.0 && sigma < 1.0) lift_offs.push_back(sigma);
+      for (const double place : places_to_hold(verdict, round)) {
+        const double sigma = (place / problem.chord - problem.lead_in) / core_length;
+        if (sigma > 0.0 && sigma < 1.0) held.push_back(sigma);
       }
-      mesh.extra_breaks.insert(mesh.extra_breaks.end(), lift_offs.begin(), lift_offs.end());
+      mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.begin(), held.end());
       found = minimise(problem, mesh, found.z, margins_, control_);
     }
   }
 
-  void tighten(const ScaledProblem& problem, const Verdict& verdict) {
+  /// Where the referee found the ride ending, or in the first rounds a limit broken the most: holding the
+  /// limit exactly there costs nothing, other than tightening it as a whole.
+  [[nodiscard]] std::vector<double> places_to_hold(const Verdict& verdict, int round) const {
+    std::vector<double> places;
+    if (verdict.lift_off) places.push_back(*verdict.lift_off);
+    if (verdict.stall) places.push_back(*verdict.stall);
+    if (round >= kHoldingRounds) return places;
+    for (const LimitCheck& check : verdict.checks) {
+      if (check.violation > 0.5 * options_.limit_tolerance * check.scale) places.push_back(check.where);
+    }
+    return places;
+  }
+
+  void tighten(const ScaledProblem& problem, const Verdict& verdict, int round) {
     for (std::size_t i = 0; i < problem.limits.size(); ++i) {
       const LimitSpec& limit = problem.limits[i];
       if (limit.side == 0) continue;
@@ -239,6 +255,11 @@ class Searcher {
         margins_[i] *= 2.0;
         continue;
       }
+      if (limit.measure == Measure::arrival && verdict.stall) {
+        margins_[i] = std::max(kStallMargin, 2.0 * margins_[i]);
+        continue;
+      }
+      if (round < kHoldingRounds) continue;
       const LimitCheck* check = verdict.find(limit.key);
       if (check == nullptr || check->violation <= 0.5 * options_.limit_tolerance * check->scale) continue;
       margins_[i] += 1.3 * check->violation / check->scale;

@@ -435,6 +435,7 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
     if (!motion.arrived()) {
       verdict.arrived = false;
       if (motion.lift_off()) verdict.lift_off = motion.lift_off()->arc_length;
+      if (motion.stall()) verdict.stall = motion.stall()->arc_length;
       if (broken_rides == BrokenRides::left_out) continue;
     }
     if (arrival.empty()) {

@@ -12,6 +12,7 @@ namespace glissade::fastest {
 /// What the independent integration says of a track.
 struct Verdict {
   bool arrived = false;            ///< at every friction of the range
+  std::optional<double> stall;     ///< arc length at which the body stalls, at some friction [m]
   std::optional<double> lift_off;  ///< arc length at which the body leaves the track, at some friction [m]
   double travel_time = 0.0;
   double exit_speed = 0.0;

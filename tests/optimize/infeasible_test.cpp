@@ -1,0 +1,106 @@
+// What the search calls infeasible is held against a search of another kind: penalised violations of splines
+// of few pieces, minimised without derivatives from many random beginnings. It finds a track where there
+// plainly is one, and must not find any where the report says that limits contradict each other.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+
+#include "optimize/random_limits.hpp"
+#include "optimize/referee.hpp"
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+using namespace glissade;
+using testing_problems::random_limited;
+
+namespace {
+
+constexpr int kPieces = 6;
+
+std::shared_ptr<ClothoidSpline> track_of(const Problem& problem, const std::vector<double>& z) {
+  const double chord = std::hypot(problem.endpoints.run, problem.endpoints.drop);
+  const double core = std::exp(z[1]) * chord - problem.limits.lead_in - problem.limits.lead_out;
+  if (!(core > 0.05 * chord)) return nullptr;
+  const bool starts_straight = problem.limits.lead_in > 0.0;
+  const bool ends_straight = problem.limits.lead_out > 0.0;
+  std::vector<ClothoidSegment> segments;
+  if (starts_straight) segments.push_back({problem.limits.lead_in, 0.0, 0.0});
+  const auto curvature = [&](int knot) {
+    if ((knot == 0 && starts_straight) || (knot == kPieces && ends_straight)) return 0.0;
+    return z[static_cast<std::size_t>(2 + knot)] / chord;
+  };
+  for (int i = 0; i < kPieces; ++i) segments.push_back({core / kPieces, curvature(i), curvature(i + 1)});
+  if (ends_straight) segments.push_back({problem.limits.lead_out, 0.0, 0.0});
+  return std::make_shared<ClothoidSpline>(Angle::from_radians(z[0]), std::move(segments));
+}
+
+double violation(const Problem& problem, const std::vector<double>& z) {
+  constexpr double kNoTrack = 10.0;
+  if (std::fabs(z[0]) > 1.5) return kNoTrack;
+  const auto track = track_of(problem, z);
+  if (!track) return kNoTrack;
+  for (const double s : track->breaks()) {
+    if (std::fabs(track->slope_angle(s)) > 1.57) return kNoTrack;
+  }
+  const fastest::Verdict verdict = fastest::judge_track(problem, track, 6);
+  return verdict.worst + (verdict.arrived ? 0.0 : 1.0);
+}
+
+/// A (1+1) evolution: random steps, kept where they pay, of a size that follows its success.
+double least_found(const Problem& problem, testing::Random& random) {
+  double least = 10.0;
+  for (int beginning = 0; beginning < 3; ++beginning) {
+    std::vector<double> z(static_cast<std::size_t>(3 + kPieces), 0.0);
+    const double mean = std::atan2(problem.endpoints.drop, problem.endpoints.run);
+    z[0] = mean + random.between(-0.2, 0.5);
+    z[1] = random.between(0.0, 0.1);
+    for (std::size_t i = 2; i < z.size(); ++i) z[i] = random.between(-0.2, 1.0);
+    double now = violation(problem, z);
+    double size = 0.3;
+    for (int step = 0; step < 400; ++step) {
+      std::vector<double> next = z;
+      for (double& value : next) value += size * random.between(-1.0, 1.0) * random.between(0.0, 1.0);
+      const double there = violation(problem, next);
+      if (there <= now) {
+        now = there;
+        z = std::move(next);
+        size *= 1.5;
+      } else {
+        size *= 0.92;
+      }
+      if (size < 1e-6) size = 0.05;
+    }
+    least = std::min(least, now);
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("an independent search finds no track where limits are said to contradict each other") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int infeasible = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Problem problem = random_limited(random);
+    const Optimum optimum = optimize(problem);
+    if (optimum.report.status != OptimizeStatus::infeasible) continue;
+    ++infeasible;
+    CAPTURE(i, optimum.report.message);
+    CHECK(least_found(problem, random) > 1e-5);
+  }
+  CAPTURE(infeasible);
+  CHECK(infeasible > 0);
+}
+
+TEST_CASE("the independent search does find tracks where there are some") {
+  testing::Random random(7);
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.slope_angle.highest = 0.8;
+  problem.limits.smallest_valley_radius = 3.0;
+  CHECK(least_found(problem, random) < 0.05);
+}
