@@ -75,7 +75,7 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
   int undecided = 0;
   // GLISSADE_PROBLEMS=300 in the environment: the long run of docs/optimization.md.
   const char* const asked = std::getenv("GLISSADE_PROBLEMS");
-  const int problems = asked != nullptr ? std::atoi(asked) : 60;
+  const int problems = asked != nullptr ? std::atoi(asked) : 40;
   constexpr int kNeighbours = 12;
   for (int i = 0; i < problems; ++i) {
     const Problem problem = random_limited(random);

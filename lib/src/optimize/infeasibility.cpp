@@ -50,10 +50,10 @@ Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
 }
 
 /// The least by which one limit must give way when all others hold: from the track that breaks all of them
-/// least, and from the straight line, since a descent may end in the wrong valley.
+/// least; where that descent loses its way, from the straight line.
 std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elastic, SearchControl& control) {
   constexpr double kKept = 1e-6;
-  constexpr std::size_t kFollowing = 4;
+  constexpr std::size_t kFollowing = 3;
   constexpr std::size_t kFiner = 32;
   constexpr double kPays = 0.98;
   const ScaledProblem& problem = *attempt.problem;
@@ -66,8 +66,7 @@ std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elas
     if (!least || alone.t < least->t) least = std::move(alone);
     return pays;
   };
-  descend(attempt.mesh, attempt.relaxed.found.z);
-  if (!control.stop()) {
+  if (!descend(attempt.mesh, attempt.relaxed.found.z) && !control.stop()) {
     descend(attempt.mesh, fit(starts(problem).back(), Transcription(attempt.mesh)));
   }
   // The mesh follows the track: where it bends in the end need not be where it bent in the beginning.
