@@ -1,5 +1,6 @@
-// The transcription's gradients and Hessian against central differences carried out in the unknowns, and the
-// limits' rows likewise. The differences are the test's; the product has none.
+// The transcription's gradients against complex steps through a quadrature of the test's own in long double;
+// they and the Hessian against central differences carried out in the unknowns, and the limits' rows
+// likewise. Steps and differences are the test's; the product has none.
 
 #include "optimize/rows.hpp"
 #include "optimize/scaled_problem.hpp"
@@ -7,7 +8,10 @@
 #include "support/catch.hpp"
 
 #include <cmath>
-#include <random>
+#include <complex>
+#include <vector>
+
+#include <boost/math/quadrature/gauss.hpp>
 
 using namespace glissade;
 using namespace glissade::fastest;
@@ -78,7 +82,99 @@ double gradient_error(const Function& function, const Vector& z, const Vector& g
   return worst / size;
 }
 
+using Complex = std::complex<long double>;
+
+struct RideEnd {
+  Complex time;
+  Complex speed2;
+};
+
+/// The ride from rest by its own quadrature: w' = 2 (sin - mu cos) e^(-2 mu zeta + 2 k s), in sigma = r^2,
+/// panel by panel; analytic in the unknowns, so that a tiny imaginary step gives the derivative to every
+/// digit.
+RideEnd ridden(const Setup& setup, const std::vector<Complex>& z, const Ride& ride) {
+  using Gauss = boost::math::quadrature::gauss<long double, 20>;
+  const Mesh& mesh = setup.mesh;
+  const std::size_t knots = mesh.knots.size();
+  const Complex length = z[1 + knots];
+  const long double mu = ride.friction;
+  const long double k = ride.drag;
+  Complex zeta_at_knot = z[0];
+  Complex w = 0.0L;
+  Complex time = 0.0L;
+  Complex zeta_end;
+  const auto stretch = [&](long double from, long double to, const auto& zeta, const auto& s,
+                           const Complex& unit) {
+    // unit: ds over d(from..to), in the root of the variable where the track starts.
+    const auto push = [&](long double r) {
+      const Complex angle = zeta(r * r);
+      return 2.0L * (std::sin(angle) - mu * std::cos(angle)) *
+             std::exp(-2.0L * mu * angle + 2.0L * k * s(r * r)) * unit * 2.0L * r;
+    };
+    constexpr int kPanels = 8;
+    const long double low = std::sqrt(from);
+    const long double high = std::sqrt(to);
+    for (int panel = 0; panel < kPanels; ++panel) {
+      const long double a = low + (high - low) * panel / kPanels;
+      const long double b = low + (high - low) * (panel + 1) / kPanels;
+      const Complex w_before = w;
+      const auto pace = [&](long double r) {
+        const Complex here = w_before + Gauss::integrate(push, a, r);
+        const Complex v = here * std::exp(2.0L * mu * zeta(r * r) - 2.0L * k * s(r * r));
+        return unit * 2.0L * r / std::sqrt(v);
+      };
+      time += Gauss::integrate(pace, a, b);
+      w += Gauss::integrate(push, a, b);
+    }
+  };
+  for (std::size_t i = 0; i + 1 < knots; ++i) {
+    const long double from = mesh.knots[i];
+    const long double to = mesh.knots[i + 1];
+    const auto zeta = [&](long double sigma) {
+      const long double along = sigma - from;
+      return zeta_at_knot - z[1 + i] * along - (z[2 + i] - z[1 + i]) * (along * along / (2.0L * (to - from)));
+    };
+    stretch(
+        from, to, zeta, [&](long double sigma) { return length * sigma; }, length);
+    zeta_end = zeta(to);
+    zeta_at_knot = zeta_end;
+  }
+  const long double out = mesh.lead_out;
+  stretch(
+      1.0L, 2.0L, [&](long double) { return zeta_end; },
+      [&](long double tau) { return length + out * (tau - 1.0L); }, Complex(out));
+  return {time, w * std::exp(2.0L * mu * zeta_end - 2.0L * k * (length + out))};
+}
+
 }  // namespace
+
+TEST_CASE("time and exit speed carry the derivatives that complex steps in long double give") {
+  // The transcription's own quadrature is resolved to some 1e-11.
+  constexpr double kAgreement = 1e-9;
+  constexpr long double kTiny = 1e-30L;
+  const Setup setup = make_setup(0.0);
+  const Transcription track(setup.mesh);
+  const Rows rows(setup.problem, track);
+  const State state = rows.state(setup.z, true);
+  REQUIRE(setup.problem.rides.size() == 2);
+  for (std::size_t friction = 0; friction < 2; ++friction) {
+    const Flow& flow = state.flows[friction];
+    const Ride& ride = setup.problem.rides[friction];
+    for (std::size_t j = 0; j < setup.z.size(); ++j) {
+      std::vector<Complex> z(setup.z.begin(), setup.z.end());
+      z[j] += Complex(0.0L, kTiny);
+      const RideEnd end = ridden(setup, z, ride);
+      CAPTURE(friction, j);
+      CHECK(flow.time == Approx(static_cast<double>(end.time.real())).epsilon(kAgreement));
+      CHECK(flow.dtime[j] ==
+            Approx(static_cast<double>(end.time.imag() / kTiny)).epsilon(kAgreement).margin(kAgreement));
+      const std::size_t last = flow.v.size() - 1;
+      CHECK(flow.v[last] == Approx(static_cast<double>(end.speed2.real())).epsilon(kAgreement));
+      CHECK(flow.dv(last, j) ==
+            Approx(static_cast<double>(end.speed2.imag() / kTiny)).epsilon(kAgreement).margin(kAgreement));
+    }
+  }
+}
 
 TEST_CASE("every row and the objective carry their exact gradient") {
   for (const double entry_speed : {0.0, 2.5}) {
