@@ -78,6 +78,7 @@ std::string exit_text(const Motion& motion) {
 
 std::vector<std::string> names_of(const std::vector<Entry>& entries) {
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const Entry& entry : entries) {
     names.push_back(entry.design.name.empty() ? entry.design.file.stem().string() : entry.design.name);
   }
@@ -123,6 +124,7 @@ Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
 
 Table kinds_table(const std::vector<Entry>& entries) {
   std::vector<std::string> kinds;
+  kinds.reserve(entries.size());
   for (const Entry& entry : entries) kinds.push_back(entry_name(entry));
   return rides_table("Centerline", entries, kinds);
 }
@@ -190,6 +192,7 @@ Json comparison_json(const Options& options, const Design& design, const std::ve
 
 std::vector<Friction> frictions_of(const std::vector<std::string>& texts) {
   std::vector<Friction> frictions;
+  frictions.reserve(texts.size());
   for (const std::string& text : texts) {
     frictions.push_back(
         Friction::from_angle(Angle::from_radians(option_value(text, Dimension::angle, "--friction-sweep"))));

@@ -169,6 +169,7 @@ std::vector<Entry> every_kind(const Design& design, const RunContext& context) {
 
 std::vector<Entry> every_design(std::vector<Design> designs, const RunContext& context) {
   std::vector<Entry> entries;
+  entries.reserve(designs.size());
   for (Design& design : designs) entries.push_back(solved(std::move(design), context));
   return entries;
 }

@@ -52,7 +52,7 @@ std::string row_of(const std::vector<std::string>& cells, std::size_t columns) {
   std::string row = "<tr><th scope=\"row\">" + escaped_markup(cells.empty() ? "" : cells.front()) + "</th>";
   for (std::size_t i = 1; i < cells.size(); ++i) {
     const bool remark = i + 1 == cells.size() && cells.size() < columns;
-    row += remark ? "<td class=\"remark\" colspan=\"" + std::to_string(columns - i) + "\">"
+    row += remark ? R"(<td class="remark" colspan=")" + std::to_string(columns - i) + "\">"
                   : std::string("<td>");
     row += cell_text(cells[i]) + "</td>";
   }
@@ -61,7 +61,7 @@ std::string row_of(const std::vector<std::string>& cells, std::size_t columns) {
 
 std::string table_of(const PageTable& table) {
   std::string text =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Comparison\"><table><thead><tr>";
+      R"(<div class="scroll" tabindex="0" role="region" aria-label="Comparison"><table><thead><tr>)";
   for (const std::string& heading : table.headings) {
     text += "<th scope=\"col\">" + escaped_markup(heading) + "</th>";
   }

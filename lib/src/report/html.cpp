@@ -54,7 +54,7 @@ std::string report_html(const ReportInput& input) {
       "</style>\n</head>\n<body>\n<div id=\"page\"><noscript>This report draws itself with the scripts it "
       "carries; "
       "switch them on for this file.</noscript></div>\n";
-  page += "<script type=\"application/json\" id=\"glissade-data\">";
+  page += R"(<script type="application/json" id="glissade-data">)";
   page += escaped_json(report_json(input));
   page += "</script>\n<script>";
   page += escaped_script(page_assets::kScript);

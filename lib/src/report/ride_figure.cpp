@@ -168,6 +168,7 @@ std::optional<RideQuantity> ride_quantity(std::string_view word) {
 const std::vector<RideQuantity>& ride_quantities() {
   static const std::vector<RideQuantity> quantities = [] {
     std::vector<RideQuantity> all;
+    all.reserve(kWords.size());
     for (const auto& entry : kWords) all.push_back(entry.first);
     return all;
   }();
