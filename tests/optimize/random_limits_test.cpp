@@ -64,6 +64,21 @@ std::optional<std::shared_ptr<ClothoidSpline>> through_finish(double entry,
   return std::nullopt;
 }
 
+/// What the distance costs at which the search keeps from limits that would else be broken between its
+/// stations, above all from losing contact: the price of each limit times how far the referee finds the track
+/// from it [s].
+double kept_back(const OptimizeReport& report) {
+  double cost = 0.0;
+  for (const ActiveLimit& active : report.active) {
+    for (const LimitCheck& check : report.checks) {
+      if (check.limit == active.limit) cost += active.price * std::fabs(check.reached - check.value);
+    }
+  }
+  // 299 of 300 problems stay below 1e-4, one took 4e-4 (docs/optimization.md).
+  CHECK(cost <= 1e-3 * report.travel_time);
+  return cost;
+}
+
 }  // namespace
 
 TEST_CASE("random limited problems: every limit is kept, and no admissible neighbour is faster") {
@@ -122,7 +137,8 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
       const fastest::Verdict other = fastest::judge_track(problem, *neighbour, 8);
       if (!other.arrived || other.worst > 1e-7) continue;
       ++admissible;
-      if (other.travel_time >= optimum.report.travel_time * (1.0 - 1e-6)) continue;
+      if (other.travel_time >= optimum.report.travel_time * (1.0 - 1e-6) - kept_back(optimum.report))
+        continue;
       // Faster at eight points a piece: look as closely as at the optimum itself.
       const fastest::Verdict close = fastest::judge_track(problem, *neighbour, kReferee);
       CAPTURE(k, amplitude * spline.length());
@@ -226,4 +242,25 @@ TEST_CASE("a stop or an empty budget ends early and says so") {
   const Optimum early = optimize(problem, hurried);
   CHECK(early.report.status != OptimizeStatus::optimal);
   if (early.centerline) CHECK(fastest::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+}
+
+TEST_CASE(
+    "a search that is asked to end halfway gives a track that keeps every limit, and is not called optimal") {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.highest_normal_load = 14.0;
+  problem.limits.slope_angle.highest = 0.8;
+  problem.limits.smallest_valley_radius = 5.0;
+  std::stop_source source;
+  const Progress ask = [&](std::string_view stage, double) {
+    if (stage == "finer track") source.request_stop();
+  };
+  const Optimum early = optimize(problem, {}, source.get_token(), ask);
+  INFO(early.report.brief());
+  CHECK(early.report.status == OptimizeStatus::feasible_not_converged);
+  CHECK(early.report.message == "stopped: the best track so far");
+  REQUIRE(early.centerline);
+  CHECK(fastest::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+  CHECK(early.report.travel_time >= optimize(problem).report.travel_time * (1.0 - 1e-6));
 }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace glissade {
@@ -33,6 +34,9 @@ constexpr double kNearlyFeasible = 1e-3;
 // track.
 constexpr double kContactMargin = 1e-6;
 constexpr int kTighteningRounds = 12;
+// So many of them, short ones, once the search has been asked to end.
+constexpr int kGraceRounds = 6;
+constexpr int kGraceEffort = 2;
 // In the first of them limits are held at the places that the referee names; later they are tightened.
 constexpr int kHoldingRounds = 4;
 // A body that stalled between two stations is kept this much faster, squared, over free fall.
@@ -205,6 +209,7 @@ class Searcher {
     }
     candidate.stopped = candidate.stopped || found.stopped;
     tell("referee", 0.9);
+    const std::function<bool()> stop = control_.stop;
     Vector held;  // places, of the core's length, at which limits are held beside the stations
     for (int round = 0; round < kTighteningRounds; ++round) {
       const CenterlinePtr track = track_of(problem, found);
@@ -218,7 +223,12 @@ class Searcher {
         candidate.verdict = verdict;
         candidate.kept = kept;
       }
-      if (kept || found.stopped) break;
+      if (kept) break;
+      if (found.stopped) {
+        // Asked to end on a track that all but keeps its limits: a little more work makes it one that does.
+        if (!found.feasible(kNearlyFeasible) || round >= kGraceRounds) break;
+        control_.stop = [] { return false; };
+      }
       tighten(problem, verdict, round);
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 10;
@@ -229,8 +239,13 @@ class Searcher {
         if (sigma > 0.0 && sigma < 1.0) held.push_back(sigma);
       }
       mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.begin(), held.end());
+      if (found.stopped) control_.most_rounds = kGraceEffort;
+      const bool stopped = found.stopped;
       found = minimise(problem, mesh, found.z, margins_, control_);
+      control_.stop = stop;
+      found.stopped = found.stopped || stopped;
     }
+    candidate.stopped = candidate.stopped || found.stopped;
   }
 
   /// Where the referee found the ride ending, or in the first rounds a limit broken the most: holding the
