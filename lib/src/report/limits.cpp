@@ -18,7 +18,8 @@ constexpr int kPlaceDigits = 3;
 
 std::string value_text(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return "unbounded";
-  if (unit == "rad") return angle_text(value, digits);
+  // What an angle is off level by rounding is no angle.
+  if (unit == "rad") return angle_text(std::fabs(value) < 1e-11 ? 0.0 : value, digits);
   if (unit == "m") return length_text(value, digits);
   std::string text = rounded_text(value, digits) + " " + std::string(unit);
   if (unit == "m/s^2") text += " (" + rounded_text(value / kStandardGravity, 3) + " g)";

@@ -45,6 +45,8 @@ export class Units {
 
   text(quantity, value, digits = 5) {
     if (value === null || value === undefined) return MISSING[quantity] ?? "\u2013";
+    // What an angle is off level by rounding is no angle.
+    if (quantity === "angle" && Math.abs(value) < 1e-9) return `0\u00a0${this.unit(quantity)}`;
     // A tolerance reads better in millimetres, whatever the unit of the track.
     const small = quantity === "length" && this.unit("length") === "m" && value !== 0 && Math.abs(value) < 0.01;
     if (small) return `${number(1e3 * value, digits)}\u00a0mm`;
