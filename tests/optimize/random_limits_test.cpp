@@ -69,7 +69,11 @@ std::optional<std::shared_ptr<ClothoidSpline>> through_finish(double entry,
 /// from it [s].
 double kept_back(const OptimizeReport& report) {
   double cost = 0.0;
+  // A body that creeps slower than 1e-6 of free fall's squared speed counts as lying still; ten times that
+  // where it stalled between stations.
+  constexpr double kCreep = 1e-5;
   for (const ActiveLimit& active : report.active) {
+    if (active.limit == "arrival at the finish") cost += active.price * kCreep;
     for (const LimitCheck& check : report.checks) {
       if (check.limit == active.limit) cost += active.price * std::fabs(check.reached - check.value);
     }
