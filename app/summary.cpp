@@ -57,7 +57,9 @@ std::string comparison_lines(const Track& track) {
                   track.limit_checks.empty() ? "the least possible," : "the least possible without limits,"));
     }
   } else if (fastest) {
-    add("fastest from rest without drag; with an entry speed or drag another track may be faster");
+    const bool drag = track.motion.body().drag_per_metre > 0.0;
+    add(std::string("fastest from rest without drag; 'limits: {}' in the design searches the one for this ") +
+        (drag ? "drag" : "entry speed"));
   }
   if (track.centerline->kind() == "straight") return text;
   add(track.straight ? against(time, track.straight->travel_time(), "the straight line's")

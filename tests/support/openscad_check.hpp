@@ -32,8 +32,7 @@ inline OpenscadResult openscad_render(const std::string& source) {
 }
 
 /// @return source that puts `solid` through exact geometry without changing it: OpenSCAD looks at nothing
-/// when
-///         it prints a bare polyhedron, so a small cube far away is taken off
+///         when it prints a bare polyhedron, so a small cube far away is taken off
 inline std::string scad_with_difference(const std::string& solid) {
   return "difference() { " + solid + " translate([1e6, 1e6, 1e6]) cube(1); }\n";
 }

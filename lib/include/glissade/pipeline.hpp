@@ -121,8 +121,8 @@ struct Build {
   Track track;
   CrossSection section;
   Solid solid;
-  MeshFacts
-      facts;  ///< of the mesh as the least precise of the files holds it, confirmed on each file read back
+  /// Of the mesh as the least precise of the files holds it, confirmed on each file read back.
+  MeshFacts facts;
   std::vector<WrittenFile> files;
 };
 
@@ -131,8 +131,8 @@ struct BuildOptions {
 };
 
 /// Design to files in `directory` (made if missing), each named after the design file, and report.html, which
-/// shows all of them to people. Either all of them
-/// appear, or the directory stays as it was, files of an earlier build included.
+/// shows all of them to people. Either all of them appear, or the directory stays as it was, files of an
+/// earlier build included.
 /// @throws as solve(); InputError if the design has no cross_section or the section cannot follow the track;
 ///         InfeasibleError if the body does not arrive or a limit is broken; FileError if a file cannot be
 ///         written; Interrupted if the context's stop token asks for it; InternalError if a mesh turns out

@@ -37,6 +37,8 @@ std::string length_text(double metres, int digits) {
 }
 
 std::string angle_text(double radians, int digits) {
+  constexpr double kLevel = 1e-12;
+  if (std::fabs(radians) < kLevel) return "0 deg";
   return rounded_text(radians * (180.0 / std::numbers::pi), digits) + " deg";
 }
 

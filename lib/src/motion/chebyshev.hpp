@@ -41,8 +41,7 @@ struct Range {
 [[nodiscard]] Range range(const Values& f);
 
 /// @return the largest of the last three coefficients in size, relative to the largest |f| at a node: how
-/// much of f
-///         the polynomial still misses. 0 for f = 0.
+///         much of f the polynomial still misses. 0 for f = 0.
 [[nodiscard]] double tail(const Values& f);
 
 /// Interpolation to one x, for any number of polynomials.

@@ -35,9 +35,8 @@ struct Endpoints {
 /// A curve in the vertical plane, by arc length: what a body slides on and what a solid is built along.
 ///
 /// Curve: dx = cos(zeta) ds, dy = sin(zeta) ds (docs/theory.md, frame); position and slope angle are
-/// continuous,
-///   curvature is smooth between neighbouring `breaks()`. Curvature may be unbounded at s = 0 like s^(-1/2),
-///   see `unbounded_curvature_at_start()`.
+///   continuous, curvature is smooth between neighbouring `breaks()`. Curvature may be unbounded at s = 0
+///   like s^(-1/2), see `unbounded_curvature_at_start()`.
 /// Identity: every derived class is immutable after construction and safe to read from several threads.
 class Centerline {
  public:
@@ -69,8 +68,7 @@ class Centerline {
   /// Arc length of the point at a given run: the way back from position to arc length.
   /// @param x  run [m]; one that the track passes, so 0 to the run of the finish, and more where it overhangs
   /// @return the smallest arc length whose at(s).x is x to kRunAccuracy * length(). Where the track is
-  /// vertical
-  ///         its run says little about arc length: an error dx in x means dx / cos(zeta) in s.
+  ///         vertical its run says little about arc length: an error dx in x means dx / cos(zeta) in s.
   /// @throws InputError if no point of the track has that run
   [[nodiscard]] virtual double arc_length_at_run(double x) const;
 

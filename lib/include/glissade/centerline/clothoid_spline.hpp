@@ -20,8 +20,7 @@ struct ClothoidSegment {
 /// A track put together from straights, arcs and clothoids, as track builders draw it.
 ///
 /// Curve: curvature piecewise linear in arc length. Position and slope angle are continuous; curvature may
-/// jump
-///   from one segment to the next (at() gives the value after the jump). The track may overhang or loop.
+///   jump from one segment to the next (at() gives the value after the jump). The track may overhang or loop.
 /// Cost: construction O(n + angle turned), at() O(log n).
 /// Accuracy: kClothoidAccuracy * length() in position.
 class ClothoidSpline final : public Centerline {

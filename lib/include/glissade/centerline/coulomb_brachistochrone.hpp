@@ -79,8 +79,7 @@ struct CoulombSolution {
 ///
 /// Frame: as CenterlinePoint; x counts towards the finish on whichever side of the start it lies.
 /// Curve: starts vertically (slope angle pi/2) with curvature unbounded like s^(-1/2), concave throughout,
-/// ends
-///   at exit_slope_angle. A vertical one (run 0) is a straight line of slope angle pi/2 and curvature 0.
+///   ends at exit_slope_angle. A vertical one (run 0) is a straight line of slope angle pi/2 and curvature 0.
 /// Source: docs/theory.md, fastest track; arc length by Gauss quadrature of its derivative, inverted once, in
 ///   the constructor, into Chebyshev pieces of the phase over sqrt(s).
 /// Accuracy: position to kPositionAccuracy of the length, and relative to its own size near the start

@@ -47,8 +47,8 @@ struct ProfileFault {
 /// over all clothoid splines from the first point; straights, arcs and single clothoids come out as they are
 /// (for the first two at any smoothing). What the smoothing costs is told by the deviations.
 /// Frame: the first point is the start (0, 0); the finish is the place of the curve nearest to the last
-/// point. Where
-///   the last point lies to the left of the first, the profile is mirrored: x counts towards the finish.
+///   point. Where the last point lies to the left of the first, the profile is mirrored: x counts towards the
+///   finish.
 /// Curve: curvature is piecewise linear between breaks(), which lie as dense as the points do, at most
 ///   kMostProfileKnots of them. Of more than 1000 points, means of neighbours are fitted; deviations are
 ///   always those of every point.
@@ -57,12 +57,10 @@ struct ProfileFault {
 class FittedProfile final : public Centerline {
  public:
   /// @param points  (run, drop) [m] in order along the track, at least 3; the run may go backwards where the
-  /// track
-  ///   does, the order may not. In any frame with x horizontal and y down.
+  ///   track does, the order may not. In any frame with x horizontal and y down.
   /// @throws InputError with the profile_fault(), or if max_deviation is not positive and finite
   /// @throws InfeasibleError if no curve of this kind comes as near to all points as max_deviation asks; it
-  /// says
-  ///   how near the best one comes
+  ///   says how near the best one comes
   explicit FittedProfile(std::vector<Vec2> points, const ProfileFit& fit = {});
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "points"; }

@@ -16,10 +16,9 @@ namespace glissade {
 ///
 /// Frame: as CenterlinePoint; x counts towards the finish on whichever side of the start it lies.
 /// Curve: with t = 2 a, x = A [(t - sin t) + mu (1 - cos t)], y = A [(1 - cos t) + mu (t + sin t)]; slope
-/// angle
-///   pi/2 - a, s = 4 A [(1 - cos a) + mu sin a], curvature 1/(4 A (sin a + mu cos a)). Starts vertically;
-///   with friction its curvature there is finite, 1/(4 A mu). a runs from 0 to less than pi - 2 delta. Run 0
-///   gives a vertical line.
+///   angle pi/2 - a, s = 4 A [(1 - cos a) + mu sin a], curvature 1/(4 A (sin a + mu cos a)). Starts
+///   vertically; with friction its curvature there is finite, 1/(4 A mu). a runs from 0 to less than pi - 2
+///   delta. Run 0 gives a vertical line.
 /// Source: docs/theory.md, curve without curvature load (as printed by MathWorld, "Brachistochrone Problem").
 /// Accuracy: kPositionAccuracy of the length.
 /// Identity: equals Cycloid at friction 0.

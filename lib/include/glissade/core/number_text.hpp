@@ -10,14 +10,13 @@ namespace glissade {
 
 /// @param digits  significant digits; 1 to 17
 /// @return `value` rounded to `digits` significant digits, without trailing zeros, in plain notation where
-/// the
-///         exponent lies within -5 to 9; independent of locale
+///         the exponent lies within -5 to 9; independent of locale
 [[nodiscard]] std::string rounded_text(double value, int digits);
 
 /// @return a length for people, in the unit that suits its size: "0.35 mm", "412 mm", "5.4 m", "1.2 km"
 [[nodiscard]] std::string length_text(double metres, int digits = 4);
 
-/// @return an angle for people: "17 deg"
+/// @return an angle for people: "17 deg"; "0 deg" below 1e-12 rad, which no drawing can tell from level
 [[nodiscard]] std::string angle_text(double radians, int digits = 4);
 
 }  // namespace glissade

@@ -52,24 +52,19 @@ struct LiftOff {
 ///   -1e-12 g counts as contact, so that free fall along a track (N = 0) is not lost to rounding. A body
 ///   whose speed at the finish rounding cannot tell from zero arrives there with exit speed 0.
 /// Accuracy: kMotionAccuracy relative in speed and travel time, if the centerline's slope angle is exact to a
-/// few
-///   units in the last place of s and zeta; measured in docs/accuracy.md.
+///   few units in the last place of s and zeta; measured in docs/accuracy.md.
 /// Domain: a centerline that is smooth between its breaks(). A bump narrower than some 1/40 of a smooth
-/// stretch that
-///   no break tells of may go unseen.
+///   stretch that no break tells of may go unseen.
 /// Identity: u^2/2 + friction_loss + drag_loss = g drop + entry_speed^2/2 at every station. The losses are
-/// integrals
-///   of N and v, the speed is not computed from them.
+///   integrals of N and v, the speed is not computed from them.
 /// Cost: the constructor evaluates direction() at 17 places for each of some 4 to 100 panels, and at least
-/// one panel
-///   for each smooth stretch; at() is O(log panels).
+///   one panel for each smooth stretch; at() is O(log panels).
 class Motion {
  public:
   /// Rides the whole track, or up to the stall or lift-off.
   /// @param gravity  [m/s^2]; finite, > 0
   /// @throws InputError if there is no centerline, entry_speed or drag_per_metre is negative or not finite,
-  /// or gravity
-  ///         is not positive and finite
+  ///         or gravity is not positive and finite
   /// @throws ConvergenceError if the centerline is so rough between its breaks that no panels resolve it
   Motion(CenterlinePtr centerline, Body body, double gravity = kDefaultGravity);
   ~Motion();
@@ -90,16 +85,14 @@ class Motion {
   /// @return how far the body came [m]; the length of the centerline if it arrived
   [[nodiscard]] double distance() const noexcept;
   /// @return time from the start to distance() [s]; +infinity if the body never moves (it stalls at 0) or
-  /// comes to
-  ///         the finish, without end, where the slope angle is the friction angle (it stalls there)
+  ///         comes to the finish, without end, where the slope angle is the friction angle (it stalls there)
   [[nodiscard]] double travel_time() const noexcept;
   /// @return speed at distance() [m/s]
   [[nodiscard]] double exit_speed() const noexcept;
   /// @return station of the highest / lowest normal load, and of the highest speed, over the whole ride; the
-  /// value to
-  ///         1e-12, its place to 1e-7. Where curvature jumps, the load on the side that counts: it may differ
-  ///         from at(arc_length).normal_load, which is that after the jump. +infinity where a moving body
-  ///         enters a track of unbounded curvature.
+  ///         value to 1e-12, its place to 1e-7. Where curvature jumps, the load on the side that counts: it
+  ///         may differ from at(arc_length).normal_load, which is that after the jump. +infinity where a
+  ///         moving body enters a track of unbounded curvature.
   [[nodiscard]] MotionState highest_load() const;
   [[nodiscard]] MotionState lowest_load() const;
   [[nodiscard]] MotionState highest_speed() const;

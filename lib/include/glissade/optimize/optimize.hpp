@@ -80,8 +80,7 @@ struct ActiveLimit {
   std::string unit;            ///< "rad", "m", "m/s^2", "m/s", "1/m", "1/m^2"
   std::vector<Stretch> where;  ///< where the track lies at the bound, in order
   /// Seconds of the objective won for each unit by which the bound is relaxed (of an objective exit_speed:
-  /// m/s);
-  /// >= 0. The first-order multiplier; of a radius it belongs to a smaller radius.
+  /// m/s); >= 0. The first-order multiplier; of a radius it belongs to a smaller radius.
   double price = 0.0;
 };
 
@@ -159,8 +158,7 @@ struct Optimum {
 /// The fastest track that keeps every limit.
 ///
 /// Method: docs/optimization.md. The track is a clothoid spline; curvature at its knots, entry slope angle
-/// and
-///   length are the unknowns; gradients are exact; NLopt's SLSQP minimises, coarse to fine. All of it in
+///   and length are the unknowns; gradients are exact; NLopt's SLSQP minimises, coarse to fine. All of it in
 ///   units of chord and sqrt(chord/gravity), so that tracks of any size take the same path. Needs no guess,
 ///   is deterministic but for the time budget.
 /// Accuracy: without limits kOptimizeAccuracy relative in travel time at the default pieces, never below the

@@ -65,8 +65,8 @@ struct ReportInput {
   Placement placement;
   const Motion* motion = nullptr;
   const Motion* straight = nullptr;  ///< the same body on the straight line; null if it does not arrive there
-  const Motion* optimum =
-      nullptr;  ///< from rest on the exact optimum without limits; null where that does not apply
+  /// From rest on the exact optimum without limits; null where that does not apply.
+  const Motion* optimum = nullptr;
   /// Smallest radius of curvature, 0 where it vanishes at the start [m]; none: the smallest at the stations.
   std::optional<double> min_radius;
   ReportSolid solid;

@@ -46,8 +46,7 @@ struct Solid {
 ///     depth below the floor that works;
 ///   - options.tolerance is not finite and positive, or finer than the coordinates can carry;
 ///   - the mesh would exceed options.max_triangles: names its size in triangles and bytes, and a tolerance
-///   that
-///     fits; decided before anything of that size is allocated
+///     that fits; decided before anything of that size is allocated
 [[nodiscard]] Solid sweep(const Centerline& centerline, const CrossSection& section,
                           const Placement& placement, const SweepOptions& options = {});
 
