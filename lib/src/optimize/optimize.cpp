@@ -39,6 +39,9 @@ constexpr int kGraceRounds = 6;
 constexpr int kGraceEffort = 2;
 // In the first of them limits are held at the places that the referee names; later they are tightened.
 constexpr int kHoldingRounds = 4;
+// A track that then still breaks a limit at a station by more than kNearlyFeasible is given up: tighter
+// limits are no easier.
+constexpr int kPatientRounds = 3;
 // A body that stalled between two stations is kept this much faster, squared, over free fall.
 constexpr double kStallMargin = 1e-5;
 constexpr std::size_t kMostPassages = 16;
@@ -229,6 +232,7 @@ class Searcher {
         if (!found.feasible(kNearlyFeasible) || round >= kGraceRounds) break;
         control_.stop = [] { return false; };
       }
+      if (round >= kPatientRounds && !found.feasible(kNearlyFeasible)) break;
       tighten(problem, verdict, round);
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 10;

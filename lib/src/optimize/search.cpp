@@ -166,6 +166,17 @@ Matrix hessian_of(const ScaledProblem& problem, const Transcription& track, cons
                        rows.weights(state, equality, active, inequality));
 }
 
+/// All that a round of the search begins with.
+struct Round {
+  Vector z;
+  std::vector<Row> set;
+  Vector equality;
+  std::vector<Row> active;
+  Vector inequality;
+
+  friend bool operator==(const Round&, const Round&) = default;
+};
+
 }  // namespace
 
 Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& start, const Vector& margins,
@@ -192,6 +203,7 @@ Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& sta
     equality = least_multipliers(rows->objective_gradient(state), jacobian, Matrix()).equality;
   }
   ShiftedCholesky metric;
+  Round last;
   for (int round = 0; round < control.most_rounds; ++round) {
     ++control.rounds;
     Vector value;
@@ -204,6 +216,10 @@ Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& sta
     set.insert(set.end(), active.begin(), active.end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
+    Round begun{z, set, equality, active, inequality};
+    // The same again would end where it ended before.
+    if (round > 0 && begun == last) break;
+    last = std::move(begun);
     const SampleFunction sample = [&](const Vector& at, Sample& out) {
       if (!is_track(*track, at)) {
         reject(out, n, equality_count, set.size());
@@ -259,6 +275,7 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
     return limit == nullptr ? elastic.equalities : static_cast<bool>(elastic.limits[*limit]);
   };
 
+  constexpr double kNegligible = 1e-7;
   constexpr double kStuck = 1e-2;
   constexpr double kStiffer = 10.0;
   constexpr double kStiffest = 999.0;
@@ -267,6 +284,9 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
   double t = 0.0;
   std::vector<Row> kept;
   double last_t = std::numeric_limits<double>::infinity();
+  Vector last_z;
+  std::vector<Row> last_set;
+  double last_stiffness = 0.0;
   double stiffness = 1.0;
   for (int round = 0; round < control.most_rounds; ++round) {
     ++control.rounds;
@@ -278,6 +298,16 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
     set.insert(set.end(), kept.begin(), kept.end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
+    if (z == last_z && set == last_set && stiffness == last_stiffness) {
+      // The same again would end where it ended before: only a shorter step can help.
+      if (found.violation > kNegligible || found.residual < kStuck || stiffness > kStiffest) break;
+      stiffness *= kStiffer;
+      last_t = t;
+      continue;
+    }
+    last_z = z;
+    last_set = set;
+    last_stiffness = stiffness;
     t = 0.0;
     for (std::size_t i = 0; i < equality_count; ++i) {
       if (equality_gives_way(i)) t = std::max(t, std::fabs(value[i]));
@@ -403,8 +433,8 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
     for (const double h : end.equality) worst = std::max(worst, std::fabs(h));
     found.violation = worst;
     if (descent.stopped || (t <= 0.0 && worst <= 1e-9)) break;
-    if (found.residual < 1e-4 && worst <= 1e-7) break;
-    if (worst <= 1e-7 && std::fabs(last_t - t) <= 1e-7) {
+    if (found.residual < 1e-4 && worst <= kNegligible) break;
+    if (worst <= kNegligible && std::fabs(last_t - t) <= kNegligible) {
       // Far from a stationary point and without progress: the steps were too long for their linear models.
       if (found.residual < kStuck || stiffness > kStiffest) break;
       stiffness *= kStiffer;
