@@ -14,6 +14,8 @@ struct GuessCurve {
   double length = 1.0;
   /// linear between the entries
   [[nodiscard]] double slope_angle(double at) const;
+
+  friend bool operator==(const GuessCurve&, const GuessCurve&) = default;
 };
 
 /// The frictional brachistochrone from rest to (run, drop), drop > mu run >= 0 (docs/theory.md), to a few

@@ -134,12 +134,14 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   Explanation explanation;
   for (std::size_t way = 0; way < passages.size(); ++way) {
     const auto scaled_problem = std::make_shared<ScaledProblem>(scaled(problem, passages[way]));
-    for (const GuessCurve& start : starts(*scaled_problem)) {
+    const std::vector<GuessCurve> curves = starts(*scaled_problem);
+    for (auto start = curves.begin(); start != curves.end(); ++start) {
       if (control.stop()) return explanation;
+      if (std::find(curves.begin(), start, *start) != start) continue;
       Attempt attempt;
       attempt.problem = scaled_problem;
-      attempt.mesh = mesh_of(*scaled_problem, graded_knots(start, kPieces, 1.0), start.length);
-      attempt.relaxed = all_relaxed(*scaled_problem, attempt.mesh, start, control);
+      attempt.mesh = mesh_of(*scaled_problem, graded_knots(*start, kPieces, 1.0), start->length);
+      attempt.relaxed = all_relaxed(*scaled_problem, attempt.mesh, *start, control);
       if (attempt.relaxed.t < kNearly) follow(attempt, control);
       if (best && best->relaxed.t <= attempt.relaxed.t) continue;
       best = std::move(attempt);

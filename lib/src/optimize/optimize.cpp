@@ -85,12 +85,21 @@ class Searcher {
     const ScaledProblem& scaled_problem = *candidate.problem;
     hopeless_ = 0;
     const bool unlimited = is_unlimited();
+    // Clipped slopes are often the unclipped ones: what led nowhere is not tried twice.
+    std::vector<GuessCurve> lost;
     for (const GuessCurve& start : starts(scaled_problem)) {
+      const bool known = std::find(lost.begin(), lost.end(), start) != lost.end();
+      if (known && ++hopeless_ >= kMostHopeless) break;
+      if (known) continue;
+      const int hopeless_before = hopeless_;
       std::optional<Found> found =
           unlimited ? from_exact(scaled_problem, start) : coarse(scaled_problem, start);
+      if (hopeless_ > hopeless_before) lost.push_back(start);
       if (control_.stop()) candidate.stopped = true;
       if (hopeless_ >= kMostHopeless) break;
       if (!found) continue;
+      // It tightens the limits, with which a start must be tried anew.
+      lost.clear();
       refine(candidate, *found, unlimited);
       if (candidate.kept || candidate.stopped) break;
     }
