@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -56,11 +57,16 @@ void slowest_of_300(benchmark::State& state) {
     std::vector<double> seconds;
     double slowest_solved = 0.0;
     for (int i = 0; i < 300; ++i) {
-      const Optimum optimum = optimize(testing_problems::random_limited(random));
-      seconds.push_back(optimum.report.seconds);
-      if (optimum.centerline) slowest_solved = std::max(slowest_solved, optimum.report.seconds);
+      const Problem problem = testing_problems::random_limited(random);
+      // Processor time: what else the machine does is no part of the answer.
+      const std::clock_t begin = std::clock();
+      const Optimum optimum = optimize(problem);
+      seconds.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+      if (optimum.centerline) slowest_solved = std::max(slowest_solved, seconds.back());
     }
     std::sort(seconds.begin(), seconds.end());
+    const auto above = std::upper_bound(seconds.begin(), seconds.end(), 1.0);
+    state.counters["above_1s"] = static_cast<double>(seconds.end() - above);
     state.counters["median_ms"] = 1e3 * seconds[seconds.size() / 2];
     state.counters["slowest_ms"] = 1e3 * seconds.back();
     state.counters["slowest_solved_ms"] = 1e3 * slowest_solved;
