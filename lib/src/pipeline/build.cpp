@@ -291,7 +291,7 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
 
   std::vector<WrittenFile> files;
   for (const fs::path& path : staging.publish()) files.push_back({path, fs::file_size(path)});
-  return {std::move(track), std::move(section), std::move(solid), std::move(facts), std::move(files)};
+  return {std::move(track), std::move(section), std::move(solid), facts, std::move(files)};
 }
 
 }  // namespace glissade

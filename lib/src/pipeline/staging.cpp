@@ -59,7 +59,7 @@ void undo(const std::vector<Move>& moves) {
 
 }  // namespace
 
-Staging::Staging(fs::path target)
+Staging::Staging(const fs::path& target)
     : target_(without_trailing_slash(target)), made_directories_(make_directories(target_)) {
   static std::atomic<unsigned> counter{0};
   directory_ = target_ / (".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(++counter));
@@ -72,9 +72,8 @@ Staging::~Staging() {
   std::error_code ignored;
   fs::remove_all(directory_, ignored);
   // A directory that holds something by now does not go.
-  for (auto path = made_directories_.rbegin(); path != made_directories_.rend(); ++path) {
-    fs::remove(*path, ignored);
-  }
+  std::for_each(made_directories_.rbegin(), made_directories_.rend(),
+                [&](const fs::path& path) { fs::remove(path, ignored); });
 }
 
 fs::path Staging::path_for(const std::string& name) {

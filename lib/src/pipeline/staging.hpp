@@ -12,7 +12,7 @@ namespace glissade {
 class Staging {
  public:
   /// @throws FileError if `target` cannot be made or written to
-  explicit Staging(std::filesystem::path target);
+  explicit Staging(const std::filesystem::path& target);
   ~Staging();
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;

@@ -132,9 +132,8 @@ std::vector<LevelCurves::Room> LevelCurves::rooms_of(int side, double reach, boo
 // Another part of the track must not slip through between two stations: probes stand as close as half the
 // reach.
 void LevelCurves::make_probes(bool dense) {
-  const double spacing =
-      dense ? std::max(kProbeShare * std::max(above_, below_), centerline_.length() / kMostProbes)
-            : kInfinity;
+  double spacing = kInfinity;
+  if (dense) spacing = std::max(kProbeShare * std::max(above_, below_), centerline_.length() / kMostProbes);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     probe_of_.push_back(probes_.size());
     probes_.push_back({stations_[i].point, stations_[i].normal, stations_[i].s});
@@ -493,7 +492,7 @@ std::vector<Trim> LevelCurves::run_trims(double height, std::size_t first, std::
                         at_finish ? stations_.back().s : stations_[last + 1].s,
                         offset(stations_[extreme_place(height, first, last, true)], height)});
   for (const Trim& trim : candidates) {
-    const std::vector<Trim> trims = split_at(trim, height, foot_of(trim.point).s, 0);
+    std::vector<Trim> trims = split_at(trim, height, foot_of(trim.point).s, 0);
     if (!trims.empty()) return trims;
   }
   return {};

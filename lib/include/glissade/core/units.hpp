@@ -20,7 +20,8 @@ class Angle {
   [[nodiscard]] constexpr double radians() const { return radians_; }
   [[nodiscard]] constexpr double degrees() const { return radians_ * (180.0 / std::numbers::pi); }
 
-  friend constexpr auto operator<=>(const Angle&, const Angle&) = default;
+  // The check takes the 0 that a defaulted <=> compares with for a null pointer.
+  friend constexpr auto operator<=>(const Angle&, const Angle&) = default;  // NOLINT(modernize-use-nullptr)
 
  private:
   explicit constexpr Angle(double radians) : radians_(radians) {}
