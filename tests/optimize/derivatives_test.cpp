@@ -228,7 +228,7 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
   multipliers[0] = 0.4;
   multipliers[1] = -0.7;
   const Matrix hessian = track.hessian(setup.z, state.shape, setup.problem.rides, state.flows,
-                                       rows.weights(state, multipliers, {}, {}));
+                                       rows.weights(state, multipliers, {}, {}, 1.0));
   for (std::size_t j = 0; j < setup.z.size(); ++j) {
     const auto slope = [&](const Vector& z) {
       const State at = rows.state(z, true);

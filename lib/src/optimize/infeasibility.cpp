@@ -2,6 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include "optimize/least_violation.hpp"
 #include "optimize/starts.hpp"
 
 #include <algorithm>

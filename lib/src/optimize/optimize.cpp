@@ -7,6 +7,7 @@
 #include "glissade/core/error.hpp"
 
 #include "optimize/infeasibility.hpp"
+#include "optimize/least_violation.hpp"
 #include "optimize/referee.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
@@ -45,8 +46,6 @@ constexpr int kPatientRounds = 3;
 // A body that stalled between two stations is kept this much faster, squared, over free fall.
 constexpr double kStallMargin = 1e-5;
 constexpr std::size_t kMostPassages = 16;
-// So many starts without any track that keeps the limits end a search.
-constexpr int kMostHopeless = 2;
 
 CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   const Layout& layout = found.track->layout();
@@ -83,20 +82,15 @@ class Searcher {
   [[nodiscard]] Candidate search(const Passages& passages) {
     Candidate candidate = begun(passages);
     const ScaledProblem& scaled_problem = *candidate.problem;
-    hopeless_ = 0;
     const bool unlimited = is_unlimited();
     // Clipped slopes are often the unclipped ones: what led nowhere is not tried twice.
     std::vector<GuessCurve> lost;
     for (const GuessCurve& start : starts(scaled_problem)) {
-      const bool known = std::find(lost.begin(), lost.end(), start) != lost.end();
-      if (known && ++hopeless_ >= kMostHopeless) break;
-      if (known) continue;
-      const int hopeless_before = hopeless_;
+      if (std::find(lost.begin(), lost.end(), start) != lost.end()) continue;
       std::optional<Found> found =
           unlimited ? from_exact(scaled_problem, start) : coarse(scaled_problem, start);
-      if (hopeless_ > hopeless_before) lost.push_back(start);
       if (control_.stop()) candidate.stopped = true;
-      if (hopeless_ >= kMostHopeless) break;
+      if (!found) lost.push_back(start);
       if (!found) continue;
       // It tightens the limits, with which a start must be tried anew.
       lost.clear();
@@ -178,10 +172,7 @@ class Searcher {
     control_.most_rounds = 8;
     const Relaxed relaxed =
         least_violation(problem, finer, fit(start, Transcription(finer)), elastic, margins_, control_);
-    if (relaxed.t > kNearlyFeasible) {
-      ++hopeless_;
-      return std::nullopt;
-    }
+    if (relaxed.t > kNearlyFeasible) return std::nullopt;
     control_.most_rounds = 6;
     found = minimise(problem, finer, relaxed.found.z, margins_, control_);
     if (!found.feasible(kNearlyFeasible)) return std::nullopt;
@@ -303,7 +294,6 @@ class Searcher {
   SearchControl& control_;
   const Progress& progress_;
   Vector margins_;
-  int hopeless_ = 0;  ///< starts from which not even the least violation vanished
 };
 
 /// Every combination of sides for the keep-outs that leave it open, up to kMostPassages.

@@ -90,38 +90,51 @@ const std::size_t* Rows::limit_of_equality(std::size_t row) const {
   return row < fixed_equalities_ ? nullptr : &equality_limits_[row - fixed_equalities_].first;
 }
 
+Row Rows::row_of_equality(std::size_t index) const {
+  Row row;
+  const auto& [limit, ride] = equality_limits_[index - fixed_equalities_];
+  row.limit = limit;
+  row.ride = ride;
+  const Measure measure = problem_.limits[limit].measure;
+  row.place = measure == Measure::entry_slope_angle ? 0 : track_.stations().size() - 1;
+  row.foot = measure == Measure::waypoint;
+  return row;
+}
+
+Vector Rows::equality_values(const State& state) const {
+  const Layout& layout = track_.layout();
+  Vector value;
+  value.reserve(equality_count());
+  if (problem_.finish != FinishKind::level) value.push_back(state.shape.x.back() - problem_.run);
+  if (problem_.finish != FinishKind::vertical_line) value.push_back(state.shape.y.back() - problem_.drop);
+  if (problem_.lead_in > 0.0) value.push_back(state.z[layout.turn(0)]);
+  if (problem_.lead_out > 0.0) value.push_back(state.z[layout.turn(layout.knots - 1)]);
+  for (std::size_t i = fixed_equalities_; i < equality_count(); ++i) {
+    const Row row = row_of_equality(i);
+    const LimitSpec& limit = problem_.limits[row.limit];
+    value.push_back((measure(state, limit, row) - effective_bound(limit)) / effective_scale(limit));
+  }
+  return value;
+}
+
 void Rows::equalities(const State& state, Vector& value, Matrix& jacobian) const {
   const Layout& layout = track_.layout();
   const std::size_t n = layout.size();
   const std::size_t last = track_.stations().size() - 1;
-  value.assign(equality_count(), 0.0);
+  value = equality_values(state);
   jacobian = Matrix(equality_count(), n);
-  std::size_t row = 0;
-  if (problem_.finish != FinishKind::level) {
-    value[row] = state.shape.x[last] - problem_.run;
-    std::copy_n(state.shape.dx.row(last), n, jacobian.row(row++));
-  }
+  std::size_t at = 0;
+  if (problem_.finish != FinishKind::level) std::copy_n(state.shape.dx.row(last), n, jacobian.row(at++));
   if (problem_.finish != FinishKind::vertical_line) {
-    value[row] = state.shape.y[last] - problem_.drop;
-    std::copy_n(state.shape.dy.row(last), n, jacobian.row(row++));
+    std::copy_n(state.shape.dy.row(last), n, jacobian.row(at++));
   }
-  const auto straight = [&](std::size_t knot) {
-    value[row] = state.z[layout.turn(knot)];
-    jacobian(row++, layout.turn(knot)) = 1.0;
-  };
-  if (problem_.lead_in > 0.0) straight(0);
-  if (problem_.lead_out > 0.0) straight(layout.knots - 1);
-  for (const auto& [index, ride] : equality_limits_) {
-    const LimitSpec& limit = problem_.limits[index];
-    Row at;
-    at.limit = index;
-    at.ride = ride;
-    at.place = limit.measure == Measure::entry_slope_angle ? 0 : last;
-    at.foot = limit.measure == Measure::waypoint;
-    value[row] = (measure(state, limit, at) - effective_bound(limit)) / effective_scale(limit);
-    measure_gradient(state, limit, at, jacobian.row(row));
-    for (std::size_t j = 0; j < n; ++j) jacobian(row, j) /= effective_scale(limit);
-    ++row;
+  if (problem_.lead_in > 0.0) jacobian(at++, layout.turn(0)) = 1.0;
+  if (problem_.lead_out > 0.0) jacobian(at++, layout.turn(layout.knots - 1)) = 1.0;
+  for (; at < equality_count(); ++at) {
+    const Row row = row_of_equality(at);
+    const LimitSpec& limit = problem_.limits[row.limit];
+    measure_gradient(state, limit, row, jacobian.row(at));
+    for (std::size_t j = 0; j < n; ++j) jacobian(at, j) /= effective_scale(limit);
   }
 }
 
@@ -445,7 +458,7 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
 }
 
 StationWeights Rows::weights(const State& state, const Vector& equality, const std::vector<Row>& rows,
-                             const Vector& inequality) const {
+                             const Vector& inequality, double objective) const {
   const std::size_t count = track_.stations().size();
   const std::size_t last = count - 1;
   StationWeights weights;
@@ -455,21 +468,19 @@ StationWeights Rows::weights(const State& state, const Vector& equality, const s
   weights.v.assign(problem_.rides.size(), Vector(count, 0.0));
   weights.v_v = weights.v;
   weights.time.assign(problem_.rides.size(), 0.0);
-  weights.time[problem_.objective_ride] = problem_.time_weight;
+  weights.time[problem_.objective_ride] = objective * problem_.time_weight;
   if (problem_.speed_weight > 0.0) {
     const double root = std::sqrt(std::max(std::fabs(state.flows[problem_.objective_ride].v[last]), 1e-12));
-    weights.v[problem_.objective_ride][last] -= problem_.speed_weight * 0.5 / root;
-    weights.v_v[problem_.objective_ride][last] += problem_.speed_weight * 0.25 / (root * root * root);
+    weights.v[problem_.objective_ride][last] -= objective * problem_.speed_weight * 0.5 / root;
+    weights.v_v[problem_.objective_ride][last] +=
+        objective * problem_.speed_weight * 0.25 / (root * root * root);
   }
   std::size_t row = 0;
   if (problem_.finish != FinishKind::level) weights.x[last] += equality[row++];
   if (problem_.finish != FinishKind::vertical_line) weights.y[last] += equality[row++];
   for (row = fixed_equalities_; row < equality.size(); ++row) {
-    const auto& [index, ride] = equality_limits_[row - fixed_equalities_];
-    const LimitSpec& limit = problem_.limits[index];
-    Row at;
-    at.ride = ride;
-    at.place = last;
+    const Row at = row_of_equality(row);
+    const LimitSpec& limit = problem_.limits[at.limit];
     add_measure_weights(state, limit, at, equality[row] / effective_scale(limit), weights);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -42,6 +42,7 @@ class Rows {
   [[nodiscard]] std::size_t equality_count() const { return equality_limits_.size() + fixed_equalities_; }
   /// Finish, straight ends, limits of one value, waypoints.
   void equalities(const State& state, Vector& value, Matrix& jacobian) const;
+  [[nodiscard]] Vector equality_values(const State& state) const;
   /// @return the limit behind an equality row, or none for the finish and the straight ends
   [[nodiscard]] const std::size_t* limit_of_equality(std::size_t row) const;
 
@@ -57,10 +58,13 @@ class Rows {
   [[nodiscard]] const Vector& margins() const { return margins_; }
 
   /// What the Lagrangian asks of each station, for its Hessian.
+  /// @param objective  multiplier of the objective
   [[nodiscard]] StationWeights weights(const State& state, const Vector& equality,
-                                       const std::vector<Row>& rows, const Vector& inequality) const;
+                                       const std::vector<Row>& rows, const Vector& inequality,
+                                       double objective) const;
 
  private:
+  [[nodiscard]] Row row_of_equality(std::size_t index) const;
   [[nodiscard]] double measure(const State& state, const LimitSpec& limit, const Row& row) const;
   void measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
   void add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,

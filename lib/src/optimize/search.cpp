@@ -63,20 +63,6 @@ Matrix in_metric(Matrix jacobian, const ShiftedCholesky& metric) {
   return jacobian;
 }
 
-/// Whether a trial point is a track at all; a line search comes back from where it is not.
-bool is_track(const Transcription& track, const Vector& z) {
-  constexpr double kSteepest = 3.0;
-  constexpr double kShortest = 0.01;
-  constexpr double kLongest = 100.0;
-  const Layout& layout = track.layout();
-  const double length = z[layout.length()];
-  if (!(length > kShortest && length < kLongest)) return false;
-  for (std::size_t i = 0; i < track.stations().size(); ++i) {
-    if (!(std::fabs(dot(track.dzeta(i), z.data(), layout.size())) < kSteepest)) return false;
-  }
-  return true;
-}
-
 /// An objective without bound and rows that say nothing.
 void reject(Sample& out, std::size_t n, std::size_t equalities, std::size_t inequalities) {
   out.objective = HUGE_VAL;
@@ -148,7 +134,7 @@ void polish(const Transcription& track, const Rows& rows, const ShiftedCholesky&
     metric.backward(move.data());
     Vector z = state.z;
     add_scaled(z.data(), 1.0, move.data(), n);
-    if (!is_track(track, z)) return;
+    if (!track.is_track(z)) return;
     State next = rows.state(z, true);
     Judged better = judge(rows, next, metric);
     const bool pays = better.residual < 0.7 * judged.residual || judged.residual <= control.tolerance;
@@ -163,7 +149,7 @@ Matrix hessian_of(const ScaledProblem& problem, const Transcription& track, cons
                   const State& state, const Vector& equality, const std::vector<Row>& active,
                   const Vector& inequality) {
   return track.hessian(state.z, state.shape, problem.rides, state.flows,
-                       rows.weights(state, equality, active, inequality));
+                       rows.weights(state, equality, active, inequality, 1.0));
 }
 
 /// All that a round of the search begins with.
@@ -221,7 +207,7 @@ Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& sta
     if (round > 0 && begun == last) break;
     last = std::move(begun);
     const SampleFunction sample = [&](const Vector& at, Sample& out) {
-      if (!is_track(*track, at)) {
+      if (!track->is_track(at)) {
         reject(out, n, equality_count, set.size());
         return;
       }
@@ -236,7 +222,7 @@ Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& sta
     options.most_evaluations = 40;
     const Descent descent = descend(sample, z, equality_count, set.size(), metric, options, control.stop);
     control.evaluations += descent.evaluations;
-    if (is_track(*track, descent.z)) z = descent.z;
+    if (track->is_track(descent.z)) z = descent.z;
     state = rows->state(z, true);
     Judged judged = judge(*rows, state, metric);
     polish(*track, *rows, metric, control, state, judged);
@@ -256,195 +242,6 @@ Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& sta
   found.active = std::move(active);
   found.inequality = std::move(inequality);
   return found;
-}
-
-Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& start,
-                        const Elastic& elastic, const Vector& margins, SearchControl& control) {
-  Relaxed relaxed;
-  Found& found = relaxed.found;
-  const auto track = std::make_shared<const Transcription>(mesh);
-  const auto rows = std::make_shared<Rows>(problem, *track);
-  rows->set_margins(margins);
-  found.track = track;
-  found.rows = rows;
-  const std::size_t n = track->layout().size();
-  const std::size_t equality_count = rows->equality_count();
-  const auto gives_way = [&](const Row& row) { return elastic.limits[row.limit]; };
-  const auto equality_gives_way = [&](std::size_t row) {
-    const std::size_t* limit = rows->limit_of_equality(row);
-    return limit == nullptr ? elastic.equalities : static_cast<bool>(elastic.limits[*limit]);
-  };
-
-  constexpr double kNegligible = 1e-7;
-  constexpr double kStuck = 1e-2;
-  constexpr double kStiffer = 10.0;
-  constexpr double kStiffest = 999.0;
-  Vector z = start;
-  State state = rows->state(z, true);
-  double t = 0.0;
-  std::vector<Row> kept;
-  double last_t = std::numeric_limits<double>::infinity();
-  Vector last_z;
-  std::vector<Row> last_set;
-  double last_stiffness = 0.0;
-  double stiffness = 1.0;
-  for (int round = 0; round < control.most_rounds; ++round) {
-    ++control.rounds;
-    Vector value;
-    Matrix jacobian;
-    rows->equalities(state, value, jacobian);
-    std::vector<Row> set =
-        rows->candidates(state, round < 2 && mesh.knots.size() <= kCoarse + 1 ? kEverything : 2.0 * kBand);
-    set.insert(set.end(), kept.begin(), kept.end());
-    std::sort(set.begin(), set.end());
-    set.erase(std::unique(set.begin(), set.end()), set.end());
-    if (z == last_z && set == last_set && stiffness == last_stiffness) {
-      // The same again would end where it ended before: only a shorter step can help.
-      if (found.violation > kNegligible || found.residual < kStuck || stiffness > kStiffest) break;
-      stiffness *= kStiffer;
-      last_t = t;
-      continue;
-    }
-    last_z = z;
-    last_set = set;
-    last_stiffness = stiffness;
-    t = 0.0;
-    for (std::size_t i = 0; i < equality_count; ++i) {
-      if (equality_gives_way(i)) t = std::max(t, std::fabs(value[i]));
-    }
-    for (const Row& row : set) {
-      if (gives_way(row)) t = std::max(t, rows->value(state, row));
-    }
-    // Distances in the slope angle itself: the least change of shape.
-    Matrix gram(n + 1, n + 1);
-    double weight = 0.0;
-    for (std::size_t i = 1; i < track->stations().size(); ++i) {
-      const Station& station = track->stations()[i];
-      weight = station.arc_length(1.0) - track->stations()[i - 1].arc_length(1.0);
-      const double* row = track->dzeta(i);
-      for (std::size_t j = 0; j < n; ++j) {
-        if (row[j] != 0.0) add_scaled(gram.row(j), weight * row[j], row, n);
-      }
-    }
-    const std::size_t at_length = track->layout().length();
-    gram(at_length, at_length) = 1.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) gram(i, j) *= stiffness;
-    }
-    gram(n, n) = 1.0;
-    Vector diagonal(n + 1);
-    for (std::size_t i = 0; i <= n; ++i) diagonal[i] = gram(i, i);
-    for (std::size_t i = 0; i <= n; ++i) gram(i, i) *= 1.0 + 1e-4;
-    const ShiftedCholesky metric(gram, diagonal);
-
-    std::vector<std::size_t> hard;
-    std::vector<std::size_t> soft;
-    for (std::size_t i = 0; i < equality_count; ++i) (equality_gives_way(i) ? soft : hard).push_back(i);
-    const SampleFunction sample = [&](const Vector& at, Sample& out) {
-      const Vector inner(at.begin(), at.end() - 1);
-      if (!is_track(*track, inner)) {
-        reject(out, n + 1, hard.size(), 2 * soft.size() + set.size());
-        return;
-      }
-      state = rows->state(inner, true);
-      out.objective = at.back();
-      out.gradient.assign(n + 1, 0.0);
-      out.gradient.back() = 1.0;
-      Vector all;
-      Matrix all_jacobian;
-      rows->equalities(state, all, all_jacobian);
-      out.equality.assign(hard.size(), 0.0);
-      out.equality_jacobian = Matrix(hard.size(), n + 1);
-      for (std::size_t i = 0; i < hard.size(); ++i) {
-        out.equality[i] = all[hard[i]];
-        std::copy_n(all_jacobian.row(hard[i]), n, out.equality_jacobian.row(i));
-      }
-      const std::size_t count = 2 * soft.size() + set.size();
-      out.inequality.assign(count, 0.0);
-      out.inequality_jacobian = Matrix(count, n + 1);
-      for (std::size_t i = 0; i < soft.size(); ++i) {
-        for (const int side : {0, 1}) {
-          const double sign = side == 0 ? 1.0 : -1.0;
-          const std::size_t row = 2 * i + static_cast<std::size_t>(side);
-          out.inequality[row] = sign * all[soft[i]] - at.back();
-          add_scaled(out.inequality_jacobian.row(row), sign, all_jacobian.row(soft[i]), n);
-          out.inequality_jacobian(row, n) = -1.0;
-        }
-      }
-      for (std::size_t i = 0; i < set.size(); ++i) {
-        const std::size_t row = 2 * soft.size() + i;
-        const double give = gives_way(set[i]) ? 1.0 : 0.0;
-        out.inequality[row] = rows->value(state, set[i]) - give * at.back();
-        rows->gradient(state, set[i], out.inequality_jacobian.row(row));
-        out.inequality_jacobian(row, n) = -give;
-      }
-    };
-    Vector extended = z;
-    extended.push_back(t);
-    DescentOptions options;
-    options.most_evaluations = 60;
-    const Descent descent =
-        descend(sample, extended, hard.size(), 2 * soft.size() + set.size(), metric, options, control.stop);
-    control.evaluations += descent.evaluations;
-    const Vector reached(descent.z.begin(), descent.z.end() - 1);
-    if (is_track(*track, reached)) {
-      z = reached;
-      t = descent.z.back();
-    }
-    extended = z;
-    extended.push_back(t);
-    Sample end;
-    sample(extended, end);
-    kept = set;
-    found.stopped = descent.stopped;
-
-    // Who holds t up: multipliers of the rows that are tight.
-    std::vector<std::size_t> tight;
-    for (std::size_t i = 0; i < end.inequality.size(); ++i) {
-      if (end.inequality[i] > -1e-5) tight.push_back(i);
-    }
-    Matrix tight_jacobian(tight.size(), n + 1);
-    for (std::size_t i = 0; i < tight.size(); ++i) {
-      std::copy_n(end.inequality_jacobian.row(tight[i]), n + 1, tight_jacobian.row(i));
-    }
-    Vector gradient = end.gradient;
-    metric.forward(gradient.data());
-    const Multipliers multipliers = least_multipliers(
-        gradient, in_metric(std::move(end.equality_jacobian), metric), in_metric(tight_jacobian, metric));
-    found.residual = norm(multipliers.residual) / norm(gradient);
-    found.equality.assign(equality_count, 0.0);
-    for (std::size_t i = 0; i < hard.size(); ++i) found.equality[hard[i]] = multipliers.equality[i];
-    found.active.clear();
-    found.inequality.clear();
-    for (std::size_t i = 0; i < tight.size(); ++i) {
-      const double nu = multipliers.inequality[i];
-      if (nu <= 0.0) continue;
-      if (tight[i] < 2 * soft.size()) {
-        found.equality[soft[tight[i] / 2]] += nu;
-      } else {
-        found.active.push_back(set[tight[i] - 2 * soft.size()]);
-        found.inequality.push_back(nu);
-      }
-    }
-    double worst = 0.0;
-    for (const Row& row : rows->candidates(state, 0.0)) {
-      worst = std::max(worst, rows->value(state, row) - (gives_way(row) ? std::max(t, 0.0) : 0.0));
-    }
-    for (const double h : end.equality) worst = std::max(worst, std::fabs(h));
-    found.violation = worst;
-    if (descent.stopped || (t <= 0.0 && worst <= 1e-9)) break;
-    if (found.residual < 1e-4 && worst <= kNegligible) break;
-    if (worst <= kNegligible && std::fabs(last_t - t) <= kNegligible) {
-      // Far from a stationary point and without progress: the steps were too long for their linear models.
-      if (found.residual < kStuck || stiffness > kStiffest) break;
-      stiffness *= kStiffer;
-    }
-    last_t = t;
-  }
-  relaxed.t = t;
-  found.z = z;
-  found.objective = rows->objective(state);
-  return relaxed;
 }
 
 GuessCurve curve_of(const Transcription& track, const Vector& z) {

@@ -39,20 +39,6 @@ struct Found {
 [[nodiscard]] Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
                              const Vector& margins, SearchControl& control);
 
-/// Which limits give way in the search for the least violation.
-struct Elastic {
-  std::vector<bool> limits;  ///< these are relaxed by t scales, ...
-  bool equalities = true;    ///< the finish too; all others are kept
-};
-
-/// The least t by which the elastic rows must give way, and who holds it up.
-struct Relaxed {
-  Found found;     ///< multipliers are those of t
-  double t = 0.0;  ///< in scales; <= 0 where all can be kept
-};
-[[nodiscard]] Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
-                                      const Elastic& elastic, const Vector& margins, SearchControl& control);
-
 /// Slope angle over arc length of an iterate.
 [[nodiscard]] GuessCurve curve_of(const Transcription& track, const Vector& z);
 

@@ -146,6 +146,18 @@ double Transcription::curvature(const Vector& z, std::size_t index) const {
   return c / z[layout_.length()];
 }
 
+bool Transcription::is_track(const Vector& z) const {
+  constexpr double kSteepest = 3.0;
+  constexpr double kShortest = 0.01;
+  constexpr double kLongest = 100.0;
+  const double length = z[layout_.length()];
+  if (!(length > kShortest && length < kLongest)) return false;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (!(std::fabs(dot(dzeta_.row(i), z.data(), layout_.size())) < kSteepest)) return false;
+  }
+  return true;
+}
+
 void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   const PanelRule& rule = panel_rule();
   const std::size_t count = stations_.size();

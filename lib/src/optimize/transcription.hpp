@@ -101,6 +101,8 @@ class Transcription {
   /// dzeta/d(unknown) of a station; constant
   [[nodiscard]] const double* dzeta(std::size_t station) const { return dzeta_.row(station); }
   [[nodiscard]] double curvature(const Vector& z, std::size_t station) const;
+  /// Whether a trial point is a track at all; a search comes back from where it is not.
+  [[nodiscard]] bool is_track(const Vector& z) const;
   /// The same row for any point of the track; `row` has layout().size() entries.
   void turning_row(const Station& station, double* row) const;
   /// Position of the point closest to `target`, by its own quadrature from the nearest station.

@@ -1,0 +1,342 @@
+#include "optimize/least_violation.hpp"
+
+#include "optimize/quadratic_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade::fastest {
+namespace {
+
+// Rows this much further from their bound than the worst one take part in a step.
+constexpr double kBand = 0.3;
+// Curvature of the model along t and s: it bounds the first guess of a step, and is without effect at the end.
+constexpr double kOwnCurvature = 0.1;
+// A violation below this is none.
+constexpr double kNone = 1e-9;
+// Rows that are to be kept give way too at first, by these shares of what the elastic ones do: the track that
+// breaks everything a little leads over to the one that breaks one limit alone.
+constexpr double kFirmer[] = {0.1, 1e-2, 1e-4, 1e-7};
+// A step whose model promises less, at the price 1 on the change of shape, is none.
+constexpr double kSettled = 1e-9;
+
+class Search {
+ public:
+  Search(const ScaledProblem& problem, const Mesh& mesh, const Elastic& elastic, const Vector& margins,
+         SearchControl& control)
+      : elastic_(elastic),
+        control_(control),
+        track_(std::make_shared<const Transcription>(mesh)),
+        rows_(std::make_shared<Rows>(problem, *track_)),
+        problem_(problem),
+        n_(track_->layout().size()),
+        shape_metric_(metric_of_shape()) {
+    rows_->set_margins(margins);
+  }
+
+  [[nodiscard]] Relaxed run(const Vector& start) {
+    z_ = start;
+    state_ = rows_->state(z_, true);
+    Relaxed relaxed;
+    ++control_.rounds;
+    for (const double weight : kFirmer) {
+      weight_ = weight;
+      t_ = violation(state_);
+      linearise();
+      relaxed.settled = settle();
+      if (t_ <= kNone || all_give_way() || control_.stop()) break;
+    }
+    describe(relaxed);
+    return relaxed;
+  }
+
+ private:
+  [[nodiscard]] bool gives_way(const Row& row) const { return elastic_.limits[row.limit]; }
+  [[nodiscard]] bool gives_way(std::size_t equality) const {
+    const std::size_t* limit = rows_->limit_of_equality(equality);
+    return limit == nullptr ? elastic_.equalities : static_cast<bool>(elastic_.limits[*limit]);
+  }
+  [[nodiscard]] bool all_give_way() const {
+    for (std::size_t i = 0; i < rows_->equality_count(); ++i) {
+      if (!gives_way(i)) return false;
+    }
+    return std::all_of(elastic_.limits.begin(), elastic_.limits.end(), [](bool gives) { return gives; });
+  }
+  template <typename RowOrEquality>
+  [[nodiscard]] double weight(const RowOrEquality& row) const {
+    return gives_way(row) ? 1.0 : weight_;
+  }
+
+  /// Steps until none lowers t. @return false if it ended before
+  [[nodiscard]] bool settle() {
+    constexpr int kMostSteps = 60;
+    constexpr double kHighestPrice = 1e9;
+    price_ = 1.0;
+    growth_ = 2.0;
+    for (int step = 0; step < kMostSteps; ++step) {
+      if (t_ <= kNone) return false;
+      if (control_.stop()) return false;
+      const double promised = propose();
+      if (promised * std::max(price_, 1.0) <= kSettled * (1.0 + t_ / kNone * 1e-5)) return true;
+      if (!advance(promised) && price_ > kHighestPrice) return false;
+    }
+    return false;
+  }
+
+  /// Distances in the slope angle itself, and in the length: the least change of shape.
+  [[nodiscard]] Matrix metric_of_shape() const {
+    Matrix gram(n_, n_);
+    for (std::size_t i = 1; i < track_->stations().size(); ++i) {
+      const double weight = track_->stations()[i].arc_length(1.0) - track_->stations()[i - 1].arc_length(1.0);
+      const double* row = track_->dzeta(i);
+      for (std::size_t j = 0; j < n_; ++j) {
+        if (row[j] != 0.0) add_scaled(gram.row(j), weight * row[j], row, n_);
+      }
+    }
+    const std::size_t at_length = track_->layout().length();
+    gram(at_length, at_length) = 1.0;
+    constexpr double kStiffening = 1e-4;
+    for (std::size_t i = 0; i < n_; ++i) gram(i, i) *= 1.0 + kStiffening;
+    return gram;
+  }
+
+  /// The t by which the rows would have to give way at a state; 0 if all are kept.
+  [[nodiscard]] double violation(const State& state) const {
+    double t = 0.0;
+    const Vector equality = rows_->equality_values(state);
+    for (std::size_t i = 0; i < equality.size(); ++i) t = std::max(t, std::fabs(equality[i]) / weight(i));
+    for (const Row& row : rows_->candidates(state, 0.0)) {
+      t = std::max(t, rows_->value(state, row) / weight(row));
+    }
+    return t;
+  }
+
+  [[nodiscard]] double kept_violation() const {
+    double kept = 0.0;
+    const Vector equality = rows_->equality_values(state_);
+    for (std::size_t i = 0; i < equality.size(); ++i) {
+      if (!gives_way(i)) kept = std::max(kept, std::fabs(equality[i]));
+    }
+    for (const Row& row : rows_->candidates(state_, 0.0)) {
+      if (!gives_way(row)) kept = std::max(kept, rows_->value(state_, row));
+    }
+    return kept;
+  }
+
+  /// Rows of a program: both sides of each equality, the set, and t >= 0. Its last unknown is what t changes by.
+  [[nodiscard]] std::size_t row_count() const { return 2 * rows_->equality_count() + set_.size() + 1; }
+
+  void linearise() {
+    std::vector<Row> active_rows;
+    std::vector<std::size_t> likely;
+    const std::size_t equalities = rows_->equality_count();
+    for (const std::size_t i : likely_) {
+      if (i < 2 * equalities) {
+        likely.push_back(i);
+      } else if (i - 2 * equalities < set_.size()) {
+        active_rows.push_back(set_[i - 2 * equalities]);
+      }
+    }
+    set_ = rows_->candidates(state_, kBand);
+    for (const Row& row : active_rows) {
+      const auto found = std::find(set_.begin(), set_.end(), row);
+      if (found == set_.end()) continue;
+      likely.push_back(2 * equalities + static_cast<std::size_t>(found - set_.begin()));
+    }
+    likely_ = std::move(likely);
+
+    program_.inequality = Matrix(row_count(), n_ + 1);
+    Vector equality;
+    Matrix jacobian;
+    rows_->equalities(state_, equality, jacobian);
+    for (std::size_t i = 0; i < equalities; ++i) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        double* row = program_.inequality.row(2 * i + side);
+        add_scaled(row, side == 0 ? 1.0 : -1.0, jacobian.row(i), n_);
+        row[n_] = -weight(i);
+      }
+    }
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      double* row = program_.inequality.row(2 * equalities + i);
+      rows_->gradient(state_, set_[i], row);
+      row[n_] = -weight(set_[i]);
+    }
+    program_.inequality(row_count() - 1, n_) = -1.0;
+    program_.inequality_value = row_values(state_);
+    update_curvature();
+  }
+
+  /// Values of the program's rows at a state, less what they are given by t now.
+  [[nodiscard]] Vector row_values(const State& state) const {
+    Vector values;
+    values.reserve(row_count());
+    const Vector equality = rows_->equality_values(state);
+    for (std::size_t i = 0; i < equality.size(); ++i) {
+      values.push_back(equality[i] - weight(i) * t_);
+      values.push_back(-equality[i] - weight(i) * t_);
+    }
+    for (const Row& row : set_) values.push_back(rows_->value(state, row) - weight(row) * t_);
+    values.push_back(-t_);
+    return values;
+  }
+
+  /// The Lagrangian's Hessian, of the rows that held t up in the last program.
+  void update_curvature() {
+    curvature_ = Matrix(n_, n_);
+    if (solution_.inequality.empty()) return;
+    curvature_ = track_->hessian(z_, state_.shape, problem_.rides, state_.flows,
+                                 rows_->weights(state_, equality_, active_, inequality_, 0.0));
+  }
+
+  /// The factor of price x shape + curvature; a higher price where that is not convex.
+  void factor() {
+    constexpr double kHigher = 4.0;
+    constexpr int kMostTries = 20;
+    Vector diagonal(n_ + 1, 0.0);
+    for (int tries = 0; tries < kMostTries; ++tries, price_ *= kHigher) {
+      Matrix hessian(n_ + 1, n_ + 1);
+      for (std::size_t i = 0; i < n_; ++i) {
+        for (std::size_t j = 0; j < n_; ++j) {
+          hessian(i, j) = price_ * shape_metric_(i, j) + curvature_(i, j);
+        }
+        diagonal[i] = price_ * shape_metric_(i, i);
+      }
+      hessian(n_, n_) = diagonal[n_] = kOwnCurvature / std::max(1.0, t_);
+      metric_ = ShiftedCholesky(hessian, diagonal);
+      if (metric_.shift() == 0.0) return;
+    }
+  }
+
+  /// Solves the program at the point. @return how much it promises to lower t by
+  [[nodiscard]] double propose() {
+    factor();
+    program_.gradient.assign(n_ + 1, 0.0);
+    program_.gradient[n_] = 1.0;
+    solution_ = solve(program_, metric_, likely_);
+    likely_ = solution_.active;
+    remember_multipliers();
+    return -solution_.step[n_];
+  }
+
+  void remember_multipliers() {
+    const std::size_t equalities = rows_->equality_count();
+    equality_.assign(equalities, 0.0);
+    active_.clear();
+    inequality_.clear();
+    for (const std::size_t i : solution_.active) {
+      const double multiplier = solution_.inequality[i];
+      if (i < 2 * equalities) {
+        equality_[i / 2] += i % 2 == 0 ? multiplier : -multiplier;
+      } else if (i < 2 * equalities + set_.size()) {
+        active_.push_back(set_[i - 2 * equalities]);
+        inequality_.push_back(multiplier);
+      }
+    }
+  }
+
+  struct Trial {
+    Vector z;
+    double t = HUGE_VAL;
+  };
+  [[nodiscard]] Trial tried(const Vector& step, State& state) const {
+    Trial trial;
+    trial.z = z_;
+    add_scaled(trial.z.data(), 1.0, step.data(), n_);
+    if (!track_->is_track(trial.z)) return trial;
+    state = rows_->state(trial.z, false);
+    ++control_.evaluations;
+    trial.t = violation(state);
+    return trial;
+  }
+
+  /// The step again, the rows having the values that they really have at its end: where they bend, the step
+  /// follows.
+  [[nodiscard]] Trial corrected(const State& reached) const {
+    QuadraticProgram program = program_;
+    const Vector there = row_values(reached);
+    for (std::size_t i = 0; i + 1 < there.size(); ++i) {
+      program.inequality_value[i] = there[i] - dot(program.inequality.row(i), solution_.step.data(), n_);
+    }
+    State state;
+    return tried(solve(program, metric_, solution_.active).step, state);
+  }
+
+  /// Takes the step if it keeps part of its promise, and sets the price of the next one. @return if it did
+  bool advance(double promised) {
+    constexpr double kGood = 0.75;
+    constexpr double kFall = 0.25;
+    constexpr double kWorthwhile = 1e-3;
+    State reached;
+    Trial trial = tried(solution_.step, reached);
+    double share = (t_ - trial.t) / promised;
+    if (share < kGood && !reached.z.empty()) {
+      Trial again = corrected(reached);
+      if (again.t < trial.t) {
+        trial = std::move(again);
+        share = (t_ - trial.t) / promised;
+      }
+    }
+    if (!(share > kWorthwhile)) {
+      price_ *= growth_;
+      growth_ *= 2.0;
+      return false;
+    }
+    constexpr double kLowestPrice = 1e-6;
+    const double shift = 2.0 * std::min(share, 1.0) - 1.0;
+    price_ = std::max(kLowestPrice, price_ * std::max(kFall, 1.0 - shift * shift * shift));
+    growth_ = 2.0;
+    z_ = std::move(trial.z);
+    state_ = rows_->state(z_, true);
+    t_ = trial.t;
+    linearise();
+    return true;
+  }
+
+  void describe(Relaxed& relaxed) {
+    Found& found = relaxed.found;
+    relaxed.t = t_;
+    found.track = track_;
+    found.rows = rows_;
+    found.z = z_;
+    found.objective = rows_->objective(state_);
+    found.violation = kept_violation();
+    found.stopped = control_.stop();
+    found.equality = equality_;
+    found.equality.resize(rows_->equality_count(), 0.0);
+    found.active = active_;
+    found.inequality = inequality_;
+  }
+
+  const Elastic& elastic_;
+  SearchControl& control_;
+  std::shared_ptr<const Transcription> track_;
+  std::shared_ptr<Rows> rows_;
+  const ScaledProblem& problem_;
+  std::size_t n_;
+  Matrix shape_metric_;
+
+  double price_ = 1.0;   ///< on the change of shape
+  double growth_ = 2.0;  ///< of the price when a step is refused
+  Vector z_;
+  State state_;
+  double t_ = 0.0;
+  double weight_ = 1.0;  ///< of t in the rows that are to be kept in the end
+  std::vector<Row> set_;
+  QuadraticProgram program_;
+  Matrix curvature_;
+  ShiftedCholesky metric_;
+  QuadraticSolution solution_;
+  std::vector<std::size_t> likely_;
+  Vector equality_;
+  std::vector<Row> active_;
+  Vector inequality_;
+};
+
+}  // namespace
+
+Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& start,
+                        const Elastic& elastic, const Vector& margins, SearchControl& control) {
+  return Search(problem, mesh, elastic, margins, control).run(start);
+}
+
+}  // namespace glissade::fastest

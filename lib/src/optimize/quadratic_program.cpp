@@ -1,0 +1,288 @@
+#include "optimize/quadratic_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace glissade::fastest {
+namespace {
+
+// A row whose part outside the active ones is smaller than this share of it depends on them.
+constexpr double kDependent = 1e-9;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// The active rows N = Q R in the metric of H, Q with orthonormal columns, R upper triangular.
+class ActiveBasis {
+ public:
+  [[nodiscard]] std::size_t size() const { return q_.size(); }
+
+  /// Splits a row into its share of each active one, and the part that none of them has.
+  struct Split {
+    Vector along;  ///< Q^T row
+    Vector rest;
+    double rest_norm = 0.0;
+    bool dependent = false;
+  };
+  [[nodiscard]] Split split(const Vector& row) const {
+    Split split;
+    split.along.assign(size(), 0.0);
+    split.rest = row;
+    const std::size_t n = row.size();
+    for (int pass = 0; pass < 2; ++pass) {
+      for (std::size_t j = 0; j < size(); ++j) {
+        const double along = dot(q_[j].data(), split.rest.data(), n);
+        split.along[j] += along;
+        add_scaled(split.rest.data(), -along, q_[j].data(), n);
+      }
+    }
+    split.rest_norm = norm(split.rest);
+    split.dependent = !(split.rest_norm > kDependent * norm(row));
+    return split;
+  }
+
+  void append(const Split& split) {
+    Vector column = split.along;
+    column.push_back(split.rest_norm);
+    r_.push_back(std::move(column));
+    q_.push_back(split.rest);
+    for (double& entry : q_.back()) entry /= split.rest_norm;
+  }
+
+  void remove(std::size_t index) {
+    r_.erase(r_.begin() + static_cast<std::ptrdiff_t>(index));
+    // Plane rotations bring the columns behind back to triangular form.
+    for (std::size_t j = index; j < r_.size(); ++j) {
+      const double a = r_[j][j];
+      const double b = r_[j][j + 1];
+      const double size = std::hypot(a, b);
+      const double cosine = a / size;
+      const double sine = b / size;
+      for (std::size_t k = j; k < r_.size(); ++k) rotate(r_[k][j], r_[k][j + 1], cosine, sine);
+      for (std::size_t i = 0; i < q_[j].size(); ++i) rotate(q_[j][i], q_[j + 1][i], cosine, sine);
+      r_[j].pop_back();
+    }
+    q_.pop_back();
+  }
+
+  /// R^-1 value
+  [[nodiscard]] Vector solve(Vector value) const {
+    for (std::size_t i = size(); i-- > 0;) {
+      value[i] /= r_[i][i];
+      for (std::size_t j = 0; j < i; ++j) value[j] -= value[i] * r_[i][j];
+    }
+    return value;
+  }
+
+  /// R^-T value
+  [[nodiscard]] Vector solve_transposed(Vector value) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      value[i] = (value[i] - dot(r_[i].data(), value.data(), i)) / r_[i][i];
+    }
+    return value;
+  }
+
+  /// The minimum of g.y + |y|^2/2 where every active row has the value `wanted`, and its multipliers.
+  void minimum(const Vector& gradient, const Vector& wanted, Vector& y, Vector& multipliers) const {
+    const std::size_t n = gradient.size();
+    const Split free = split(gradient);
+    Vector along = solve_transposed(wanted);
+    y.assign(n, 0.0);
+    add_scaled(y.data(), -1.0, free.rest.data(), n);
+    for (std::size_t j = 0; j < size(); ++j) {
+      add_scaled(y.data(), along[j], q_[j].data(), n);
+      along[j] = -along[j] - free.along[j];
+    }
+    multipliers = solve(std::move(along));
+  }
+
+ private:
+  static void rotate(double& a, double& b, double cosine, double sine) {
+    const double first = cosine * a + sine * b;
+    b = cosine * b - sine * a;
+    a = first;
+  }
+
+  std::vector<Vector> q_;
+  std::vector<Vector> r_;  ///< columns
+};
+
+/// One solution in the making, in y = L^T d.
+class DualMethod {
+ public:
+  DualMethod(const QuadraticProgram& program, const ShiftedCholesky& metric)
+      : program_(program),
+        metric_(metric),
+        gradient_(program.gradient),
+        most_changes_(static_cast<int>(50 + 5 * (program.gradient.size() + program.inequality.rows()))) {
+    metric_.forward(gradient_.data());
+    is_active_.assign(program.inequality.rows(), false);
+  }
+
+  [[nodiscard]] QuadraticSolution run(const std::vector<std::size_t>& likely) {
+    QuadraticSolution solution;
+    solution.status = begin(likely) ? enter_broken_rows() : QuadraticSolution::Status::contradictory;
+    if (solution.status != QuadraticSolution::Status::contradictory) refresh();
+    solution.step = step();
+    solution.equality.assign(program_.equality.rows(), 0.0);
+    solution.inequality.assign(program_.inequality.rows(), 0.0);
+    for (std::size_t i = 0; i < source_.size(); ++i) {
+      if (i < fixed_) {
+        solution.equality[source_[i]] = multipliers_[i];
+      } else {
+        solution.inequality[source_[i]] = std::max(multipliers_[i], 0.0);
+        solution.active.push_back(source_[i]);
+      }
+    }
+    solution.changes = changes_;
+    return solution;
+  }
+
+ private:
+  [[nodiscard]] Vector in_metric(const double* row) const {
+    Vector result(row, row + gradient_.size());
+    metric_.forward(result.data());
+    return result;
+  }
+
+  [[nodiscard]] Vector step() const {
+    Vector d = y_;
+    metric_.backward(d.data());
+    return d;
+  }
+
+  /// y and the multipliers anew from the active set alone: steps leave rounding behind.
+  void refresh() { basis_.minimum(gradient_, wanted_, y_, multipliers_); }
+
+  void enter(const ActiveBasis::Split& split, std::size_t row, double value) {
+    basis_.append(split);
+    source_.push_back(row);
+    wanted_.push_back(-value);
+  }
+
+  void leave(std::size_t index) {
+    basis_.remove(index);
+    const auto at = static_cast<std::ptrdiff_t>(index);
+    is_active_[source_[index]] = false;
+    source_.erase(source_.begin() + at);
+    wanted_.erase(wanted_.begin() + at);
+    multipliers_.erase(multipliers_.begin() + at);
+    ++changes_;
+  }
+
+  /// @return false if the equality rows contradict each other
+  [[nodiscard]] bool begin(const std::vector<std::size_t>& likely) {
+    std::vector<std::size_t> depending;
+    for (std::size_t i = 0; i < program_.equality.rows(); ++i) {
+      const ActiveBasis::Split split = basis_.split(in_metric(program_.equality.row(i)));
+      if (split.dependent) {
+        depending.push_back(i);
+      } else {
+        enter(split, i, program_.equality_value[i]);
+      }
+    }
+    fixed_ = source_.size();
+    refresh();
+    const Vector d = step();
+    for (const std::size_t i : depending) {
+      const double left = dot(program_.equality.row(i), d.data(), d.size()) + program_.equality_value[i];
+      if (std::fabs(left) > kDependent * (1.0 + std::fabs(program_.equality_value[i]))) return false;
+    }
+    for (const std::size_t i : likely) {
+      if (is_active_[i]) continue;
+      const ActiveBasis::Split split = basis_.split(in_metric(program_.inequality.row(i)));
+      if (split.dependent) continue;
+      enter(split, i, program_.inequality_value[i]);
+      is_active_[i] = true;
+      ++changes_;
+    }
+    for (;;) {
+      refresh();
+      const auto first = multipliers_.begin() + static_cast<std::ptrdiff_t>(fixed_);
+      const auto least = std::min_element(first, multipliers_.end());
+      if (least == multipliers_.end() || *least >= 0.0) return true;
+      leave(static_cast<std::size_t>(least - multipliers_.begin()));
+    }
+  }
+
+  [[nodiscard]] QuadraticSolution::Status enter_broken_rows() {
+    using Status = QuadraticSolution::Status;
+    const std::size_t n = gradient_.size();
+    for (;;) {
+      const Vector d = step();
+      std::size_t row = 0;
+      double worst = kRowTolerance;
+      for (std::size_t i = 0; i < program_.inequality.rows(); ++i) {
+        if (is_active_[i]) continue;
+        const double value = dot(program_.inequality.row(i), d.data(), n) + program_.inequality_value[i];
+        if (value > worst) {
+          worst = value;
+          row = i;
+        }
+      }
+      if (!(worst > kRowTolerance)) return Status::solved;
+      const Status status = enter_row(row, worst);
+      if (status != Status::solved) return status;
+    }
+  }
+
+  /// Raises the multiplier of one broken row until the row is kept; rows whose multipliers vanish on the way
+  /// leave.
+  [[nodiscard]] QuadraticSolution::Status enter_row(std::size_t row, double value) {
+    using Status = QuadraticSolution::Status;
+    const Vector normal = in_metric(program_.inequality.row(row));
+    double multiplier = 0.0;
+    while (changes_++ < most_changes_) {
+      const ActiveBasis::Split split = basis_.split(normal);
+      const Vector share = basis_.solve(split.along);
+      double dual_step = kUnlimited;
+      std::size_t leaving = 0;
+      for (std::size_t i = fixed_; i < share.size(); ++i) {
+        if (!(share[i] > 0.0)) continue;
+        const double until_zero = std::max(multipliers_[i], 0.0) / share[i];
+        if (until_zero < dual_step) {
+          dual_step = until_zero;
+          leaving = i;
+        }
+      }
+      const double full_step = split.dependent ? kUnlimited : value / (split.rest_norm * split.rest_norm);
+      const double taken = std::min(dual_step, full_step);
+      if (taken == kUnlimited) return Status::contradictory;
+      for (std::size_t i = 0; i < share.size(); ++i) multipliers_[i] -= taken * share[i];
+      multiplier += taken;
+      if (!split.dependent) {
+        add_scaled(y_.data(), -taken, split.rest.data(), y_.size());
+        value -= taken * split.rest_norm * split.rest_norm;
+      }
+      if (full_step <= dual_step) {
+        enter(split, row, program_.inequality_value[row]);
+        multipliers_.push_back(multiplier);
+        is_active_[row] = true;
+        return Status::solved;
+      }
+      leave(leaving);
+    }
+    return Status::unfinished;
+  }
+
+  const QuadraticProgram& program_;
+  const ShiftedCholesky& metric_;
+  Vector gradient_;  ///< in the metric
+  int most_changes_;
+  ActiveBasis basis_;
+  std::vector<std::size_t> source_;  ///< equality rows first, then inequality rows
+  std::size_t fixed_ = 0;            ///< so many of `source_` are equality rows
+  Vector wanted_;
+  Vector multipliers_;
+  std::vector<bool> is_active_;
+  Vector y_;
+  int changes_ = 0;
+};
+
+}  // namespace
+
+QuadraticSolution solve(const QuadraticProgram& program, const ShiftedCholesky& metric,
+                        const std::vector<std::size_t>& likely) {
+  return DualMethod(program, metric).run(likely);
+}
+
+}  // namespace glissade::fastest
