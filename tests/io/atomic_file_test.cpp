@@ -110,6 +110,30 @@ TEST_CASE("a disk that is full at the last block is noticed by commit") {
   CHECK(dir.names().empty());
 }
 
+TEST_CASE("what a file was expected to hold changes nothing but the time that it takes") {
+  const TempDir dir;
+  for (const std::uint64_t expected :
+       {std::uint64_t{0}, std::uint64_t{3}, std::uint64_t{1} << 20U, UINT64_MAX}) {
+    AtomicFile file(dir / "out.txt");
+    file.expect(expected);
+    file.write("text");
+    file.commit();
+    CHECK(bytes_of(dir / "out.txt") == "text");
+  }
+}
+
+TEST_CASE("a disk too small for what is expected says so when it is written") {
+  const TempDir dir;
+  {
+    const FileSizeLimit limit(10);
+    AtomicFile file(dir / "out.txt");
+    file.expect(19);
+    file.write("more than ten bytes");
+    CHECK_THROWS_AS(file.commit(), FileError);
+  }
+  CHECK(dir.names().empty());
+}
+
 TEST_CASE("what cannot be written is refused with the system's reason and a hint") {
   const TempDir dir;
   CHECK_THAT(refusal(dir / "missing/out.txt"),

@@ -7,10 +7,13 @@
 #include "support/shapes.hpp"
 #include "support/temp_dir.hpp"
 
+#include <array>
 #include <bit>
 #include <clocale>
 #include <cmath>
 #include <limits>
+
+#include <sched.h>
 
 using namespace glissade;
 using namespace glissade::shapes;
@@ -35,6 +38,32 @@ std::uint32_t word_at(const std::string& bytes, std::size_t place) {
 float float_at(const std::string& bytes, std::size_t place) {
   return std::bit_cast<float>(word_at(bytes, place));
 }
+
+Vec3 position_at(const std::string& bytes, std::size_t place) {
+  return {float_at(bytes, place), float_at(bytes, place + 4), float_at(bytes, place + 8)};
+}
+
+/// Leaves the process one core, and gives the others back at the end.
+class OneCore {
+ public:
+  OneCore() {
+    ::sched_getaffinity(0, sizeof before_, &before_);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    for (std::size_t core = 0; core < CPU_SETSIZE; ++core) {
+      if (CPU_ISSET(core, &before_) == 0) continue;
+      CPU_SET(core, &one);
+      break;
+    }
+    ::sched_setaffinity(0, sizeof one, &one);
+  }
+  ~OneCore() { ::sched_setaffinity(0, sizeof before_, &before_); }
+  OneCore(const OneCore&) = delete;
+  OneCore& operator=(const OneCore&) = delete;
+
+ private:
+  cpu_set_t before_{};
+};
 
 template <typename Call>
 std::string input_error(Call&& call) {
@@ -62,6 +91,54 @@ TEST_CASE("binary STL is a named header, a count and 50 bytes a facet") {
     }
   }
   CHECK(bytes.substr(last + 48) == std::string(2, '\0'));
+}
+
+TEST_CASE("each facet of a binary STL of several blocks is its unit normal and its corners") {
+  // More facets than two blocks hold, and no round number of anything.
+  const TriangleMesh mesh =
+      as_written(torus(0.3, 0.1, 307, 101), MeshFormat::stl_binary, LengthUnit::millimetre);
+  const std::string bytes = written(MeshFormat::stl_binary, mesh);
+  REQUIRE(bytes.size() == 84 + 50 * mesh.triangles.size());
+  std::size_t wrong_corners = 0;
+  double worst_normal = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::size_t facet = 84 + 50 * i;
+    std::array<Vec3, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 expected = mesh.vertices[mesh.triangles[i][k]];
+      const Vec3 corner = position_at(bytes, facet + 12 + 12 * k);
+      corners[k] = corner;
+      if (!(Vec3{corner.x / 1000.0, corner.y / 1000.0, corner.z / 1000.0} == expected)) ++wrong_corners;
+    }
+    const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const Vec3 error = position_at(bytes, facet) - (1.0 / norm(normal)) * normal;
+    worst_normal = std::max({worst_normal, std::fabs(error.x), std::fabs(error.y), std::fabs(error.z)});
+    if (bytes.compare(facet + 48, 2, std::string(2, '\0')) != 0) ++wrong_corners;
+  }
+  CHECK(wrong_corners == 0);
+  // Half a step of single precision, and what doubles round.
+  CHECK(worst_normal <= 0x1p-25 + 1e-15);
+}
+
+TEST_CASE("one core writes the same bytes as several") {
+  const TriangleMesh mesh = torus(0.3, 0.1, 307, 101);
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::off}) {
+    const std::string several = written(format, mesh);
+    const OneCore one_core;
+    CHECK(written(format, mesh) == several);
+  }
+}
+
+TEST_CASE("normals keep unit length at both ends of single precision") {
+  for (const float size : {0x1p-149F, 0x1p-126F, 1.0F, 0x1p127F}) {
+    TriangleMesh mesh = tetrahedron();
+    for (Vec3& p : mesh.vertices) p = static_cast<double>(size) * p;
+    const std::string bytes = written(MeshFormat::stl_binary, mesh, {.unit = LengthUnit::metre, .name = ""});
+    const std::size_t last = 84 + 3 * 50;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      CHECK(float_at(bytes, last + 4 * axis) == static_cast<float>(1.0 / std::sqrt(3.0)));
+    }
+  }
 }
 
 TEST_CASE("ASCII STL holds doubles in full") {
@@ -204,7 +281,7 @@ TEST_CASE("the size that a refusal names does work") {
   CHECK_FALSE(near.vertices[0] == near.vertices[1]);
 }
 
-TEST_CASE("a mesh that no file can hold is refused before anything is written") {
+TEST_CASE("a mesh that no file can hold is refused and leaves nothing behind") {
   const TempDir dir;
   const auto refused = [&dir](const TriangleMesh& mesh, MeshFormat format) {
     return input_error([&] { write_mesh(dir / "mesh", format, mesh); });
@@ -212,7 +289,12 @@ TEST_CASE("a mesh that no file can hold is refused before anything is written") 
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THAT(refused({{{0, 0, 0}}, {{0, 0, 1}}}, MeshFormat::off), Contains("vertex 1 does not exist"));
   CHECK_THAT(refused({{{0, nan, 0}}, {}}, MeshFormat::stl_ascii), Contains("must be a finite number"));
+  CHECK_THAT(refused({{{0, nan, 0}}, {}}, MeshFormat::stl_binary), Contains("must be a finite number"));
   CHECK_THAT(refused({{{1e36, 0, 0}}, {}}, MeshFormat::stl_binary), Contains("1e+39 mm does not fit"));
+  TriangleMesh late = as_written(torus(0.3, 0.1, 307, 101), MeshFormat::stl_binary, LengthUnit::millimetre);
+  late.triangles[60'000][1] = 1'000'000;
+  CHECK_THAT(refused(late, MeshFormat::stl_binary),
+             Contains("mesh, triangle 60000: vertex 1000000 does not exist"));
   CHECK(dir.names().empty());
 }
 

@@ -118,6 +118,14 @@ AtomicFile::AtomicFile(std::filesystem::path target) : state_(std::make_unique<S
 
 AtomicFile::~AtomicFile() = default;
 
+void AtomicFile::expect(std::uint64_t bytes) {
+#ifdef FALLOC_FL_KEEP_SIZE
+  (void)::fallocate(state_->descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes));
+#else
+  (void)bytes;
+#endif
+}
+
 void AtomicFile::write(const void* bytes, std::size_t count) {
   if (state_->descriptor < 0)
     throw InternalError({state_->target.string(), "written to after commit", "", ""});

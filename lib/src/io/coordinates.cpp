@@ -6,6 +6,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "io/parallel.hpp"
+#include "solid/mesh_check.hpp"
 #include "solid/position_index.hpp"
 
 #include <algorithm>
@@ -28,13 +29,12 @@ Vec3 to_vec(const FloatPosition& position) {
   return {position[0], position[1], position[2]};
 }
 
-double largest_coordinate(Vec3 p) {
-  return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+Vec3 to_metres(const FloatPosition& p, double per_metre) {
+  return {p[0] / per_metre, p[1] / per_metre, p[2] / per_metre};
 }
 
-/// Adding +0 turns -0 into +0: files hold one zero.
-FloatPosition nearest(Vec3 p) {
-  return {static_cast<float>(p.x) + 0.0F, static_cast<float>(p.y) + 0.0F, static_cast<float>(p.z) + 0.0F};
+double largest_coordinate(Vec3 p) {
+  return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
 
 /// @return the single-precision number next to the nearest, on the other side of `value`; the one above where
@@ -156,17 +156,6 @@ void require_same_attitude(const TriangleMesh& mesh, const std::vector<FloatPosi
   }
 }
 
-TriangleMesh as_single_precision(const TriangleMesh& mesh, LengthUnit unit) {
-  const double per_metre = units_per_metre(unit);
-  const std::vector<FloatPosition> rounded = single_precision(mesh, unit);
-  TriangleMesh result{.vertices = {}, .triangles = mesh.triangles};
-  result.vertices.reserve(rounded.size());
-  for (const FloatPosition& p : rounded) {
-    result.vertices.push_back({p[0] / per_metre, p[1] / per_metre, p[2] / per_metre});
-  }
-  return result;
-}
-
 TriangleMesh as_double_precision(const TriangleMesh& mesh, LengthUnit unit) {
   const double per_metre = units_per_metre(unit);
   TriangleMesh result = mesh;
@@ -177,30 +166,22 @@ TriangleMesh as_double_precision(const TriangleMesh& mesh, LengthUnit unit) {
   return result;
 }
 
-void require_in_range(Vec3 p, std::size_t vertex) {
-  if (std::isfinite(p.x + p.y + p.z) && largest_coordinate(p) <= kLargestMeshCoordinate) return;
-  throw InputError({vertex_name(vertex),
-                    "coordinates (" + rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " +
-                        rounded_text(p.z, 6) + ") m cannot be written",
-                    "Every coordinate must be a finite number of at most " +
-                        rounded_text(kLargestMeshCoordinate, 3) + " m.",
-                    ""});
+bool fits_single_precision(Vec3 p) {
+  return std::fabs(p.x) <= kLargestFloat && std::fabs(p.y) <= kLargestFloat &&
+         std::fabs(p.z) <= kLargestFloat;
 }
 
-void require_existing(const TriangleMesh& mesh, std::size_t triangle) {
-  for (const std::uint32_t vertex : mesh.triangles[triangle]) {
-    if (vertex < mesh.vertices.size()) continue;
-    throw InputError(
-        {"mesh, triangle " + std::to_string(triangle), "vertex " + std::to_string(vertex) + " does not exist",
-         "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.", ""});
+void refuse_beyond_single_precision(const TriangleMesh& mesh, std::size_t first, std::size_t last,
+                                    LengthUnit unit) {
+  require_usable_positions(mesh, first, last, "written");
+  for (std::size_t i = first; i < last; ++i) {
+    const Vec3 p = units_per_metre(unit) * mesh.vertices[i];
+    if (fits_single_precision(p)) continue;
+    throw InputError({vertex_name(i),
+                      "a coordinate of " + rounded_text(largest_coordinate(p), 3) + " " +
+                          std::string(unit_symbol(unit)) + " does not fit binary STL",
+                      "Single precision ends at 3.4e38.", "OFF or ASCII STL"});
   }
-}
-
-InputError beyond_single_precision(std::size_t vertex, Vec3 p, LengthUnit unit) {
-  return InputError({vertex_name(vertex),
-                     "a coordinate of " + rounded_text(largest_coordinate(p), 3) + " " +
-                         std::string(unit_symbol(unit)) + " does not fit binary STL",
-                     "Single precision ends at 3.4e38.", "OFF or ASCII STL"});
 }
 
 }  // namespace
@@ -214,56 +195,53 @@ std::string_view unit_symbol(LengthUnit unit) {
 }
 
 void require_writable(const TriangleMesh& mesh) {
-  // Whole ranges first, in loops without branches; one by one only where something is wrong.
   in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
-    bool in_range = true;
-    for (std::size_t i = first; i < last; ++i) {
-      const Vec3 p = mesh.vertices[i];
-      in_range &= std::fabs(p.x) <= kLargestMeshCoordinate && std::fabs(p.y) <= kLargestMeshCoordinate &&
-                  std::fabs(p.z) <= kLargestMeshCoordinate;
-    }
-    for (std::size_t i = first; !in_range && i < last; ++i) require_in_range(mesh.vertices[i], i);
+    require_usable_positions(mesh, first, last, "written");
   });
-  in_ranges(mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-    std::uint32_t largest = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      for (const std::uint32_t vertex : mesh.triangles[i]) largest = std::max(largest, vertex);
-    }
-    const bool exist = largest < mesh.vertices.size();
-    for (std::size_t i = first; !exist && i < last; ++i) require_existing(mesh, i);
-  });
+  in_ranges(mesh.triangles.size(),
+            [&](std::size_t first, std::size_t last) { require_existing_vertices(mesh, first, last); });
 }
 
-std::vector<FloatPosition> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
-  const std::vector<Vec3>& vertices = mesh.vertices;
+bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit) {
   const double per_metre = units_per_metre(unit);
-  std::vector<FloatPosition> rounded(vertices.size());
   std::atomic<bool> is_exact = true;
-  in_ranges(vertices.size(), [&](std::size_t first, std::size_t last) {
-    bool exact = true;
+  in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
+    bool all_fit = true;
+    bool all_exact = true;
     for (std::size_t i = first; i < last; ++i) {
-      const Vec3 p = per_metre * vertices[i];
-      if (!(largest_coordinate(p) <= kLargestFloat)) throw beyond_single_precision(i, p, unit);
-      rounded[i] = nearest(p);
-      const Vec3 back{rounded[i][0] / per_metre, rounded[i][1] / per_metre, rounded[i][2] / per_metre};
-      exact = exact && back == vertices[i];
+      const Vec3 p = per_metre * mesh.vertices[i];
+      all_fit &= fits_single_precision(p);
+      all_exact &= to_metres(nearest(p), per_metre) == mesh.vertices[i];
     }
-    if (!exact) is_exact = false;
+    if (!all_fit) refuse_beyond_single_precision(mesh, first, last, unit);
+    if (!all_exact) is_exact = false;
   });
-  // What came out of as_written() rounds to itself: vertices that are apart stay so without a look.
-  if (is_exact) return rounded;
+  return is_exact;
+}
 
-  std::vector<Vec3> exact(vertices.size());
-  std::transform(vertices.begin(), vertices.end(), exact.begin(),
-                 [per_metre](Vec3 p) { return per_metre * p; });
-  DistinctRounding(exact, rounded, unit).keep_apart();
-  require_same_attitude(mesh, rounded, unit);
-  return rounded;
+std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
+  // What came out of as_written() rounds to itself: vertices that are apart stay so without a look.
+  const bool is_exact = is_single_precision(mesh, unit);
+  const double per_metre = units_per_metre(unit);
+  std::vector<Vec3> positions(mesh.vertices.size());
+  std::vector<FloatPosition> rounded(mesh.vertices.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    positions[i] = per_metre * mesh.vertices[i];
+    rounded[i] = nearest(positions[i]);
+  }
+  if (!is_exact) {
+    DistinctRounding(positions, rounded, unit).keep_apart();
+    require_same_attitude(mesh, rounded, unit);
+  }
+  std::transform(rounded.begin(), rounded.end(), positions.begin(),
+                 [per_metre](const FloatPosition& p) { return to_metres(p, per_metre); });
+  return positions;
 }
 
 TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit) {
   require_writable(mesh);
-  return format == MeshFormat::stl_binary ? as_single_precision(mesh, unit) : as_double_precision(mesh, unit);
+  if (format == MeshFormat::stl_binary) return {single_precision(mesh, unit), mesh.triangles};
+  return as_double_precision(mesh, unit);
 }
 
 }  // namespace glissade

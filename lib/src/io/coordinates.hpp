@@ -11,6 +11,11 @@ namespace glissade {
 
 using FloatPosition = std::array<float, 3>;
 
+/// @return the nearest position in single precision. Adding +0 turns -0 into +0: files hold one zero.
+[[nodiscard]] inline FloatPosition nearest(Vec3 p) {
+  return {static_cast<float>(p.x) + 0.0F, static_cast<float>(p.y) + 0.0F, static_cast<float>(p.z) + 0.0F};
+}
+
 /// @return how many of the unit are one metre
 [[nodiscard]] double units_per_metre(LengthUnit unit);
 /// @return "mm" or "m"
@@ -20,8 +25,13 @@ using FloatPosition = std::array<float, 3>;
 ///         or beyond kLargestMeshCoordinate
 void require_writable(const TriangleMesh& mesh);
 
-/// @return the positions of as_written() for binary STL, in the file's unit
-/// @throws InputError as as_written()
-[[nodiscard]] std::vector<FloatPosition> single_precision(const TriangleMesh& mesh, LengthUnit unit);
+/// @return whether the vertices are as as_written() makes them for binary STL: each coordinate is a number of
+///         single precision in the file's unit, up to its conversion to metres
+/// @throws InputError if a coordinate is not finite or does not fit single precision
+[[nodiscard]] bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit);
+
+/// @return the vertices of as_written() for binary STL [m]
+/// @throws InputError as as_written(); triangles must name vertices that exist
+[[nodiscard]] std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit);
 
 }  // namespace glissade

@@ -5,13 +5,13 @@
 #include "io/coordinates.hpp"
 #include "io/parallel.hpp"
 #include "io/printable_name.hpp"
+#include "io/stl_facets.hpp"
 #include "io/stl_layout.hpp"
 #include "io/text_writer.hpp"
+#include "solid/mesh_check.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -28,10 +28,6 @@ Vec3 normal_of(Vec3 a, Vec3 b, Vec3 c) {
   return length > 0.0 && std::isfinite(length) ? (1.0 / length) * normal : Vec3{};
 }
 
-Vec3 to_vec(const FloatPosition& position) {
-  return {position[0], position[1], position[2]};
-}
-
 std::string titled(std::string_view title, const MeshFileOptions& options, std::size_t most_bytes) {
   std::string text(title);
   text += "unit: ";
@@ -40,32 +36,6 @@ std::string titled(std::string_view title, const MeshFileOptions& options, std::
   const std::string name =
       printable_name(options.name, most_bytes > prefix.size() ? most_bytes - prefix.size() : std::size_t{0});
   return name.empty() ? text : prefix + name;
-}
-
-/// Puts three numbers down, each with its lowest byte first.
-/// @return where the next ones go
-char* put_numbers(char* place, const FloatPosition& numbers) {
-  if constexpr (std::endian::native == std::endian::little) {
-    std::memcpy(place, numbers.data(), sizeof numbers);
-    return place + sizeof numbers;
-  }
-  for (const float number : numbers) {
-    auto bits = std::bit_cast<std::uint32_t>(number);
-    for (std::size_t i = 0; i < sizeof bits; ++i) {
-      *place++ = static_cast<char>(bits & 0xFFU);
-      bits >>= 8U;
-    }
-  }
-  return place;
-}
-
-/// A facet as binary STL has it: normal, corners, two bytes that stay as they are.
-char* put_facet(char* place, const FloatPosition& a, const FloatPosition& b, const FloatPosition& c) {
-  const Vec3 normal = normal_of(to_vec(a), to_vec(b), to_vec(c));
-  // Adding +0 turns -0 into +0.
-  place = put_numbers(place, {static_cast<float>(normal.x) + 0.0F, static_cast<float>(normal.y) + 0.0F,
-                              static_cast<float>(normal.z) + 0.0F});
-  return put_numbers(put_numbers(put_numbers(place, a), b), c) + 2;
 }
 
 std::array<char, stl::kPrefixBytes> stl_prefix(const TriangleMesh& mesh, const MeshFileOptions& options) {
@@ -87,17 +57,22 @@ void write_stl_binary(AtomicFile& file, const TriangleMesh& mesh, const MeshFile
     throw InputError({"mesh", std::to_string(mesh.triangles.size()) + " triangles do not fit binary STL",
                       "The format counts to 4294967295.", "a coarser tolerance"});
   }
-  const std::vector<FloatPosition> positions = single_precision(mesh, options.unit);
-  const auto prefix = stl_prefix(mesh, options);
-  file.write(prefix.data(), prefix.size());
+  static_assert(kBytesBeyondFacets <= kBytesBeyondBlock);
+  const double per_metre = units_per_metre(options.unit);
+  const bool is_rounded = is_single_precision(mesh, options.unit);
+  if (!is_rounded) require_existing_vertices(mesh, 0, mesh.triangles.size());
+  const std::vector<Vec3> rounded = is_rounded ? std::vector<Vec3>() : single_precision(mesh, options.unit);
+  const std::vector<Vec3>& vertices = is_rounded ? mesh.vertices : rounded;
 
+  const auto prefix = stl_prefix(mesh, options);
+  file.expect(stl::file_bytes(static_cast<std::uint32_t>(mesh.triangles.size())));
+  file.write(prefix.data(), prefix.size());
   write_in_order(
-      file, {mesh.triangles.size(), stl::kFacetBytes, [&](std::size_t first, std::size_t last, char* place) {
-               for (std::size_t i = first; i < last; ++i) {
-                 const auto& [a, b, c] = mesh.triangles[i];
-                 place = put_facet(place, positions[a], positions[b], positions[c]);
-               }
-               return place;
+      file, {mesh.triangles.size(), stl::kFacetBytes, [&](std::size_t first, std::size_t last, char* block) {
+               // Here and not at first: the triangles of a block stay in the cache.
+               if (is_rounded) require_existing_vertices(mesh, first, last);
+               return put_stl_facets(block, mesh.triangles.data() + first, mesh.triangles.data() + last,
+                                     vertices, per_metre);
              }});
 }
 
@@ -166,7 +141,7 @@ void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshFileOptions
 
 void write_mesh(const std::filesystem::path& file, MeshFormat format, const TriangleMesh& mesh,
                 const MeshFileOptions& options) {
-  require_writable(mesh);
+  if (format != MeshFormat::stl_binary) require_writable(mesh);
   AtomicFile output(file);
   switch (format) {
     case MeshFormat::stl_binary:

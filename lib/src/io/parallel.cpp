@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <exception>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -13,7 +14,7 @@ namespace glissade {
 namespace {
 
 // A block stays in the cache of the core that formats it until the system has copied it.
-constexpr std::size_t kBlockBytes = std::size_t{1} << 19U;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 20U;
 // More threads than this wait for each other: copying to the system is one after the other.
 constexpr std::size_t kMostThreads = 8;
 
@@ -27,6 +28,7 @@ class OrderedWriting {
       : file_(file),
         plan_(plan),
         items_per_block_(std::max<std::size_t>(1, kBlockBytes / plan.most_bytes_per_item)),
+        bytes_per_block_(items_per_block_ * plan.most_bytes_per_item + kBytesBeyondBlock),
         blocks_((plan.items + items_per_block_ - 1) / items_per_block_) {}
 
   void run() {
@@ -42,13 +44,13 @@ class OrderedWriting {
  private:
   void work() {
     try {
-      std::vector<char> block(items_per_block_ * plan_.most_bytes_per_item);
+      const auto block = std::make_unique_for_overwrite<char[]>(bytes_per_block_);
       while (const std::optional<std::size_t> number = take()) {
         const std::size_t first = *number * items_per_block_;
         const std::size_t last = std::min(first + items_per_block_, plan_.items);
-        const char* const end = plan_.format(first, last, block.data());
+        const char* const end = plan_.format(first, last, block.get());
         if (!wait_for_turn(*number)) return;
-        file_.write(block.data(), static_cast<std::size_t>(end - block.data()));
+        file_.write(block.get(), static_cast<std::size_t>(end - block.get()));
         pass_turn();
       }
     } catch (...) {
@@ -88,6 +90,7 @@ class OrderedWriting {
   AtomicFile& file_;
   const BlockPlan& plan_;
   std::size_t items_per_block_;
+  std::size_t bytes_per_block_;
   std::size_t blocks_;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -103,8 +106,8 @@ void write_in_order(AtomicFile& file, const BlockPlan& plan) {
 }
 
 void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work) {
-  // Fewer items than this are done before a thread has started.
-  constexpr std::size_t kWorthAThread = 20'000;
+  // A thread takes some 30 us to start, items some 3 ns each: it must have far more of them to be worth it.
+  constexpr std::size_t kWorthAThread = 100'000;
   const std::size_t ranges = std::clamp<std::size_t>(count / kWorthAThread, 1, thread_count());
   std::vector<std::future<void>> others;
   for (std::size_t i = 1; i < ranges; ++i) {

@@ -7,12 +7,15 @@
 
 namespace glissade {
 
+inline constexpr std::size_t kBytesBeyondBlock = 8;
+
 /// A long row of items that becomes a row of blocks of bytes.
 struct BlockPlan {
   std::size_t items = 0;
   std::size_t most_bytes_per_item = 0;
-  /// Fills a block, zeros at first and whatever it held before later, with items [first, last) and returns
-  /// its end. Runs on several threads at once; must depend on its arguments alone.
+  /// Fills a block with items [first, last) and returns its end; kBytesBeyondBlock after that are its own too,
+  /// and what the block held before is undefined. Runs on several threads at once; must depend on its
+  /// arguments alone.
   std::function<char*(std::size_t first, std::size_t last, char* block)> format;
 };
 

@@ -1,8 +1,8 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "glissade/core/error.hpp"
-#include "glissade/core/number_text.hpp"
 
+#include "solid/mesh_check.hpp"
 #include "solid/nesting.hpp"
 #include "solid/position_index.hpp"
 #include "solid/self_intersections.hpp"
@@ -27,31 +27,6 @@ void check_sizes(const TriangleMesh& mesh) {
                       std::to_string(mesh.vertices.size()) + " vertices and " +
                           std::to_string(mesh.triangles.size()) + " triangles are too many",
                       "Each must stay below 4294967295.", "a coarser tolerance"});
-  }
-}
-
-void check_vertices(const std::vector<Vec3>& vertices) {
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Vec3& p = vertices[i];
-    const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    if (std::isfinite(p.x + p.y + p.z) && largest <= kLargestMeshCoordinate) continue;
-    throw InputError({"mesh, vertex " + std::to_string(i),
-                      "coordinates (" + rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " +
-                          rounded_text(p.z, 6) + ") m cannot be measured",
-                      "Every coordinate must be a finite number of at most " +
-                          rounded_text(kLargestMeshCoordinate, 3) + " m.",
-                      ""});
-  }
-}
-
-void check_triangles(const TriangleMesh& mesh) {
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (const std::uint32_t vertex : mesh.triangles[i]) {
-      if (vertex < mesh.vertices.size()) continue;
-      throw InputError(
-          {"mesh, triangle " + std::to_string(i), "vertex " + std::to_string(vertex) + " does not exist",
-           "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.", ""});
-    }
   }
 }
 
@@ -393,8 +368,8 @@ std::vector<std::string> MeshFacts::faults() const {
 
 MeshFacts measure(const TriangleMesh& mesh) {
   check_sizes(mesh);
-  check_vertices(mesh.vertices);
-  check_triangles(mesh);
+  require_usable_positions(mesh, 0, mesh.vertices.size(), "measured");
+  require_existing_vertices(mesh, 0, mesh.triangles.size());
 
   MeshFacts facts;
   facts.vertices = mesh.vertices.size();
