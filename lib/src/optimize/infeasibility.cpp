@@ -4,6 +4,7 @@
 
 #include "optimize/least_violation.hpp"
 #include "optimize/starts.hpp"
+#include "optimize/switches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,7 @@ std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elas
   // The mesh follows the track: where it bends in the end need not be where it bent in the beginning.
   for (std::size_t round = 0; least && round < kFollowing && !control.stop(); ++round) {
     const Found& found = least->found;
-    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, kFiner),
+    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, {}, kFiner),
                               found.z[found.track->layout().length()]);
     if (!descend(mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)))) break;
   }
@@ -116,7 +117,7 @@ void follow(Attempt& attempt, SearchControl& control) {
     if (attempt.relaxed.t <= kContradiction || control.stop()) return;
     const Found& found = attempt.relaxed.found;
     const ScaledProblem& problem = *attempt.problem;
-    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, pieces),
+    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, {}, pieces),
                               found.z[found.track->layout().length()]);
     Relaxed finer = all_relaxed(problem, mesh, curve_of(*found.track, found.z), control);
     const bool pays = finer.t < kPays * attempt.relaxed.t;

@@ -12,6 +12,7 @@
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
 #include "optimize/starts.hpp"
+#include "optimize/switches.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +28,10 @@ using Clock = std::chrono::steady_clock;
 
 // Pieces of the coarse levels before the finest.
 constexpr std::size_t kCoarsePieces = 12;
-constexpr std::size_t kMiddlePieces = 20;
+constexpr std::size_t kMiddlePieces = 16;
+constexpr std::size_t kFinerPieces = 24;
+// Pieces of the mesh on which a track is looked for that keeps the limits at all.
+constexpr std::size_t kRescuePieces = 20;
 constexpr double kCoarseTolerance = 1e-3;
 // A coarse track that breaks its limits by less is carried on to a finer mesh.
 constexpr double kNearlyFeasible = 1e-3;
@@ -43,6 +47,8 @@ constexpr int kHoldingRounds = 4;
 // A track that then still breaks a limit at a station by more than kNearlyFeasible is given up: tighter
 // limits are no easier.
 constexpr int kPatientRounds = 3;
+// By what is missing and a little more, since the track moves.
+constexpr double kTightening = 1.3;
 // A body that stalled between two stations is kept this much faster, squared, over free fall.
 constexpr double kStallMargin = 1e-5;
 constexpr std::size_t kMostPassages = 16;
@@ -166,7 +172,7 @@ class Searcher {
     if (found.feasible(kNearlyFeasible) || found.stopped) return found;
     // The descent lost its way, or the mesh is too coarse: look for any track that keeps the limits first.
     const Mesh finer = mesh_with(
-        problem, graded_knots(start, kMiddlePieces, entry_share(problem, start.length)), start.length);
+        problem, graded_knots(start, kRescuePieces, entry_share(problem, start.length)), start.length);
     Elastic elastic;
     elastic.limits.assign(problem.limits.size(), true);
     control_.most_rounds = 8;
@@ -190,7 +196,7 @@ class Searcher {
       if (found.track->mesh().knots.size() <= kMiddlePieces && pieces > kMiddlePieces) {
         levels.push_back(kMiddlePieces);
       }
-      levels.push_back(pieces);
+      if (pieces > kFinerPieces) levels.push_back(kFinerPieces);
       levels.push_back(pieces);
     }
     double done = 0.2;
@@ -200,8 +206,9 @@ class Searcher {
       done += 0.2;
       control_.tolerance = level == levels.back() ? options_.tolerance : kCoarseTolerance;
       control_.most_rounds = 10;
-      const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, level),
-                                  found.z[found.track->layout().length()]);
+      const Mesh mesh =
+          mesh_with(problem, refined_knots(*found.track, found.z, switches_of(problem, found), level),
+                    found.z[found.track->layout().length()]);
       Found next = minimise(problem, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)),
                             margins_, control_);
       if (next.stopped && !next.feasible(kNearlyFeasible)) {
@@ -238,9 +245,9 @@ class Searcher {
       control_.most_rounds = 10;
       const double core_length = found.z[found.track->layout().length()];
       Mesh mesh = mesh_with(problem, found.track->mesh().knots, core_length);
-      for (const double place : places_to_hold(verdict, round)) {
+      for (const double place : places_to_hold(problem, verdict, round)) {
         const double sigma = (place / problem.chord - problem.lead_in) / core_length;
-        if (sigma > 0.0 && sigma < 1.0) held.push_back(sigma);
+        if (sigma > 0.0 && sigma < 1.0) hold(sigma, mesh.knots, held);
       }
       mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.begin(), held.end());
       if (found.stopped) control_.most_rounds = kGraceEffort;
@@ -252,17 +259,41 @@ class Searcher {
     candidate.stopped = candidate.stopped || found.stopped;
   }
 
-  /// Where the referee found the ride ending, or in the first rounds a limit broken the most: holding the
-  /// limit exactly there costs nothing, other than tightening it as a whole.
-  [[nodiscard]] std::vector<double> places_to_hold(const Verdict& verdict, int round) const {
+  /// Where the referee found the ride ending, or in the first rounds limits broken the most: holding a limit
+  /// exactly there costs nothing, other than tightening it as a whole.
+  [[nodiscard]] std::vector<double> places_to_hold(const ScaledProblem& problem, const Verdict& verdict,
+                                                   int round) const {
     std::vector<double> places;
     if (verdict.lift_off) places.push_back(*verdict.lift_off);
     if (verdict.stall) places.push_back(*verdict.stall);
     if (round >= kHoldingRounds) return places;
-    for (const LimitCheck& check : verdict.checks) {
-      if (check.violation > 0.5 * options_.limit_tolerance * check.scale) places.push_back(check.where);
+    for (const Broken& broken : verdict.broken) {
+      const bool load = std::any_of(
+          problem.limits.begin(), problem.limits.end(),
+          [&](const LimitSpec& limit) { return limit.key == broken.limit && is_highest_load(limit); });
+      if (!load && broken.violation > 0.5 * options_.limit_tolerance) places.push_back(broken.where);
     }
     return places;
+  }
+
+  /// A track that follows such a limit breaks it a little in every piece, between any places where it is
+  /// held, since a linear curvature does not follow it. Tightening takes less than that already leaves.
+  [[nodiscard]] static bool is_highest_load(const LimitSpec& limit) {
+    const bool load = limit.measure == Measure::normal_load || limit.measure == Measure::curvature_load;
+    return load && limit.side > 0;
+  }
+
+  /// A place close to one that is held already takes its part: limits are touched there now.
+  static void hold(double sigma, const Vector& knots, Vector& held) {
+    constexpr double kClose = 0.02;
+    const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
+    const double piece = *above - *(above - 1);
+    for (double& place : held) {
+      if (std::fabs(place - sigma) > kClose * piece) continue;
+      place = sigma;
+      return;
+    }
+    held.push_back(sigma);
   }
 
   void tighten(const ScaledProblem& problem, const Verdict& verdict, int round) {
@@ -278,10 +309,11 @@ class Searcher {
         margins_[i] = std::max(kStallMargin, 2.0 * margins_[i]);
         continue;
       }
-      if (round < kHoldingRounds) continue;
+      const bool load = is_highest_load(limit);
+      if (round < kHoldingRounds && !load) continue;
       const LimitCheck* check = verdict.find(limit.key);
       if (check == nullptr || check->violation <= 0.5 * options_.limit_tolerance * check->scale) continue;
-      margins_[i] += 1.3 * check->violation / check->scale;
+      margins_[i] += kTightening * check->violation / check->scale;
     }
   }
 

@@ -86,7 +86,7 @@ double distance_to_keep_out(Vec2 point, const KeepOut& keep_out) {
   return beyond > 0.0 ? -beyond : distance;
 }
 
-/// Keeps the worst value of one limit while the track is sampled.
+/// Keeps the worst value of one limit while the track is sampled, and that of each stretch that breaks it.
 class Watch {
  public:
   Watch(std::string limit, const char* unit, int side, double bound, double scale)
@@ -95,6 +95,7 @@ class Watch {
   void see(double value, double where) {
     const double excess =
         check_.side == 0 ? std::fabs(value - check_.value) : check_.side * (value - check_.value);
+    see_broken(excess / check_.scale, where);
     if (seen_ && excess <= worst_) return;
     seen_ = true;
     worst_ = excess;
@@ -104,9 +105,27 @@ class Watch {
   }
   [[nodiscard]] bool seen() const { return seen_; }
   [[nodiscard]] const LimitCheck& check() const { return check_; }
+  [[nodiscard]] const std::vector<Broken>& broken() const { return broken_; }
 
  private:
+  void see_broken(double violation, double where) {
+    constexpr double kRounding = 1e-12;
+    const bool goes_on = breaking_ && where >= last_;
+    last_ = where;
+    breaking_ = violation > kRounding;
+    if (!breaking_) return;
+    if (!goes_on) {
+      broken_.push_back({check_.limit, where, violation});
+    } else if (violation > broken_.back().violation) {
+      broken_.back().where = where;
+      broken_.back().violation = violation;
+    }
+  }
+
   LimitCheck check_;
+  std::vector<Broken> broken_;
+  bool breaking_ = false;
+  double last_ = 0.0;
   bool seen_ = false;
   double worst_ = 0.0;
 };
@@ -254,6 +273,14 @@ class Watches {
 
   void near(std::size_t waypoint, double distance, double s) {
     watch(indexed("waypoints", waypoint), "m", 0, 0.0, chord_).see(distance, s);
+  }
+
+  [[nodiscard]] std::vector<Broken> broken() const {
+    std::vector<Broken> result;
+    for (const auto& [name, watch] : watches_) {
+      result.insert(result.end(), watch.broken().begin(), watch.broken().end());
+    }
+    return result;
   }
 
   [[nodiscard]] std::vector<LimitCheck> checks() const {
@@ -449,6 +476,7 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
   }
   watches.at_end(*track);
   verdict.checks = watches.checks();
+  verdict.broken = watches.broken();
   for (const LimitCheck& check : verdict.checks) {
     verdict.worst = std::max(verdict.worst, check.violation / check.scale);
   }

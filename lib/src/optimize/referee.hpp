@@ -5,9 +5,17 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace glissade::fastest {
+
+/// A stretch along which a limit is broken.
+struct Broken {
+  std::string limit;
+  double where = 0.0;      ///< arc length at which it is broken the most [m]
+  double violation = 0.0;  ///< there, in scales; > 0
+};
 
 /// What the independent integration says of a track.
 struct Verdict {
@@ -17,7 +25,8 @@ struct Verdict {
   double travel_time = 0.0;
   double exit_speed = 0.0;
   std::vector<LimitCheck> checks;
-  double worst = 0.0;  ///< greatest violation in scales
+  std::vector<Broken> broken;  ///< of every limit
+  double worst = 0.0;          ///< greatest violation in scales
 
   [[nodiscard]] const LimitCheck* find(const std::string& limit) const;
 };

@@ -263,43 +263,4 @@ GuessCurve curve_of(const Transcription& track, const Vector& z) {
   return curve;
 }
 
-Vector refined_knots(const Transcription& track, const Vector& z, std::size_t pieces) {
-  const Mesh& mesh = track.mesh();
-  const Layout& layout = track.layout();
-  const std::size_t n = mesh.knots.size();
-  Vector second(n, 0.0);  // zeta''' at the knots, from the kinks of the curvature there
-  const auto slope = [&](std::size_t i) {
-    return (z[layout.turn(i + 1)] - z[layout.turn(i)]) / (mesh.knots[i + 1] - mesh.knots[i]);
-  };
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    second[i] = std::fabs(slope(i) - slope(i - 1)) * 2.0 / (mesh.knots[i + 1] - mesh.knots[i - 1]);
-  }
-  second[0] = second[1];
-  second[n - 1] = second[n - 2];
-  const double before = (mesh.lead_in + 0.5 * mesh.entry_speed2) / mesh.core_length;
-  Vector density(n - 1);
-  double mean = 0.0;
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double error = 0.5 * (second[i] + second[i + 1]);
-    const double speed = std::sqrt(0.5 * (mesh.knots[i] + mesh.knots[i + 1]) + before);
-    density[i] = std::pow(error * error / speed, 1.0 / 7.0);
-    mean += density[i] * (mesh.knots[i + 1] - mesh.knots[i]);
-  }
-  constexpr double kEvenShare = 0.3;
-  Vector total(n, 0.0);
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    total[i + 1] = total[i] + (density[i] + kEvenShare * (mean + 1e-6)) * (mesh.knots[i + 1] - mesh.knots[i]);
-  }
-  Vector knots(pieces + 1, 0.0);
-  std::size_t at = 0;
-  for (std::size_t k = 1; k < pieces; ++k) {
-    const double wanted = total.back() * static_cast<double>(k) / static_cast<double>(pieces);
-    while (total[at + 1] < wanted) ++at;
-    const double share = (wanted - total[at]) / (total[at + 1] - total[at]);
-    knots[k] = mesh.knots[at] + share * (mesh.knots[at + 1] - mesh.knots[at]);
-  }
-  knots[pieces] = 1.0;
-  return knots;
-}
-
 }  // namespace glissade::fastest

@@ -42,7 +42,4 @@ struct Found {
 /// Slope angle over arc length of an iterate.
 [[nodiscard]] GuessCurve curve_of(const Transcription& track, const Vector& z);
 
-/// Knots that share out the error of the track found, from its own third differences.
-[[nodiscard]] Vector refined_knots(const Transcription& track, const Vector& z, std::size_t pieces);
-
 }  // namespace glissade::fastest

@@ -1,0 +1,443 @@
+#include "optimize/switches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace glissade::fastest {
+namespace {
+
+// Knots before and behind a jump, in shares of the core length: near enough for what the ramp costs, far
+// enough for the place to be met.
+constexpr double kPair = 1e-3;
+// Where the core joins a straight that is given, the place is known.
+constexpr double kJoint = 1e-4;
+// A jump is seen from the track this many pieces before and behind it.
+constexpr double kWindow = 4.0;
+// And counts as one if it is this large a share of the curvature there.
+constexpr double kJump = 0.1;
+
+/// A place counted in pieces: 2.25 lies a quarter into the third.
+double count_pieces(const Vector& knots, double sigma) {
+  const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
+  const auto i = static_cast<std::size_t>(above - knots.begin()) - 1;
+  return static_cast<double>(i) + std::clamp((sigma - knots[i]) / (knots[i + 1] - knots[i]), 0.0, 1.0);
+}
+
+/// Whether a limit can bind along a stretch.
+bool holds_along(Measure measure) {
+  switch (measure) {
+    case Measure::slope_angle:
+    case Measure::curvature:
+    case Measure::normal_load:
+    case Measure::curvature_load:
+    case Measure::speed:
+    case Measure::distance:
+      return true;
+    case Measure::curvature_rate:
+    case Measure::entry_slope_angle:
+    case Measure::exit_slope_angle:
+    case Measure::exit_speed:
+    case Measure::arc_length:
+    case Measure::finish_coordinate:
+    case Measure::waypoint:
+    case Measure::arrival:
+      return false;
+  }
+  return false;
+}
+
+/// By how much a limit may be left alone between two places where it binds: a linear curvature cannot follow
+/// that of a load.
+double slack_within(Measure measure) {
+  constexpr double kOfLoad = 3e-3;
+  constexpr double kElse = 1e-5;
+  return measure == Measure::normal_load || measure == Measure::curvature_load ? kOfLoad : kElse;
+}
+
+/// Places where a limit that carries a price begins or ceases to bind, counted in pieces.
+std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& found) {
+  constexpr double kAtBound = 1e-6;
+  constexpr double kSameStretch = 1.5;
+  constexpr double kEnd = 1e-6;
+  struct Place {
+    double at = 0.0;
+    double slack = 0.0;
+  };
+  const Mesh& mesh = found.track->mesh();
+  const State state = found.rows->state(found.z, false);
+  const double length = found.z[found.track->layout().length()];
+  std::vector<double> price(problem.limits.size(), 0.0);
+  for (std::size_t k = 0; k < found.active.size(); ++k) price[found.active[k].limit] += found.inequality[k];
+  std::vector<std::vector<Place>> places(problem.limits.size());
+  for (const Row& row : found.rows->candidates(state, HUGE_VAL)) {
+    if (!holds_along(problem.limits[row.limit].measure) || price[row.limit] <= 0.0) continue;
+    const double sigma = (found.rows->place(state, row) - mesh.lead_in) / length;
+    places[row.limit].push_back({count_pieces(mesh.knots, sigma), -found.rows->value(state, row)});
+  }
+  std::vector<double> ends;
+  const auto add_end = [&](double at) {
+    if (at > kEnd && at < static_cast<double>(mesh.knots.size() - 1) - kEnd) ends.push_back(at);
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::stable_sort(places[i].begin(), places[i].end(),
+                     [](const Place& a, const Place& b) { return a.at < b.at; });
+    const double shallow = slack_within(problem.limits[i].measure);
+    std::optional<double> bound_at;
+    double deepest = 0.0;
+    for (const Place& place : places[i]) {
+      deepest = std::max(deepest, place.slack);
+      if (place.slack > kAtBound) continue;
+      const bool goes_on = bound_at && (deepest < shallow || place.at - *bound_at < kSameStretch);
+      if (!goes_on) {
+        if (bound_at) add_end(*bound_at);
+        add_end(place.at);
+      }
+      bound_at = place.at;
+      deepest = 0.0;
+    }
+    if (bound_at) add_end(*bound_at);
+  }
+  return ends;
+}
+
+/// Least squares for a slope angle of two parabolas that meet, through the track before and behind a blurred
+/// stretch.
+class Kink {
+ public:
+  Kink(const Found& found, Span seen, Span blurred) : seen_(seen) {
+    Shape shape;
+    found.track->shape(found.z, shape, false);
+    const std::vector<Station>& stations = found.track->stations();
+    for (std::size_t i = 1; i < stations.size(); ++i) {
+      const double sigma = stations[i].sigma;
+      if (stations[i].part != Part::core || sigma < seen.from || sigma > seen.to) continue;
+      if (sigma > blurred.from && sigma < blurred.to) continue;
+      points_.push_back({sigma, shape.zeta[i], (sigma - stations[i - 1].sigma) / (seen.to - seen.from)});
+    }
+  }
+
+  struct Fit {
+    double miss = 0.0;  ///< root of the mean square
+    double jump = 0.0;  ///< of d zeta/d sigma
+  };
+  [[nodiscard]] Fit fit(double at) const {
+    Matrix normal(kTerms, kTerms);
+    Vector factors(kTerms, 0.0);
+    for (const Point& point : points_) {
+      const auto term = terms(point.sigma, at);
+      for (std::size_t j = 0; j < kTerms; ++j) {
+        add_scaled(normal.row(j), point.weight * term[j], term.data(), kTerms);
+        factors[j] += point.weight * term[j] * point.zeta;
+      }
+    }
+    Vector diagonal(kTerms);
+    for (std::size_t j = 0; j < kTerms; ++j) diagonal[j] = normal(j, j);
+    const ShiftedCholesky cholesky(normal, diagonal);
+    cholesky.forward(factors.data());
+    cholesky.backward(factors.data());
+    double squares = 0.0;
+    for (const Point& point : points_) {
+      const double miss = dot(terms(point.sigma, at).data(), factors.data(), kTerms) - point.zeta;
+      squares += point.weight * miss * miss;
+    }
+    return {std::sqrt(squares), factors[3] / unit()};
+  }
+
+  /// The place within `span` that fits best.
+  [[nodiscard]] double best(Span span) const {
+    constexpr int kScan = 24;
+    constexpr int kHalvings = 20;
+    const double step = (span.to - span.from) / kScan;
+    double at = span.from;
+    double least = HUGE_VAL;
+    for (int k = 0; k <= kScan; ++k) {
+      const double miss = fit(span.from + step * k).miss;
+      if (miss >= least) continue;
+      least = miss;
+      at = span.from + step * k;
+    }
+    double width = 0.5 * step;
+    for (int k = 0; k < kHalvings; ++k, width *= 0.5) {
+      const double before = fit(at - width).miss;
+      const double behind = fit(at + width).miss;
+      if (std::min(before, behind) >= least) continue;
+      least = std::min(before, behind);
+      at += before < behind ? -width : width;
+    }
+    return at;
+  }
+
+ private:
+  static constexpr std::size_t kTerms = 5;
+  struct Point {
+    double sigma = 0.0;
+    double zeta = 0.0;
+    double weight = 0.0;
+  };
+  [[nodiscard]] double unit() const { return 0.5 * (seen_.to - seen_.from); }
+  [[nodiscard]] std::array<double, kTerms> terms(double sigma, double at) const {
+    const double t = (sigma - at) / unit();
+    const double behind = std::max(t, 0.0);
+    return {1.0, t, t * t, behind, behind * behind};
+  }
+
+  Span seen_;
+  std::vector<Point> points_;
+};
+
+/// Finds the jumps of one track.
+class JumpFinder {
+ public:
+  JumpFinder(const ScaledProblem& problem, const Found& found)
+      : found_(found),
+        knots_(found.track->mesh().knots),
+        pieces_(knots_.size() - 1),
+        ends_(ends_of_binding(problem, found)),
+        wide_(knots_.size(), 0.0) {
+    for (std::size_t i = 0; i < pieces_; ++i) {
+      const bool narrow = knots_[i + 1] - knots_[i] < 2.0 * kPair;
+      wide_[i + 1] = wide_[i] + (narrow ? 0.0 : 1.0);
+    }
+  }
+
+  [[nodiscard]] std::vector<Switch> switches() const {
+    const Mesh& mesh = found_.track->mesh();
+    const std::vector<std::size_t> ramps = this->ramps();
+    const std::size_t first = mesh.lead_in > 0.0 ? 1 : 0;
+    const std::size_t last = mesh.lead_out > 0.0 ? pieces_ - 1 : pieces_;
+    std::vector<Switch> result;
+    if (first > 0 && turns(0)) result.push_back({{0.0, knots_[1]}, Span{0.0, kJoint}});
+    for (std::size_t k = 0; k < ramps.size(); ++k) {
+      if (ramps[k] < first || ramps[k] >= last) continue;
+      const std::size_t begin = k == 0 ? first : std::max(first, ramps[k - 1] + 1);
+      const std::size_t end = k + 1 == ramps.size() ? last : std::min(last, ramps[k + 1]);
+      if (const std::optional<Switch> seen = seen_from(ramps[k], begin, end)) result.push_back(*seen);
+    }
+    if (last < pieces_ && turns(last)) result.push_back({{knots_[last], 1.0}, Span{1.0 - kJoint, 1.0}});
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double turn(std::size_t knot) const { return found_.z[found_.track->layout().turn(knot)]; }
+  [[nodiscard]] double change(std::size_t piece) const { return std::fabs(turn(piece + 1) - turn(piece)); }
+  /// Whether curvature changes across a piece by much of what it is nearby.
+  [[nodiscard]] bool turns(std::size_t piece) const {
+    double size = 0.0;
+    for (std::size_t k = 0; k <= pieces_; ++k) {
+      const bool near = wide_[k] >= wide_[piece] - kWindow && wide_[k] <= wide_[piece + 1] + kWindow;
+      if (near) size = std::max(size, std::fabs(turn(k)));
+    }
+    return change(piece) > kJump * size;
+  }
+
+  /// The pieces that stand for a jump each: near the end of a binding, and no ripple of a greater one.
+  [[nodiscard]] std::vector<std::size_t> ramps() const {
+    constexpr double kNear = 3.0;
+    constexpr double kRipple = 1.5;
+    std::vector<std::size_t> by_size;
+    for (std::size_t i = 0; i < pieces_; ++i) {
+      const double middle = static_cast<double>(i) + 0.5;
+      const bool near = std::any_of(ends_.begin(), ends_.end(),
+                                    [&](double end) { return std::fabs(end - middle) < kNear; });
+      if (near && turns(i)) by_size.push_back(i);
+    }
+    std::stable_sort(by_size.begin(), by_size.end(),
+                     [&](std::size_t a, std::size_t b) { return change(a) > change(b); });
+    std::vector<std::size_t> ramps;
+    for (const std::size_t i : by_size) {
+      const bool ripple = std::any_of(ramps.begin(), ramps.end(), [&](std::size_t greater) {
+        return wide_[std::max(i, greater)] - wide_[std::min(i, greater) + 1] < kRipple;
+      });
+      if (!ripple) ramps.push_back(i);
+    }
+    std::sort(ramps.begin(), ramps.end());
+    return ramps;
+  }
+
+  /// @param first,last  pieces [first, last) belong to this jump and to no other
+  /// @return none where curvature turns out to change smoothly
+  [[nodiscard]] std::optional<Switch> seen_from(std::size_t ramp, std::size_t first, std::size_t last) const {
+    constexpr double kPartOfRamp = 0.6;
+    constexpr std::size_t kMostRamps = 3;
+    std::size_t begin = ramp;
+    std::size_t end = ramp + 1;
+    while (begin > first && end - begin < kMostRamps && change(begin - 1) > kPartOfRamp * change(ramp))
+      --begin;
+    while (end < last && end - begin < kMostRamps && change(end) > kPartOfRamp * change(ramp)) ++end;
+    std::size_t before = begin;
+    while (before > first && wide_[begin] - wide_[before - 1] <= kWindow) --before;
+    std::size_t behind = end;
+    while (behind < last && wide_[behind + 1] - wide_[end] <= kWindow) ++behind;
+
+    Switch result;
+    result.blurred = {knots_[begin], knots_[end]};
+    if (wide_[before] == wide_[begin] || wide_[behind] == wide_[end]) return result;
+    const Kink kink(found_, {knots_[before], knots_[behind]}, result.blurred);
+    const Span search{0.5 * (knots_[begin - 1] + knots_[begin]), 0.5 * (knots_[end] + knots_[end + 1])};
+    const double at = kink.best(search);
+    const Kink::Fit fit = kink.fit(at);
+    // Two parabolas that do not fit tell of more than one jump.
+    constexpr double kFits = 1e-2;
+    constexpr double kLikeRamp = 0.3;
+    const double risen = turn(begin) - turn(end);
+    if (fit.miss > kFits * std::fabs(risen) * (knots_[behind] - knots_[before])) return result;
+    if (fit.jump / risen < kLikeRamp) return std::nullopt;
+    if (at > search.from && at < search.to) result.jump = Span{at - 0.5 * kPair, at + 0.5 * kPair};
+    return result;
+  }
+
+  const Found& found_;
+  const Vector& knots_;
+  std::size_t pieces_;
+  std::vector<double> ends_;
+  std::vector<double> wide_;  ///< pieces before each knot, without those across a jump made out before
+};
+
+/// A stretch with knots of its own.
+struct Cut {
+  Span span;
+  std::size_t pieces = 1;
+  Span blurred;
+};
+
+std::vector<Cut> cuts_of(const Vector& knots, const std::vector<Switch>& switches) {
+  constexpr std::size_t kMoreBlurred = 2;
+  constexpr double kApart = 4.0 * kPair;
+  std::vector<Cut> cuts;
+  for (std::size_t i = 0; i < switches.size(); ++i) {
+    const Switch& change = switches[i];
+    const double free_from = cuts.empty() ? 0.0 : cuts.back().span.to + kApart;
+    if (change.jump) {
+      // Jumps too close to tell apart are kept as one stretch.
+      const bool joined = change.jump->from < free_from && !cuts.empty();
+      if (!joined) cuts.push_back({*change.jump, 1, change.blurred});
+      cuts.back().span.to = change.jump->to;
+      cuts.back().blurred.to = change.blurred.to;
+      cuts.back().pieces += joined ? 2 : 0;
+      continue;
+    }
+    const bool before_jump = i + 1 < switches.size() && switches[i + 1].jump;
+    const double free_to = before_jump ? switches[i + 1].jump->from - kApart : 1.0;
+    const Span span{std::max(change.blurred.from, free_from), std::min(change.blurred.to, free_to)};
+    if (span.to - span.from < kApart) continue;
+    const double width = count_pieces(knots, span.to) - count_pieces(knots, span.from);
+    cuts.push_back({span, kMoreBlurred + static_cast<std::size_t>(std::lround(width)), change.blurred});
+  }
+  return cuts;
+}
+
+/// zeta''' at the knots, from the kinks of the curvature there; in a cut it is that of its surroundings.
+Vector third_differences(const Transcription& track, const Vector& z, const std::vector<Cut>& cuts) {
+  const Layout& layout = track.layout();
+  const Vector& knots = track.mesh().knots;
+  const std::size_t n = knots.size();
+  const auto slope = [&](std::size_t i) {
+    return (z[layout.turn(i + 1)] - z[layout.turn(i)]) / (knots[i + 1] - knots[i]);
+  };
+  Vector third(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    third[i] = std::fabs(slope(i) - slope(i - 1)) * 2.0 / (knots[i + 1] - knots[i - 1]);
+  }
+  third[0] = third[1];
+  third[n - 1] = third[n - 2];
+  constexpr double kRounding = 1e-12;
+  for (const Cut& cut : cuts) {
+    const auto begin = std::lower_bound(knots.begin(), knots.end(), cut.blurred.from - kRounding);
+    const auto end = std::upper_bound(knots.begin(), knots.end(), cut.blurred.to + kRounding);
+    const auto first = static_cast<std::size_t>(begin - knots.begin());
+    const auto last = static_cast<std::size_t>(end - knots.begin());
+    const double before = first > 0 ? third[first - 1] : 0.0;
+    const double behind = last < n ? third[last] : 0.0;
+    for (std::size_t i = first; i < last; ++i) third[i] = 2 * i < first + last ? before : behind;
+  }
+  return third;
+}
+
+/// How many pieces are due up to a place, to some scale: linear between the knots of the track found.
+class Demand {
+ public:
+  Demand(const Transcription& track, const Vector& z, const std::vector<Cut>& cuts)
+      : knots_(track.mesh().knots), total_(knots_.size(), 0.0) {
+    constexpr double kEvenShare = 0.3;
+    const Mesh& mesh = track.mesh();
+    const std::size_t n = knots_.size();
+    const Vector third = third_differences(track, z, cuts);
+    const double before = (mesh.lead_in + 0.5 * mesh.entry_speed2) / mesh.core_length;
+    Vector density(n - 1);
+    double mean = 0.0;
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const double error = 0.5 * (third[i] + third[i + 1]);
+      const double speed = std::sqrt(0.5 * (knots_[i] + knots_[i + 1]) + before);
+      density[i] = std::pow(error * error / speed, 1.0 / 7.0);
+      mean += density[i] * (knots_[i + 1] - knots_[i]);
+    }
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const double due = density[i] + kEvenShare * (mean + 1e-6);
+      total_[i + 1] = total_[i] + due * (knots_[i + 1] - knots_[i]);
+    }
+  }
+
+  [[nodiscard]] double up_to(double sigma) const {
+    const double at = count_pieces(knots_, sigma);
+    const auto i = std::min(static_cast<std::size_t>(at), total_.size() - 2);
+    return total_[i] + (at - static_cast<double>(i)) * (total_[i + 1] - total_[i]);
+  }
+  [[nodiscard]] double within(Span span) const { return up_to(span.to) - up_to(span.from); }
+  /// Appends what lies behind span.from, in equal parts.
+  void share_out(Span span, std::size_t pieces, Vector& knots) const {
+    const double begin = up_to(span.from);
+    const double amount = within(span);
+    std::size_t at = 0;
+    for (std::size_t k = 1; k < pieces; ++k) {
+      const double wanted = begin + amount * static_cast<double>(k) / static_cast<double>(pieces);
+      while (total_[at + 1] < wanted) ++at;
+      const double share = (wanted - total_[at]) / (total_[at + 1] - total_[at]);
+      knots.push_back(knots_[at] + share * (knots_[at + 1] - knots_[at]));
+    }
+    knots.push_back(span.to);
+  }
+
+ private:
+  const Vector& knots_;
+  Vector total_;
+};
+
+}  // namespace
+
+std::vector<Switch> switches_of(const ScaledProblem& problem, const Found& found) {
+  // Under a limit on its rate curvature does not jump.
+  const bool smooth = std::any_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {
+    return limit.measure == Measure::curvature_rate;
+  });
+  if (smooth) return {};
+  return JumpFinder(problem, found).switches();
+}
+
+Vector refined_knots(const Transcription& track, const Vector& z, const std::vector<Switch>& switches,
+                     std::size_t pieces) {
+  constexpr std::size_t kFewest = 2;
+  const std::vector<Cut> cuts = cuts_of(track.mesh().knots, switches);
+  const Demand demand(track, z, cuts);
+  double shared = demand.up_to(1.0);
+  for (const Cut& cut : cuts) shared -= demand.within(cut.span);
+  Vector knots{0.0};
+  const auto share_out_to = [&](double to) {
+    const Span span{knots.back(), to};
+    if (span.to <= span.from) return;
+    const double part = static_cast<double>(pieces) * demand.within(span) / shared;
+    demand.share_out(span, std::max(kFewest, static_cast<std::size_t>(std::lround(part))), knots);
+  };
+  for (const Cut& cut : cuts) {
+    share_out_to(cut.span.from);
+    for (std::size_t k = 1; k < cut.pieces; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(cut.pieces);
+      knots.push_back(cut.span.from + share * (cut.span.to - cut.span.from));
+    }
+    knots.push_back(cut.span.to);
+  }
+  share_out_to(1.0);
+  return knots;
+}
+
+}  // namespace glissade::fastest
