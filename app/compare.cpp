@@ -113,7 +113,7 @@ Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
         excess,
         exit_text(motion),
         angle_text(track.steepest_slope_angle, 3),
-        rounded_text(motion.highest_load().normal_load, 4) + " m/s^2",
+        acceleration_text(motion.highest_load().normal_load),
         length_text(track.centerline->length()),
         std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)};
     if (limited) row.push_back(limits_verdict(track));
@@ -202,7 +202,8 @@ std::vector<Friction> frictions_of(const std::vector<std::string>& texts) {
 
 std::vector<Entry> designs_given(const Options& options, Design first, const RunContext& context) {
   std::vector<Design> designs = {std::move(first)};
-  for (const std::string& file : options.others) designs.push_back(read_design(file));
+  for (const std::string& file : options.others)
+    designs.push_back(read_design(file, options.input.overrides()));
   return every_design(std::move(designs), context);
 }
 
@@ -220,7 +221,8 @@ Comparison comparison_of(const Options& options, const Design& design, const std
   if (!options.others.empty()) {
     std::vector<Entry> entries = designs_given(options, design, context);
     Table table = designs_table(entries);
-    return {"Comparison of designs", listed(names_of(entries)), std::move(entries), std::move(table)};
+    return {"Comparison of designs", std::to_string(entries.size()) + " designs, each with its own body",
+            std::move(entries), std::move(table)};
   }
   if (!frictions.empty()) {
     std::vector<Entry> entries = friction_sweep(design, frictions);

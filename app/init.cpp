@@ -41,28 +41,42 @@ std::string footer() {
          "  glissade init points -o wall.yaml                 with the profile that it reads beside it";
 }
 
-void write_new(const std::filesystem::path& path, std::string_view text, bool force) {
-  if (!force && std::filesystem::exists(path)) {
-    throw FileError({path.string(), "the file exists already", "It may hold work of yours.",
-                     "another name, or --force to replace it"});
-  }
+void require_new(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return;
+  throw FileError({path.string(), "the file exists already", "It may hold work of yours.",
+                   "another name, or --force to replace it"});
+}
+
+void write(const std::filesystem::path& path, std::string_view text) {
   AtomicFile file(path);
   file.write(text);
   file.commit();
 }
 
+std::string profile_note() {
+  const std::string name(kTemplateProfileName);
+  return "glissade: note: this design reads " + name +
+         " beside it, which is not written here.\n"
+         "      'glissade init points -o FILE' writes both.\n";
+}
+
 ExitCode write_template(const Options& options) {
   const std::string kind = options.kind.empty() ? std::string(design_templates().front().kind) : options.kind;
   const std::string text = design_template(kind);
+  const bool needs_profile = kind == "points";
   if (options.output.empty()) {
     print(text);
+    if (needs_profile) print_error(profile_note());
     return ExitCode::done;
   }
   const std::filesystem::path path = options.output;
-  write_new(path, text, options.force);
-  if (kind == "points") {
-    write_new(path.parent_path() / kTemplateProfileName, design_template_profile(), options.force);
+  const std::filesystem::path profile = path.parent_path() / kTemplateProfileName;
+  if (!options.force) {
+    require_new(path);
+    if (needs_profile) require_new(profile);
   }
+  write(path, text);
+  if (needs_profile) write(profile, design_template_profile());
   return ExitCode::done;
 }
 

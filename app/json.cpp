@@ -1,5 +1,6 @@
 #include "app/json.hpp"
 
+#include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/version.hpp"
 
@@ -34,6 +35,12 @@ Json profile_json(const FittedProfile& profile) {
           {"max_deviation_m", profile.max_deviation()},
           {"max_deviation_at_point", profile.farthest_point() + 1},
           {"rms_deviation_m", profile.rms_deviation()}};
+}
+
+Json constant_speed_json(const ConstantSpeedCurve& curve) {
+  return {{"p_m2_per_s2", curve.p()},
+          {"speed_m_per_s", std::sqrt(curve.p())},
+          {"travel_time_at_that_speed_s", curve.travel_time_at_constant_speed()}};
 }
 
 Json stall_json(const std::optional<Stall>& stall) {
@@ -157,6 +164,9 @@ Json track_json(const Design& design, const Track& track) {
   json["lift_off"] = lift_off_json(motion.lift_off());
   if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline)) {
     json["profile"] = profile_json(*profile);
+  }
+  if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
+    json["constant_speed"] = constant_speed_json(*curve);
   }
   json["limits"] = Json::array();
   for (const LimitCheck& check : track.limit_checks) json["limits"].push_back(check_json(check));

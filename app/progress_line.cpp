@@ -4,26 +4,34 @@
 
 #include "app/console.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace glissade::app {
 namespace {
 
 constexpr std::chrono::seconds kPatience{1};
-constexpr double kTrustedFraction = 0.05;  // below, what is left cannot be told from what is done
+constexpr std::chrono::milliseconds kRedrawn{250};
+constexpr double kTrustedFraction = 0.01;  // below, what is left cannot be told from what is done
 
-std::string time_left(double elapsed, double fraction) {
-  if (fraction < kTrustedFraction) return "";
-  return ", " + rounded_text(std::ceil(elapsed * (1.0 - fraction) / fraction), 3) + " s left";
+double seconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
 }
 
 }  // namespace
 
 ProgressLine::ProgressLine(const Verbosity& verbosity)
     : enabled_(verbosity.verbose() || (!verbosity.quiet() && error_is_terminal())),
-      verbose_(verbosity.verbose()) {}
+      verbose_(verbosity.verbose()) {
+  if (!enabled_ || verbose_) return;
+  drawer_ = std::jthread([this](const std::stop_token& stop) { keep_drawing(stop); });
+}
 
 ProgressLine::~ProgressLine() {
+  if (drawer_.joinable()) {
+    drawer_.request_stop();
+    drawer_.join();
+  }
   if (shown_) print_error("\r\033[K");
 }
 
@@ -33,7 +41,7 @@ Progress ProgressLine::callback() {
     if (verbose_) {
       tell(stage);
     } else {
-      show(stage, fraction);
+      note(stage, fraction);
     }
   };
 }
@@ -41,25 +49,42 @@ Progress ProgressLine::callback() {
 void ProgressLine::tell(std::string_view stage) {
   if (stage == stage_) return;
   stage_ = stage;
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double elapsed = seconds(Clock::now() - start_);
   print_error("glissade: after " + rounded_text(std::round(elapsed * 100.0) / 100.0, 6) + " s: " + stage_ +
               "\n");
 }
 
-void ProgressLine::show(std::string_view stage, double fraction) {
+void ProgressLine::note(std::string_view stage, double fraction) {
+  const std::scoped_lock lock(mutex_);
+  const bool changed = stage != stage_;
   const Clock::time_point now = Clock::now();
-  if (stage != stage_) {
-    stage_ = stage;
-    stage_start_ = now;
-  }
-  if (now - start_ < kPatience) return;
-  std::string line = "\r\033[K" + stage_;
-  if (fraction >= 0.0) {
-    const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
-    line += " " + rounded_text(std::floor(fraction * 100.0), 3) + " %" + time_left(elapsed, fraction);
-  }
-  print_error(line);
+  if (fraction < fraction_ || fraction_ < 0.0) work_start_ = now;
+  stage_ = stage;
+  fraction_ = fraction;
+  told_ = now;
+  if (changed) draw(now);
+}
+
+void ProgressLine::keep_drawing(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!ended_.wait_for(lock, stop, kRedrawn, [&] { return stop.stop_requested(); })) draw(Clock::now());
+}
+
+void ProgressLine::draw(Clock::time_point now) {
+  if (now - start_ < kPatience || stage_.empty()) return;
+  print_error("\r\033[K" + stage_ + distance_text(now));
   shown_ = true;
+}
+
+/// How far, how long still; where nobody knows, how long so far.
+std::string ProgressLine::distance_text(Clock::time_point now) const {
+  const std::string so_far = ", " + rounded_text(std::floor(seconds(now - start_)), 6) + " s so far";
+  if (fraction_ < 0.0) return so_far;
+  const std::string percent = ", " + rounded_text(std::floor(fraction_ * 100.0), 3) + " %";
+  if (fraction_ < kTrustedFraction) return percent + so_far;
+  const double whole = seconds(told_ - work_start_) / fraction_;
+  const double left = whole - seconds(now - work_start_);
+  return percent + ", about " + rounded_text(std::max(std::ceil(left), 1.0), 6) + " s left";
 }
 
 }  // namespace glissade::app

@@ -5,13 +5,17 @@
 #include "app/verbosity.hpp"
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace glissade::app {
 
-/// One line on a terminal that tells what long work does and how long it still takes; nothing in the first
-/// second, nothing where standard error is no terminal. Verbose: a line for each step, wherever it goes.
+/// One line on a terminal that tells what long work does, how far it is and how long it still takes; nothing in
+/// the first second, nothing where standard error is no terminal. Drawn anew as time passes, also while a step
+/// tells nothing. Verbose: a line for each step instead, wherever it goes.
 class ProgressLine {
  public:
   explicit ProgressLine(const Verbosity& verbosity);
@@ -26,15 +30,24 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void show(std::string_view stage, double fraction);
+  void note(std::string_view stage, double fraction);
   void tell(std::string_view stage);
+  void keep_drawing(const std::stop_token& stop);
+  void draw(Clock::time_point now);
+  [[nodiscard]] std::string distance_text(Clock::time_point now) const;
 
   bool enabled_;
   bool verbose_;
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point stage_start_ = start_;
   std::string stage_;
+  double fraction_ = -1.0;  ///< done when last told; negative where unknown
+  Clock::time_point told_ = start_;
+  Clock::time_point work_start_ = start_;  ///< when the work began that the fraction is of
+
+  std::mutex mutex_;  ///< of everything above
+  std::condition_variable_any ended_;
+  std::jthread drawer_;
 };
 
 }  // namespace glissade::app

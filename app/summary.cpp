@@ -1,5 +1,6 @@
 #include "app/summary.hpp"
 
+#include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/number_text.hpp"
 
@@ -30,7 +31,11 @@ std::string kind_text(const Track& track) {
     return profile_text(*profile);
   if (track.search) return "fastest within the limits";
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
-  if (centerline.kind() == "constant-speed") return "constant-speed (Pudasaini's curve)";
+  if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
+    return "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)\n" +
+           "a body fed at " + speed_text(std::sqrt(curve->p())) + " keeps that speed, for " +
+           time_text(curve->travel_time_at_constant_speed());
+  }
   if (centerline.kind() == "no-curvature-load") return "no-curvature-load (for comparison only)";
   return std::string(centerline.kind());
 }
@@ -89,10 +94,18 @@ std::string slope_text(const Track& track) {
          angle_text(centerline.slope_angle(centerline.length())) + " at the finish";
 }
 
+/// The cosine of a right angle is not quite 0 in a computer.
+double without_rounding(double load) {
+  constexpr double kNothing = 1e-12;
+  return std::fabs(load) < kNothing ? 0.0 : load;
+}
+
 std::string load_lines(const Motion& motion) {
   const MotionState highest = motion.highest_load();
-  return load_text(highest.normal_load) + " at most, " + length_text(highest.arc_length) +
-         " down the track\n" + load_text(motion.lowest_load().normal_load) + " at least";
+  const std::string most =
+      std::isinf(highest.normal_load) ? "unbounded, " : load_text(highest.normal_load) + " at most, ";
+  return most + length_text(highest.arc_length) + " down the track\n" +
+         load_text(motion.lowest_load().normal_load) + " at least";
 }
 
 std::string radius_text(const Track& track) {
@@ -132,12 +145,16 @@ std::string speed_text(double metres_per_second) {
   return rounded_text(metres_per_second, 4) + " m/s";
 }
 
+std::string acceleration_text(double metres_per_second_squared) {
+  if (std::isinf(metres_per_second_squared)) return "unbounded";
+  return rounded_text(without_rounding(metres_per_second_squared), 4) + " m/s^2";
+}
+
 std::string load_text(double metres_per_second_squared) {
-  // The cosine of a right angle is not quite 0 in a computer.
-  constexpr double kNothing = 1e-12;
-  if (std::fabs(metres_per_second_squared) < kNothing) metres_per_second_squared = 0.0;
-  return rounded_text(metres_per_second_squared, 4) + " m/s^2 (" +
-         rounded_text(metres_per_second_squared / kStandardGravity, 3) + " g)";
+  const std::string text = acceleration_text(metres_per_second_squared);
+  if (std::isinf(metres_per_second_squared)) return text;
+  return text + " (" + rounded_text(without_rounding(metres_per_second_squared) / kStandardGravity, 3) +
+         " g)";
 }
 
 std::string volume_text(double cubic_metres, int digits) {

@@ -22,7 +22,9 @@ namespace glissade::app {
 [[nodiscard]] std::string time_text(double seconds);
 /// @return "5.43 m/s"
 [[nodiscard]] std::string speed_text(double metres_per_second);
-/// @return "12.3 m/s^2 (1.25 g)"
+/// @return "12.3 m/s^2"; "unbounded" for infinity
+[[nodiscard]] std::string acceleration_text(double metres_per_second_squared);
+/// @return "12.3 m/s^2 (1.25 g)"; "unbounded" for infinity
 [[nodiscard]] std::string load_text(double metres_per_second_squared);
 /// @return "12.3 litres" below a cubic metre, "4.56 m^3" from there
 [[nodiscard]] std::string volume_text(double cubic_metres, int digits);

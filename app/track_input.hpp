@@ -39,6 +39,8 @@ class TrackInput {
   /// @throws InputError if the options are incomplete, contradict each other or have wrong values; else as
   ///         read_design()
   [[nodiscard]] Design design(const std::optional<Friction>& default_friction = {}) const;
+  /// @return what --set replaces, in every design of the command
+  [[nodiscard]] std::vector<Override> overrides() const { return overrides_.values(); }
 
  private:
   [[nodiscard]] Design from_options(const std::optional<Friction>& default_friction) const;

@@ -63,6 +63,13 @@ TEST_CASE("a friction sweep at P = 100 gives the seven curves of the paper's fig
   }
 }
 
+TEST_CASE("--set replaces a value of every design that is compared") {
+  const json tracks =
+      compared({shipped("grain_chute"), shipped("marble_run"), "--set", "body.friction_angle=5deg"});
+  REQUIRE(tracks.size() == 2);
+  for (const json& track : tracks) CHECK(track["friction_angle_deg"].get<double>() == Approx(5.0));
+}
+
 TEST_CASE("compare --csv writes every curve from the start to the finish") {
   const TempDir place;
   const std::string file = (place / "curves.csv").string();

@@ -85,6 +85,63 @@ TEST_CASE("init of points comes with a profile that build, solve and compare acc
   }
 }
 
+TEST_CASE("init of points to standard output says that the profile is not written with it") {
+  const Outcome printed = glissade_run({"init", "points"});
+  CHECK(printed.exit_code == 0);
+  CHECK_THAT(printed.errors,
+             Contains("reads profile.csv beside it, which is not written") && Contains("-o FILE"));
+  CHECK(glissade_run({"init", "segments"}).errors.empty());
+}
+
+TEST_CASE("init of points writes both files or none") {
+  const TempDir place;
+  put_bytes(place / "profile.csv", "my measurements");
+  const Outcome refused = glissade_run({"init", "points", "-o", "wall.yaml"}, {place.path(), {}, {}});
+  CHECK(refused.exit_code == 5);
+  CHECK_THAT(refused.errors, Contains("profile.csv: the file exists already"));
+  CHECK_FALSE(std::filesystem::exists(place / "wall.yaml"));
+  CHECK(bytes_of(place / "profile.csv") == "my measurements");
+}
+
+TEST_CASE("a finish that is not where the profile ends is refused with both places") {
+  const TempDir place;
+  const RunLimits here{place.path(), {}, {}};
+  REQUIRE(glissade_run({"init", "points", "-o", "wall.yaml"}, here).exit_code == 0);
+  const auto with_finish = [&](const std::string& finish) {
+    return glissade_run({"solve", "wall.yaml", "--set", "track.finish=" + finish}, here);
+  };
+  // The profile ends 2 m away and 1.9 m below its first point; the start is at a height of 2.4 m.
+  CHECK(with_finish("{x: 2 m, z: 0.5 m}").exit_code == 0);
+  CHECK(with_finish("{x: -1.2 m, y: 1.6 m, z: 0.5 m}").exit_code == 0);
+  const Outcome refused = with_finish("{x: 2.1 m, z: 0.5 m}");
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.errors, Contains("--set track.finish: the points miss the finish by 100 mm") &&
+                                 Contains("end 2 m away") && Contains("the finish is 2.1 m away") &&
+                                 Contains("Try: no finish"));
+}
+
+TEST_CASE("max_deviation makes a profile smoother, and no point is passed by more") {
+  const TempDir place;
+  const RunLimits here{place.path(), {}, {}};
+  REQUIRE(glissade_run({"init", "points", "-o", "wall.yaml"}, here).exit_code == 0);
+  const auto fitted = [&](const std::string& deviation) {
+    const Outcome outcome = glissade_run(
+        {"solve", "wall.yaml", "--json", "--set", "centerline.max_deviation=" + deviation}, here);
+    INFO(outcome.errors);
+    REQUIRE(outcome.exit_code == 0);
+    return nlohmann::json::parse(outcome.output);
+  };
+  const nlohmann::json close = fitted("1 mm");
+  const nlohmann::json smooth = fitted("5 mm");
+  CHECK(close["profile"]["max_deviation_m"].get<double>() <= 1e-3 * (1.0 + 1e-9));
+  CHECK(smooth["profile"]["max_deviation_m"].get<double>() <= 5e-3 * (1.0 + 1e-9));
+  CHECK(smooth["profile"]["max_deviation_m"] > close["profile"]["max_deviation_m"]);
+  const Outcome refused =
+      glissade_run({"solve", "wall.yaml", "--set", "centerline.max_deviation=0 mm"}, here);
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.errors, Contains("max_deviation: 0 m is not positive"));
+}
+
 TEST_CASE("a profile that is no profile is refused with file, line and column") {
   const TempDir place;
   const RunLimits here{place.path(), {}, {}};

@@ -106,6 +106,47 @@ TEST_CASE("solve --json: a constant-speed track by its P") {
   CHECK(track["centerline"] == "constant-speed");
   CHECK(track["travel_time_s"].get<double>() == Approx(2.19868).epsilon(1e-5));
   CHECK(track["travel_time_s"].get<double>() > track["optimum_travel_time_s"].get<double>());
+  CHECK(track["constant_speed"]["p_m2_per_s2"] == 127.0);
+  CHECK(track["constant_speed"]["speed_m_per_s"] == std::sqrt(127.0));
+  CHECK(relative(track["constant_speed"]["travel_time_at_that_speed_s"],
+                 track["arc_length_m"].get<double>() / std::sqrt(127.0)) < 1e-12);
+}
+
+TEST_CASE("without a P, the one that is fastest is told") {
+  const std::vector<std::string> task = {
+      "--run", "10", "--drop", "5", "--friction-coefficient", "0.2", "--centerline", "constant-speed"};
+  const json best = solved(task);
+  const double p = best["constant_speed"]["p_m2_per_s2"];
+  for (const double other : {0.99 * p, 1.01 * p}) {
+    std::vector<std::string> with_p = task;
+    with_p.insert(with_p.end(), {"--p", digits(other)});
+    CHECK(solved(with_p)["travel_time_s"] > best["travel_time_s"]);
+  }
+  std::vector<std::string> summary = {"solve"};
+  summary.insert(summary.end(), task.begin(), task.end());
+  CHECK_THAT(glissade_run(summary).output, Contains("Pudasaini's curve, P ") && Contains(" m^2/s^2"));
+}
+
+TEST_CASE("a load without bound is called so, and is null in --json") {
+  // The fastest track starts with unbounded curvature; whoever enters it with speed meets an unbounded load.
+  const std::vector<std::string> task = {"--run",         "10", "--drop", "5", "--friction-angle", "11deg",
+                                         "--entry-speed", "5"};
+  CHECK(solved(task)["max_normal_load_m_per_s2"].is_null());
+  for (const std::string command : {"solve", "compare"}) {
+    std::vector<std::string> all = {command};
+    all.insert(all.end(), task.begin(), task.end());
+    const Outcome outcome = glissade_run(all);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.output, Contains("unbounded") && !Contains("inf "));
+  }
+}
+
+TEST_CASE("the fastest track uphill needs limits to be searched, and the message says so") {
+  const Outcome outcome = glissade_run(
+      {"solve", "--run", "10", "--drop", "-1", "--friction-angle", "11deg", "--entry-speed", "20"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("--drop: the finish lies 1 m above the start") &&
+                                 Contains("start from rest") && Contains("Try: limits: {}"));
 }
 
 TEST_CASE("solve --json: the straight ramp has its closed form, no curvature and the load g cos") {

@@ -148,7 +148,8 @@ double p_of_entry_slope(Endpoints endpoints, Friction friction, double gravity, 
           " at a friction angle of " + angle_text(friction.angle().radians()),
       "Below P = " + exact_text(smallest) + " m^2/s^2 the constant-speed track overhangs: it would start " +
           (convex ? "uphill, " : "") + "steeper than vertical.",
-      "p at or above " + exact_text(smallest) + (convex ? "" : ", or no p for the fastest one")});
+      "p at or above " + exact_text(smallest) + " m^2/s^2" +
+          (convex ? "" : ", or no p for the fastest one")});
 }
 
 }  // namespace

@@ -20,9 +20,8 @@ constexpr double kFarthestCoordinate =
 constexpr double kShortestTrack = 1e-4;  // [m]
 constexpr double kLongestTrack = 1e6;    // [m]
 constexpr double kLargestMeasure = 1e4;  // [m], of a cross-section
-constexpr double kSmallestMeasure = 1e-6;    // [m]
-constexpr double kHighestSpeed = 1e4;        // [m/s]
-constexpr double kSegmentsAgreement = 1e-3;  // of the distance from start to finish
+constexpr double kSmallestMeasure = 1e-6;  // [m]
+constexpr double kHighestSpeed = 1e4;      // [m/s]
 constexpr double kQuarterTurn = std::numbers::pi / 2.0;
 
 using Collected = std::vector<Finding>;
@@ -67,9 +66,10 @@ bool is_given(CenterlineKind kind) {
 
 bool may_climb(const Design& design) {
   if (is_given(design.centerline.kind)) return true;
-  const bool any_speed_law =
-      design.centerline.kind == CenterlineKind::straight || design.centerline.kind == CenterlineKind::fastest;
-  return any_speed_law && design.body.entry_speed > 0.0;
+  // Only a search takes account of the entry speed; the closed form of the fastest track starts from rest.
+  const bool searched = design.centerline.kind == CenterlineKind::fastest &&
+                        (design.limits || design.track.free_finish != FreeFinish::none);
+  return (searched || design.centerline.kind == CenterlineKind::straight) && design.body.entry_speed > 0.0;
 }
 
 void check_drop(const Design& design, Collected& findings) {
@@ -78,6 +78,15 @@ void check_drop(const Design& design, Collected& findings) {
   const std::vector<std::string> paths = {"track.finish.z", "track.start.z",    "track.finish",
                                           "track.start",    "body.entry_speed", "centerline"};
   const std::string place = drop < 0.0 ? metres(-drop) + " above the start" : "level with the start";
+  if (!may_climb(design) && design.body.entry_speed > 0.0) {
+    report(
+        findings, paths,
+        {"", "the finish lies " + place,
+         "The kind " + std::string(word(design.centerline.kind)) +
+             " is made for a start from rest: it must go down.",
+         "limits: {} with the kind fastest, which searches the one for this entry_speed, or kind: straight"});
+    return;
+  }
   if (!may_climb(design)) {
     report(findings, paths,
            {"", "the finish lies " + place, "Nothing but gravity drives the body: it must go down.",
@@ -252,16 +261,8 @@ void check_overhang(const CenterlineDesign& centerline, Collected& findings) {
 
 void check_segments_finish(const Design& design, Collected& findings) {
   const Vec2 end = end_of_segments(design.centerline);
-  const double run = run_of(design.track);
-  const double drop = drop_of(design.track);
-  const double distance = std::hypot(run, drop);
-  const double miss = std::hypot(end.x - run, -end.y - drop);
-  if (miss <= kSegmentsAgreement * distance) return;
-  report(findings, {"track.finish", "track.start", "centerline"},
-         {"", "the segments miss the finish by " + length_text(miss),
-          "They end " + metres(end.x) + " away and " + metres(-end.y) + " below the start; the finish is " +
-              metres(run) + " away and " + metres(drop) + " below.",
-          "no finish: it then follows from the segments"});
+  const auto issue = missed_finish(design.track, "the segments", {end.x, -end.y});
+  if (issue) report(findings, {"track.finish", "track.start", "centerline"}, *issue);
 }
 
 void check_segments(const Design& design, Collected& findings) {
@@ -287,6 +288,13 @@ void check_centerline(const Design& design, Collected& findings) {
     report(
         findings, {"centerline.file"},
         {"", "file: no CSV file is named", "The kind points reads a measured profile.", "file: profile.csv"});
+  }
+  const auto& max_deviation = centerline.points_max_deviation;
+  if (max_deviation && !(*max_deviation > 0.0 && std::isfinite(*max_deviation))) {
+    report(findings, {"centerline.max_deviation"},
+           {"", "max_deviation: " + length_text(*max_deviation) + " is not positive",
+            "A smooth curve does not go through every measured point.",
+            "the accuracy of the measurement, or no max_deviation: the points then show it"});
   }
   if (centerline.constant_speed_p && !(*centerline.constant_speed_p > 0.0)) {
     report(findings, {"centerline.p"},

@@ -1,8 +1,11 @@
 #include "glissade/design/design.hpp"
 
+#include "glissade/core/number_text.hpp"
+
 #include "design/check.hpp"
 #include "design/findings.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace glissade {
@@ -28,6 +31,19 @@ Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {
   if (track.start.y != track.finish.y) return {point.x, drop};
   const double side = track.finish.x < track.start.x ? -1.0 : 1.0;
   return {side * (point.x - track.start.x), drop};
+}
+
+std::optional<Issue> missed_finish(const TrackDesign& track, const std::string& who, Vec2 end,
+                                   double allowance) {
+  const double run = std::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
+  const double drop = track.start.z - track.finish.z;
+  const double miss = std::hypot(end.x - run, end.y - drop);
+  if (miss <= kFinishAgreement * std::hypot(run, drop) + allowance) return {};
+  return Issue{"", who + " miss the finish by " + length_text(miss),
+               "They end " + length_text(end.x) + " away and " + length_text(end.y) +
+                   " below the start; the finish is " + length_text(run) + " away and " + length_text(drop) +
+                   " below.",
+               "no finish: it then follows from " + who};
 }
 
 std::vector<Issue> check(const Design& design) {

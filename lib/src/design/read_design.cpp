@@ -268,6 +268,7 @@ void read_points(MapReader& map, CenterlineDesign& centerline, const std::filesy
   if (const auto unit = map.find("unit")) {
     centerline.points_unit = map.choice(*unit, length_unit_words()).value_or(LengthUnit::metre);
   }
+  centerline.points_max_deviation = map.quantity("max_deviation", Dimension::length);
 }
 
 CenterlineDesign read_centerline(MapReader& top, const std::filesystem::path& file, Findings& findings) {
@@ -285,8 +286,8 @@ CenterlineDesign read_centerline(MapReader& top, const std::filesystem::path& fi
   for (const std::string_view key : {"segments", "entry_slope_angle"}) {
     map.add_stranger(key, "kind: segments, which has entry_slope_angle and segments");
   }
-  for (const std::string_view key : {"file", "columns", "unit"}) {
-    map.add_stranger(key, "kind: points, which has file, columns and unit");
+  for (const std::string_view key : {"file", "columns", "unit", "max_deviation"}) {
+    map.add_stranger(key, "kind: points, which has file, columns, unit and max_deviation");
   }
   if (*kind == CenterlineKind::constant_speed) {
     centerline.constant_speed_p = map.quantity("p", Dimension::specific_energy);

@@ -139,6 +139,7 @@ centerline:
   file: profile.csv                    # beside this file; init -o FILE writes one to start from
   columns: [x, z]                      # horizontal distance and height
   unit: m
+  # max_deviation: 2 mm                # how far the smooth curve may pass a point by
 cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}
 mesh: {tolerance: 0.5 mm}
 export: [stl, csv]

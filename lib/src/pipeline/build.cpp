@@ -33,11 +33,30 @@ void require_going(const RunContext& context) {
   throw Interrupted({"", "interrupted, nothing was written", "", ""});
 }
 
-/// Tells what comes next, unless the work is to end.
-void enter(const RunContext& context, const std::string& stage) {
-  require_going(context);
-  if (context.progress) context.progress(stage, -1.0);
-}
+// What the steps of a build cost, as shares of time measured on meshes of 0.25 and 1 million triangles.
+constexpr double kSweepCost = 0.1;
+constexpr double kCheckCost = 5.0;  // of one rounding of the mesh
+constexpr double kMeshFileCost = 1.0;
+constexpr double kTableCost = 0.1;
+constexpr double kReportCost = 1.0;
+
+/// Tells how far a build is, step by step.
+class Steps {
+ public:
+  Steps(const RunContext& context, double total) : context_(context), total_(total) {}
+
+  /// Tells what comes next and what it will have cost, unless the work is to end.
+  void enter(const std::string& stage, double cost) {
+    require_going(context_);
+    if (context_.progress) context_.progress(stage, done_ / total_);
+    done_ += cost;
+  }
+
+ private:
+  const RunContext& context_;
+  double total_;
+  double done_ = 0.0;
+};
 
 std::string stem_of(const Design& design) {
   const std::string stem = design.file.stem().string();
@@ -81,6 +100,23 @@ std::optional<MeshFormat> mesh_format(ExportFormat format) {
   return {};
 }
 
+double cost_of(ExportFormat format) {
+  return mesh_format(format) ? kMeshFileCost : kTableCost;
+}
+
+/// The whole of a build after the centerline; a rounding that equals another one is checked once, and ends sooner.
+double cost_of(const Design& design, const BuildOptions& options) {
+  std::vector<MeshFormat> roundings;
+  double cost = kSweepCost + (options.report ? kReportCost : 0.0);
+  for (const ExportFormat exported : design.exports.formats) {
+    cost += cost_of(exported);
+    const auto format = mesh_format(exported);
+    if (!format || std::find(roundings.begin(), roundings.end(), *format) != roundings.end()) continue;
+    roundings.push_back(*format);
+  }
+  return cost + kCheckCost * static_cast<double>(std::max(roundings.size(), std::size_t{1}));
+}
+
 bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
   return a.vertices == b.vertices && a.triangles == b.triangles;
 }
@@ -99,13 +135,21 @@ void require_valid(const MeshFacts& facts, const Solid& solid) {
   throw InternalError({"", what, "A faulty mesh is never written.", "another mesh.tolerance"});
 }
 
+/// The mesh as a format holds it; none if it has not been measured.
+const MeasuredMesh* held_by(const std::vector<MeasuredMesh>& meshes, MeshFormat format) {
+  for (const MeasuredMesh& mesh : meshes) {
+    if (std::find(mesh.formats.begin(), mesh.formats.end(), format) != mesh.formats.end()) return &mesh;
+  }
+  return nullptr;
+}
+
 /// Every rounding of the mesh that a file of this build holds, each measured once.
-std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, const RunContext& context) {
+std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, Steps& steps) {
   std::vector<MeasuredMesh> meshes;
   for (const ExportFormat exported : design.exports.formats) {
     const auto format = mesh_format(exported);
-    if (!format) continue;
-    enter(context, "checking the mesh");
+    if (!format || held_by(meshes, *format) != nullptr) continue;
+    steps.enter("checking the mesh", kCheckCost);
     TriangleMesh rounded = as_written(solid.mesh, *format, design.exports.unit);
     const auto known = std::find_if(meshes.begin(), meshes.end(), [&](const MeasuredMesh& other) {
       return same_mesh(other.mesh, rounded);
@@ -122,9 +166,7 @@ std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, con
 }
 
 const MeasuredMesh& as_held_by(const std::vector<MeasuredMesh>& meshes, MeshFormat format) {
-  for (const MeasuredMesh& mesh : meshes) {
-    if (std::find(mesh.formats.begin(), mesh.formats.end(), format) != mesh.formats.end()) return mesh;
-  }
+  if (const MeasuredMesh* const mesh = held_by(meshes, format)) return *mesh;
   throw InternalError({"", "a mesh was not measured before it was written", "", ""});
 }
 
@@ -255,16 +297,17 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   // The request to stop has been met: the search ended with the best track so far, which is built.
   if (track.search && context.stop.stop_requested()) context.stop = {};
 
-  enter(context, "making the mesh");
+  Steps steps(context, cost_of(design, options));
+  steps.enter("making the mesh", kSweepCost);
   const std::string place = design.where("cross_section");
   CrossSection section = at_place(place, [&] { return make_cross_section(*design.cross_section); });
   Solid solid = at_place(place, [&] {
     return sweep(*track.centerline, section, track.placement, {.tolerance = design.mesh.tolerance});
   });
 
-  std::vector<MeasuredMesh> meshes = measured(design, solid, context);
+  std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
   if (meshes.empty()) {
-    enter(context, "checking the mesh");
+    steps.enter("checking the mesh", kCheckCost);
     const MeshFacts facts = measure(solid.mesh);
     require_valid(facts, solid);
     meshes.push_back({{}, solid.mesh, facts});
@@ -276,14 +319,14 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   std::vector<fs::path> read_back;
   for (const ExportFormat format : design.exports.formats) {
     const std::string name = file_name(design, format);
-    enter(context, "writing " + name);
+    steps.enter("writing " + name, cost_of(format));
     made.push_back(staging.path_for(name));
     write_file(made.back(), format, design, track, solid, meshes);
     if (is_read_back(format)) read_back.push_back(made.back());
   }
   if (options.report) {
     // Last of all: it lists the others.
-    enter(context, std::string("writing ") + kReportName);
+    steps.enter(std::string("writing ") + kReportName, kReportCost);
     write_report(staging.path_for(kReportName), design,
                  {track, section, solid, facts, std::move(made), std::move(read_back)});
   }

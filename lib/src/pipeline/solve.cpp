@@ -49,7 +49,7 @@ CenterlinePtr make_segments(const CenterlineDesign& design) {
   return std::make_shared<ClothoidSpline>(design.entry_slope_angle, std::move(segments));
 }
 
-CenterlinePtr make_points(const CenterlineDesign& design) {
+FittedProfile fit_points(const CenterlineDesign& design) {
   ProfilePoints profile = read_profile_csv(
       design.points_file, {design.points_distance_column, design.points_height_column, design.points_unit});
   if (const auto fault = profile_fault(profile.points)) {
@@ -58,7 +58,17 @@ CenterlinePtr make_points(const CenterlineDesign& design) {
     if (fault->index < profile.lines.size()) issue.where += ":" + std::to_string(profile.lines[fault->index]);
     throw InputError(issue);
   }
-  return std::make_shared<FittedProfile>(std::move(profile.points));
+  return FittedProfile(std::move(profile.points), ProfileFit{design.points_max_deviation});
+}
+
+CenterlinePtr make_points(const Design& design) {
+  auto profile = std::make_shared<FittedProfile>(fit_points(design.centerline));
+  if (!design.track.finish_given) return profile;
+  const Endpoints end = profile->endpoints();
+  auto missed = missed_finish(design.track, "the points", {end.run, end.drop}, profile->max_deviation());
+  if (!missed) return profile;
+  missed->where = design.where("track.finish");
+  throw InputError(*std::move(missed));
 }
 
 CenterlinePtr make_of_kind(const Design& design) {
@@ -78,7 +88,7 @@ CenterlinePtr make_of_kind(const Design& design) {
     case CenterlineKind::segments:
       return make_segments(design.centerline);
     case CenterlineKind::points:
-      return make_points(design.centerline);
+      return make_points(design);
   }
   throw InternalError({"", "a centerline of this kind cannot be made", "", ""});
 }

@@ -6,7 +6,8 @@
 namespace glissade {
 
 /// Told by long work what it does and how far it is; called from the thread that works, at most some ten
-/// times a second. `fraction` of the stage done: 0 to 1, negative where it cannot be known.
+/// times a second. `fraction` of the work done: 0 to 1, negative where it cannot be known. It rises from stage
+/// to stage of one work; a lower one than before begins another work.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 }  // namespace glissade

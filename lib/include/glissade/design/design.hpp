@@ -35,6 +35,16 @@ struct TrackDesign {
   LimitRange free_range;  ///< of the free coordinate, x or z [m]
 };
 
+/// How well a finish that is given must agree with the end of a drawn track, of the distance to the start.
+inline constexpr double kFinishAgreement = 1e-3;
+
+/// @param who        what ends there, e.g. "the segments"
+/// @param end        where it ends: run from the start (not negative) and drop [m]
+/// @param allowance  by how much it may miss the finish beyond kFinishAgreement [m]; >= 0
+/// @return how a drawn track misses the finish; none if it does not
+[[nodiscard]] std::optional<Issue> missed_finish(const TrackDesign& track, const std::string& who, Vec2 end,
+                                                 double allowance = 0.0);
+
 /// @param point  (x, z) as a design file gives the points of its limits
 /// @return (run, drop) in the plane of the centerline: run from the start, positive towards the finish
 [[nodiscard]] Vec2 in_track_plane(const TrackDesign& track, Vec2 point);
@@ -76,6 +86,8 @@ struct CenterlineDesign {
   std::string points_distance_column = "x";
   std::string points_height_column = "z";
   LengthUnit points_unit = LengthUnit::metre;  ///< of the CSV's numbers
+  /// The farthest that the curve of `points` may pass one by [m]; none: chosen by their noise.
+  std::optional<double> points_max_deviation;
 };
 
 enum class CrossSectionKind { slab, u_channel, trapezoid, half_pipe, pipe, polygon };

@@ -4,6 +4,9 @@ import { button, element, section, select, themeColour } from "./dom.js";
 import { columnText, number } from "./units.js";
 
 const SYNC = "glissade";
+const HEIGHT = 220;
+// Half of A4 between its margins, in CSS pixels, and how many times as large it is drawn.
+const PAPER = { width: 336, scale: 2 };
 
 const AXES = {
   arc_length_m: ["arc length s", "length"],
@@ -28,12 +31,13 @@ function charts(doc) {
   const { stations } = doc;
   const radius = radiusOf(stations);
   const energy = energies(doc);
+  const longest = MOST_LENGTHS * stations.arc_length_m[stations.arc_length_m.length - 1];
   return [
     { id: "slope", title: "Slope angle", quantity: "angle", series: [["slope angle", stations.slope_angle_deg, "--series-1"]] },
     { id: "speed", title: "Speed", quantity: "speed", series: [["speed", stations.speed_m_per_s, "--series-2"]] },
     { id: "load", title: "Normal load", quantity: "load", series: [["normal load", stations.normal_load_m_per_s2, "--series-3"]] },
-    { id: "curvature", title: "Curvature", quantity: "curvature", clip: true, series: [["curvature", stations.curvature_per_m, "--series-4"]] },
-    { id: "radius", title: "Radius of curvature", quantity: "length", clip: true, series: [["radius", radius, "--series-5"]] },
+    { id: "curvature", title: "Curvature", quantity: "curvature", range: boundedRange, series: [["curvature", stations.curvature_per_m, "--series-4"]] },
+    { id: "radius", title: "Radius of curvature", quantity: "length", range: (column) => radiusRange(column, longest), series: [["radius", radius, "--series-5"]] },
     {
       id: "energy",
       title: "Energy per mass",
@@ -53,14 +57,24 @@ function isAscending(column) {
   return column.every((value, i) => i === 0 || value >= column[i - 1]);
 }
 
-// An unbounded end would flatten the rest of the curve: the axis ends where all but the outer 4 % of stations lie.
-function clippedRange(columns) {
-  const values = columns.flat().filter((v) => v !== null && Number.isFinite(v)).sort((a, b) => a - b);
+// A curvature without bound would flatten the rest of the curve: the axis then ends where all but the outer 4 % of
+// stations lie. One that is bounded is shown whole.
+function boundedRange(column) {
+  if (!column.includes(null)) return null;
+  const values = column.filter((v) => v !== null).sort((a, b) => a - b);
   if (values.length === 0) return [0, 1];
   const low = values[Math.floor(0.02 * (values.length - 1))];
   const high = values[Math.ceil(0.96 * (values.length - 1))];
   const margin = 0.08 * (high - low || Math.abs(high) || 1);
   return [low < 0 ? low - margin : 0, high + margin];
+}
+
+// Radii beyond this many lengths of the track are straight to the eye; the axis ends there.
+const MOST_LENGTHS = 2;
+
+function radiusRange(column, longest) {
+  const largest = Math.max(...column.map((v) => v ?? 0));
+  return [0, 1.05 * Math.min(largest || 1, longest)];
 }
 
 // The values of one chart at a station, in words.
@@ -106,21 +120,24 @@ class Chart {
     const [axisName, axisQuantity] = AXES[this.store.get("axis")];
     const ink = themeColour("--ink-soft");
     const grid = { stroke: themeColour("--grid"), width: 1 };
-    const font = "12px system-ui, sans-serif";
+    // Paper has more dots than a screen: drawn larger, and shrunk to the width of a column by the print styles.
+    const scale = this.store.get("paper") ? PAPER.scale : 1;
+    const width = this.store.get("paper") ? PAPER.width : Math.max(this.holder.clientWidth, 200);
+    const font = `${12 * scale}px system-ui, sans-serif`;
     const tick = (_, values) => values.map((v) => (v === null ? "" : number(v, 4)));
-    const range = chart.clip ? clippedRange(data.slice(1)) : null;
+    const bounds = chart.range?.(chart.series[0][1])?.map((v) => units.convert(chart.quantity, v));
     this.plot = new uPlot({
-      width: Math.max(this.holder.clientWidth, 200),
-      height: 220,
+      width: width * scale,
+      height: HEIGHT * scale,
       legend: { show: false },
       cursor: { sync: { key: SYNC, setSeries: false }, drag: { x: true, y: false }, y: false },
-      scales: { x: { time: false }, y: range ? { range: () => range } : {} },
+      scales: { x: { time: false }, y: bounds ? { range: () => bounds } : {} },
       axes: [
-        { label: `${axisName} [${units.unit(axisQuantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick },
-        { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 64 },
+        { label: `${axisName} [${units.unit(axisQuantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 44 * scale, labelSize: 26 * scale, gap: 5 * scale },
+        { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 60 * scale, labelSize: 24 * scale, gap: 5 * scale },
       ],
       series: [{}, ...chart.series.map(([name, , colour]) => ({
-        label: name, stroke: themeColour(colour), width: 2, points: { show: false },
+        label: name, stroke: themeColour(colour), width: 2 * scale, points: { show: false },
       }))],
       hooks: {
         setScale: [(plot, key) => {
@@ -139,7 +156,8 @@ class Chart {
   }
 
   resize() {
-    this.plot?.setSize({ width: Math.max(this.holder.clientWidth, 200), height: 220 });
+    if (this.store.get("paper")) return;
+    this.plot?.setSize({ width: Math.max(this.holder.clientWidth, 200), height: HEIGHT });
   }
 
   axisKey() {
@@ -244,7 +262,7 @@ export function plotSection(doc, store, units) {
       button("Whole track", () => all.forEach((chart) => chart.resetZoom()))),
     readout(doc, store, units),
     element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all. Keys, once a plot is selected: arrows move the cursor, + and \u2212 zoom, 0 shows all. "
-      + "Potential energy counts from the lowest point of the track. Where a curvature is unbounded, its axis ends before."),
+      + "Potential energy counts from the lowest point of the track. Where the curvature is unbounded, its axis ends before; that of the radius ends at twice the length of the track."),
     element("div", { class: "charts" }, all.map((chart) => chart.node)));
   return { node, draw: redraw, charts: all };
 }

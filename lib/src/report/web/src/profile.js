@@ -2,6 +2,7 @@ import { button, element, section, svgElement } from "./dom.js";
 import { interpolate, stationAt } from "./data.js";
 import { number } from "./units.js";
 
+const PAPER_WIDTH = 686;  // A4 between its margins, in CSS pixels
 const MARGIN = { left: 62, right: 18, top: 14, bottom: 44 };
 
 function niceStep(span, count) {
@@ -24,7 +25,7 @@ class Profile {
     this.svg.addEventListener("pointerdown", (event) => this.grab(event));
     this.svg.addEventListener("pointermove", (event) => this.hover(event));
     this.svg.addEventListener("keydown", (event) => this.key(event));
-    for (const key of ["units", "theme"]) store.on(key, () => this.draw());
+    for (const key of ["units", "theme", "paper"]) store.on(key, () => this.draw());
     store.on("station", () => this.moveCursor());
   }
 
@@ -53,7 +54,7 @@ class Profile {
   }
 
   layout() {
-    const width = Math.max(this.svg.parentElement?.clientWidth ?? 0, 260);
+    const width = this.store.get("paper") ? PAPER_WIDTH : Math.max(this.svg.parentElement?.clientWidth ?? 0, 260);
     const inner = width - MARGIN.left - MARGIN.right;
     const spanX = this.view.x1 - this.view.x0;
     const spanZ = this.view.z1 - this.view.z0;

@@ -14,7 +14,7 @@ const COLUMNS = [
   ["normal load", "load", "normal_load_m_per_s2"],
 ];
 
-const MISSING = { curvature_per_m: "unbounded", radius_m: "straight" };
+const MISSING = { curvature_per_m: "unbounded", radius_m: "straight", normal_load_m_per_s2: "unbounded" };
 
 // Rows at a spacing, interpolated between the stations of the document; the radius from the curvature.
 export function rowsAt(stations, spacing) {
@@ -71,7 +71,8 @@ export function stationTable(doc, store, units) {
     const shown = rows();
     const columns = COLUMNS.map(([, quantity, key]) => {
       const values = shown.map((row) => units.convert(quantity, row[key]));
-      const text = columnText(values);
+      // Radii of one track differ by orders of magnitude: each has its own digits.
+      const text = key === "radius_m" ? (value) => number(value, 5) : columnText(values);
       return values.map((value) => (value === null ? MISSING[key] ?? "\u2013" : text(value)));
     });
     body.replaceChildren(...shown.map((_, i) =>

@@ -20,8 +20,8 @@ const SYSTEMS = {
   },
 };
 
-// What a missing value of a quantity means: a curvature without bound has no number.
-const MISSING = { curvature: "unbounded" };
+// What a missing value of a quantity means: a curvature without bound has no number, nor has its load.
+const MISSING = { curvature: "unbounded", load: "unbounded" };
 
 export class Units {
   constructor(gravity) {
