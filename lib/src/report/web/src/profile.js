@@ -54,11 +54,12 @@ class Profile {
   }
 
   layout() {
-    const width = this.store.get("paper") ? PAPER_WIDTH : Math.max(this.svg.parentElement?.clientWidth ?? 0, 260);
+    const paper = this.store.get("paper");
+    const width = paper ? PAPER_WIDTH : Math.max(this.svg.parentElement?.clientWidth ?? 0, 260);
     const inner = width - MARGIN.left - MARGIN.right;
     const spanX = this.view.x1 - this.view.x0;
     const spanZ = this.view.z1 - this.view.z0;
-    const height = Math.min(Math.max((inner * spanZ) / spanX, 160), 560);
+    const height = Math.min(Math.max((inner * spanZ) / spanX, 160), paper ? 380 : 560);
     const scale = Math.min(inner / spanX, height / spanZ);
     const offset = (inner - scale * spanX) / 2;
     return {
