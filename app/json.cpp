@@ -152,6 +152,7 @@ Json track_json(const Design& design, const Track& track) {
   json["highest_speed_m_per_s"] = motion.highest_speed().speed;
   json["entry_slope_angle_deg"] = degrees(centerline.slope_angle(0.0));
   json["exit_slope_angle_deg"] = degrees(centerline.slope_angle(centerline.length()));
+  json["steepest_slope_angle_deg"] = degrees(track.steepest_slope_angle);
   json["arc_length_m"] = centerline.length();
   json["min_radius_m"] = number(track.min_radius);
   json["max_normal_load_m_per_s2"] = number(highest.normal_load);

@@ -3,6 +3,7 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/design/quantity.hpp"
 
 #include "app/console.hpp"
 #include "app/limits_text.hpp"
@@ -15,8 +16,6 @@
 
 namespace glissade::app {
 namespace {
-
-constexpr double kStandardGravity = 9.80665;
 
 std::string profile_text(const FittedProfile& profile) {
   return "points (a smooth curve fitted to " + count_text(profile.points().size()) +

@@ -68,20 +68,6 @@ Line line(std::string quantity, double bound) {
   return {std::move(quantity), bound, fmt::format("{:g}", bound)};
 }
 
-/// Moves the body on to a slope angle that is `change` larger, by first derivatives: a reference point lies
-/// at a slope angle that is no double.
-CoulombState turned_by(CoulombState state, double change, Friction friction, double gravity) {
-  const double path = -change / state.curvature;
-  const double sine = std::sin(state.slope_angle);
-  const double cosine = std::cos(state.slope_angle);
-  const double load = gravity * cosine + state.curvature * state.speed * state.speed;
-  state.x += path * cosine;
-  state.drop += path * sine;
-  state.time += path / state.speed;
-  state.speed += path * (gravity * sine - friction.coefficient() * load) / state.speed;
-  return state;
-}
-
 Section fastest_track() {
   const auto of = [](std::string quantity) { return Line{std::move(quantity), 0.0, "1e-12 + 1e-15/eps"}; };
   Line time = of("travel time");
@@ -101,8 +87,8 @@ Section fastest_track() {
     slope.add(relative_error(found.exit_slope_angle, curve.exit_slope_angle), bound);
     straight.add(relative_error(found.straight_time, curve.straight_time), bound);
     for (const reference::CurvePoint& point : curve.points) {
-      const CoulombState state = turned_by(found.at_slope_angle(point.slope_angle), point.slope_remainder,
-                                           curve.friction, curve.gravity);
+      const CoulombState state = reference::turned_by(found.at_slope_angle(point.slope_angle),
+                                                      point.slope_remainder, curve.friction, curve.gravity);
       x.add(relative_error(state.x, point.x), bound);
       drop.add(relative_error(state.drop, point.drop), bound);
       point_time.add(relative_error(state.time, point.time), bound);

@@ -25,19 +25,6 @@ std::string describe(const CurveCase& curve) {
          std::to_string(curve.endpoints.run) + ", drop " + std::to_string(curve.endpoints.drop);
 }
 
-/// Moves the body from the slope angle of `state` on to one that is `change` larger, by first derivatives.
-CoulombState turned_by(CoulombState state, double change, Friction friction, double gravity) {
-  const double path = -change / state.curvature;
-  const double sine = std::sin(state.slope_angle);
-  const double cosine = std::cos(state.slope_angle);
-  const double load = gravity * cosine + state.curvature * state.speed * state.speed;
-  state.x += path * cosine;
-  state.drop += path * sine;
-  state.time += path / state.speed;
-  state.speed += path * (gravity * sine - friction.coefficient() * load) / state.speed;
-  return state;
-}
-
 /// @return the message of the Kind that `call` throws, empty if it throws none
 template <class Kind, class Call>
 std::string message_of(const Call& call) {
@@ -73,8 +60,8 @@ TEST_CASE("fastest track: every reference point between start and finish") {
         solve_coulomb_brachistochrone(curve.endpoints, curve.friction, curve.gravity);
     for (const CurvePoint& point : curve.points) {
       INFO(describe(curve) << ", slope angle " << point.slope_angle);
-      const CoulombState state = turned_by(found.at_slope_angle(point.slope_angle), point.slope_remainder,
-                                           curve.friction, curve.gravity);
+      const CoulombState state = reference::turned_by(found.at_slope_angle(point.slope_angle),
+                                                      point.slope_remainder, curve.friction, curve.gravity);
       CHECK(relative_error(state.x, point.x) <= tolerance);
       CHECK(relative_error(state.drop, point.drop) <= tolerance);
       CHECK(relative_error(state.time, point.time) <= tolerance);

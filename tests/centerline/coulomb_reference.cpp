@@ -62,4 +62,16 @@ double reach_margin(const Endpoints& endpoints, Friction friction) {
   return std::fma(-friction.coefficient(), std::fabs(endpoints.run), endpoints.drop) / lost;
 }
 
+CoulombState turned_by(CoulombState state, double change, Friction friction, double gravity) {
+  const double path = -change / state.curvature;
+  const double sine = std::sin(state.slope_angle);
+  const double cosine = std::cos(state.slope_angle);
+  const double load = gravity * cosine + state.curvature * state.speed * state.speed;
+  state.x += path * cosine;
+  state.drop += path * sine;
+  state.time += path / state.speed;
+  state.speed += path * (gravity * sine - friction.coefficient() * load) / state.speed;
+  return state;
+}
+
 }  // namespace glissade::reference

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/core/units.hpp"
 
 #include <vector>
@@ -30,6 +31,10 @@ struct CurveCase {
 };
 
 [[nodiscard]] std::vector<CurveCase> curve_cases();
+
+/// Moves the body on to a slope angle that is `change` larger, by first derivatives: a reference point lies
+/// at a slope angle that is no double.
+[[nodiscard]] CoulombState turned_by(CoulombState state, double change, Friction friction, double gravity);
 
 /// @return eps = drop/(mu run) - 1; +infinity without friction
 [[nodiscard]] double reach_margin(const Endpoints& endpoints, Friction friction);

@@ -31,14 +31,20 @@ TEST_CASE("report.html tells what --json tells, and lists the files as they are"
   const json built = json::parse(outcome.output);
   const json report = data_of(bytes_of(place / "out/report.html"));
   CHECK(report["schema"] == "glissade-report/1");
-  for (const char* key : {"travel_time_s", "straight_travel_time_s", "exit_speed_m_per_s",
-                          "exit_slope_angle_deg", "entry_slope_angle_deg", "arc_length_m",
-                          "max_normal_load_m_per_s2", "max_normal_load_at_m", "min_radius_m"}) {
-    INFO(key);
-    CHECK(report["ride"][key] == built[key]);
-  }
-  CHECK(report["mesh"]["triangles"] == built["mesh"]["triangles"]);
-  CHECK(report["mesh"]["volume_m3"] == built["mesh"]["volume_m3"]);
+  // Whatever both of them tell is the same, to the last digit.
+  const auto compare = [](const json& page, const json& printed) {
+    std::size_t common = 0;
+    for (const auto& [key, value] : page.items()) {
+      if (!printed.contains(key)) continue;
+      INFO(key);
+      CHECK(value == printed[key]);
+      ++common;
+    }
+    return common;
+  };
+  CHECK(compare(report["ride"], built) == 13);
+  CHECK(compare(report["mesh"], built["mesh"]) >= 8);
+  CHECK(compare(report["body"], built) >= 5);
   // Every file but the report itself, which stands last.
   CHECK_THAT(built["files"].back()["path"].get<std::string>(), Contains("report.html"));
   REQUIRE(report["files"].size() + 1 == built["files"].size());

@@ -34,7 +34,7 @@ TEST_CASE("a figure of a ride holds the numbers of the ride") {
   // v^2 = 2 g (drop - mu run)
   CHECK(speed.lines[0].ys.back() == Approx(std::sqrt(2.0 * kDefaultGravity * (3.0 - 0.3 * 4.0))));
   const Figure load = ride_figure(RideQuantity::load, {{"straight", &motion}});
-  CHECK(load.lines[0].ys.back() == Approx(0.8));
+  CHECK(load.lines[0].ys.back() == Approx(0.8 * 9.81 / 9.80665));
   const Figure profile = ride_figure(RideQuantity::profile, {{"straight", &motion}});
   CHECK(profile.to_scale);
   CHECK(profile.lines[0].ys.back() == Approx(-3.0));

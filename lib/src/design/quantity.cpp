@@ -15,8 +15,6 @@ namespace glissade {
 namespace design_file {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;
-
 /// One spelling of a unit. Its size in SI units is multiply / divide: of the two one is 1 wherever a decimal
 /// fraction would round, so that 400 mm is the double nearest to 0.4.
 struct Unit {

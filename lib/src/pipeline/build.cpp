@@ -191,8 +191,16 @@ void require_same_on_disk(const fs::path& file, const TriangleMesh& expected, Le
 std::string section_in_words(const CrossSectionDesign& section) {
   std::string text(word(section.kind));
   if (section.kind == CrossSectionKind::polygon) return text;
-  text += ", width " + length_text(section.width);
+  text += section.kind == CrossSectionKind::pipe ? ", inner diameter " : ", width ";
+  text += length_text(section.width);
   if (section.wall_height > 0.0) text += ", wall height " + length_text(section.wall_height);
+  if (section.kind == CrossSectionKind::trapezoid) {
+    text += ", walls " + angle_text(section.wall_angle.radians()) + " from upright";
+  }
+  if (section.curb_height > 0.0) {
+    text += ", curbs " + length_text(section.curb_height) + " high and " + length_text(section.curb_width) +
+            " wide";
+  }
   return text + ", thickness " + length_text(section.thickness);
 }
 

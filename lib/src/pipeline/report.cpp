@@ -1,6 +1,7 @@
 #include "pipeline/report.hpp"
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/design/quantity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +21,9 @@ Verdict verdict(bool holds) {
   return holds ? Verdict::pass : Verdict::fail;
 }
 
-std::string g_text(double load, double gravity) {
+std::string g_text(double load) {
   // The cosine of a right angle is not quite 0 in a computer.
-  const double in_g = load / gravity;
+  const double in_g = load / kStandardGravity;
   return rounded_text(std::fabs(in_g) < 1e-12 ? 0.0 : in_g, 4) + " g";
 }
 
@@ -32,11 +33,10 @@ ReportCheck arrival(const Track& track) {
           "rode " + length_text(motion.distance()) + " of " + length_text(track.centerline->length())};
 }
 
-ReportCheck contact(const Track& track, double gravity) {
+ReportCheck contact(const Track& track) {
   const MotionState lowest = track.motion.lowest_load();
   return {"It never leaves the track", verdict(!track.motion.lift_off() && track.motion.arrived()),
-          "lowest normal load " + g_text(lowest.normal_load, gravity) +
-              " at s = " + length_text(lowest.arc_length)};
+          "lowest normal load " + g_text(lowest.normal_load) + " at s = " + length_text(lowest.arc_length)};
 }
 
 /// Kinetic energy and losses at the finish against the height lost.
@@ -134,7 +134,9 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.motion = &track.motion;
   input.straight = track.straight ? &*track.straight : nullptr;
   input.optimum = track.optimum ? &*track.optimum : nullptr;
+  input.optimum_travel_time = track.optimum_travel_time;
   input.min_radius = track.min_radius;
+  input.steepest_slope_angle = track.steepest_slope_angle;
   input.solid = {&build.solid, &build.facts, &build.section};
   input.keep_outs = report_keep_outs(design);
   input.limits = limits_of(design, track);
@@ -142,7 +144,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
     input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file)});
   }
   input.checks = {arrival(track),
-                  contact(track, design.gravity),
+                  contact(track),
                   energy(track, design.gravity),
                   optimality(track),
                   limits(input.limits),

@@ -78,6 +78,11 @@ double steepest_slope_angle(const Motion& motion) {
   return steepest;
 }
 
+Json optimum_travel_time(const ReportInput& input) {
+  if (input.optimum_travel_time) return finite(*input.optimum_travel_time);
+  return input.optimum ? finite(input.optimum->travel_time()) : Json(nullptr);
+}
+
 Json ride_facts(const ReportInput& input) {
   const Motion& motion = *input.motion;
   const Centerline& centerline = motion.centerline();
@@ -87,12 +92,14 @@ Json ride_facts(const ReportInput& input) {
   facts["arrived"] = motion.arrived();
   facts["travel_time_s"] = finite(motion.travel_time());
   facts["straight_travel_time_s"] = input.straight ? finite(input.straight->travel_time()) : Json(nullptr);
-  facts["optimum_travel_time_s"] = input.optimum ? finite(input.optimum->travel_time()) : Json(nullptr);
+  facts["optimum_travel_time_s"] = optimum_travel_time(input);
   facts["exit_speed_m_per_s"] = motion.exit_speed();
   facts["entry_slope_angle_deg"] = centerline.slope_angle(0.0) * kDegrees;
   facts["exit_slope_angle_deg"] = centerline.slope_angle(centerline.length()) * kDegrees;
   facts["arc_length_m"] = centerline.length();
-  facts["steepest_slope_angle_deg"] = steepest_slope_angle(motion) * kDegrees;
+  const double steepest =
+      input.steepest_slope_angle ? *input.steepest_slope_angle : steepest_slope_angle(motion);
+  facts["steepest_slope_angle_deg"] = steepest * kDegrees;
   facts["max_normal_load_m_per_s2"] = highest.normal_load;
   facts["max_normal_load_at_m"] = highest.arc_length;
   facts["min_radius_m"] = finite(input.min_radius.value_or(radius.value));

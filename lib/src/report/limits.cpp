@@ -1,4 +1,5 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/design/quantity.hpp"
 #include "glissade/report/report.hpp"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 namespace glissade {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;
 constexpr int kDigits = 5;
 constexpr int kReachedDigits = 4;
 constexpr int kPlaceDigits = 3;

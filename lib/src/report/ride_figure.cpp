@@ -1,6 +1,7 @@
 #include "glissade/report/ride_figure.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/design/quantity.hpp"
 
 #include "report/ride_stations.hpp"
 
@@ -84,7 +85,6 @@ void add_energies(Figure& figure, const FigureRide& ride, bool named) {
 }
 
 void add_line(Figure& figure, RideQuantity quantity, const FigureRide& ride, bool named) {
-  const double gravity = ride.motion->gravity();
   std::vector<FigureLine>& lines = figure.lines;
   switch (quantity) {
     case RideQuantity::profile:
@@ -101,8 +101,8 @@ void add_line(Figure& figure, RideQuantity quantity, const FigureRide& ride, boo
       lines.push_back(ride_line(ride, ride.name, [](const MotionState& state) { return state.speed; }));
       return;
     case RideQuantity::load:
-      lines.push_back(ride_line(ride, ride.name,
-                                [gravity](const MotionState& state) { return state.normal_load / gravity; }));
+      lines.push_back(ride_line(
+          ride, ride.name, [](const MotionState& state) { return state.normal_load / kStandardGravity; }));
       return;
     case RideQuantity::curvature:
       lines.push_back(

@@ -4,13 +4,16 @@
 
 namespace glissade {
 
+/// The unit g of loads and accelerations [m/s^2], whatever the gravity of a design.
+inline constexpr double kStandardGravity = 9.80665;
+
 /// What a value measures. Its units are listed in docs/design-file.md.
 enum class Dimension {
   number,           ///< plain, or with %
   length,           ///< [m]
   angle,            ///< [rad]
   speed,            ///< [m/s]
-  acceleration,     ///< [m/s^2]; the unit g is standard gravity, 9.80665 m/s^2
+  acceleration,     ///< [m/s^2]; the unit g is kStandardGravity
   per_length,       ///< curvature, drag [1/m]
   per_area,         ///< rate of curvature along the track [1/m^2]
   specific_energy,  ///< energy per mass, the square of a speed [m^2/s^2]

@@ -67,8 +67,10 @@ struct ReportInput {
   const Motion* straight = nullptr;  ///< the same body on the straight line; null if it does not arrive there
   /// From rest on the exact optimum without limits; null where that does not apply.
   const Motion* optimum = nullptr;
+  std::optional<double> optimum_travel_time;  ///< by its closed form [s]; none: that of the ride on it
   /// Smallest radius of curvature, 0 where it vanishes at the start [m]; none: the smallest at the stations.
   std::optional<double> min_radius;
+  std::optional<double> steepest_slope_angle;  ///< anywhere [rad]; none: the steepest at the stations
   ReportSolid solid;
   std::vector<ReportCheck> checks;
   std::vector<ReportLimit> limits;

@@ -30,7 +30,7 @@ function header(doc, store, units) {
 function start() {
   const doc = readDocument();
   document.title = doc.design.name;
-  const units = new Units(doc.body.gravity_m_per_s2);
+  const units = new Units();
   const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false });
   const profile = profileSection(doc, store, units);
   const plots = plotSection(doc, store, units);

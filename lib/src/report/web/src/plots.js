@@ -35,7 +35,7 @@ function charts(doc) {
   return [
     { id: "slope", title: "Slope angle", quantity: "angle", series: [["slope angle", stations.slope_angle_deg, "--series-1"]] },
     { id: "speed", title: "Speed", quantity: "speed", series: [["speed", stations.speed_m_per_s, "--series-2"]] },
-    { id: "load", title: "Normal load", quantity: "load", series: [["normal load", stations.normal_load_m_per_s2, "--series-3"]] },
+    { id: "load", title: "Normal load", quantity: "load", range: boundedRange, series: [["normal load", stations.normal_load_m_per_s2, "--series-3"]] },
     { id: "curvature", title: "Curvature", quantity: "curvature", range: boundedRange, series: [["curvature", stations.curvature_per_m, "--series-4"]] },
     { id: "radius", title: "Radius of curvature", quantity: "length", range: (column) => radiusRange(column, longest), series: [["radius", radius, "--series-5"]] },
     {
@@ -57,7 +57,7 @@ function isAscending(column) {
   return column.every((value, i) => i === 0 || value >= column[i - 1]);
 }
 
-// A curvature without bound would flatten the rest of the curve: the axis then ends where all but the outer 4 % of
+// A curvature or load without bound would flatten the rest of the curve: the axis then ends where all but the outer 4 % of
 // stations lie. One that is bounded is shown whole.
 function boundedRange(column) {
   if (!column.includes(null)) return null;
@@ -218,7 +218,7 @@ function readout(doc, store, units) {
   const measure = () => {
     texts = fields.map(([, quantity, key]) => {
       const text = columnText(stations[key].map((v) => units.convert(quantity, v)), 5);
-      return (value) => `${text(units.convert(quantity, value))}\u00a0${units.unit(quantity)}`;
+      return (value) => (value === null ? units.missing(quantity) : `${text(units.convert(quantity, value))}\u00a0${units.unit(quantity)}`);
     });
   };
   const draw = () => {
@@ -262,7 +262,7 @@ export function plotSection(doc, store, units) {
       button("Whole track", () => all.forEach((chart) => chart.resetZoom()))),
     readout(doc, store, units),
     element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all. Keys, once a plot is selected: arrows move the cursor, + and \u2212 zoom, 0 shows all. "
-      + "Potential energy counts from the lowest point of the track. Where the curvature is unbounded, its axis ends before; that of the radius ends at twice the length of the track."),
+      + "Potential energy counts from the lowest point of the track. Where curvature or load are unbounded, their axes end before; that of the radius ends at twice the length of the track."),
     element("div", { class: "charts" }, all.map((chart) => chart.node)));
   return { node, draw: redraw, charts: all };
 }

@@ -9,16 +9,17 @@ function against(time, other) {
   return `${number(Math.abs(percent), 3)}${NO_BREAK}% ${percent > 0 ? "slower" : "faster"} than`;
 }
 
-function timeRemarks({ ride, limits }, units) {
+function timeRemarks({ ride, limits, design }, units) {
   if (ride.travel_time_s === null) return ["the body does not arrive"];
   const time = (seconds) => units.text("time", seconds, 5);
   const optimum = limits.length > 0 ? "the exact optimum without limits" : "the exact optimum";
-  return [
+  const remarks = [
     ride.optimum_travel_time_s === null ? "the exact optimum is not known here"
       : `${against(ride.travel_time_s, ride.optimum_travel_time_s)} ${optimum}, ${time(ride.optimum_travel_time_s)}`,
     ride.straight_travel_time_s === null ? "on the straight line the body does not arrive"
       : `${against(ride.travel_time_s, ride.straight_travel_time_s)} the straight line, ${time(ride.straight_travel_time_s)}`,
   ];
+  return design.centerline === "straight" ? remarks.slice(0, 1) : remarks;
 }
 
 function directionText(slope, units) {

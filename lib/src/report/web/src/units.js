@@ -1,6 +1,8 @@
 // Quantities and the units that a reader can switch between. The document is SI and degrees; only the
 // display converts.
 
+const STANDARD_GRAVITY = 9.80665;  // one g, whatever the gravity of a design
+
 const SYSTEMS = {
   "m, m/s": {
     length: ["m", 1], curvature: ["1/m", 1], speed: ["m/s", 1], time: ["s", 1], angle: ["deg", 1],
@@ -24,8 +26,7 @@ const SYSTEMS = {
 const MISSING = { curvature: "unbounded", load: "unbounded" };
 
 export class Units {
-  constructor(gravity) {
-    this.gravity = gravity;
+  constructor() {
     this.system = "m, m/s";
   }
 
@@ -39,12 +40,18 @@ export class Units {
 
   convert(quantity, value) {
     if (value === null || value === undefined) return null;
+    // The cosine of a right angle is not quite 0 in a computer.
+    if (quantity === "load" && Math.abs(value) < 1e-12) return 0;
     const factor = SYSTEMS[this.system][quantity][1];
-    return factor === null ? value / this.gravity : value * factor;
+    return factor === null ? value / STANDARD_GRAVITY : value * factor;
+  }
+
+  missing(quantity) {
+    return MISSING[quantity] ?? "\u2013";
   }
 
   text(quantity, value, digits = 5) {
-    if (value === null || value === undefined) return MISSING[quantity] ?? "\u2013";
+    if (value === null || value === undefined) return this.missing(quantity);
     // What an angle is off level by rounding is no angle.
     if (quantity === "angle" && Math.abs(value) < 1e-9) return `0\u00a0${this.unit(quantity)}`;
     // A tolerance reads better in millimetres, whatever the unit of the track.
