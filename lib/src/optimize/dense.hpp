@@ -51,18 +51,4 @@ class ShiftedCholesky {
   double shift_ = 0.0;
 };
 
-/// Solution of min |target + sum_i lambda_i E_i + sum_j nu_j A_j|, nu >= 0.
-struct Multipliers {
-  Vector equality;    ///< lambda
-  Vector inequality;  ///< nu
-  Vector residual;    ///< the vector whose norm is least
-};
-
-/// Least-squares multipliers; rows of E and A that depend on others get zero.
-[[nodiscard]] Multipliers least_multipliers(const Vector& target, const Matrix& equality,
-                                            const Matrix& inequality);
-
-/// The shortest y with row_i y = value_i for every row; rows that depend on earlier ones are left out.
-[[nodiscard]] Vector shortest_solution(const Matrix& rows, const Vector& value);
-
 }  // namespace glissade::fastest

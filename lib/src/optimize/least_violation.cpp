@@ -184,8 +184,7 @@ class Search {
   void update_curvature() {
     curvature_ = Matrix(n_, n_);
     if (solution_.inequality.empty()) return;
-    curvature_ = track_->hessian(z_, state_.shape, problem_.rides, state_.flows,
-                                 rows_->weights(state_, equality_, active_, inequality_, 0.0));
+    curvature_ = rows_->hessian(state_, equality_, active_, inequality_, 0.0);
   }
 
   /// The factor of price x shape + curvature; a higher price where that is not convex.

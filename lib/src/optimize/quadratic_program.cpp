@@ -123,6 +123,7 @@ class DualMethod {
     solution.status = begin(likely) ? enter_broken_rows() : QuadraticSolution::Status::contradictory;
     if (solution.status != QuadraticSolution::Status::contradictory) refresh();
     solution.step = step();
+    solution.length = norm(y_);
     solution.equality.assign(program_.equality.rows(), 0.0);
     solution.inequality.assign(program_.inequality.rows(), 0.0);
     for (std::size_t i = 0; i < source_.size(); ++i) {
@@ -210,7 +211,7 @@ class DualMethod {
     for (;;) {
       const Vector d = step();
       std::size_t row = 0;
-      double worst = kRowTolerance;
+      double worst = program_.tolerance;
       for (std::size_t i = 0; i < program_.inequality.rows(); ++i) {
         if (is_active_[i]) continue;
         const double value = dot(program_.inequality.row(i), d.data(), n) + program_.inequality_value[i];
@@ -219,7 +220,7 @@ class DualMethod {
           row = i;
         }
       }
-      if (!(worst > kRowTolerance)) return Status::solved;
+      if (!(worst > program_.tolerance)) return Status::solved;
       const Status status = enter_row(row, worst);
       if (status != Status::solved) return status;
     }

@@ -9,11 +9,12 @@ namespace glissade::fastest {
 
 /// min g.d + 1/2 d^T H d over d, where E d + e = 0 and A d + a <= 0; H = L L^T is given by its factor.
 struct QuadraticProgram {
-  Vector gradient;          ///< g
-  Matrix equality;          ///< E
-  Vector equality_value;    ///< e
-  Matrix inequality;        ///< A
-  Vector inequality_value;  ///< a
+  Vector gradient;           ///< g
+  Matrix equality;           ///< E
+  Vector equality_value;     ///< e
+  Matrix inequality;         ///< A
+  Vector inequality_value;   ///< a
+  double tolerance = 1e-11;  ///< a row counts as kept up to this
 };
 
 struct QuadraticSolution {
@@ -27,6 +28,7 @@ struct QuadraticSolution {
   Vector equality;                  ///< multipliers of E; g + H d + E^T lambda + A^T nu = 0
   Vector inequality;                ///< multipliers of A, nu >= 0
   std::vector<std::size_t> active;  ///< inequality rows that hold with equality
+  double length = 0.0;              ///< sqrt(d^T H d)
   int changes = 0;                  ///< of the active set
 };
 
@@ -38,13 +40,10 @@ struct QuadraticSolution {
 /// programs", Mathematical Programming 27 (1983) 1-33. Different from there, the orthonormal basis of the
 /// active rows is kept by Gram-Schmidt steps taken twice, in the metric of H.
 ///
-/// Accuracy: broken rows at the solution are within kRowTolerance.
+/// Accuracy: no inequality row is broken by more than the program's tolerance.
 /// @param likely  inequality rows to begin with, as from a similar program; those whose multipliers would be
 ///                negative are left out again
 [[nodiscard]] QuadraticSolution solve(const QuadraticProgram& program, const ShiftedCholesky& metric,
                                       const std::vector<std::size_t>& likely = {});
-
-/// A row counts as kept up to this.
-constexpr double kRowTolerance = 1e-11;
 
 }  // namespace glissade::fastest

@@ -20,6 +20,14 @@ double corner_distance(const Foot& foot, Vec2 corner, double side) {
   return side * (-foot.sin * dx + foot.cos * dy);
 }
 
+/// What a distance at a foot weighs the stations beside it with.
+void add_foot_weights(const Foot& foot, double factor, StationWeights& weights) {
+  weights.x[foot.base] += factor * foot.sin * (1.0 - foot.share);
+  weights.y[foot.base] -= factor * foot.cos * (1.0 - foot.share);
+  weights.x[foot.towards] += factor * foot.sin * foot.share;
+  weights.y[foot.towards] -= factor * foot.cos * foot.share;
+}
+
 Vec2 edge_normal(Vec2 from, Vec2 to, double side) {
   const Vec2 along = to - from;
   const double size = norm(along);
@@ -401,8 +409,7 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
 
 void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,
                                StationWeights& weights) const {
-  // Second derivatives through the state; those of products with curvature itself are left to the
-  // quasi-Newton updates.
+  // Second derivatives through the state; the others are direct terms.
   const Shape& shape = state.shape;
   const std::size_t last = track_.stations().size() - 1;
   switch (limit.measure) {
@@ -429,8 +436,7 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
       if (row.foot) {
         const Vec2 corner = obstacle.corners[row.place];
         const Foot foot = track_.foot(state.z, shape, corner.x, corner.y);
-        weights.x[foot.base] += factor * obstacle.side * foot.sin;
-        weights.y[foot.base] -= factor * obstacle.side * foot.cos;
+        add_foot_weights(foot, factor * obstacle.side, weights);
         return;
       }
       const Vec2 forbidden = obstacle.endless ? obstacle.forbidden
@@ -443,8 +449,7 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
     case Measure::waypoint: {
       const Vec2 point = problem_.waypoints[limit.obstacle];
       const Foot foot = track_.foot(state.z, shape, point.x, point.y);
-      weights.x[foot.base] += factor * foot.sin;
-      weights.y[foot.base] -= factor * foot.cos;
+      add_foot_weights(foot, factor, weights);
       return;
     }
     case Measure::entry_slope_angle:
@@ -489,6 +494,132 @@ StationWeights Rows::weights(const State& state, const Vector& equality, const s
     add_measure_weights(state, limit, rows[i], inequality[i] * limit.side / effective_scale(limit), weights);
   }
   return weights;
+}
+
+namespace {
+
+void add_symmetric(Matrix& hessian, double factor, const Vector& a, const Vector& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    add_scaled(hessian.row(i), factor * a[i], b.data(), b.size());
+    add_scaled(hessian.row(i), factor * b[i], a.data(), a.size());
+  }
+}
+
+/// Second derivative of c/L, c = first z_i + second z_(i+1).
+void add_curvature_terms(Matrix& hessian, std::size_t at, double first, double second, std::size_t at_length,
+                         double curvature, double length, double factor) {
+  const auto add_pair = [&](std::size_t j, double value) {
+    hessian(j, at_length) += value;
+    hessian(at_length, j) += value;
+  };
+  add_pair(at, -factor * first / (length * length));
+  if (second != 0.0) add_pair(at + 1, -factor * second / (length * length));
+  hessian(at_length, at_length) += 2.0 * factor * curvature / (length * length);
+}
+
+}  // namespace
+
+void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
+                            Matrix& hessian) const {
+  const Layout& layout = track_.layout();
+  const std::size_t n = layout.size();
+  const std::size_t at_length = layout.length();
+  const double length = state.z[at_length];
+  switch (limit.measure) {
+    case Measure::normal_load:
+    case Measure::curvature_load: {
+      // kappa v: curvature and speed both change.
+      const Station& station = track_.stations()[row.place];
+      if (station.part != Part::core) return;
+      const Flow& flow = state.flows[row.ride];
+      const double curvature = state.shape.curvature[row.place];
+      Vector by_curvature(n, 0.0);
+      by_curvature[layout.turn(station.piece)] = (1.0 - station.share) / length;
+      by_curvature[layout.turn(station.piece + 1)] = station.share / length;
+      by_curvature[at_length] = -curvature / length;
+      const double* dv = flow.dv.row(row.place);
+      add_symmetric(hessian, factor, by_curvature, Vector(dv, dv + n));
+      add_curvature_terms(hessian, layout.turn(station.piece), 1.0 - station.share, station.share, at_length,
+                          curvature, length, factor * flow.v[row.place]);
+      return;
+    }
+    case Measure::curvature:
+      add_curvature_terms(hessian, layout.turn(row.place), 1.0, 0.0, at_length, measure(state, limit, row),
+                          length, factor);
+      return;
+    case Measure::curvature_rate: {
+      const Vector& knots = track_.mesh().knots;
+      const double by_turn =
+          -2.0 * factor / ((knots[row.place + 1] - knots[row.place]) * length * length * length);
+      const auto add_pair = [&](std::size_t j, double value) {
+        hessian(j, at_length) += value;
+        hessian(at_length, j) += value;
+      };
+      add_pair(layout.turn(row.place + 1), by_turn);
+      add_pair(layout.turn(row.place), -by_turn);
+      hessian(at_length, at_length) += 6.0 * factor * measure(state, limit, row) / (length * length);
+      return;
+    }
+    case Measure::distance:
+    case Measure::waypoint: {
+      if (!row.foot) return;
+      // The foot slides: D'' = m.p'' + (b t t - t a - a t - D a a)/(1 + b D) with m = -side normal, t the
+      // derivative along the track, a that of the direction across it, b how the track bends towards m.
+      const bool obstacle = limit.measure == Measure::distance;
+      const Vec2 corner = obstacle ? problem_.obstacles[limit.obstacle].corners[row.place]
+                                   : problem_.waypoints[limit.obstacle];
+      const double side = obstacle ? problem_.obstacles[limit.obstacle].side : 1.0;
+      const Foot foot = track_.foot(state.z, state.shape, corner.x, corner.y);
+      if (foot.end) return;
+      const double distance = corner_distance(foot, corner, side);
+      Vector dx;
+      Vector dy;
+      track_.foot_derivatives(state.z, state.shape, foot, dx, dy);
+      Vector along(n);
+      for (std::size_t j = 0; j < n; ++j) along[j] = foot.cos * dx[j] + foot.sin * dy[j];
+      Vector across(n);
+      track_.turning_row(foot.at, across.data());
+      for (double& entry : across) entry *= -side;
+      double curvature = 0.0;
+      if (foot.at.part == Part::core) {
+        curvature = ((1.0 - foot.at.share) * state.z[layout.turn(foot.at.piece)] +
+                     foot.at.share * state.z[layout.turn(foot.at.piece + 1)]) /
+                    length;
+      }
+      const double bend = side * curvature;
+      const double share = factor / (1.0 + bend * distance);
+      add_symmetric(hessian, 0.5 * share * bend, along, along);
+      add_symmetric(hessian, -share, along, across);
+      add_symmetric(hessian, -0.5 * share * distance, across, across);
+      return;
+    }
+    case Measure::entry_slope_angle:
+    case Measure::exit_slope_angle:
+    case Measure::slope_angle:
+    case Measure::speed:
+    case Measure::exit_speed:
+    case Measure::arc_length:
+    case Measure::finish_coordinate:
+    case Measure::arrival:
+      return;
+  }
+}
+
+Matrix Rows::hessian(const State& state, const Vector& equality, const std::vector<Row>& rows,
+                     const Vector& inequality, double objective) const {
+  Matrix hessian = track_.hessian(state.z, state.shape, problem_.rides, state.flows,
+                                  weights(state, equality, rows, inequality, objective));
+  for (std::size_t i = fixed_equalities_; i < equality.size(); ++i) {
+    const Row row = row_of_equality(i);
+    const LimitSpec& limit = problem_.limits[row.limit];
+    add_direct_terms(state, limit, row, equality[i] / effective_scale(limit), hessian);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const LimitSpec& limit = problem_.limits[rows[i].limit];
+    if (inequality[i] == 0.0) continue;
+    add_direct_terms(state, limit, rows[i], inequality[i] * limit.side / effective_scale(limit), hessian);
+  }
+  return hessian;
 }
 
 }  // namespace glissade::fastest

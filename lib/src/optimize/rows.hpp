@@ -57,8 +57,13 @@ class Rows {
   void set_margins(Vector margins) { margins_ = std::move(margins); }
   [[nodiscard]] const Vector& margins() const { return margins_; }
 
-  /// What the Lagrangian asks of each station, for its Hessian.
+  /// The Lagrangian's Hessian; of distances from corners, what curvature the track has between its foot and
+  /// the station next to it is left out.
   /// @param objective  multiplier of the objective
+  [[nodiscard]] Matrix hessian(const State& state, const Vector& equality, const std::vector<Row>& rows,
+                               const Vector& inequality, double objective) const;
+
+  /// What the Lagrangian asks of each station, for its Hessian.
   [[nodiscard]] StationWeights weights(const State& state, const Vector& equality,
                                        const std::vector<Row>& rows, const Vector& inequality,
                                        double objective) const;
@@ -69,6 +74,8 @@ class Rows {
   void measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
   void add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,
                            StationWeights& weights) const;
+  void add_direct_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
+                        Matrix& hessian) const;
   [[nodiscard]] double effective_bound(const LimitSpec& limit) const;
   [[nodiscard]] double effective_scale(const LimitSpec& limit) const;
 

@@ -1,21 +1,29 @@
 #include "optimize/search.hpp"
 
+#include "optimize/quadratic_program.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace glissade::fastest {
 namespace {
 
-// Rows this close to their bound take part in the first round, and in those that move the track less. All do
-// on a coarse mesh and after a round that broke limits which had no part in it.
+// Rows this close to their bound take part in a quadratic program.
 constexpr double kBand = 0.25;
-constexpr double kLaterBand = 0.04;
-constexpr double kEverything = HUGE_VAL;
-constexpr std::size_t kCoarse = 24;
+// Of the rows' gradients, as shares of the objective's.
+constexpr double kMultiplierAccuracy = 1e-15;
+// On meshes of fewer knots all rows take part in a round of NLopt; on others those that lie this close to
+// their bound, and ...
+constexpr std::size_t kCoarse = 18;
+constexpr double kMayMatter = 0.05;
+// ... those that a round without them broke by this much.
 constexpr double kBroken = 0.01;
-// Rows this close to their bound may carry a multiplier.
+// Newton steps go on until they are this share of what is asked for.
+constexpr double kArrived = 0.1;
+// Rows this close to their bound may carry a multiplier, ...
 constexpr double kActive = 1e-6;
+// ... and Newton steps bring those that do this close to it.
+constexpr double kTight = 1e-8;
 
 Matrix jacobian_of(const Rows& rows, const State& state, const std::vector<Row>& set, std::size_t n) {
   Matrix jacobian(set.size(), n);
@@ -29,38 +37,50 @@ Vector values_of(const Rows& rows, const State& state, const std::vector<Row>& s
   return values;
 }
 
+double greatest_of(const Vector& values) {
+  double greatest = 0.0;
+  for (const double value : values) greatest = std::max(greatest, value);
+  return greatest;
+}
+
 double greatest_size(const Vector& values) {
   double greatest = 0.0;
   for (const double value : values) greatest = std::max(greatest, std::fabs(value));
   return greatest;
 }
 
-/// A metric in which the Lagrangian's Hessian is the identity; convex by adding the equality rows' squares,
-/// which changes no step that keeps them, and a shift if that is not enough.
-ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality) {
+void add_squares(Matrix& hessian, double factor, const Matrix& rows) {
+  const std::size_t n = hessian.columns();
+  for (std::size_t e = 0; e < rows.rows(); ++e) {
+    const double* row = rows.row(e);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (row[i] != 0.0) add_scaled(hessian.row(i), factor * row[i], row, n);
+    }
+  }
+}
+
+/// A metric in which the Lagrangian's Hessian is the identity; convex by adding squares, of the equality rows
+/// and where that is not enough of the rows that carry multipliers too, which changes no step that keeps
+/// them; and by a shift if that will not do either.
+ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality, const Matrix& carrying) {
+  constexpr double kPenalties[] = {10.0, 100.0, 1e3};
+  constexpr double kLittle = 1e-5;
   const std::size_t n = hessian.columns();
   Vector diagonal(n);
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::fabs(hessian(i, i)));
   for (std::size_t i = 0; i < n; ++i) diagonal[i] = std::max(std::fabs(hessian(i, i)), 1e-12 * largest);
-  constexpr double kFirstPenalty = 10.0;
-  constexpr double kLastPenalty = 1e3;
   ShiftedCholesky best;
-  for (double penalty = kFirstPenalty; penalty <= kLastPenalty; penalty *= 10.0) {
-    Matrix convex = hessian;
-    for (std::size_t e = 0; e < equality.rows(); ++e) {
-      const double* row = equality.row(e);
-      for (std::size_t i = 0; i < n; ++i) add_scaled(convex.row(i), penalty * row[i], row, n);
+  for (const bool with_carrying : {false, true}) {
+    for (const double penalty : kPenalties) {
+      Matrix convex = hessian;
+      add_squares(convex, penalty, equality);
+      if (with_carrying) add_squares(convex, penalty, carrying);
+      best = ShiftedCholesky(convex, diagonal);
+      if (best.shift() <= kLittle) return best;
     }
-    best = ShiftedCholesky(convex, diagonal);
-    if (best.shift() <= 1e-5) break;
   }
   return best;
-}
-
-Matrix in_metric(Matrix jacobian, const ShiftedCholesky& metric) {
-  for (std::size_t i = 0; i < jacobian.rows(); ++i) metric.forward(jacobian.row(i));
-  return jacobian;
 }
 
 /// An objective without bound and rows that say nothing.
@@ -73,175 +93,254 @@ void reject(Sample& out, std::size_t n, std::size_t equalities, std::size_t ineq
   out.inequality_jacobian = Matrix(inequalities, n);
 }
 
-struct Judged {
-  Multipliers multipliers;
-  std::vector<Row> active;
-  double residual = 0.0;
-  double violation = 0.0;
-};
-
-/// First-order optimality of a point, measured in a metric.
-Judged judge(const Rows& rows, const State& state, const ShiftedCholesky& metric) {
-  Judged judged;
-  Vector equality;
-  Matrix equality_jacobian;
-  rows.equalities(state, equality, equality_jacobian);
-  judged.active = rows.candidates(state, kActive);
-  judged.violation = greatest_size(equality);
-  for (const double value : values_of(rows, state, judged.active)) {
-    judged.violation = std::max(judged.violation, value);
+/// Minimises on one mesh. Rounds of NLopt lead to where Newton steps converge; these finish, as a line search
+/// on the objective's own digits cannot.
+class Minimiser {
+ public:
+  Minimiser(const ScaledProblem& problem, const Mesh& mesh, const Vector& margins, SearchControl& control)
+      : problem_(problem),
+        control_(control),
+        track_(std::make_shared<const Transcription>(mesh)),
+        rows_(std::make_shared<Rows>(problem, *track_)),
+        n_(track_->layout().size()) {
+    rows_->set_margins(margins);
   }
-  Vector gradient = rows.objective_gradient(state);
-  const std::size_t n = gradient.size();
-  metric.forward(gradient.data());
-  const Matrix active_jacobian = in_metric(jacobian_of(rows, state, judged.active, n), metric);
-  judged.multipliers =
-      least_multipliers(gradient, in_metric(std::move(equality_jacobian), metric), active_jacobian);
-  judged.residual = norm(judged.multipliers.residual) / norm(gradient);
-  return judged;
-}
 
-/// Newton steps on the rows that carry multipliers, as long as they pay: they end where a line search on the
-/// objective's own digits cannot.
-void polish(const Transcription& track, const Rows& rows, const ShiftedCholesky& metric,
-            const SearchControl& control, State& state, Judged& judged) {
-  constexpr int kMostSteps = 4;
-  constexpr double kNear = 1e-2;
-  const std::size_t n = track.layout().size();
-  for (int step = 0; step < kMostSteps; ++step) {
-    if (judged.residual > kNear || judged.violation > kNear) return;
-    if (judged.residual <= 0.1 * control.tolerance && judged.violation <= 0.1 * control.limit_tolerance)
+  [[nodiscard]] Found run(const Vector& start) {
+    Found found;
+    point_ = point(rows_->state(start, true), Multipliers{});
+    // With the multipliers of the first program the curvature is that of the Lagrangian.
+    point_ = point(std::move(point_.state), point_.next);
+    for (int round = 0;; ++round) {
+      approach();
+      judge(found);
+      if (found.residual <= control_.tolerance && found.violation <= control_.limit_tolerance) break;
+      if (round >= control_.most_rounds || stopped_) break;
+      ++control_.rounds;
+      const Vector before = point_.state.z;
+      descend_once();
+      // The same again would end where it ended before.
+      if (point_.state.z == before && !stopped_) break;
+    }
+    found.stopped = stopped_;
+    found.track = track_;
+    found.rows = rows_;
+    found.z = point_.state.z;
+    found.objective = rows_->objective(point_.state);
+    return found;
+  }
+
+ private:
+  /// Multipliers with the rows that they belong to.
+  struct Multipliers {
+    Vector equality;
+    std::vector<Row> active;
+    Vector inequality;
+  };
+
+  /// A point of the search, with the quadratic program there and its solution.
+  struct Point {
+    State state;
+    ShiftedCholesky metric;
+    std::vector<Row> set;
+    QuadraticProgram program;
+    QuadraticSolution solution;
+    Multipliers next;       ///< of the solution
+    double distance = 0.0;  ///< length of the step over that of the gradient, in the metric
+  };
+
+  /// @param known  for the curvature of the Lagrangian, and for where the program's solution may begin
+  [[nodiscard]] Point point(State state, const Multipliers& known) const {
+    Point point;
+    QuadraticProgram& program = point.program;
+    program.gradient = rows_->objective_gradient(state);
+    rows_->equalities(state, program.equality_value, program.equality);
+    Vector equality = known.equality;
+    equality.resize(program.equality_value.size(), 0.0);
+    point.metric = metric_of(rows_->hessian(state, equality, known.active, known.inequality, 1.0),
+                             program.equality, jacobian_of(*rows_, state, known.active, n_));
+    point.set = rows_->candidates(state, kBand);
+    program.inequality_value = values_of(*rows_, state, point.set);
+    program.inequality = jacobian_of(*rows_, state, point.set, n_);
+    std::vector<std::size_t> likely;
+    for (const Row& row : known.active) {
+      const auto found = std::find(point.set.begin(), point.set.end(), row);
+      if (found != point.set.end()) likely.push_back(static_cast<std::size_t>(found - point.set.begin()));
+    }
+    point.solution = solve(program, point.metric, likely);
+    point.next.equality = point.solution.equality;
+    for (const std::size_t i : point.solution.active) {
+      point.next.active.push_back(point.set[i]);
+      point.next.inequality.push_back(point.solution.inequality[i]);
+    }
+    Vector gradient = program.gradient;
+    point.metric.forward(gradient.data());
+    point.distance = point.solution.length / norm(gradient);
+    point.state = std::move(state);
+    return point;
+  }
+
+  [[nodiscard]] static bool solved(const Point& point) {
+    return point.solution.status == QuadraticSolution::Status::solved;
+  }
+
+  /// Close to the optimum, and on the bounds that hold there.
+  [[nodiscard]] bool has_arrived(const Point& point) const {
+    if (!solved(point) || point.distance > kArrived * control_.tolerance) return false;
+    const Vector& values = point.program.inequality_value;
+    const auto is_tight = [&](std::size_t row) { return std::fabs(values[row]) <= kTight; };
+    return greatest_size(point.program.equality_value) <= control_.limit_tolerance &&
+           greatest_of(values) <= control_.limit_tolerance &&
+           std::all_of(point.solution.active.begin(), point.solution.active.end(), is_tight);
+  }
+
+  /// Newton steps, as long as each next one would be clearly shorter.
+  void approach() {
+    constexpr int kMostSteps = 8;
+    constexpr double kNear = 0.3;
+    constexpr double kShorter = 0.7;
+    for (int step = 0; step < kMostSteps; ++step) {
+      if (control_.stop()) stopped_ = true;
+      if (stopped_ || !solved(point_) || point_.distance > kNear || has_arrived(point_)) return;
+      Vector z = point_.state.z;
+      add_scaled(z.data(), 1.0, point_.solution.step.data(), n_);
+      if (!track_->is_track(z)) return;
+      ++control_.evaluations;
+      Point next = point(rows_->state(z, true), point_.next);
+      if (!solved(next) || (next.distance > kShorter * point_.distance && !has_arrived(next))) return;
+      point_ = std::move(next);
+    }
+  }
+
+  /// How far the steepest descent would break a row.
+  [[nodiscard]] static double greatest_along(const QuadraticProgram& program, const ShiftedCholesky& metric) {
+    Vector step = program.gradient;
+    metric.forward(step.data());
+    metric.backward(step.data());
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < program.inequality.rows(); ++i) {
+      greatest = std::max(greatest, std::fabs(dot(program.inequality.row(i), step.data(), step.size())));
+    }
+    return greatest;
+  }
+
+  /// First-order optimality of the point, from the rows that are tight there.
+  void judge(Found& found) const {
+    const State& state = point_.state;
+    found.violation = std::max(greatest_size(point_.program.equality_value),
+                               greatest_of(values_of(*rows_, state, rows_->candidates(state, 0.0))));
+    if (has_arrived(point_)) {
+      found.residual = point_.distance;
+      found.equality = point_.next.equality;
+      found.active = point_.next.active;
+      found.inequality = point_.next.inequality;
       return;
-    Vector value;
-    Matrix jacobian;
-    rows.equalities(state, value, jacobian);
-    std::vector<Row> carrying;
-    for (std::size_t i = 0; i < judged.active.size(); ++i) {
-      if (judged.multipliers.inequality[i] > 0.0) carrying.push_back(judged.active[i]);
     }
-    Matrix all(value.size() + carrying.size(), n);
-    Vector wanted;
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      std::copy_n(jacobian.row(i), n, all.row(i));
-      wanted.push_back(-value[i]);
-    }
-    for (std::size_t i = 0; i < carrying.size(); ++i) {
-      rows.gradient(state, carrying[i], all.row(value.size() + i));
-      wanted.push_back(-rows.value(state, carrying[i]));
-    }
-    Vector move = shortest_solution(in_metric(std::move(all), metric), wanted);
-    add_scaled(move.data(), -1.0, judged.multipliers.residual.data(), n);
-    metric.backward(move.data());
-    Vector z = state.z;
-    add_scaled(z.data(), 1.0, move.data(), n);
-    if (!track.is_track(z)) return;
-    State next = rows.state(z, true);
-    Judged better = judge(rows, next, metric);
-    const bool pays = better.residual < 0.7 * judged.residual || judged.residual <= control.tolerance;
-    const bool keeps = better.violation <= std::max(control.limit_tolerance, 0.7 * judged.violation);
-    if (!pays || !keeps || better.residual > std::max(judged.residual, control.tolerance)) return;
-    state = std::move(next);
-    judged = std::move(better);
+    QuadraticProgram program;
+    program.gradient = point_.program.gradient;
+    program.equality = point_.program.equality;
+    program.equality_value.assign(program.equality.rows(), 0.0);
+    found.active = rows_->candidates(state, kActive);
+    program.inequality = jacobian_of(*rows_, state, found.active, n_);
+    program.inequality_value.assign(found.active.size(), 0.0);
+    program.tolerance = kMultiplierAccuracy * greatest_along(program, point_.metric);
+    // The shortest sum of the gradient and the rows, nu >= 0: the step of the program whose rows are all tight.
+    const QuadraticSolution shortest = solve(program, point_.metric);
+    Vector gradient = program.gradient;
+    point_.metric.forward(gradient.data());
+    found.residual = shortest.length / norm(gradient);
+    found.equality = shortest.equality;
+    found.inequality = shortest.inequality;
   }
-}
 
-Matrix hessian_of(const ScaledProblem& problem, const Transcription& track, const Rows& rows,
-                  const State& state, const Vector& equality, const std::vector<Row>& active,
-                  const Vector& inequality) {
-  return track.hessian(state.z, state.shape, problem.rides, state.flows,
-                       rows.weights(state, equality, active, inequality, 1.0));
-}
+  /// The rows that can matter on the way: tight where the step leads, or near. All of them on a coarse mesh.
+  [[nodiscard]] std::vector<Row> working_set() const {
+    if (track_->mesh().knots.size() < kCoarse) return rows_->candidates(point_.state, HUGE_VAL);
+    std::vector<Row> set;
+    for (std::size_t i = 0; i < point_.set.size(); ++i) {
+      const double now = point_.program.inequality_value[i];
+      const double then = now + dot(point_.program.inequality.row(i), point_.solution.step.data(), n_);
+      if (std::max(now, then) > -kMayMatter) set.push_back(point_.set[i]);
+    }
+    return set;
+  }
 
-/// All that a round of the search begins with.
-struct Round {
-  Vector z;
-  std::vector<Row> set;
-  Vector equality;
-  std::vector<Row> active;
-  Vector inequality;
+  /// A round of NLopt. Where it breaks rows that had no part in it, it is repeated with them.
+  void descend_once() {
+    constexpr int kMostRepeats = 4;
+    std::vector<Row> set = working_set();
+    std::sort(set.begin(), set.end());
+    for (int repeat = 0;; ++repeat) {
+      State end;
+      stopped_ = descend_with(set, end);
+      if (end.z.empty()) return;
+      const std::size_t known = set.size();
+      if (repeat < kMostRepeats && !stopped_) add_broken(end, set);
+      if (set.size() > known) continue;
+      // Twice: the second time with the curvature of the first one's multipliers.
+      Point next = point(std::move(end), point_.next);
+      point_ = point(std::move(next.state), next.next);
+      return;
+    }
+  }
 
-  friend bool operator==(const Round&, const Round&) = default;
+  /// Adds the rows that come near to their bounds at a state where one of them is broken that is not in the set.
+  void add_broken(const State& state, std::vector<Row>& set) const {
+    std::vector<Row> more;
+    bool is_broken = false;
+    for (const Row& row : rows_->candidates(state, kMayMatter)) {
+      if (std::binary_search(set.begin(), set.end(), row)) continue;
+      more.push_back(row);
+      is_broken = is_broken || rows_->value(state, row) > kBroken;
+    }
+    if (!is_broken) return;
+    set.insert(set.end(), more.begin(), more.end());
+    std::sort(set.begin(), set.end());
+  }
+
+  /// @param end  where it led, or nothing where that is no track
+  /// @return whether it was asked to end
+  [[nodiscard]] bool descend_with(const std::vector<Row>& set, State& end) const {
+    const std::size_t equalities = rows_->equality_count();
+    const SampleFunction sample = [&](const Vector& at, Sample& out) {
+      if (!track_->is_track(at)) {
+        reject(out, n_, equalities, set.size());
+        return;
+      }
+      end = rows_->state(at, true);
+      out.objective = rows_->objective(end);
+      out.gradient = rows_->objective_gradient(end);
+      rows_->equalities(end, out.equality, out.equality_jacobian);
+      out.inequality = values_of(*rows_, end, set);
+      out.inequality_jacobian = jacobian_of(*rows_, end, set, n_);
+    };
+    DescentOptions options;
+    options.most_evaluations = 40;
+    const Descent descent =
+        descend(sample, point_.state.z, equalities, set.size(), point_.metric, options, control_.stop);
+    control_.evaluations += descent.evaluations;
+    if (!track_->is_track(descent.z)) {
+      end = State{};
+    } else if (end.z != descent.z) {
+      end = rows_->state(descent.z, true);
+    }
+    return descent.stopped;
+  }
+
+  const ScaledProblem& problem_;
+  SearchControl& control_;
+  std::shared_ptr<const Transcription> track_;
+  std::shared_ptr<Rows> rows_;
+  std::size_t n_;
+  Point point_;
+  bool stopped_ = false;
 };
 
 }  // namespace
 
 Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& start, const Vector& margins,
                SearchControl& control) {
-  Found found;
-  const auto track = std::make_shared<const Transcription>(mesh);
-  const auto rows = std::make_shared<Rows>(problem, *track);
-  rows->set_margins(margins);
-  found.track = track;
-  found.rows = rows;
-  const std::size_t n = track->layout().size();
-  const std::size_t equality_count = rows->equality_count();
-
-  Vector z = start;
-  State state = rows->state(z, true);
-  Vector equality(equality_count, 0.0);
-  std::vector<Row> active;
-  Vector inequality;
-  {
-    // Before the first round: the finish's own multipliers, in units of the unknowns' curvature.
-    Vector value;
-    Matrix jacobian;
-    rows->equalities(state, value, jacobian);
-    equality = least_multipliers(rows->objective_gradient(state), jacobian, Matrix()).equality;
-  }
-  ShiftedCholesky metric;
-  Round last;
-  for (int round = 0; round < control.most_rounds; ++round) {
-    ++control.rounds;
-    Vector value;
-    Matrix jacobian;
-    rows->equalities(state, value, jacobian);
-    metric = metric_of(hessian_of(problem, *track, *rows, state, equality, active, inequality), jacobian);
-
-    const bool all = round == 0 ? mesh.knots.size() < kCoarse : found.violation > kBroken;
-    std::vector<Row> set = rows->candidates(state, all ? kEverything : (round == 0 ? kBand : kLaterBand));
-    set.insert(set.end(), active.begin(), active.end());
-    std::sort(set.begin(), set.end());
-    set.erase(std::unique(set.begin(), set.end()), set.end());
-    Round begun{z, set, equality, active, inequality};
-    // The same again would end where it ended before.
-    if (round > 0 && begun == last) break;
-    last = std::move(begun);
-    const SampleFunction sample = [&](const Vector& at, Sample& out) {
-      if (!track->is_track(at)) {
-        reject(out, n, equality_count, set.size());
-        return;
-      }
-      state = rows->state(at, true);
-      out.objective = rows->objective(state);
-      out.gradient = rows->objective_gradient(state);
-      rows->equalities(state, out.equality, out.equality_jacobian);
-      out.inequality = values_of(*rows, state, set);
-      out.inequality_jacobian = jacobian_of(*rows, state, set, n);
-    };
-    DescentOptions options;
-    options.most_evaluations = 40;
-    const Descent descent = descend(sample, z, equality_count, set.size(), metric, options, control.stop);
-    control.evaluations += descent.evaluations;
-    if (track->is_track(descent.z)) z = descent.z;
-    state = rows->state(z, true);
-    Judged judged = judge(*rows, state, metric);
-    polish(*track, *rows, metric, control, state, judged);
-    z = state.z;
-    equality = judged.multipliers.equality;
-    active = judged.active;
-    inequality = judged.multipliers.inequality;
-    found.residual = judged.residual;
-    found.violation = judged.violation;
-    found.stopped = descent.stopped;
-    if (descent.stopped) break;
-    if (judged.residual <= control.tolerance && judged.violation <= control.limit_tolerance) break;
-  }
-  found.z = z;
-  found.objective = rows->objective(state);
-  found.equality = std::move(equality);
-  found.active = std::move(active);
-  found.inequality = std::move(inequality);
-  return found;
+  return Minimiser(problem, mesh, margins, control).run(start);
 }
 
 GuessCurve curve_of(const Transcription& track, const Vector& z) {

@@ -224,6 +224,8 @@ Foot Transcription::advance(const Vector& z, const Shape& shape, std::size_t bas
   const Station& to = stations_[towards];
   Foot foot;
   foot.base = base;
+  foot.towards = towards;
+  foot.share = share;
   foot.at = later;
   foot.at.fixed_length = from.fixed_length + share * (to.fixed_length - from.fixed_length);
   foot.at.sigma = from.sigma + share * (to.sigma - from.sigma);
@@ -273,6 +275,7 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
     Foot foot;
     foot.at = stations_[nearest];
     foot.base = nearest;
+    foot.towards = nearest;
     foot.x = shape.x[nearest];
     foot.y = shape.y[nearest];
     foot.sin = shape.sin[nearest];
@@ -407,23 +410,19 @@ void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, 
   }
 }
 
-Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
-                              const std::vector<Flow>& flows, const StationWeights& weights) const {
+/// What a Hessian is made of: at each station multiples of dzeta dzeta, of dzeta dv + dv dzeta and of dv dv, and
+/// one row and column of the length.
+struct Transcription::HessianParts {
+  Vector zeta_zeta;
+  std::vector<Vector> zeta_v;  ///< for each ride
+  std::vector<Vector> v_v;
+  Vector length;  ///< enters as e_L a^T + a e_L^T
+};
+
+void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
+                                    HessianParts& parts) const {
   const PanelRule& rule = panel_rule();
-  const std::size_t n = layout_.size();
-  const std::size_t at_length = layout_.length();
-  const double length = z[at_length];
-  Matrix h(n, n);
-  Vector by_length(n, 0.0);
-  Vector mixed(n, 0.0);
-
-  const auto add_outer = [&](const double* a, const double* b) {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (a[i] != 0.0) add_scaled(h.row(i), a[i], b, n);
-    }
-  };
-
-  // Terms of x, y and of zeta alone.
+  const double length = z[layout_.length()];
   double later_x = 0.0;
   double later_y = 0.0;
   for (std::size_t p = panels_.size(); p-- > 0;) {
@@ -443,89 +442,126 @@ Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::ve
       }
       sum_x *= panel.ds[k];
       sum_y *= panel.ds[k];
-      const double* dz = dzeta_.row(at);
-      const double square = -scale * (shape.cos[at] * sum_x + shape.sin[at] * sum_y) + weights.zeta_zeta[at];
-      for (std::size_t j = 0; j < n; ++j) mixed[j] = square * dz[j];
-      add_outer(dz, mixed.data());
-      if (is_core) add_scaled(by_length.data(), -shape.sin[at] * sum_x + shape.cos[at] * sum_y, dz, n);
+      parts.zeta_zeta[at] -= scale * (shape.cos[at] * sum_x + shape.sin[at] * sum_y);
+      if (is_core) {
+        add_scaled(parts.length.data(), -shape.sin[at] * sum_x + shape.cos[at] * sum_y, dzeta_.row(at),
+                   panel.columns);
+      }
     }
     for (std::size_t q = 0; q < kNodes; ++q) {
       later_x += weights.x[panel.first + q];
       later_y += weights.y[panel.first + q];
     }
-    if (weights.zeta_zeta[end] != 0.0) {
-      const double* dz = dzeta_.row(end);
-      for (std::size_t j = 0; j < n; ++j) mixed[j] = weights.zeta_zeta[end] * dz[j];
-      add_outer(dz, mixed.data());
+  }
+}
+
+void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
+                                   const StationWeights& weights, std::size_t index,
+                                   HessianParts& parts) const {
+  // v = e^phi w with phi = 2 mu zeta - 2 k s, w' = drive e^-phi. phi is linear in the unknowns:
+  // d2v = e^phi d2w + dv dphi + dphi dv - v dphi dphi, dphi = 2 mu dzeta - 2 k sigma e_L in the core.
+  const PanelRule& rule = panel_rule();
+  const std::size_t n = layout_.size();
+  const std::size_t at_length = layout_.length();
+  const double length = z[at_length];
+  const double mu = ride.friction;
+  const double drag = ride.drag;
+  const auto exponent = [&](std::size_t at) {
+    return 2.0 * mu * shape.zeta[at] - 2.0 * drag * stations_[at].arc_length(length);
+  };
+  double later = 0.0;  // dL/dw of everything after the panel
+  for (std::size_t p = panels_.size(); p-- > 0;) {
+    const Panel& panel = panels_[p];
+    const bool is_core = panel.part == Part::core;
+    const double scale = is_core ? length : 1.0;
+    double by_w[kNodes + 1] = {};
+    for (std::size_t q = 0; q <= kNodes; ++q) {
+      const std::size_t at = panel.first + q;
+      double by_v = weights.v[index][at];
+      const double* dv = flow.dv.row(at);
+      if (q < kNodes && weights.time[index] != 0.0) {
+        const double floor =
+            kSlowest * (stations_[at].arc_length(mesh_.core_length) + 0.5 * ride.entry_speed2);
+        const Slowness slow = slowness(flow.v[at], floor);
+        const double part = weights.time[index] * rule.weight[q] * panel.ds[q];
+        by_v += scale * part * slow.first;
+        parts.v_v[index][at] += scale * part * slow.second;
+        if (is_core) add_scaled(parts.length.data(), part * slow.first, dv, n);
+      }
+      if (by_v == 0.0) continue;
+      parts.zeta_v[index][at] += 2.0 * mu * by_v;
+      parts.zeta_zeta[at] -= 4.0 * mu * mu * by_v * flow.v[at];
+      if (drag > 0.0) {
+        const double reach = 2.0 * drag * stations_[at].sigma;
+        add_scaled(parts.length.data(), -reach * by_v, dv, n);
+        add_scaled(parts.length.data(), 2.0 * mu * reach * by_v * flow.v[at], dzeta_.row(at), at_length);
+        parts.length[at_length] -= 0.5 * reach * reach * by_v * flow.v[at];
+      }
+      by_w[q] = by_v * std::exp(exponent(at));
     }
+    later += by_w[kNodes];
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const std::size_t at = panel.first + k;
+      double sum = rule.weight[k] * later;
+      for (std::size_t q = 0; q < kNodes; ++q) sum += rule.to_node[q][k] * by_w[q];
+      if (sum == 0.0) continue;
+      sum *= panel.ds[k] * std::exp(-exponent(at));
+      const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
+      const double drive1 = 2.0 * (shape.cos[at] + mu * shape.sin[at]);
+      const double f1 = drive1 - 2.0 * mu * drive;
+      parts.zeta_zeta[at] += scale * sum * (-drive - 4.0 * mu * drive1 + 4.0 * mu * mu * drive);
+      const double reach = 2.0 * drag * stations_[at].sigma;
+      add_scaled(parts.length.data(), sum * f1 * ((is_core ? 1.0 : 0.0) + scale * reach), dzeta_.row(at),
+                 panel.columns);
+      parts.length[at_length] += sum * drive * reach * ((is_core ? 1.0 : 0.0) + 0.5 * scale * reach);
+    }
+    for (std::size_t q = 0; q < kNodes; ++q) later += by_w[q];
+  }
+  // What the body brings along: w = v_0 e^(-2 mu zeta_0).
+  parts.zeta_zeta[0] += later * 4.0 * mu * mu * ride.entry_speed2 * std::exp(-exponent(0));
+}
+
+Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
+                              const std::vector<Flow>& flows, const StationWeights& weights) const {
+  const std::size_t n = layout_.size();
+  const std::size_t at_length = layout_.length();
+  HessianParts parts;
+  parts.zeta_zeta = weights.zeta_zeta;
+  parts.zeta_v.assign(rides.size(), Vector(stations_.size(), 0.0));
+  parts.v_v = weights.v_v;
+  parts.length.assign(n, 0.0);
+  add_shape_parts(z, shape, weights, parts);
+  for (std::size_t r = 0; r < rides.size(); ++r) {
+    if (flows[r].dv.rows() > 0) add_flow_parts(z, shape, rides[r], flows[r], weights, r, parts);
   }
 
-  for (std::size_t r = 0; r < rides.size(); ++r) {
-    const Flow& flow = flows[r];
-    if (flow.dv.rows() == 0) continue;
-    const double mu = rides[r].friction;
-    double later = 0.0;  // dL/dw of everything after the panel, w counted with e^(-2 mu zeta)
-    for (std::size_t p = panels_.size(); p-- > 0;) {
-      const Panel& panel = panels_[p];
-      const bool is_core = panel.part == Part::core;
-      const double scale = is_core ? length : 1.0;
-      double by_v[kNodes + 1] = {};
-      double by_w[kNodes + 1] = {};
-      for (std::size_t q = 0; q <= kNodes; ++q) {
-        const std::size_t at = panel.first + q;
-        by_v[q] = weights.v[r][at];
-        const double* dz = dzeta_.row(at);
-        const double* dv = flow.dv.row(at);
-        if (q < kNodes && weights.time[r] != 0.0) {
-          const double floor =
-              kSlowest * (stations_[at].arc_length(mesh_.core_length) + 0.5 * rides[r].entry_speed2);
-          const Slowness slow = slowness(flow.v[at], floor);
-          const double part = weights.time[r] * rule.weight[q] * panel.ds[q];
-          by_v[q] += scale * part * slow.first;
-          for (std::size_t j = 0; j < n; ++j) mixed[j] = scale * part * slow.second * dv[j];
-          add_outer(dv, mixed.data());
-          if (is_core) add_scaled(by_length.data(), part * slow.first, dv, n);
-        }
-        const double square = weights.v_v[r][at];
-        if (square != 0.0) {
-          for (std::size_t j = 0; j < n; ++j) mixed[j] = square * dv[j];
-          add_outer(dv, mixed.data());
-        }
-        if (by_v[q] != 0.0 && mu > 0.0) {
-          // d2v = e^(2 mu zeta) d2w + 2 mu (dv dzeta + dzeta dv) - 4 mu^2 v dzeta dzeta
-          for (std::size_t j = 0; j < n; ++j) {
-            mixed[j] = by_v[q] * (2.0 * mu * dv[j] - 2.0 * mu * mu * flow.v[at] * dz[j]);
-          }
-          add_outer(dz, mixed.data());
-          add_outer(mixed.data(), dz);
-        }
-        by_w[q] = by_v[q] * std::exp(2.0 * mu * shape.zeta[at]);
+  Matrix h(n, n);
+  const auto add_station = [&](std::size_t at, std::size_t columns) {
+    columns = std::min(columns, at_length);
+    const double* dz = dzeta_.row(at);
+    for (std::size_t i = 0; i < columns; ++i) add_scaled(h.row(i), parts.zeta_zeta[at] * dz[i], dz, i + 1);
+    for (std::size_t r = 0; r < rides.size(); ++r) {
+      const double zeta_v = parts.zeta_v[r][at];
+      const double v_v = parts.v_v[r][at];
+      if (zeta_v == 0.0 && v_v == 0.0) continue;
+      const double* dv = flows[r].dv.row(at);
+      for (std::size_t i = 0; i < columns; ++i) {
+        add_scaled(h.row(i), zeta_v * dv[i], dz, i + 1);
+        add_scaled(h.row(i), zeta_v * dz[i] + v_v * dv[i], dv, i + 1);
       }
-      later += by_w[kNodes];
-      for (std::size_t k = 0; k < kNodes; ++k) {
-        const std::size_t at = panel.first + k;
-        double sum = rule.weight[k] * later;
-        for (std::size_t q = 0; q < kNodes; ++q) sum += rule.to_node[q][k] * by_w[q];
-        sum *= panel.ds[k];
-        const double weight = std::exp(-2.0 * mu * shape.zeta[at]);
-        const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
-        const double drive1 = 2.0 * (shape.cos[at] + mu * shape.sin[at]);
-        const double f1 = weight * (drive1 - 2.0 * mu * drive);
-        const double f2 = weight * (-drive - 4.0 * mu * drive1 + 4.0 * mu * mu * drive);
-        const double* dz = dzeta_.row(at);
-        for (std::size_t j = 0; j < n; ++j) mixed[j] = scale * sum * f2 * dz[j];
-        add_outer(dz, mixed.data());
-        if (is_core) add_scaled(by_length.data(), sum * f1, dz, n);
-      }
-      for (std::size_t q = 0; q < kNodes; ++q) later += by_w[q];
+      add_scaled(h.row(at_length), zeta_v * dv[at_length], dz, columns);
+      add_scaled(h.row(at_length), v_v * dv[at_length], dv, columns);
+      h(at_length, at_length) += v_v * dv[at_length] * dv[at_length];
     }
-    // What the body brings along: w = v_0 e^(-2 mu zeta_0).
-    const std::size_t angle = layout_.angle();
-    h(angle, angle) += later * 4.0 * mu * mu * rides[r].entry_speed2 * std::exp(-2.0 * mu * z[angle]);
+  };
+  add_station(0, 1);
+  for (const Panel& panel : panels_) {
+    for (std::size_t q = 0; q <= kNodes; ++q) add_station(panel.first + q, panel.columns);
   }
-  for (std::size_t j = 0; j < n; ++j) {
-    h(at_length, j) += by_length[j];
-    h(j, at_length) += by_length[j];
+  for (std::size_t j = 0; j < n; ++j) h(at_length, j) += parts.length[j];
+  h(at_length, at_length) += parts.length[at_length];
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) h(j, i) = h(i, j);
   }
   return h;
 }

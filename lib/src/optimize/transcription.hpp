@@ -61,7 +61,9 @@ struct Shape {
 /// The point of a track that is closest to another point.
 struct Foot {
   Station at;
-  std::size_t base = 0;  ///< a station between which and `at` curvature is linear
+  std::size_t base = 0;     ///< a station between which and `at` curvature is linear
+  std::size_t towards = 0;  ///< the station on the other side
+  double share = 0.0;       ///< of the way from base to towards
   double x = 0.0;
   double y = 0.0;
   double sin = 0.0;
@@ -113,7 +115,7 @@ class Transcription {
   void shape(const Vector& z, Shape& out, bool derivatives) const;
   void flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out, bool derivatives) const;
 
-  /// Second derivative of the Lagrangian that the weights describe; drag enters it to first order only.
+  /// Second derivative of the Lagrangian that the weights describe.
   [[nodiscard]] Matrix hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
                                const std::vector<Flow>& flows, const StationWeights& weights) const;
 
@@ -124,6 +126,11 @@ class Transcription {
     Part part = Part::core;
     double ds[8] = {};  ///< ds/dtau at the nodes, per core length or absolute
   };
+  struct HessianParts;
+  void add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
+                       HessianParts& parts) const;
+  void add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
+                      const StationWeights& weights, std::size_t index, HessianParts& parts) const;
   void add_panels(double a, double b, Part part, std::size_t piece);
   [[nodiscard]] Foot advance(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
                              double share) const;
