@@ -28,13 +28,15 @@ constexpr const char* kStyle =
     "border-radius:8px;padding:8px}"
     "table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}"
     "th,td{padding:5px 10px;border-bottom:1px solid var(--grid);text-align:right;white-space:nowrap}"
+    "thead th{white-space:normal;vertical-align:bottom}"
     "th:first-child,td.remark{text-align:left}th:first-child{white-space:normal;min-width:8em}td.remark{"
     "color:var(--soft);white-space:normal}"
     "@media "
     "print{@page{margin:14mm}:root{--paper:#fff;--panel:#fff;--ink:#16202a;--soft:#52606d;--grid:#dfe4e8}"
-    "body{max-width:none;padding:0;font-size:9pt}figure{border:0;break-inside:avoid}"
-    ".scroll{border:0;overflow:visible;padding:0}tr{break-inside:avoid}th,td{padding:2px "
-    "5px;white-space:normal}}";
+    "body{max-width:none;padding:0;font-size:9pt}"
+    ".figures{columns:1}figure{border:0;padding:0}figure svg{max-height:112mm}"
+    ".scroll{border:0;overflow:visible;padding:0}tr{break-inside:avoid}"
+    "table{font-size:7.5pt}th,td{padding:2px 4px}th:first-child{min-width:6em}}";
 
 /// A table's cell: units with their exponents raised.
 std::string cell_text(std::string text) {
