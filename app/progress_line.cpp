@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace glissade::app {
 namespace {
@@ -18,10 +19,17 @@ double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
+/// Its log keeps every line of a terminal, and nobody watches.
+bool in_continuous_integration() {
+  const char* const word = std::getenv("CI");
+  return word != nullptr && *word != '\0';
+}
+
 }  // namespace
 
 ProgressLine::ProgressLine(const Verbosity& verbosity)
-    : enabled_(verbosity.verbose() || (!verbosity.quiet() && error_is_terminal())),
+    : enabled_(verbosity.verbose() ||
+               (!verbosity.quiet() && error_is_terminal() && !in_continuous_integration())),
       verbose_(verbosity.verbose()) {
   if (!enabled_ || verbose_) return;
   drawer_ = std::jthread([this](const std::stop_token& stop) { keep_drawing(stop); });
@@ -78,7 +86,7 @@ void ProgressLine::draw(Clock::time_point now) {
 
 /// How far, how long still; where nobody knows, how long so far.
 std::string ProgressLine::distance_text(Clock::time_point now) const {
-  const std::string so_far = ", " + rounded_text(std::floor(seconds(now - start_)), 6) + " s so far";
+  std::string so_far = ", " + rounded_text(std::floor(seconds(now - start_)), 6) + " s so far";
   if (fraction_ < 0.0) return so_far;
   const std::string percent = ", " + rounded_text(std::floor(fraction_ * 100.0), 3) + " %";
   if (fraction_ < kTrustedFraction) return percent + so_far;

@@ -14,7 +14,7 @@
 namespace glissade::app {
 
 /// One line on a terminal that tells what long work does, how far it is and how long it still takes; nothing in
-/// the first second, nothing where standard error is no terminal. Drawn anew as time passes, also while a step
+/// the first second, nothing where standard error is no terminal, or the variable CI is set. Drawn anew as time passes, also while a step
 /// tells nothing. Verbose: a line for each step instead, wherever it goes.
 class ProgressLine {
  public:

@@ -150,7 +150,7 @@ std::string acceleration_text(double metres_per_second_squared) {
 }
 
 std::string load_text(double metres_per_second_squared) {
-  const std::string text = acceleration_text(metres_per_second_squared);
+  std::string text = acceleration_text(metres_per_second_squared);
   if (std::isinf(metres_per_second_squared)) return text;
   return text + " (" + rounded_text(without_rounding(metres_per_second_squared) / kStandardGravity, 3) +
          " g)";

@@ -61,6 +61,16 @@ TEST_CASE("figure: the names of panels and lines are escaped") {
   CHECK(svg.find("&lt;b&gt;&amp;&quot;") != std::string::npos);
 }
 
+TEST_CASE("figure: the legend names areas, each name once") {
+  Figure figure = ramp();
+  const FigureArea area{"keep-out", {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}};
+  figure.areas = {area, area};
+  const std::string svg = figures_svg({figure});
+  const std::size_t first = svg.find(">keep-out</text>");
+  REQUIRE(first != std::string::npos);
+  CHECK(svg.find(">keep-out</text>", first + 1) == std::string::npos);
+}
+
 TEST_CASE("figure: a value that is not finite interrupts its line") {
   Figure figure = ramp();
   figure.lines[1] = {"gap", {0.0, 1.0, 2.0, 3.0}, {0.0, std::nan(""), 1.0, 2.0}, false};

@@ -34,7 +34,7 @@ constexpr const char* kStyle =
     "@media "
     "print{@page{margin:14mm}:root{--paper:#fff;--panel:#fff;--ink:#16202a;--soft:#52606d;--grid:#dfe4e8}"
     "body{max-width:none;padding:0;font-size:9pt}"
-    ".figures{columns:1}figure{border:0;padding:0}figure svg{max-height:112mm}"
+    ".figures{columns:1}figure{border:0;padding:0}figure svg{max-height:96mm}"
     ".scroll{border:0;overflow:visible;padding:0}tr{break-inside:avoid}"
     "table{font-size:7.5pt}th,td{padding:2px 4px}th:first-child{min-width:6em}}";
 

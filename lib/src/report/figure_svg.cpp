@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -192,43 +193,59 @@ class Panel {
                        style == 0 ? "" : fmt::format(" stroke-dasharray=\"{}\"", kDashes[style]));
   }
 
-  [[nodiscard]] static double entry_width(const FigureLine& line) {
-    return 48.0 + 7.2 * static_cast<double>(line.name.size());
+  /// What a legend names: a line, or all areas of one name.
+  struct LegendEntry {
+    const std::string* name;
+    std::optional<std::size_t> line;
+  };
+
+  [[nodiscard]] std::vector<LegendEntry> legend_entries() const {
+    std::vector<LegendEntry> entries;
+    // The title names a line that is alone.
+    if (figure_.lines.size() == 1 && figure_.areas.empty()) return entries;
+    for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
+      if (!figure_.lines[i].name.empty()) entries.push_back({&figure_.lines[i].name, i});
+    }
+    for (const FigureArea& area : figure_.areas) {
+      const bool named = std::any_of(entries.begin(), entries.end(), [&](const LegendEntry& entry) {
+        return !entry.line && *entry.name == area.name;
+      });
+      if (!named) entries.push_back({&area.name, {}});
+    }
+    return entries;
   }
 
   /// Places legend entries left to right, top to bottom; returns the rows, and calls `place` for each entry.
   int lay_out_legend(auto&& place) const {
     double x = 0.0;
     int row = 0;
-    bool any = false;
-    // The title names a line that is alone.
-    if (figure_.lines.size() == 1 && figure_.areas.empty()) return 0;
-    for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
-      if (figure_.lines[i].name.empty()) continue;
-      const double needed = entry_width(figure_.lines[i]);
+    const std::vector<LegendEntry> entries = legend_entries();
+    for (const LegendEntry& entry : entries) {
+      const double needed = 48.0 + 7.2 * static_cast<double>(entry.name->size());
       if (x > 0.0 && x + needed > inner_width_) {
         x = 0.0;
         ++row;
       }
-      place(i, kLeft + x, row);
+      place(entry, kLeft + x, row);
       x += needed;
-      any = true;
     }
-    return any ? row + 1 : 0;
+    return entries.empty() ? 0 : row + 1;
   }
 
   [[nodiscard]] int legend_rows() const {
-    return lay_out_legend([](std::size_t, double, int) {});
+    return lay_out_legend([](const LegendEntry&, double, int) {});
   }
 
   [[nodiscard]] std::string legend() const {
     std::string text;
     const double top = kTop + inner_height_ + kBottom + 12.0;
-    lay_out_legend([&](std::size_t i, double x, int row) {
+    lay_out_legend([&](const LegendEntry& entry, double x, int row) {
       const double y = top + kLegendLine * row;
-      text += fmt::format(
-          "<path class=\"line\" {} d=\"M{:.2f} {:.2f}h28\"/><text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n",
-          stroke(i), x, y - 4.0, x + 34.0, y, escaped_markup(figure_.lines[i].name));
+      text += entry.line ? fmt::format("<path class=\"line\" {} d=\"M{:.2f} {:.2f}h28\"/>",
+                                       stroke(*entry.line), x, y - 4.0)
+                         : fmt::format("<path class=\"area\" d=\"M{:.2f} {:.2f}h28v10h-28Z\"/>", x, y - 9.0);
+      text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", x + 34.0, y,
+                          escaped_markup(*entry.name));
     });
     return text;
   }
