@@ -93,9 +93,18 @@ std::vector<double> friction_angles_deg(const Design& design) {
   return angles;
 }
 
+/// A curve that is drawn is the same at every friction: fitting it to measured points takes its time once.
+/// @param own  the entry of the design's own centerline
+Entry at_friction(Design design, const Entry& own) {
+  const CenterlineKind kind = design.centerline.kind;
+  const bool is_drawn = kind == CenterlineKind::segments || kind == CenterlineKind::points;
+  if (!is_drawn || !own.track) return solved(std::move(design), {});
+  return entry_of(std::move(design), [&](const Design& one) { return ride(one, own.track->centerline); });
+}
+
 /// Two panels over the friction angle: travel time, and the steepest slope anywhere on the track.
 /// Limits are left aside: a search for each friction would take minutes.
-std::vector<Figure> over_friction(Design design, const RunContext& context) {
+std::vector<Figure> over_friction(Design design, const Entry& own, const RunContext& context) {
   const std::string aside = design.limits ? ", without limits" : "";
   design = without_limits(std::move(design));
   const double missing = std::numeric_limits<double>::quiet_NaN();
@@ -115,7 +124,7 @@ std::vector<Figure> over_friction(Design design, const RunContext& context) {
     for (const double angle : friction_angles_deg(design)) {
       Design one = of_kind(design, kind);
       one.body.friction = Friction::from_angle(Angle::from_degrees(angle));
-      const Entry entry = solved(std::move(one), {});
+      const Entry entry = at_friction(std::move(one), own);
       const bool arrives = entry.track && entry.track->motion.arrived();
       times.xs.push_back(angle);
       times.ys.push_back(arrives ? entry.track->motion.travel_time() : missing);
@@ -193,7 +202,7 @@ std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>
                                  ride_figure(RideQuantity::speed, rides)};
   // A free finish is by now where the track within the limits ends.
   const Design fixed = of_kind(entries.back().design, design.centerline.kind);
-  for (Figure& figure : over_friction(fixed, context)) figures.push_back(std::move(figure));
+  for (Figure& figure : over_friction(fixed, entries.front(), context)) figures.push_back(std::move(figure));
   return figures;
 }
 

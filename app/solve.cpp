@@ -29,7 +29,7 @@ constexpr const char* kFooter =
     "  glissade solve designs/grain_chute.yaml\n"
     "  glissade solve designs/grain_chute.yaml --set body.friction_angle=19deg\n"
     "  glissade solve --run 10 --drop 5 --friction-angle 11deg\n"
-    "  glissade solve --run 10 --drop 5 --friction-coefficient 0.2 --p 100 --json";
+    "  glissade solve --run 10 --drop 5 --friction-coefficient 0.2 --p 127 --json";
 
 struct Options {
   TrackInput input{TrackInput::Scope::one_kind};

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +36,25 @@ Block code_block(const std::string& text, const std::string& heading, const std:
   return {from, text.find("\n```", from - 1) + 1 - from};
 }
 
+std::vector<std::string> with_help(const std::string& command) {
+  if (command.empty()) return {"--help"};
+  return {command, "--help"};
+}
+
+/// The lines below "Examples:", without the remarks beside them.
+std::vector<std::string> examples_of(const std::string& help) {
+  std::vector<std::string> examples;
+  const std::string heading = "Examples:\n";
+  const std::size_t start = help.find(heading);
+  if (start == std::string::npos) return examples;
+  std::istringstream lines(help.substr(start + heading.size()));
+  for (std::string line; std::getline(lines, line) && !line.empty();) {
+    line.erase(0, line.find_first_not_of(' '));
+    examples.push_back(line.substr(0, line.find("   ")));
+  }
+  return examples;
+}
+
 }  // namespace
 
 TEST_CASE("docs/cli.md quotes the help of every command as the program prints it") {
@@ -42,9 +63,7 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
   std::string text = bytes_of(path);
   const bool update = std::getenv("GLISSADE_UPDATE_GOLDEN") != nullptr;
   for (const std::string command : {"", "build", "solve", "compare", "plot", "inspect", "init"}) {
-    std::vector<std::string> arguments = {"--help"};
-    if (!command.empty()) arguments.insert(arguments.begin(), command);
-    const Outcome help = glissade_run(arguments);
+    const Outcome help = glissade_run(with_help(command));
     REQUIRE(help.exit_code == 0);
     const std::string heading = command.empty() ? "## glissade\n" : "## glissade " + command + "\n";
     const Block quoted = code_block(text, heading, "text");
@@ -63,6 +82,28 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
     CHECK(longest <= 110);
   }
   if (update) put_bytes(path, text);
+}
+
+TEST_CASE("every example of --help does what it says") {
+  const TempDir place;
+  const RunLimits here{place.path(), {}, {}};
+  std::filesystem::create_directory_symlink(GLISSADE_DESIGNS, place / "designs");
+  const std::string program = GLISSADE_PROGRAM;
+  const std::string find = "PATH=" + program.substr(0, program.rfind('/')) + ":$PATH; ";
+  std::size_t tried = 0;
+  for (const std::string command : {"", "init", "build", "solve", "compare", "plot", "inspect"}) {
+    if (command == "inspect") {
+      std::filesystem::copy_file(place / "out/grain_chute/grain_chute.off", place / "part.off");
+    }
+    for (const std::string& example : examples_of(glissade_run(with_help(command)).output)) {
+      INFO(example);
+      const Outcome outcome = run_program("sh", {"-c", find + example}, here);
+      INFO(outcome.errors);
+      CHECK(outcome.exit_code == 0);
+      ++tried;
+    }
+  }
+  CHECK(tried >= 20);
 }
 
 TEST_CASE("the first design of the README builds, and has at most twenty lines") {
