@@ -24,6 +24,9 @@ function build(design, ...options) {
 
 const nearly = (a, b, what) => assert.ok(Math.abs(a - b) <= 1e-9 * Math.max(Math.abs(a), Math.abs(b), 1e-12), `${what}: ${a} against ${b}`);
 
+// A browser without a graphics card draws every pixel by hand: where the size does not matter, a small window.
+const SMALL = { viewport: { width: 640, height: 480 } };
+
 let browser;
 let chute;
 before(async () => {
@@ -39,7 +42,7 @@ describe("every shipped design", () => {
   for (const name of shipped) {
     test(`${name}: the page opens without complaint and tells what --json tells`, async () => {
       const { file, json } = name === "grain_chute.yaml" ? chute : build(path.join(designs, name));
-      const { page, complaints } = await open(browser, file);
+      const { page, complaints } = await open(browser, file, SMALL);
       const doc = await page.evaluate(() => JSON.parse(document.getElementById("glissade-data").textContent));
       assert.deepEqual(complaints, []);
       for (const key of ["travel_time_s", "exit_speed_m_per_s", "exit_slope_angle_deg", "arc_length_m", "max_normal_load_m_per_s2"]) {
@@ -59,7 +62,7 @@ describe("a solid of a million facets", () => {
     const { file, json } = build(path.join(designs, "powder_chute.yaml"), "--set", "mesh.tolerance=0.003mm", "--set", "export=[stl]");
     assert.ok(json.mesh.triangles > 1e6, `${json.mesh.triangles} facets`);
     assert.ok(statSync(file).size < 10e6, `${statSync(file).size} bytes`);
-    const { page, complaints } = await open(browser, file);
+    const { page, complaints } = await open(browser, file, SMALL);
     assert.match(await page.locator("#solid").textContent(), new RegExp(`The files hold ${json.mesh.triangles} facets; this view shows`));
     assert.deepEqual(complaints, []);
     await page.close();
@@ -279,7 +282,7 @@ export: [stl]
     const file = path.join(work, "limited.yaml");
     writeFileSync(file, design);
     const { file: report, json } = build(file);
-    const { page, complaints } = await open(browser, report);
+    const { page, complaints } = await open(browser, report, SMALL);
     const rows = await page.locator("#limits tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
     assert.equal(rows.length, json.limits.length);
     const slope = rows.find(([name]) => name === "slope angle");
