@@ -151,33 +151,46 @@ class Minimiser {
 
   /// @param known  for the curvature of the Lagrangian, and for where the program's solution may begin
   [[nodiscard]] Point point(State state, const Multipliers& known) const {
+    Point point = linearised(std::move(state));
+    set_metric(point, known);
+    set_solution(point, known);
+    return point;
+  }
+
+  [[nodiscard]] Point linearised(State state) const {
     Point point;
     QuadraticProgram& program = point.program;
     program.gradient = rows_->objective_gradient(state);
     rows_->equalities(state, program.equality_value, program.equality);
-    Vector equality = known.equality;
-    equality.resize(program.equality_value.size(), 0.0);
-    point.metric = metric_of(rows_->hessian(state, equality, known.active, known.inequality, 1.0),
-                             program.equality, jacobian_of(*rows_, state, known.active, n_));
     point.set = rows_->candidates(state, kBand);
     program.inequality_value = values_of(*rows_, state, point.set);
     program.inequality = jacobian_of(*rows_, state, point.set, n_);
+    point.state = std::move(state);
+    return point;
+  }
+
+  void set_metric(Point& point, const Multipliers& known) const {
+    Vector equality = known.equality;
+    equality.resize(point.program.equality_value.size(), 0.0);
+    point.metric = metric_of(rows_->hessian(point.state, equality, known.active, known.inequality, 1.0),
+                             point.program.equality, jacobian_of(*rows_, point.state, known.active, n_));
+  }
+
+  void set_solution(Point& point, const Multipliers& known) const {
     std::vector<std::size_t> likely;
     for (const Row& row : known.active) {
       const auto found = std::find(point.set.begin(), point.set.end(), row);
       if (found != point.set.end()) likely.push_back(static_cast<std::size_t>(found - point.set.begin()));
     }
-    point.solution = solve(program, point.metric, likely);
-    point.next.equality = point.solution.equality;
+    point.solution = solve(point.program, point.metric, likely);
+    point.next = Multipliers{point.solution.equality, {}, {}};
     for (const std::size_t i : point.solution.active) {
       point.next.active.push_back(point.set[i]);
       point.next.inequality.push_back(point.solution.inequality[i]);
     }
-    Vector gradient = program.gradient;
+    Vector gradient = point.program.gradient;
     point.metric.forward(gradient.data());
     point.distance = point.solution.length / norm(gradient);
-    point.state = std::move(state);
-    return point;
   }
 
   [[nodiscard]] static bool solved(const Point& point) {
@@ -194,22 +207,57 @@ class Minimiser {
            std::all_of(point.solution.active.begin(), point.solution.active.end(), is_tight);
   }
 
-  /// Newton steps, as long as each next one would be clearly shorter.
+  [[nodiscard]] bool is_coarse() const { return track_->mesh().knots.size() < kCoarse; }
+
+  /// Newton steps. From far away they are taken only if they arrive.
   void approach() {
-    constexpr int kMostSteps = 8;
-    constexpr double kNear = 0.3;
-    constexpr double kShorter = 0.7;
-    for (int step = 0; step < kMostSteps; ++step) {
-      if (control_.stop()) stopped_ = true;
-      if (stopped_ || !solved(point_) || point_.distance > kNear || has_arrived(point_)) return;
-      Vector z = point_.state.z;
-      add_scaled(z.data(), 1.0, point_.solution.step.data(), n_);
-      if (!track_->is_track(z)) return;
-      ++control_.evaluations;
-      Point next = point(rows_->state(z, true), point_.next);
-      if (!solved(next) || (next.distance > kShorter * point_.distance && !has_arrived(next))) return;
-      point_ = std::move(next);
+    constexpr double kNear = 0.5;
+    if (control_.stop()) stopped_ = true;
+    if (stopped_ || !solved(point_) || has_arrived(point_)) return;
+    if (point_.distance <= kNear) {
+      take_steps();
+      return;
     }
+    // On a finer mesh the start is the optimum of a coarser one.
+    if (is_coarse()) return;
+    Point begun = point_;
+    take_steps();
+    if (!has_arrived(point_)) point_ = std::move(begun);
+  }
+
+  void take_steps() {
+    constexpr int kMostSteps = 12;
+    for (int step = 0; step < kMostSteps; ++step) {
+      if (!advance() || !solved(point_) || has_arrived(point_)) return;
+      if (control_.stop()) stopped_ = true;
+      if (stopped_) return;
+    }
+  }
+
+  /// The part of the step after which the next one, in the same metric, is shorter.
+  /// Source: P. Deuflhard, "Newton Methods for Nonlinear Problems" (2004), the natural monotonicity test.
+  /// @return false if there is none
+  [[nodiscard]] bool advance() {
+    constexpr double kParts[] = {1.0, 0.5, 0.2};
+    constexpr double kShorter = 0.3;
+    for (const double part : kParts) {
+      Vector z = point_.state.z;
+      add_scaled(z.data(), part, point_.solution.step.data(), n_);
+      if (!track_->is_track(z)) continue;
+      ++control_.evaluations;
+      Point next = linearised(rows_->state(z, true));
+      next.metric = point_.metric;
+      set_solution(next, point_.next);
+      if (!solved(next)) continue;
+      if (next.distance > (1.0 - kShorter * part) * point_.distance && !has_arrived(next)) continue;
+      point_ = std::move(next);
+      if (has_arrived(point_)) return true;
+      const Multipliers known = point_.next;
+      set_metric(point_, known);
+      set_solution(point_, known);
+      return true;
+    }
+    return false;
   }
 
   /// How far the steepest descent would break a row.
@@ -255,7 +303,7 @@ class Minimiser {
 
   /// The rows that can matter on the way: tight where the step leads, or near. All of them on a coarse mesh.
   [[nodiscard]] std::vector<Row> working_set() const {
-    if (track_->mesh().knots.size() < kCoarse) return rows_->candidates(point_.state, HUGE_VAL);
+    if (is_coarse()) return rows_->candidates(point_.state, HUGE_VAL);
     std::vector<Row> set;
     for (std::size_t i = 0; i < point_.set.size(); ++i) {
       const double now = point_.program.inequality_value[i];
