@@ -30,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kCoarsePieces = 12;
 constexpr std::size_t kMiddlePieces = 16;
 constexpr std::size_t kFinerPieces = 24;
+constexpr std::size_t kMovedLevels = 2;
 // Pieces of the mesh on which a track is looked for that keeps the limits at all.
 constexpr std::size_t kRescuePieces = 20;
 constexpr double kCoarseTolerance = 1e-3;
@@ -197,24 +198,31 @@ class Searcher {
         levels.push_back(kMiddlePieces);
       }
       if (pieces > kFinerPieces) levels.push_back(kFinerPieces);
-      levels.push_back(pieces);
+      // The last of them only where the places at which limits change over have moved.
+      levels.insert(levels.end(), 1 + kMovedLevels, pieces);
     }
     double done = 0.2;
-    for (const std::size_t level : levels) {
+    for (std::size_t level = 0; level < levels.size(); ++level) {
       if (found.stopped) break;
+      const std::vector<Switch> switches = switches_of(problem, found);
+      const bool last_ones = level + kMovedLevels >= levels.size();
+      if (last_ones && settled(switches)) break;
       tell("finer track", done);
-      done += 0.2;
-      control_.tolerance = level == levels.back() ? options_.tolerance : kCoarseTolerance;
-      control_.most_rounds = 10;
-      const Mesh mesh =
-          mesh_with(problem, refined_knots(*found.track, found.z, switches_of(problem, found), level),
-                    found.z[found.track->layout().length()]);
+      done += 0.7 / static_cast<double>(levels.size());
+      control_.tolerance = levels[level] == levels.back() ? options_.tolerance : kCoarseTolerance;
+      control_.most_rounds = levels[level] == levels.back() ? 10 : 5;
+      const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
+                                  found.z[found.track->layout().length()]);
       Found next = minimise(problem, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)),
                             margins_, control_);
       if (next.stopped && !next.feasible(kNearlyFeasible)) {
         found.stopped = true;
         break;
       }
+      const auto converged = [&](const Found& track) {
+        return track.residual <= options_.tolerance && track.feasible(options_.limit_tolerance);
+      };
+      if (last_ones && converged(found) && !converged(next)) break;
       found = std::move(next);
     }
     candidate.stopped = candidate.stopped || found.stopped;
@@ -352,10 +360,8 @@ std::vector<Passages> all_passages(const Limits& limits) {
 std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
   // Seconds, or m/s where speed alone counts.
   const double objective_si = problem.time_weight > 0.0 ? problem.time : problem.speed;
-  constexpr double kAtBound = 1e-5;
   std::vector<ActiveLimit> result;
-  const State state = found.rows->state(found.z, false);
-  const double spacing = 1.5 / static_cast<double>(found.track->layout().knots);
+  const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
     const LimitSpec& limit = problem.limits[i];
     ActiveLimit active;
@@ -363,7 +369,6 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
     active.value = limit.bound_si;
     active.unit = limit.unit;
     double multiplier = 0.0;
-    std::vector<double> places;
     for (std::size_t k = 0; k < found.active.size(); ++k) {
       if (found.active[k].limit == i) multiplier += found.inequality[k];
     }
@@ -374,16 +379,8 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
       }
     }
     if (multiplier <= 0.0) continue;
-    for (const Row& row : found.rows->candidates(state, kAtBound)) {
-      if (row.limit == i) places.push_back(found.rows->place(state, row));
-    }
-    std::sort(places.begin(), places.end());
-    for (const double place : places) {
-      if (!active.where.empty() && place - active.where.back().to / problem.chord <= spacing) {
-        active.where.back().to = place * problem.chord;
-      } else {
-        active.where.push_back({place * problem.chord, place * problem.chord});
-      }
+    for (const Span& span : bindings[i]) {
+      active.where.push_back({span.from * problem.chord, span.to * problem.chord});
     }
     active.price = multiplier / limit.scale * limit.per_si * objective_si;
     result.push_back(std::move(active));

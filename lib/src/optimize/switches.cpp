@@ -57,63 +57,151 @@ double slack_within(Measure measure) {
 
 /// Places where a limit that carries a price begins or ceases to bind, counted in pieces.
 std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& found) {
-  constexpr double kAtBound = 1e-6;
-  constexpr double kSameStretch = 1.5;
   constexpr double kEnd = 1e-6;
-  struct Place {
-    double at = 0.0;
-    double slack = 0.0;
-  };
   const Mesh& mesh = found.track->mesh();
-  const State state = found.rows->state(found.z, false);
   const double length = found.z[found.track->layout().length()];
   std::vector<double> price(problem.limits.size(), 0.0);
   for (std::size_t k = 0; k < found.active.size(); ++k) price[found.active[k].limit] += found.inequality[k];
-  std::vector<std::vector<Place>> places(problem.limits.size());
-  for (const Row& row : found.rows->candidates(state, HUGE_VAL)) {
-    if (!holds_along(problem.limits[row.limit].measure) || price[row.limit] <= 0.0) continue;
-    const double sigma = (found.rows->place(state, row) - mesh.lead_in) / length;
-    places[row.limit].push_back({count_pieces(mesh.knots, sigma), -found.rows->value(state, row)});
-  }
+  const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   std::vector<double> ends;
-  const auto add_end = [&](double at) {
-    if (at > kEnd && at < static_cast<double>(mesh.knots.size() - 1) - kEnd) ends.push_back(at);
-  };
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    std::stable_sort(places[i].begin(), places[i].end(),
-                     [](const Place& a, const Place& b) { return a.at < b.at; });
-    const double shallow = slack_within(problem.limits[i].measure);
-    std::optional<double> bound_at;
-    double deepest = 0.0;
-    for (const Place& place : places[i]) {
-      deepest = std::max(deepest, place.slack);
-      if (place.slack > kAtBound) continue;
-      const bool goes_on = bound_at && (deepest < shallow || place.at - *bound_at < kSameStretch);
-      if (!goes_on) {
-        if (bound_at) add_end(*bound_at);
-        add_end(place.at);
+  for (std::size_t i = 0; i < bindings.size(); ++i) {
+    if (price[i] <= 0.0 || !holds_along(problem.limits[i].measure)) continue;
+    for (const Span& span : bindings[i]) {
+      for (const double place : {span.from, span.to}) {
+        const double at = count_pieces(mesh.knots, (place - mesh.lead_in) / length);
+        if (at > kEnd && at < static_cast<double>(mesh.knots.size() - 1) - kEnd) ends.push_back(at);
       }
-      bound_at = place.at;
-      deepest = 0.0;
     }
-    if (bound_at) add_end(*bound_at);
   }
   return ends;
+}
+
+/// Slope angle of a track found at any place of its core.
+class SlopeAngle {
+ public:
+  explicit SlopeAngle(const Found& found)
+      : knots_(found.track->mesh().knots), turns_(knots_.size()), at_knots_(knots_.size()) {
+    const Layout& layout = found.track->layout();
+    for (std::size_t i = 0; i < knots_.size(); ++i) turns_[i] = found.z[layout.turn(i)];
+    at_knots_[0] = found.z[layout.angle()];
+    for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
+      at_knots_[i + 1] = at_knots_[i] - 0.5 * (knots_[i + 1] - knots_[i]) * (turns_[i] + turns_[i + 1]);
+    }
+  }
+  /// @param share  of the way through the piece
+  [[nodiscard]] double value(std::size_t piece, double share) const {
+    const double bend = turns_[piece] + 0.5 * share * (turns_[piece + 1] - turns_[piece]);
+    return at_knots_[piece] - share * (knots_[piece + 1] - knots_[piece]) * bend;
+  }
+
+ private:
+  const Vector& knots_;
+  Vector turns_;
+  Vector at_knots_;
+};
+
+/// The quadratic B-spline of four knots, ascending, of which two may coincide.
+double b_spline(const std::array<double, 4>& knot, double at) {
+  const auto rising = [&](std::size_t i, std::size_t order) {
+    const double width = knot[i + order] - knot[i];
+    return width > 0.0 ? (at - knot[i]) / width : 0.0;
+  };
+  const auto hat = [&](std::size_t i) {
+    if (at < knot[i] || at > knot[i + 2]) return 0.0;
+    return at < knot[i + 1] ? rising(i, 1) : 1.0 - rising(i + 1, 1);
+  };
+  return rising(0, 2) * hat(0) + (1.0 - rising(1, 2)) * hat(1);
+}
+
+/// A parabola in sigma.
+struct Parabola {
+  double origin = 0.0;
+  std::array<double, 3> factor{};
+  [[nodiscard]] double value(double sigma) const {
+    const double t = sigma - origin;
+    return factor[0] + t * (factor[1] + t * factor[2]);
+  }
+  [[nodiscard]] double slope(double sigma) const { return factor[1] + 2.0 * (sigma - origin) * factor[2]; }
+};
+
+/// The slope angle sought on one side of a jump.
+///
+/// The track found differs from it by what is square to every change of shape that the knots allow. Against
+/// those that leave the jump alone, the three next to it, a parabola looks the same for both.
+/// @param from      the knot at the jump
+/// @param backwards  before the jump rather than behind it
+/// @param most      pieces up to the next jump; >= 3
+Parabola beside_jump(const Vector& knots, const SlopeAngle& found, std::size_t from, bool backwards,
+                     std::size_t most) {
+  constexpr std::size_t kTests = 3;
+  // Gauss-Legendre: products of two parabolas are integrated exactly.
+  constexpr double kOffset = 0.3872983346207417;
+  constexpr std::array<double, 3> kShare = {0.5 - kOffset, 0.5, 0.5 + kOffset};
+  constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  const double sign = backwards ? -1.0 : 1.0;
+  const double origin = knots[from];
+  const std::size_t reach = std::min(most, kTests + 1);
+  const auto away = [&](std::size_t k) {
+    const std::size_t step = std::min(k, reach);
+    return sign * (knots[backwards ? from - step : from + step] - origin);
+  };
+  // Both the jump and, if it is as near as that, the next one are double knots.
+  std::array<std::array<double, 4>, kTests> tests{};
+  for (std::size_t j = 0; j < kTests; ++j) {
+    for (std::size_t k = 0; k < 4; ++k) tests[j][k] = away(j + k == 0 ? 0 : j + k - 1);
+  }
+  Matrix system(kTests, kTests);
+  Vector right(kTests, 0.0);
+  const double unit = away(reach);
+  for (std::size_t k = 0; k < reach; ++k) {
+    const std::size_t piece = backwards ? from - k - 1 : from + k;
+    const double width = away(k + 1) - away(k);
+    for (std::size_t q = 0; q < kShare.size(); ++q) {
+      const double at = away(k) + kShare[q] * width;
+      const double t = at / unit;
+      const double zeta = found.value(piece, backwards ? 1.0 - kShare[q] : kShare[q]);
+      for (std::size_t j = 0; j < kTests; ++j) {
+        const double test = kWeight[q] * width * b_spline(tests[j], at);
+        system(j, 0) += test;
+        system(j, 1) += test * t;
+        system(j, 2) += test * t * t;
+        right[j] += test * zeta;
+      }
+    }
+  }
+  // Cramer's rule: three unknowns of like size.
+  const auto determinant = [&](std::size_t replaced) {
+    std::array<std::array<double, kTests>, kTests> m{};
+    for (std::size_t i = 0; i < kTests; ++i) {
+      for (std::size_t j = 0; j < kTests; ++j) m[i][j] = j == replaced ? right[i] : system(i, j);
+    }
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  };
+  const double whole = determinant(kTests);
+  Parabola side;
+  side.origin = origin;
+  side.factor = {determinant(0) / whole, sign * determinant(1) / whole / unit,
+                 determinant(2) / whole / (unit * unit)};
+  return side;
 }
 
 /// Least squares for a slope angle of two parabolas that meet, through the track before and behind a blurred
 /// stretch.
 class Kink {
  public:
-  Kink(const Found& found, Span seen, Span blurred) : seen_(seen) {
-    Shape shape;
-    found.track->shape(found.z, shape, false);
-    const std::vector<Station>& stations = found.track->stations();
-    for (std::size_t i = 1; i < stations.size(); ++i) {
-      const double sigma = stations[i].sigma;
-      if (stations[i].part != Part::core || sigma < seen.from || sigma > seen.to) continue;
-      if (sigma > blurred.from && sigma < blurred.to) continue;
-      points_.push_back({sigma, shape.zeta[i], (sigma - stations[i - 1].sigma) / (seen.to - seen.from)});
+  Kink(const Vector& knots, const SlopeAngle& found, std::size_t first, std::size_t last, Span blurred)
+      : seen_{knots[first], knots[last]} {
+    constexpr std::size_t kPoints = 6;
+    for (std::size_t i = first; i < last; ++i) {
+      if (knots[i] >= blurred.from && knots[i + 1] <= blurred.to) continue;
+      const double width = knots[i + 1] - knots[i];
+      for (std::size_t k = 0; k < kPoints; ++k) {
+        const double share = (static_cast<double>(k) + 0.5) / kPoints;
+        points_.push_back({knots[i] + share * width, found.value(i, share),
+                           width / (kPoints * (knots[last] - knots[first]))});
+      }
     }
   }
 
@@ -193,11 +281,11 @@ class JumpFinder {
       : found_(found),
         knots_(found.track->mesh().knots),
         pieces_(knots_.size() - 1),
+        slope_angle_(found),
         ends_(ends_of_binding(problem, found)),
         wide_(knots_.size(), 0.0) {
     for (std::size_t i = 0; i < pieces_; ++i) {
-      const bool narrow = knots_[i + 1] - knots_[i] < 2.0 * kPair;
-      wide_[i + 1] = wide_[i] + (narrow ? 0.0 : 1.0);
+      wide_[i + 1] = wide_[i] + (is_narrow(i) ? 0.0 : 1.0);
     }
   }
 
@@ -219,6 +307,9 @@ class JumpFinder {
   }
 
  private:
+  [[nodiscard]] bool is_narrow(std::size_t piece) const {
+    return knots_[piece + 1] - knots_[piece] < 2.0 * kPair;
+  }
   [[nodiscard]] double turn(std::size_t knot) const { return found_.z[found_.track->layout().turn(knot)]; }
   [[nodiscard]] double change(std::size_t piece) const { return std::fabs(turn(piece + 1) - turn(piece)); }
   /// Whether curvature changes across a piece by much of what it is nearby.
@@ -273,8 +364,12 @@ class JumpFinder {
     Switch result;
     result.blurred = {knots_[begin], knots_[end]};
     if (wide_[before] == wide_[begin] || wide_[behind] == wide_[end]) return result;
-    const Kink kink(found_, {knots_[before], knots_[behind]}, result.blurred);
     const Span search{0.5 * (knots_[begin - 1] + knots_[begin]), 0.5 * (knots_[end] + knots_[end + 1])};
+    if (end == begin + 1 && is_narrow(begin)) {
+      result.jump = moved(begin, begin - first, last - end, search);
+      if (result.jump) return result;
+    }
+    const Kink kink(knots_, slope_angle_, before, behind, result.blurred);
     const double at = kink.best(search);
     const Kink::Fit fit = kink.fit(at);
     // Two parabolas that do not fit tell of more than one jump.
@@ -287,9 +382,27 @@ class JumpFinder {
     return result;
   }
 
+  /// Two knots around a jump that two knots stand around already, where the curves on both sides meet.
+  /// @param before,behind  pieces up to the next jumps
+  [[nodiscard]] std::optional<Span> moved(std::size_t pair, std::size_t before, std::size_t behind,
+                                          Span search) const {
+    constexpr std::size_t kNeeded = 3;
+    if (before < kNeeded || behind < kNeeded) return std::nullopt;
+    const Parabola left = beside_jump(knots_, slope_angle_, pair, true, before);
+    const Parabola right = beside_jump(knots_, slope_angle_, pair + 1, false, behind);
+    constexpr int kSteps = 6;
+    double at = 0.5 * (knots_[pair] + knots_[pair + 1]);
+    for (int step = 0; step < kSteps; ++step) {
+      at -= (right.value(at) - left.value(at)) / (right.slope(at) - left.slope(at));
+    }
+    if (!(at > search.from && at < search.to)) return std::nullopt;
+    return Span{at - 0.5 * kPair, at + 0.5 * kPair};
+  }
+
   const Found& found_;
   const Vector& knots_;
   std::size_t pieces_;
+  SlopeAngle slope_angle_;
   std::vector<double> ends_;
   std::vector<double> wide_;  ///< pieces before each knot, without those across a jump made out before
 };
@@ -405,6 +518,52 @@ class Demand {
 
 }  // namespace
 
+std::vector<std::vector<Span>> bindings_of(const ScaledProblem& problem, const Found& found) {
+  constexpr double kAtBound = 1e-6;
+  constexpr double kSameStretch = 1.5;
+  struct Place {
+    double at = 0.0;
+    double slack = 0.0;
+  };
+  const Mesh& mesh = found.track->mesh();
+  const State state = found.rows->state(found.z, false);
+  const double length = found.z[found.track->layout().length()];
+  const auto pieces_at = [&](double at) { return count_pieces(mesh.knots, (at - mesh.lead_in) / length); };
+  std::vector<std::vector<Place>> places(problem.limits.size());
+  for (const Row& row : found.rows->candidates(state, HUGE_VAL)) {
+    const double slack = -found.rows->value(state, row);
+    // How far a corner is tells of the track at one place, not along it.
+    if (row.foot && slack > kAtBound) continue;
+    const double at = found.rows->place(state, row);
+    places[row.limit].push_back({at, slack});
+    if (problem.limits[row.limit].measure != Measure::curvature_rate) continue;
+    const double width = mesh.knots[row.place + 1] - mesh.knots[row.place];
+    places[row.limit].push_back({at + width * length, slack});
+  }
+  std::vector<std::vector<Span>> bindings(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    // Of two rides at one place the closer one counts.
+    std::sort(places[i].begin(), places[i].end(),
+              [](const Place& a, const Place& b) { return a.at != b.at ? a.at < b.at : a.slack < b.slack; });
+    const auto end = std::unique(places[i].begin(), places[i].end(),
+                                 [](const Place& a, const Place& b) { return a.at == b.at; });
+    places[i].erase(end, places[i].end());
+    const double shallow = slack_within(problem.limits[i].measure);
+    double deepest = 0.0;
+    for (const Place& place : places[i]) {
+      deepest = std::max(deepest, place.slack);
+      if (place.slack > kAtBound) continue;
+      const bool goes_on =
+          !bindings[i].empty() &&
+          (deepest < shallow || pieces_at(place.at) - pieces_at(bindings[i].back().to) < kSameStretch);
+      if (!goes_on) bindings[i].push_back({place.at, place.at});
+      bindings[i].back().to = place.at;
+      deepest = 0.0;
+    }
+  }
+  return bindings;
+}
+
 std::vector<Switch> switches_of(const ScaledProblem& problem, const Found& found) {
   // Under a limit on its rate curvature does not jump.
   const bool smooth = std::any_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {
@@ -412,6 +571,16 @@ std::vector<Switch> switches_of(const ScaledProblem& problem, const Found& found
   });
   if (smooth) return {};
   return JumpFinder(problem, found).switches();
+}
+
+bool settled(const std::vector<Switch>& switches) {
+  constexpr double kSettled = 0.2 * kPair;
+  return std::all_of(switches.begin(), switches.end(), [](const Switch& change) {
+    if (!change.jump) return false;
+    const double before = std::fabs(change.jump->from - change.blurred.from);
+    const double behind = std::fabs(change.jump->to - change.blurred.to);
+    return std::max(before, behind) <= kSettled;
+  });
 }
 
 Vector refined_knots(const Transcription& track, const Vector& z, const std::vector<Switch>& switches,

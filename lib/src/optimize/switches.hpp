@@ -7,7 +7,7 @@
 
 namespace glissade::fastest {
 
-/// A stretch of the core, in shares of its length.
+/// A stretch of the track.
 struct Span {
   double from = 0.0;
   double to = 0.0;
@@ -18,12 +18,18 @@ struct Span {
 /// The fastest track's curvature jumps there. Between coarse knots a jump is found as a ramp, with ripples on
 /// either side; two knots close before and behind it take both out.
 struct Switch {
-  Span blurred;              ///< here the track found is not yet like the one sought
-  std::optional<Span> jump;  ///< where two knots belong; none where the jump could not be made out
+  Span blurred;              ///< shares of the core: here the track found is not yet like the one sought
+  std::optional<Span> jump;  ///< shares of the core: where two knots belong; none if it could not be made out
 };
+
+/// Where each limit binds, in arc length [chords].
+[[nodiscard]] std::vector<std::vector<Span>> bindings_of(const ScaledProblem& problem, const Found& found);
 
 /// Switches of a track found, in order.
 [[nodiscard]] std::vector<Switch> switches_of(const ScaledProblem& problem, const Found& found);
+
+/// Whether the track found has its knots at the switches already.
+[[nodiscard]] bool settled(const std::vector<Switch>& switches);
 
 /// Knots that share out the error of a track found, from its own third differences, with two at each jump
 /// and more of them where a jump could not be made out.
