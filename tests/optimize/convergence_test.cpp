@@ -4,6 +4,7 @@
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/hand_optima.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -15,9 +16,7 @@ using namespace glissade;
 
 namespace {
 
-double excess(const Problem& problem, int pieces) {
-  const double exact =
-      solve_coulomb_brachistochrone(problem.endpoints, problem.body.friction, problem.gravity).travel_time;
+double excess(const Problem& problem, double exact, int pieces) {
   OptimizeOptions options;
   options.pieces = pieces;
   options.tolerance = 1e-8;
@@ -33,10 +32,12 @@ TEST_CASE("the excess over the exact optimum falls faster than with the fourth p
     Problem problem;
     problem.endpoints = {10.0, 5.0};
     problem.body.friction = Friction::from_coefficient(mu);
+    const double exact =
+        solve_coulomb_brachistochrone(problem.endpoints, problem.body.friction, problem.gravity).travel_time;
     double before = 0.0;
     int pieces_before = 0;
     for (const int count : pieces) {
-      const double found = excess(problem, count);
+      const double found = excess(problem, exact, count);
       CAPTURE(mu, count, found);
       CHECK(found >= -kOptimizeUndershoot);
       if (pieces_before != 0) {
@@ -49,6 +50,40 @@ TEST_CASE("the excess over the exact optimum falls faster than with the fourth p
       }
       before = found;
       pieces_before = count;
+    }
+  }
+}
+
+TEST_CASE("the excess within limits that switch on or off falls below 1e-7") {
+  struct Limited {
+    const char* name = "";
+    double mu = 0.0;
+    Limits limits;
+    double exact = 0.0;
+  };
+  std::vector<Limited> cases(4);
+  cases[0] = {"wall", 0.0, {}, hand_optima::along_wall(10.0, 5.0, 0.4, 1.6).travel_time};
+  cases[0].limits.half_planes.push_back({{0.0, 1.6}, {-0.4, 1.0}, 0.0});
+  cases[1] = {"highest slope", 0.2, {}, hand_optima::below_slope(10.0, 5.0, 0.2, 0.8).travel_time};
+  cases[1].limits.slope_angle.highest = 0.8;
+  cases[2] = {"lowest slope", 0.0, {}, hand_optima::above_slope(10.0, 5.0, 0.3).travel_time};
+  cases[2].limits.slope_angle.lowest = 0.3;
+  cases[3] = {
+      "radius", 0.2, {}, hand_optima::above_radius(10.0, 5.0, 0.2, 3.0, {1.38, 1.01, -0.34}).travel_time};
+  cases[3].limits.smallest_valley_radius = 3.0;
+  const bool table = std::getenv("GLISSADE_TABLE") != nullptr;
+  for (const Limited& limited : cases) {
+    Problem problem;
+    problem.endpoints = {10.0, 5.0};
+    problem.gravity = hand_optima::kGravity;
+    problem.body.friction = Friction::from_coefficient(limited.mu);
+    problem.limits = limited.limits;
+    for (const int count : {12, 16, 24, 32, 48}) {
+      const double found = excess(problem, limited.exact, count);
+      CAPTURE(limited.name, count, found);
+      if (table) std::printf("%-13s  %3d  %9.2e\n", limited.name, count, found);
+      CHECK(found >= -kOptimizeUndershoot);
+      CHECK(found <= (count < 24 ? 1e-4 : 1e-7));
     }
   }
 }

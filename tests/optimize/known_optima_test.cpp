@@ -1,12 +1,15 @@
 // Limited problems whose optimum is known by another route: by hand, or on a fine mesh by a method that
 // shares nothing with the search.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/hand_optima.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -14,7 +17,7 @@ using namespace glissade;
 
 namespace {
 
-constexpr double kGravity = 9.81;
+using hand_optima::kGravity;
 
 double ramp_time(double length, double slope, double mu, double entry_speed) {
   const double pull = kGravity * (std::sin(slope) - mu * std::cos(slope));
@@ -35,55 +38,67 @@ double solved_time(const Problem& problem, int pieces = OptimizeOptions{}.pieces
   return optimum.report.travel_time;
 }
 
-/// Frictionless least time from rest to (run, drop) above the line drop <= wall_slope x + wall_drop.
-///
-/// The optimum falls along a cycloid that touches the line, follows the line, and leaves it along another
-/// cycloid that touches it. In contact both circles have rolled by theta, since a cycloid's slope is
-/// cot(theta/2); the first circle is known by that, the second one by the place where it leaves, which is
-/// found on a fine scan of the line from the condition that it passes through the finish.
-double wall_reference(double run, double drop, double wall_slope, double wall_drop) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const double theta = 2.0 * std::atan2(1.0, wall_slope);
-  const double x_per_r = theta - std::sin(theta);
-  const double y_per_r = 1.0 - std::cos(theta);
-  const double r = wall_drop / (y_per_r - wall_slope * x_per_r);
-  const double y_on = r * y_per_r;
-  const double sine = wall_slope / std::hypot(1.0, wall_slope);
-  struct Way {
-    double miss = NAN;
-    double time = 0.0;
-  };
-  const auto leaving_at = [&](double y, bool rising) {
-    Way way;
-    const double q = y / y_per_r;
-    const double cosine = 1.0 - drop / q;
-    if (cosine < -1.0) return way;
-    const double end = rising ? kTurn - std::acos(cosine) : std::acos(cosine);
-    if (end < theta) return way;
-    way.miss = (y - wall_drop) / wall_slope + q * (end - std::sin(end) - x_per_r) - run;
-    way.time = theta * std::sqrt(r / kGravity) +
-               (std::sqrt(2.0 * kGravity * y) - std::sqrt(2.0 * kGravity * y_on)) / (kGravity * sine) +
-               (end - theta) * std::sqrt(q / kGravity);
-    return way;
-  };
-  constexpr int kScan = 4000;
-  const double y_last = wall_slope * run + wall_drop;
-  double least = HUGE_VAL;
-  for (const bool rising : {false, true}) {
-    for (int i = 0; i < kScan; ++i) {
-      double low = y_on + (y_last - y_on) * i / kScan;
-      double high = y_on + (y_last - y_on) * (i + 1) / kScan;
-      const bool sign = leaving_at(low, rising).miss < 0.0;
-      if (std::isnan(leaving_at(low, rising).miss) || std::isnan(leaving_at(high, rising).miss)) continue;
-      if ((leaving_at(high, rising).miss < 0.0) == sign) continue;
-      for (int step = 0; step < 100; ++step) {
-        const double middle = 0.5 * (low + high);
-        ((leaving_at(middle, rising).miss < 0.0) == sign ? low : high) = middle;
-      }
-      least = std::min(least, leaving_at(low, rising).time);
+struct HandCase {
+  const char* name = "";
+  Problem problem;
+  hand_optima::Optimum exact;
+};
+
+Problem ramp(double mu) {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(mu);
+  problem.gravity = kGravity;
+  return problem;
+}
+
+/// Every limited problem whose optimum is known by hand, with that optimum.
+std::vector<HandCase> hand_cases() {
+  std::vector<HandCase> cases;
+  for (const double wall_drop : {1.3, 1.6, 1.9}) {
+    cases.push_back({"a straight wall", ramp(0.0), hand_optima::along_wall(10.0, 5.0, 0.4, wall_drop)});
+    cases.back().problem.limits.half_planes.push_back({{0.0, wall_drop}, {-0.4, 1.0}, 0.0});
+  }
+  for (const double mu : {0.0, 0.2}) {
+    for (const double highest : {0.6, 0.8, 1.0}) {
+      cases.push_back({"a highest slope", ramp(mu), hand_optima::below_slope(10.0, 5.0, mu, highest)});
+      cases.back().problem.limits.slope_angle.highest = highest;
     }
   }
-  return least;
+  for (const double lowest : {0.1, 0.3}) {
+    cases.push_back({"a lowest slope", ramp(0.0), hand_optima::above_slope(10.0, 5.0, lowest)});
+    cases.back().problem.limits.slope_angle.lowest = lowest;
+  }
+  const auto add_radius = [&](double mu, double radius, hand_optima::Turns near) {
+    cases.push_back({"a smallest radius", ramp(mu), hand_optima::above_radius(10.0, 5.0, mu, radius, near)});
+    cases.back().problem.limits.smallest_valley_radius = radius;
+  };
+  add_radius(0.0, 3.0, {1.46, 1.12, -0.18});
+  add_radius(0.0, 5.0, {1.38, 0.79, -0.19});
+  add_radius(0.0, 7.0, {1.29, 0.34, -0.21});
+  add_radius(0.2, 3.0, {1.38, 1.01, -0.34});
+  return cases;
+}
+
+std::shared_ptr<const ClothoidSpline> solved_track(const Problem& problem) {
+  return std::dynamic_pointer_cast<const ClothoidSpline>(optimize(problem).centerline);
+}
+
+/// All rising and falling of a curvature behind an arc length.
+double variation(const std::vector<hand_optima::Bend>& bends, double from) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < bends.size(); ++i) {
+    if (bends[i - 1].arc_length >= from) sum += std::fabs(bends[i].curvature - bends[i - 1].curvature);
+  }
+  return sum;
+}
+
+std::vector<hand_optima::Bend> bends_of(const ClothoidSpline& track) {
+  std::vector<hand_optima::Bend> bends{{0.0, track.segments().front().entry_curvature}};
+  for (const ClothoidSegment& segment : track.segments()) {
+    bends.push_back({bends.back().arc_length + segment.length, segment.exit_curvature});
+  }
+  return bends;
 }
 
 }  // namespace
@@ -98,20 +113,73 @@ TEST_CASE("a slope limit at the mean slope leaves the straight ramp alone") {
 }
 
 TEST_CASE(
-    "a straight wall below: falling to it, along it and away from it takes the time of the closed forms") {
-  // Frictionless, so that depth alone is speed.
-  Problem problem;
-  problem.endpoints = {10.0, 5.0};
-  problem.body.friction = Friction::from_coefficient(0.0);
-  for (const double wall_drop : {1.3, 1.6, 1.9}) {
-    CAPTURE(wall_drop);
-    const double slope = 0.4;
-    problem.limits = {};
-    problem.limits.half_planes.push_back({{0.0, wall_drop}, {-slope, 1.0}, 0.0});
-    const double reference = wall_reference(10.0, 5.0, slope, wall_drop);
-    CHECK(reference < 10.0);
-    CHECK(solved_time(problem) == Approx(reference).epsilon(3e-7));
-    CHECK(solved_time(problem) >= reference * (1.0 - 1e-8));
+    "a wall, a slope limit or a radius: the fastest track takes the time of the one put together by hand") {
+  // Measured: 3e-8 along the wall, 4e-10 else. The referee's own travel times are good to 1e-10.
+  constexpr double kExcess = 1e-7;
+  constexpr double kUndershoot = 1e-9;
+  for (const HandCase& known : hand_cases()) {
+    CAPTURE(known.name, known.exact.travel_time);
+    const double excess = solved_time(known.problem) / known.exact.travel_time - 1.0;
+    CHECK(excess <= kExcess);
+    // The wall is kept to 1e-7 of the chord.
+    CHECK(excess >= -kUndershoot);
+  }
+}
+
+TEST_CASE("curvature does not ripple where limits begin and cease to bind") {
+  for (const HandCase& known : hand_cases()) {
+    CAPTURE(known.name, known.exact.travel_time);
+    const auto track = solved_track(known.problem);
+    REQUIRE(track);
+    // Near a start at a cusp curvature has no bound.
+    const double from = 0.15 * track->length();
+    const double allowed = variation(known.exact.bends, from);
+    // Measured: 1.06 at most; 1.2 to 2.5 with knots that do not know where the limits change over.
+    CHECK(variation(bends_of(*track), from) <= 1.08 * allowed);
+  }
+}
+
+TEST_CASE("along an arc of the smallest radius curvature is that of the radius") {
+  for (const HandCase& known : hand_cases()) {
+    if (!known.problem.limits.smallest_valley_radius) continue;
+    const double radius = *known.problem.limits.smallest_valley_radius;
+    CAPTURE(radius, known.exact.travel_time);
+    const auto track = solved_track(known.problem);
+    REQUIRE(track);
+    const double end = known.exact.bends[1].arc_length - 2e-3 * track->length();
+    double s = 0.0;
+    for (const ClothoidSegment& segment : track->segments()) {
+      if (s + segment.length > end) break;
+      CHECK(segment.entry_curvature == Approx(1.0 / radius).epsilon(1e-6));
+      CHECK(segment.exit_curvature == Approx(1.0 / radius).epsilon(1e-6));
+      s += segment.length;
+    }
+    // The arc was met at all, and ends where it should.
+    CHECK(s >= 0.5 * end);
+  }
+}
+
+TEST_CASE("a limit's stretch in the report is the arc along which it binds by hand") {
+  for (const HandCase& known : hand_cases()) {
+    CAPTURE(known.name, known.exact.travel_time);
+    const Optimum optimum = optimize(known.problem);
+    REQUIRE(optimum.centerline);
+    REQUIRE(optimum.report.active.size() == 1);
+    REQUIRE(optimum.report.active.front().where.size() == 1);
+    const Stretch stretch = optimum.report.active.front().where.front();
+    // By hand: the places where curvature jumps.
+    std::vector<double> jumps;
+    for (std::size_t i = 1; i < known.exact.bends.size(); ++i) {
+      const hand_optima::Bend& before = known.exact.bends[i - 1];
+      const hand_optima::Bend& behind = known.exact.bends[i];
+      if (before.arc_length == behind.arc_length) jumps.push_back(behind.arc_length);
+    }
+    REQUIRE(!jumps.empty());
+    const double length = optimum.centerline->length();
+    const bool to_the_end = known.problem.limits.slope_angle.lowest.has_value();
+    CHECK(stretch.from ==
+          Approx(jumps.size() == 2 || to_the_end ? jumps.front() : 0.0).margin(2e-3 * length));
+    CHECK(stretch.to == Approx(to_the_end ? length : jumps.back()).margin(2e-3 * length));
   }
 }
 
@@ -151,8 +219,8 @@ TEST_CASE("a radius that joins two given straights is the arc between them") {
   const double by_hand =
       ramp_time(lead, turn, mu, 0.0) + arc_time +
       (std::sqrt(v(0.0)) - std::sqrt(v(0.0) - 2.0 * mu * kGravity * lead)) / (mu * kGravity);
-  // The search's curvature is continuous: it bends in and out over a piece, for which the arc alone has no
-  // room.
-  CHECK(optimum.report.travel_time >= by_hand * (1.0 - 1e-6));
-  CHECK(optimum.report.travel_time == Approx(by_hand).epsilon(2e-3));
+  // The search's curvature is continuous: it bends in and out over short ramps, for which the arc alone has no
+  // room. Measured: 1e-7.
+  CHECK(optimum.report.travel_time >= by_hand * (1.0 - 1e-9));
+  CHECK(optimum.report.travel_time == Approx(by_hand).epsilon(3e-7));
 }

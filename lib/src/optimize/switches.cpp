@@ -574,7 +574,7 @@ std::vector<Switch> switches_of(const ScaledProblem& problem, const Found& found
 }
 
 bool settled(const std::vector<Switch>& switches) {
-  constexpr double kSettled = 0.2 * kPair;
+  constexpr double kSettled = 0.1 * kPair;
   return std::all_of(switches.begin(), switches.end(), [](const Switch& change) {
     if (!change.jump) return false;
     const double before = std::fabs(change.jump->from - change.blurred.from);

@@ -1,0 +1,278 @@
+// Fastest tracks within one limit, by hand (docs/theory.md, the frictional brachistochrone).
+//
+// Where no limit binds up to the finish, the extremals are those of the fastest track from rest: one curve for
+// each slope angle at the exit and each scale. What the limit prescribes goes before; the slope angle is
+// continuous where the two meet, since it is the control of a regular problem, and so is speed, which fixes
+// the scale. The curvature jumps.
+
+#include "optimize/hand_optima.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <stdexcept>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/roots.hpp>
+
+namespace hand_optima {
+namespace {
+
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr int kSteps = 400;
+
+template <class Function>
+double integral(const Function& function, double from, double to) {
+  constexpr int kParts = 6;
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    const double a = from + (to - from) * i / kParts;
+    const double b = from + (to - from) * (i + 1) / kParts;
+    sum += boost::math::quadrature::gauss<double, 30>::integrate(function, a, b);
+  }
+  return sum;
+}
+
+template <class Function>
+double root(const Function& function, double low, double high) {
+  std::uintmax_t most = 200;
+  const auto ends = boost::math::tools::toms748_solve(function, low, high,
+                                                      boost::math::tools::eps_tolerance<double>(52), most);
+  return 0.5 * (ends.first + ends.second);
+}
+
+/// What is left of the fastest track from rest below a slope angle.
+class FreeArc {
+ public:
+  /// @param speed2  squared speed where it begins
+  FreeArc(double mu, double entry, double exit, double speed2)
+      : mu_(mu), entry_(entry), exit_(exit), q2_(1.0 - mu * mu + 2.0 * mu * std::tan(exit)) {
+    const double unit_speed = std::cos(entry) / denominator(entry);
+    scale_ = speed2 / (kGravity * unit_speed * unit_speed);
+  }
+  [[nodiscard]] double radius(double zeta) const {
+    const double e = denominator(zeta);
+    const double c = std::cos(zeta);
+    const double bracket = e * c + 4.0 * mu_ * c * c * (std::sin(zeta) - std::tan(exit_) * c);
+    return scale_ * bracket / (e * e * e);
+  }
+  [[nodiscard]] double run() const {
+    return integral([&](double zeta) { return std::cos(zeta) * radius(zeta); }, exit_, entry_);
+  }
+  [[nodiscard]] double drop() const {
+    return integral([&](double zeta) { return std::sin(zeta) * radius(zeta); }, exit_, entry_);
+  }
+  [[nodiscard]] double time() const {
+    const auto pace = [&](double zeta) {
+      return radius(zeta) * denominator(zeta) / (std::sqrt(kGravity * scale_) * std::cos(zeta));
+    };
+    return integral(pace, exit_, entry_);
+  }
+  void append_to(std::vector<Bend>& bends) const {
+    double s = bends.empty() ? 0.0 : bends.back().arc_length;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double zeta = entry_ + (exit_ - entry_) * i / kSteps;
+      if (i > 0) {
+        const double before = entry_ + (exit_ - entry_) * (i - 1) / kSteps;
+        s += boost::math::quadrature::gauss<double, 7>::integrate([&](double z) { return radius(z); }, zeta,
+                                                                  before);
+      }
+      bends.push_back({s, 1.0 / radius(zeta)});
+    }
+  }
+
+ private:
+  /// E cos^2
+  [[nodiscard]] double denominator(double zeta) const {
+    const double lean = std::sin(zeta) - mu_ * std::cos(zeta);
+    return lean * lean + q2_ * std::cos(zeta) * std::cos(zeta);
+  }
+  double mu_, entry_, exit_, q2_;
+  double scale_ = 1.0;
+};
+
+/// A cycloid of a circle of radius r between two angles rolled.
+void append_cycloid(std::vector<Bend>& bends, double r, double from, double to) {
+  const double s = bends.empty() ? 0.0 : bends.back().arc_length;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double theta = from + (to - from) * i / kSteps;
+    if (theta == 0.0) continue;  // curvature has no bound at the cusp
+    bends.push_back({s + 4.0 * r * (std::cos(0.5 * from) - std::cos(0.5 * theta)),
+                     1.0 / (4.0 * r * std::sin(0.5 * theta))});
+  }
+}
+
+void append_straight(std::vector<Bend>& bends, double length) {
+  const double s = bends.empty() ? 0.0 : bends.back().arc_length;
+  bends.push_back({s, 0.0});
+  bends.push_back({s + length, 0.0});
+}
+
+/// An arc from rest: squared speed by Roberts' formula.
+class ArcFromRest {
+ public:
+  ArcFromRest(double mu, double radius, double entry) : mu_(mu), radius_(radius), entry_(entry) {}
+  [[nodiscard]] double speed2(double zeta) const {
+    const double turned = entry_ - zeta;
+    // Near the start the difference cancels; its series to the third order does not.
+    constexpr double kShort = 1e-5;
+    if (turned < kShort) {
+      const double pull = std::sin(entry_) - mu_ * std::cos(entry_);
+      const double change = std::cos(entry_) + mu_ * std::sin(entry_) + 2.0 * mu_ * pull;
+      return 2.0 * kGravity * radius_ * turned * (pull - 0.5 * turned * change);
+    }
+    return circle(zeta) - circle(entry_) * std::exp(-2.0 * mu_ * turned);
+  }
+  [[nodiscard]] double time(double end) const {
+    const auto pace = [&](double root) {
+      return 2.0 * root * radius_ / std::sqrt(speed2(entry_ - root * root));
+    };
+    return integral(pace, 0.0, std::sqrt(entry_ - end));
+  }
+
+ private:
+  [[nodiscard]] double circle(double zeta) const {
+    return 2.0 * kGravity * radius_ *
+           (3.0 * mu_ * std::sin(zeta) + (1.0 - 2.0 * mu_ * mu_) * std::cos(zeta)) / (1.0 + 4.0 * mu_ * mu_);
+  }
+  double mu_, radius_, entry_;
+};
+
+}  // namespace
+
+Optimum along_wall(double run, double drop, double wall_slope, double wall_drop) {
+  // In contact both circles have rolled by theta, since a cycloid's slope is cot(theta/2); the first circle is
+  // known by that, the second one by the place where it leaves: it passes through the finish.
+  const double theta = 2.0 * std::atan2(1.0, wall_slope);
+  const double x_per_r = theta - std::sin(theta);
+  const double y_per_r = 1.0 - std::cos(theta);
+  const double r = wall_drop / (y_per_r - wall_slope * x_per_r);
+  const double y_on = r * y_per_r;
+  const double sine = wall_slope / std::hypot(1.0, wall_slope);
+  const double y_last = wall_slope * run + wall_drop;
+  Optimum best{HUGE_VAL, {}};
+  for (const bool rising : {false, true}) {
+    const auto rolled = [&](double y) {
+      const double angle = std::acos(1.0 - drop * y_per_r / y);
+      return rising ? 2.0 * std::numbers::pi - angle : angle;
+    };
+    const auto miss = [&](double y) {
+      const double end = rolled(y);
+      return (y - wall_drop) / wall_slope + y / y_per_r * (end - std::sin(end) - x_per_r) - run;
+    };
+    // A circle that is too small does not reach the depth of the finish.
+    const double y_first = std::max(y_on, 0.5 * drop * y_per_r * (1.0 + 1e-12));
+    constexpr int kScan = 400;
+    for (int i = 0; i < kScan; ++i) {
+      const double low = y_first + (y_last - y_first) * i / kScan;
+      const double high = y_first + (y_last - y_first) * (i + 1) / kScan;
+      if (!(miss(low) * miss(high) <= 0.0)) continue;
+      const double y = root(miss, low, high);
+      const double q = y / y_per_r;
+      const double end = rolled(y);
+      if (end < theta) continue;
+      const double speed_on = std::sqrt(2.0 * kGravity * y_on);
+      const double speed_off = std::sqrt(2.0 * kGravity * y);
+      const double time = theta * std::sqrt(r / kGravity) + (speed_off - speed_on) / (kGravity * sine) +
+                          (end - theta) * std::sqrt(q / kGravity);
+      if (time >= best.travel_time) continue;
+      best = {time, {}};
+      append_cycloid(best.bends, r, 0.0, theta);
+      append_straight(best.bends, (y - y_on) / sine);
+      append_cycloid(best.bends, q, theta, end);
+    }
+  }
+  return best;
+}
+
+Optimum below_slope(double run, double drop, double mu, double highest) {
+  // All of it scales with the straight, so that the direction of the finish fixes the exit.
+  const double pull = kGravity * (std::sin(highest) - mu * std::cos(highest));
+  const auto after_one_metre = [&](double exit) { return FreeArc(mu, highest, exit, 2.0 * pull); };
+  const auto direction = [&](double exit) {
+    const FreeArc arc = after_one_metre(exit);
+    return (std::sin(highest) + arc.drop()) * run - (std::cos(highest) + arc.run()) * drop;
+  };
+  constexpr double kMargin = 1e-3;
+  const double flattest = 2.0 * std::atan(mu) - kRightAngle;
+  const double exit = root(direction, std::max(flattest, -1.2) + kMargin, highest - kMargin);
+  const double straight = run / (std::cos(highest) + after_one_metre(exit).run());
+  const FreeArc arc(mu, highest, exit, 2.0 * pull * straight);
+  Optimum optimum{std::sqrt(2.0 * straight / pull) + arc.time(), {}};
+  append_straight(optimum.bends, straight);
+  arc.append_to(optimum.bends);
+  return optimum;
+}
+
+Optimum above_slope(double run, double drop, double lowest) {
+  const double rolled = std::numbers::pi - 2.0 * lowest;
+  const double x_per_r = rolled - std::sin(rolled);
+  const double y_per_r = 1.0 - std::cos(rolled);
+  const double r = (drop - run * std::tan(lowest)) / (y_per_r - x_per_r * std::tan(lowest));
+  const double begin = std::sqrt(2.0 * kGravity * r * y_per_r);
+  const double end = std::sqrt(2.0 * kGravity * drop);
+  Optimum optimum{rolled * std::sqrt(r / kGravity) + (end - begin) / (kGravity * std::sin(lowest)), {}};
+  append_cycloid(optimum.bends, r, 0.0, rolled);
+  append_straight(optimum.bends, (run - r * x_per_r) / std::cos(lowest));
+  return optimum;
+}
+
+Optimum above_radius(double run, double drop, double mu, double radius, Turns near) {
+  const auto free_arc = [&](const Turns& turns) {
+    const double speed2 = ArcFromRest(mu, radius, turns.entry).speed2(turns.arc_end);
+    return FreeArc(mu, turns.arc_end, turns.exit, speed2);
+  };
+  const auto miss = [&](const Turns& turns) {
+    const FreeArc arc = free_arc(turns);
+    return std::array<double, 2>{
+        radius * (std::sin(turns.entry) - std::sin(turns.arc_end)) + arc.run() - run,
+        radius * (std::cos(turns.arc_end) - std::cos(turns.entry)) + arc.drop() - drop};
+  };
+  // Newton's method for the two later angles, the entry given.
+  const auto reaching = [&](double entry) {
+    Turns turns = near;
+    turns.entry = entry;
+    for (int step = 0; step < 40; ++step) {
+      const auto off = miss(turns);
+      if (std::hypot(off[0], off[1]) < 1e-12 * run) return turns;
+      constexpr double kStep = 1e-5;
+      const auto slope = [&](double Turns::*angle) {
+        Turns less = turns;
+        Turns more = turns;
+        less.*angle -= kStep;
+        more.*angle += kStep;
+        const auto low = miss(less);
+        const auto high = miss(more);
+        return std::array<double, 2>{(high[0] - low[0]) / (2.0 * kStep), (high[1] - low[1]) / (2.0 * kStep)};
+      };
+      const auto by_end = slope(&Turns::arc_end);
+      const auto by_exit = slope(&Turns::exit);
+      const double determinant = by_end[0] * by_exit[1] - by_end[1] * by_exit[0];
+      turns.arc_end -= (off[0] * by_exit[1] - off[1] * by_exit[0]) / determinant;
+      turns.exit -= (by_end[0] * off[1] - by_end[1] * off[0]) / determinant;
+    }
+    throw std::runtime_error("no arc of this radius and free arc meet the finish");
+  };
+  const auto time = [&](double entry) {
+    const Turns turns = reaching(entry);
+    return ArcFromRest(mu, radius, entry).time(turns.arc_end) + free_arc(turns).time();
+  };
+  constexpr double kAround = 0.05;
+  constexpr int kBits = 40;
+  const auto least =
+      boost::math::tools::brent_find_minima(time, near.entry - kAround, near.entry + kAround, kBits);
+  const Turns turns = reaching(least.first);
+  Optimum optimum{least.second, {}};
+  optimum.bends = {{0.0, 1.0 / radius}, {radius * (turns.entry - turns.arc_end), 1.0 / radius}};
+  free_arc(turns).append_to(optimum.bends);
+  for (const Bend& bend : optimum.bends) {
+    if (bend.curvature > (1.0 + 1e-9) / radius)
+      throw std::runtime_error("the free arc is tighter than allowed");
+  }
+  return optimum;
+}
+
+}  // namespace hand_optima
