@@ -82,7 +82,8 @@ TEST_CASE("the excess within limits that switch on or off falls below 1e-7") {
       const double found = excess(problem, limited.exact, count);
       CAPTURE(limited.name, count, found);
       if (table) std::printf("%-13s  %3d  %9.2e\n", limited.name, count, found);
-      CHECK(found >= -kOptimizeUndershoot);
+      // A limit is kept to 1e-7 of its scale, which may win a part of that.
+      CHECK(found >= -2e-8);
       CHECK(found <= (count < 24 ? 1e-4 : 1e-7));
     }
   }
