@@ -32,6 +32,8 @@ int defect(const std::string& what) {
 int main(int argc, char** argv) {
   // A closed pipe is noticed where it is written to, after files have been finished.
   std::signal(SIGPIPE, SIG_IGN);
+  // So is a limit on the size of files: writing fails, and what was begun is removed.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return static_cast<int>(glissade::app::run(argc, argv));
   } catch (const glissade::InputError& error) {

@@ -241,7 +241,7 @@ TEST_CASE("a full disk leaves nothing behind, and files of an earlier build as t
   const Outcome first = glissade_run({"build", "chute.yaml", "-o", "out"}, limits);
   INFO(first.errors);
   CHECK(first.exit_code == 5);
-  CHECK_THAT(first.errors, Contains("File too large"));
+  CHECK_THAT(first.errors, Contains("out/chute.stl: cannot write: File too large"));
   CHECK(place.names() == std::vector<std::string>{"chute.yaml"});
 
   REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "out"}, {place.path(), {}, {}}).exit_code == 0);

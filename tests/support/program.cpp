@@ -3,7 +3,6 @@
 #include "support/temp_dir.hpp"
 
 #include <cerrno>
-#include <csignal>
 #include <stdexcept>
 #include <system_error>
 
@@ -29,7 +28,6 @@ void redirect(const std::filesystem::path& file, int flags, int descriptor) {
   if (limits.largest_file) {
     const rlimit limit{*limits.largest_file, *limits.largest_file};
     if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
-    std::signal(SIGXFSZ, SIG_IGN);  // then write() fails with an error instead
   }
   std::vector<char*> words;
   std::string name = program.string();

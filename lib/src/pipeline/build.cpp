@@ -266,6 +266,20 @@ void write_report(const fs::path& path, const Design& design, const BuildForRepo
   file.commit();
 }
 
+/// Writes a file that gets its own name later; in what goes wrong it has that name already.
+template <typename Write>
+void named_as(const fs::path& staged, const fs::path& file, Write&& write) {
+  try {
+    std::forward<Write>(write)();
+  } catch (const FileError& error) {
+    std::vector<Issue> issues = error.issues();
+    for (Issue& issue : issues) {
+      if (issue.where == staged.string()) issue.where = file.string();
+    }
+    throw FileError(std::move(issues));
+  }
+}
+
 void require_buildable(const Design& design) {
   if (design.cross_section) return;
   throw InputError(
@@ -329,14 +343,17 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
     const std::string name = file_name(design, format);
     steps.enter("writing " + name, cost_of(format));
     made.push_back(staging.path_for(name));
-    write_file(made.back(), format, design, track, solid, meshes);
+    named_as(made.back(), directory / name,
+             [&] { write_file(made.back(), format, design, track, solid, meshes); });
     if (is_read_back(format)) read_back.push_back(made.back());
   }
   if (options.report) {
     // Last of all: it lists the others.
     steps.enter(std::string("writing ") + kReportName, kReportCost);
-    write_report(staging.path_for(kReportName), design,
-                 {track, section, solid, facts, std::move(made), std::move(read_back)});
+    const fs::path page = staging.path_for(kReportName);
+    named_as(page, directory / kReportName, [&] {
+      write_report(page, design, {track, section, solid, facts, std::move(made), std::move(read_back)});
+    });
   }
   require_going(context);
 

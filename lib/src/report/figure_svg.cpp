@@ -241,9 +241,9 @@ class Panel {
     const double top = kTop + inner_height_ + kBottom + 12.0;
     lay_out_legend([&](const LegendEntry& entry, double x, int row) {
       const double y = top + kLegendLine * row;
-      text += entry.line ? fmt::format("<path class=\"line\" {} d=\"M{:.2f} {:.2f}h28\"/>",
+      text += entry.line ? fmt::format(R"(<path class="line" {} d="M{:.2f} {:.2f}h28"/>)",
                                        stroke(*entry.line), x, y - 4.0)
-                         : fmt::format("<path class=\"area\" d=\"M{:.2f} {:.2f}h28v10h-28Z\"/>", x, y - 9.0);
+                         : fmt::format(R"(<path class="area" d="M{:.2f} {:.2f}h28v10h-28Z"/>)", x, y - 9.0);
       text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", x + 34.0, y,
                           escaped_markup(*entry.name));
     });
