@@ -119,6 +119,24 @@ describe("plots", () => {
     assert.match(await page.locator('#readout [data-field="arc_length_m"]').textContent(), /^0\.0+\u00a0m$/);
   });
 
+  test("keep the cursor where it is when axis, units or theme change", async () => {
+    await page.locator("#chart-slope").focus();
+    await page.keyboard.press("Home");
+    for (let i = 0; i < 7; i += 1) await page.keyboard.press("ArrowRight");
+    for (const [label, values] of [["Against", ["time_s", "arc_length_m"]], ["Units", ["mm, m/s", "m, m/s"]], ["Theme", ["dark", "auto"]]]) {
+      for (const value of values) {
+        await page.getByLabel(label).selectOption(value);
+        await drawn(page);
+        const [station, left, wanted] = await page.evaluate(() => {
+          const { store, charts: [{ plot }] } = window.glissadeReport;
+          return [store.get("station"), plot.cursor.left, plot.valToPos(plot.data[0][7], "x")];
+        });
+        assert.equal(station, 7, `${label} ${value}`);
+        assert.ok(Math.abs(left - wanted) < 1, `${label} ${value}: cursor drawn at ${left} instead of ${wanted}`);
+      }
+    }
+  });
+
   test("follow the mouse across each other", async () => {
     const over = page.locator("#chart-speed .u-over");
     await over.scrollIntoViewIfNeeded();

@@ -143,8 +143,11 @@ class Chart {
         setScale: [(plot, key) => {
           if (key === "x" && plot === this.plot) this.onzoom?.(plot.scales.x);
         }],
+        ready: [() => this.show(this.store.get("station"))],
         setCursor: [(plot) => {
-          if (plot.cursor.idx !== null && plot.cursor.idx !== undefined && plot.cursor.left >= 0) {
+          // Only the mouse moves the station: a plot that is drawn anew takes the one that there is.
+          const pointed = plot.cursor.event && plot.over.matches(":hover");
+          if (pointed && plot.cursor.idx !== null && plot.cursor.idx !== undefined && plot.cursor.left >= 0) {
             this.store.set("station", plot.cursor.idx);
           }
         }],
@@ -152,7 +155,6 @@ class Chart {
     }, data, this.holder);
     if (zoom && this.axisDrawn === this.axisKey()) this.plot.setScale("x", { min: zoom.min, max: zoom.max });
     this.axisDrawn = this.axisKey();
-    this.show(this.store.get("station"));
   }
 
   resize() {
