@@ -214,6 +214,7 @@ TEST_CASE("free fall down a vertical track keeps contact with no load") {
   CHECK(motion.arrived());
   CHECK(motion.exit_speed() == close_to(std::sqrt(2.0 * kGravity * 20.0)));
   CHECK(motion.highest_load().normal_load == Approx(0.0).margin(1e-13));
+  CHECK(motion.highest_speed().speed == motion.exit_speed());
 }
 
 TEST_CASE("highest load and speed lie between stations and are met to the last digits") {

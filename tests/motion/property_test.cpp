@@ -200,6 +200,9 @@ TEST_CASE("the highest and lowest values of a ride bound every station of it") {
     CHECK(motion.at(motion.highest_load().arc_length).normal_load == Approx(highest).margin(1e-12 * size));
     CHECK(motion.at(motion.lowest_load().arc_length).normal_load == Approx(lowest).margin(1e-12 * size));
     CHECK(motion.at(motion.highest_speed().arc_length).speed == Approx(fastest).epsilon(1e-13));
+    // To the last digit: a summary shows these side by side.
+    CHECK(fastest >= motion.exit_speed());
+    CHECK(fastest >= motion.at(0.0).speed);
     double sampled_highest = -1e300;
     double sampled_lowest = 1e300;
     double sampled_fastest = 0.0;

@@ -163,7 +163,12 @@ MotionState Motion::Ride::highest_speed() const {
   const Found found = least_anywhere(
       record_.panels, [](const Panel& panel) { return negated(panel.v); },
       [&](const Panel& panel, double sigma) { return -panel.v_at(equation(), sigma); });
-  return at_found(found);
+  // The ends are known to the last digit, which a search between them may miss.
+  MotionState highest = at_found(found);
+  for (const MotionState& end : {at(0.0), record_.end}) {
+    if (end.speed > highest.speed) highest = end;
+  }
+  return highest;
 }
 
 Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
