@@ -30,7 +30,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kCoarsePieces = 12;
 constexpr std::size_t kMiddlePieces = 16;
 constexpr std::size_t kFinerPieces = 24;
-constexpr std::size_t kMovedLevels = 2;
+constexpr std::size_t kMovedLevels = 4;
+// By such a share a smoother track may be slower.
+constexpr double kDearer = 1e-7;
 // Pieces of the mesh on which a track is looked for that keeps the limits at all.
 constexpr std::size_t kRescuePieces = 20;
 constexpr double kCoarseTolerance = 1e-3;
@@ -198,7 +200,7 @@ class Searcher {
         levels.push_back(kMiddlePieces);
       }
       if (pieces > kFinerPieces) levels.push_back(kFinerPieces);
-      // The last of them only where the places at which limits change over have moved.
+      // The last of them only while the places at which limits change over move, and it pays.
       levels.insert(levels.end(), 1 + kMovedLevels, pieces);
     }
     double done = 0.2;
@@ -222,7 +224,9 @@ class Searcher {
       const auto converged = [&](const Found& track) {
         return track.residual <= options_.tolerance && track.feasible(options_.limit_tolerance);
       };
-      if (last_ones && converged(found) && !converged(next)) break;
+      const double dearer = next.objective - found.objective;
+      const bool pays = converged(next) && dearer <= kDearer * std::fabs(found.objective);
+      if (last_ones && converged(found) && !pays) break;
       found = std::move(next);
     }
     candidate.stopped = candidate.stopped || found.stopped;
