@@ -367,6 +367,28 @@ TEST_CASE("sweep: no point of the surface is further from the ideal solid than m
   }
 }
 
+TEST_CASE("sweep: facets where the start face trims the walls are no slivers, however fine the mesh") {
+  struct Task {
+    double run;
+    CrossSection section;
+    double tolerance;
+    double smallest_angle_deg;  // somewhat less than what was measured: 7.0, 10.1, 12.7
+  };
+  const std::vector<Task> tasks{{1.0, CrossSection::u_channel(0.4, 0.25, 0.004), 3e-5, 6.5},
+                                {5.0, CrossSection::half_pipe(0.4, 0.004), 3e-5, 9.5},
+                                {5.0, CrossSection::half_pipe(0.4, 0.004), 1e-4, 12.0}};
+  for (const Task& task : tasks) {
+    const CoulombBrachistochrone track(Endpoints{task.run, 0.5 * task.run}, Friction::from_coefficient(0.2));
+    SweepOptions options;
+    options.tolerance = task.tolerance;
+    options.shape_triangles = 100'000;
+    const Solid solid = sweep(track, task.section, Placement(), options);
+    CHECK(solid.trimmed);
+    check_solid(solid, options);
+    CHECK(measure(solid.mesh).smallest_angle * 180.0 / std::numbers::pi > task.smallest_angle_deg);
+  }
+}
+
 TEST_CASE("sweep: a mesh that would not fit is refused at once, with its size and a tolerance that fits") {
   const ClothoidSpline track(Angle::from_degrees(60.0), {{1e5, 1e-5, 1e-5}});
   SweepOptions options;

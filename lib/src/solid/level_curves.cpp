@@ -19,6 +19,8 @@ constexpr std::size_t kLeaf = 8;
 constexpr double kBallMargin = 1e-13;
 // Nodes next to a trim are left out where they stand closer to it than this share of the step after them.
 constexpr double kCrowded = 0.15;
+// At most so many nodes are left out between a trim and the next one that stays.
+constexpr std::ptrdiff_t kMostLeftOut = 50;
 // How many steps around the end of a cut the crossing of the two branches is looked for.
 constexpr std::size_t kCrossingWindow = 3;
 // Distance of the probes as a share of the section's reach, and the most that a track gets.
@@ -66,27 +68,69 @@ std::optional<Crossing> segment_crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return crossing;
 }
 
-// Drops every node that is not a trim and stands too close to the one kept before it, or to a trim after it.
-void thin_out(std::vector<LevelNode>& nodes, double shortest) {
-  const auto spacing = [&nodes](std::size_t i, std::size_t j) {
-    return norm(nodes[i].point - nodes[j].point);
-  };
-  const std::size_t count = nodes.size();
-  std::vector<bool> drop(count, false);
-  for (std::size_t i = 1; i + 1 < count; ++i) {
-    if (nodes[i].trim) continue;
-    const bool after_trim = nodes[i - 1].trim && spacing(i - 1, i) < kCrowded * spacing(i, i + 1);
-    const bool before_trim = nodes[i + 1].trim && spacing(i, i + 1) < kCrowded * spacing(i - 1, i);
-    drop[i] = after_trim || before_trim;
+double distance_to_chord(Vec2 point, Vec2 a, Vec2 b) {
+  const Vec2 chord = b - a;
+  const double length = norm(chord);
+  return length > 0.0 ? std::fabs(cross(chord, point - a)) / length : norm(point - a);
+}
+
+// Which nodes of a level curve stand in the way of the facets beside its trims.
+class CrowdAtTrims {
+ public:
+  CrowdAtTrims(const std::vector<LevelNode>& nodes, const NodeSpacing& limits)
+      : nodes_(nodes), limits_(limits), drop_(nodes.size(), false) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!nodes[i].trim) continue;
+      clear(i, 1);
+      clear(i, -1);
+    }
   }
+
+  [[nodiscard]] bool drops(std::size_t i) const { return drop_[i]; }
+
+ private:
+  [[nodiscard]] Vec2 point(std::ptrdiff_t i) const { return nodes_[static_cast<std::size_t>(i)].point; }
+
+  // Drops the nodes next to a trim on one side of it, the nearest first.
+  void clear(std::size_t trim, std::ptrdiff_t step) {
+    const auto at = static_cast<std::ptrdiff_t>(trim);
+    const auto last = static_cast<std::ptrdiff_t>(nodes_.size()) - 1;
+    for (std::ptrdiff_t count = 0; count < kMostLeftOut; ++count) {
+      const std::ptrdiff_t i = at + (count + 1) * step;
+      if (i <= 0 || i >= last || nodes_[static_cast<std::size_t>(i)].trim) return;
+      const double distance = norm(point(i) - point(at));
+      const bool is_crowded = distance < kCrowded * norm(point(i + step) - point(i));
+      const bool is_near = distance < limits_.beside_trims && lies_on_chords(at, i, step);
+      if (!is_crowded && !is_near) return;
+      drop_[static_cast<std::size_t>(i)] = true;
+    }
+  }
+
+  // Whether the chord from the trim to the node after `last` still follows the curve.
+  [[nodiscard]] bool lies_on_chords(std::ptrdiff_t trim, std::ptrdiff_t last, std::ptrdiff_t step) const {
+    for (std::ptrdiff_t i = trim + step; i != last + step; i += step) {
+      if (distance_to_chord(point(i), point(trim), point(last + step)) > limits_.sagitta) return false;
+    }
+    return true;
+  }
+
+  const std::vector<LevelNode>& nodes_;
+  const NodeSpacing& limits_;
+  std::vector<bool> drop_;
+};
+
+// Drops every node that is not a trim and stands too close to the one kept before it, or to a trim.
+void thin_out(std::vector<LevelNode>& nodes, const NodeSpacing& limits) {
+  const std::size_t count = nodes.size();
+  const CrowdAtTrims crowd(nodes, limits);
   std::size_t kept = 0;
   for (std::size_t i = 1; i < count; ++i) {
     const bool last = i + 1 == count;
-    if (drop[i]) continue;
-    if (!last && !nodes[i].trim && norm(nodes[i].point - nodes[kept].point) < shortest) continue;
+    if (crowd.drops(i)) continue;
+    if (!last && !nodes[i].trim && norm(nodes[i].point - nodes[kept].point) < limits.shortest) continue;
     // What precedes a node that has to stay makes room for it.
     while (kept > 0 && (last || nodes[i].trim) && !nodes[kept].trim &&
-           norm(nodes[i].point - nodes[kept].point) < shortest) {
+           norm(nodes[i].point - nodes[kept].point) < limits.shortest) {
       --kept;
     }
     nodes[++kept] = nodes[i];
@@ -522,7 +566,7 @@ Trims LevelCurves::trims(double height) const {
   return trims;
 }
 
-LevelCurve LevelCurves::level(double height, double shortest) const {
+LevelCurve LevelCurves::level(double height, const NodeSpacing& spacing) const {
   const std::vector<Trim> cuts = trims(height).cuts;
   LevelCurve curve;
   curve.trimmed = !cuts.empty();
@@ -537,7 +581,7 @@ LevelCurve LevelCurves::level(double height, double shortest) const {
     curve.nodes.push_back({offset(station, height), station.s, station.s, false});
   }
   for (; cut != cuts.end(); ++cut) curve.nodes.push_back({cut->point, cut->from, cut->to, true});
-  thin_out(curve.nodes, shortest);
+  thin_out(curve.nodes, spacing);
   return curve;
 }
 

@@ -40,6 +40,13 @@ struct LevelNode {
   bool trim = false;
 };
 
+/// How close the nodes of a level curve may stand [m].
+struct NodeSpacing {
+  double shortest = 0.0;      ///< nodes closer together are left out where they are not needed
+  double beside_trims = 0.0;  ///< so are those closer to a trim, where the curve without them
+  double sagitta = 0.0;       ///<   passes them by no further than this
+};
+
 /// One level curve from the start face to the finish face.
 struct LevelCurve {
   std::vector<LevelNode> nodes;
@@ -65,8 +72,7 @@ class LevelCurves {
   [[nodiscard]] Trims trims(double height) const;
 
   /// @param height  one whose trims meet no obstacle
-  /// @param shortest  nodes closer together than this are left out where they are not needed [m]
-  [[nodiscard]] LevelCurve level(double height, double shortest) const;
+  [[nodiscard]] LevelCurve level(double height, const NodeSpacing& spacing) const;
 
   /// @return the length by which the ideal level at `height` is shorter than the untrimmed offset curve [m]
   [[nodiscard]] double missing_length(double height) const;

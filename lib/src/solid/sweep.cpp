@@ -28,6 +28,10 @@ using Polygon = CrossSection::Polygon;
 constexpr double kShortestShare = 1e-6;
 // The point that a level has on a crease is within this share of the chord tolerance of its place.
 constexpr double kTrimShare = 0.1;
+// Facets beside a trim are at least this share of the others high, where no node has to be left out for it
+// that the level would pass by more than the other share of the chord tolerance.
+constexpr double kRoomAtTrims = 0.25;
+constexpr double kSagittaAtTrims = 0.9;
 constexpr int kMostRefinements = 12;
 
 double distance_to_line(Vec2 point, Vec2 a, Vec2 b) {
@@ -150,8 +154,10 @@ class Sweeper {
         placement_(placement),
         planner_(planner),
         fineness_(fineness),
-        shortest_(std::max(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance),
-                           finest_length(centerline, section, placement))) {}
+        spacing_{std::max(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance),
+                          finest_length(centerline, section, placement)),
+                 kRoomAtTrims * std::min(fineness.side_piece, fineness.longest_step),
+                 kSagittaAtTrims * fineness.chord_tolerance} {}
 
   /// Lays out the mesh without making it.
   /// @return false if some level of the section does not lead from start to finish: see refuse()
@@ -199,7 +205,7 @@ class Sweeper {
       blocked_height_ = height;
       return levels_.end();
     }
-    return levels_.emplace(height, Level{curves_->level(height, shortest_), false}).first;
+    return levels_.emplace(height, Level{curves_->level(height, spacing_), false}).first;
   }
 
   void make_loops() {
@@ -363,7 +369,7 @@ class Sweeper {
   const Placement& placement_;
   const Planner& planner_;
   Fineness fineness_;
-  double shortest_;
+  NodeSpacing spacing_;
   double deviation_ = 0.0;
   double blocked_height_ = 0.0;
   std::unique_ptr<LevelCurves> curves_;
