@@ -184,7 +184,7 @@ TEST_CASE("no name can break a file") {
                                           "COLOR=red",
                                           "*/ # // \"",
                                           std::string(1'000'000, 'n'),
-                                          "\xff\xfe\0",
+                                          std::string("\xff\xfe\0", 3),
                                           "Rutsche für Körner €",
                                           "\xE2\x80\xA8",
                                           "\xC2\x85 next line",
@@ -220,7 +220,7 @@ TEST_CASE("as written: binary STL holds single precision, text holds doubles") {
   const TriangleMesh text = as_written(mesh, MeshFormat::off, LengthUnit::millimetre);
   CHECK(single.triangles == mesh.triangles);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const double in_file = static_cast<double>(static_cast<float>(1000.0 * mesh.vertices[i].x));
+    const auto in_file = static_cast<double>(static_cast<float>(1000.0 * mesh.vertices[i].x));
     CHECK(single.vertices[i].x == in_file / 1000.0);
     CHECK(std::fabs(text.vertices[i].x - mesh.vertices[i].x) <= 0x1p-53);
   }
