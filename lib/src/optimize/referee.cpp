@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -402,10 +403,10 @@ std::pair<double, double> straight_ends(const std::vector<CenterlinePoint>& poin
     in = point.arc_length;
   }
   double out = 0.0;
-  for (auto point = points.rbegin(); point != points.rend(); ++point) {
-    if (!(std::fabs(point->slope_angle - last.slope_angle) <= kStraight)) break;
-    out = last.arc_length - point->arc_length;
-  }
+  const auto bent = std::find_if(points.rbegin(), points.rend(), [&](const CenterlinePoint& point) {
+    return !(std::fabs(point.slope_angle - last.slope_angle) <= kStraight);
+  });
+  if (bent != points.rbegin()) out = last.arc_length - std::prev(bent)->arc_length;
   // The last point before the end is a rounding away from it.
   constexpr double kNothing = 1e-12;
   return {in > kNothing * last.arc_length ? in : 0.0, out > kNothing * last.arc_length ? out : 0.0};

@@ -51,8 +51,8 @@ struct Problem {
 };
 
 struct OptimizeOptions {
-  int pieces = 32;                ///< clothoids at the finest level; 8 <= pieces <= 200
-  double tolerance = 1e-6;        ///< of the first-order residual; 1e-12 <= tolerance <= 1e-3
+  int pieces = 32;          ///< clothoids between the places where limits change over; 8 <= pieces <= 200
+  double tolerance = 1e-6;  ///< of the first-order residual; 1e-12 <= tolerance <= 1e-3
   double limit_tolerance = 1e-7;  ///< greatest violation of a limit, of its scale; 1e-10 <= value <= 1e-4
   double time_budget = 60.0;      ///< [s]; > 0; ends with the best track so far
 };
@@ -162,7 +162,7 @@ struct Optimum {
 ///   units of chord and sqrt(chord/gravity), so that tracks of any size take the same path. Needs no guess,
 ///   is deterministic but for the time budget.
 /// Accuracy: without limits kOptimizeAccuracy relative in travel time at the default pieces, never below the
-///   exact optimum by more than kOptimizeUndershoot.
+///   exact optimum by more than kOptimizeUndershoot. Within limits docs/optimization.md.
 /// Identity: every number in the report comes from Motion on the centerline returned.
 /// @param stop  asks the search to end with the best track so far
 /// @throws InputError if a field of problem or options breaks its stated bound
