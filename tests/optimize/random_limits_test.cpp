@@ -21,6 +21,10 @@ namespace {
 // A limit may be missed by this much of its scale, at points ten times denser than the search's.
 constexpr double kKept = 1e-6;
 constexpr int kReferee = 70;
+// What margins cost, as a share of the travel time: few problems take more than the second
+// (docs/optimization.md).
+constexpr double kKeptBack = 1e-3;
+constexpr double kRarelyKeptBack = 1e-4;
 
 /// Newton's method on the finish: shifts a spline's two middle curvatures and its length so that it ends
 /// where it must. Nothing of the search takes part.
@@ -78,8 +82,6 @@ double kept_back(const OptimizeReport& report) {
       if (check.limit == active.limit) cost += active.price * std::fabs(check.reached - check.value);
     }
   }
-  // 299 of 300 problems stay below 1e-4, one took 4e-4 (docs/optimization.md).
-  CHECK(cost <= 1e-3 * report.travel_time);
   return cost;
 }
 
@@ -92,6 +94,7 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
   int converged = 0;
   int admissible = 0;
   int undecided = 0;
+  int kept_far_back = 0;
   // GLISSADE_PROBLEMS=300 in the environment: the long run of docs/optimization.md.
   const char* const asked = std::getenv("GLISSADE_PROBLEMS");
   const int problems = asked != nullptr ? std::atoi(asked) : 40;
@@ -109,6 +112,10 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
     CHECK(verdict.travel_time == optimum.report.travel_time);
     if (optimum.report.status != OptimizeStatus::optimal) continue;
     ++converged;
+    const double kept = kept_back(optimum.report);
+    CHECK(kept <= kKeptBack * optimum.report.travel_time);
+    if (kept > 1e-5 * optimum.report.travel_time) WARN(i << " kept back " << kept / optimum.report.travel_time);
+    kept_far_back += kept > kRarelyKeptBack * optimum.report.travel_time ? 1 : 0;
     const auto& spline = dynamic_cast<const ClothoidSpline&>(*optimum.centerline);
     const bool point = problem.finish.kind == FinishKind::point;
     for (int k = 0; k < kNeighbours; ++k) {
@@ -141,8 +148,7 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
       const fastest::Verdict other = fastest::judge_track(problem, *neighbour, 8);
       if (!other.arrived || other.worst > 1e-7) continue;
       ++admissible;
-      if (other.travel_time >= optimum.report.travel_time * (1.0 - 1e-6) - kept_back(optimum.report))
-        continue;
+      if (other.travel_time >= optimum.report.travel_time * (1.0 - 1e-6) - kept) continue;
       // Faster at eight points a piece: look as closely as at the optimum itself.
       const fastest::Verdict close = fastest::judge_track(problem, *neighbour, kReferee);
       CAPTURE(k, amplitude * spline.length());
@@ -152,9 +158,10 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
   }
   CAPTURE(solved, converged, admissible, undecided);
   // Neither a track nor a contradiction: an answer that has to stay rare.
-  CHECK(undecided <= std::max(1, problems / 50));
+  CHECK(undecided <= problems / 100);
+  CHECK(kept_far_back <= std::max(1, problems / 100));
   CHECK(converged >= problems * 7 / 10);
-  CHECK(converged >= solved - solved / 20);
+  CHECK(converged >= solved - solved / 100);
   CHECK(admissible > 20);
 }
 

@@ -61,14 +61,16 @@ std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elas
   const ScaledProblem& problem = *attempt.problem;
   const Vector margins(problem.limits.size(), 0.0);
   std::optional<Relaxed> least;
+  bool settled = false;
   const auto descend = [&](const Mesh& mesh, const Vector& beginning) {
     Relaxed alone = least_violation(problem, mesh, beginning, elastic, margins, control);
+    settled = alone.settled;
     if (alone.found.violation > kKept || alone.t <= 0.0) return false;
     const bool pays = !least || alone.t < kPays * least->t;
     if (!least || alone.t < least->t) least = std::move(alone);
     return pays;
   };
-  if (!descend(attempt.mesh, attempt.relaxed.found.z) && !control.stop()) {
+  if (!descend(attempt.mesh, attempt.relaxed.found.z) && !settled && !control.stop()) {
     descend(attempt.mesh, fit(starts(problem).back(), Transcription(attempt.mesh)));
   }
   // The mesh follows the track: where it bends in the end need not be where it bent in the beginning.
@@ -103,10 +105,9 @@ namespace {
 
 Relaxed all_relaxed(const ScaledProblem& problem, const Mesh& mesh, const GuessCurve& curve,
                     SearchControl& control) {
-  Elastic elastic;
-  elastic.limits.assign(problem.limits.size(), true);
   const Vector margins(problem.limits.size(), 0.0);
-  return least_violation(problem, mesh, fit(curve, Transcription(mesh)), elastic, margins, control);
+  return least_violation(problem, mesh, fit(curve, Transcription(mesh)), Elastic::all(problem.limits.size()),
+                         margins, control);
 }
 
 /// The mesh follows the track, finer where it bends: what is left over then is no fault of the mesh.

@@ -17,6 +17,8 @@ constexpr double kNone = 1e-9;
 // Rows that are to be kept give way too at first, by these shares of what the elastic ones do: the track that
 // breaks everything a little leads over to the one that breaks one limit alone.
 constexpr double kFirmer[] = {0.1, 1e-2, 1e-4, 1e-7};
+// What is kept has to be broken by this much less each time.
+constexpr double kFalls = 0.8;
 // A step whose model promises less, at the price 1 on the change of shape, is none.
 constexpr double kSettled = 1e-9;
 
@@ -39,12 +41,17 @@ class Search {
     state_ = rows_->state(z_, true);
     Relaxed relaxed;
     ++control_.rounds;
+    double kept_before = HUGE_VAL;
     for (const double weight : kFirmer) {
       weight_ = weight;
       t_ = violation(state_);
       linearise();
       relaxed.settled = settle();
-      if (t_ <= kNone || all_give_way() || control_.stop()) break;
+      const double kept = kept_violation();
+      // Where the others cannot be kept however far the elastic ones give way, the path leads nowhere.
+      const bool hopeless = kept > kFalls * kept_before;
+      kept_before = kept;
+      if (t_ <= kNone || all_give_way() || hopeless || control_.stop()) break;
     }
     describe(relaxed);
     return relaxed;

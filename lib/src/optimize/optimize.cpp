@@ -176,14 +176,17 @@ class Searcher {
     // The descent lost its way, or the mesh is too coarse: look for any track that keeps the limits first.
     const Mesh finer = mesh_with(
         problem, graded_knots(start, kRescuePieces, entry_share(problem, start.length)), start.length);
-    Elastic elastic;
-    elastic.limits.assign(problem.limits.size(), true);
-    control_.most_rounds = 8;
-    const Relaxed relaxed =
-        least_violation(problem, finer, fit(start, Transcription(finer)), elastic, margins_, control_);
-    if (relaxed.t > kNearlyFeasible) return std::nullopt;
     control_.most_rounds = 6;
-    found = minimise(problem, finer, relaxed.found.z, margins_, control_);
+    return rescued(problem, finer, fit(start, Transcription(finer)));
+  }
+
+  /// By way of any track that keeps the limits. @return nothing where none comes close
+  [[nodiscard]] std::optional<Found> rescued(const ScaledProblem& problem, const Mesh& mesh,
+                                             const Vector& beginning) {
+    const Relaxed relaxed =
+        least_violation(problem, mesh, beginning, Elastic::all(problem.limits.size()), margins_, control_);
+    if (relaxed.t > kNearlyFeasible) return std::nullopt;
+    Found found = minimise(problem, mesh, relaxed.found.z, margins_, control_);
     if (!found.feasible(kNearlyFeasible)) return std::nullopt;
     return found;
   }
@@ -215,8 +218,12 @@ class Searcher {
       control_.most_rounds = levels[level] == levels.back() ? 10 : 5;
       const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
                                   found.z[found.track->layout().length()]);
-      Found next = minimise(problem, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)),
-                            margins_, control_);
+      const Vector beginning = fit(curve_of(*found.track, found.z), Transcription(mesh));
+      Found next = minimise(problem, mesh, beginning, margins_, control_);
+      if (!next.stopped && !next.feasible(kNearlyFeasible) && found.feasible(kNearlyFeasible)) {
+        std::optional<Found> other = rescued(problem, mesh, beginning);
+        if (other) next = std::move(*other);
+      }
       if (next.stopped && !next.feasible(kNearlyFeasible)) {
         found.stopped = true;
         break;
