@@ -21,8 +21,8 @@ namespace {
 // A limit may be missed by this much of its scale, at points ten times denser than the search's.
 constexpr double kKept = 1e-6;
 constexpr int kReferee = 70;
-// What margins cost, as a share of the travel time: few problems take more than the second
-// (docs/optimization.md).
+// What margins may cost, as a share of the travel time, at most and in all but one of a hundred problems: of
+// 600, two took more than the second, and one 3.4e-4 (docs/optimization.md).
 constexpr double kKeptBack = 1e-3;
 constexpr double kRarelyKeptBack = 1e-4;
 
@@ -114,7 +114,6 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
     ++converged;
     const double kept = kept_back(optimum.report);
     CHECK(kept <= kKeptBack * optimum.report.travel_time);
-    if (kept > 1e-5 * optimum.report.travel_time) WARN(i << " kept back " << kept / optimum.report.travel_time);
     kept_far_back += kept > kRarelyKeptBack * optimum.report.travel_time ? 1 : 0;
     const auto& spline = dynamic_cast<const ClothoidSpline&>(*optimum.centerline);
     const bool point = problem.finish.kind == FinishKind::point;
