@@ -111,11 +111,19 @@ class Minimiser {
     point_ = point(rows_->state(start, true), Multipliers{});
     // With the multipliers of the first program the curvature is that of the Lagrangian.
     point_ = point(std::move(point_.state), point_.next);
+    // So many rounds that do not come closer by this factor end the search.
+    constexpr double kPays = 0.7;
+    constexpr int kMostIdle = 3;
+    double least = HUGE_VAL;
+    int idle = 0;
     for (int round = 0;; ++round) {
       approach();
       judge(found);
       if (found.residual <= control_.tolerance && found.violation <= control_.limit_tolerance) break;
-      if (round >= control_.most_rounds || stopped_) break;
+      const bool pays = found.residual + found.violation < kPays * least;
+      least = std::min(least, found.residual + found.violation);
+      idle = pays ? 0 : idle + 1;
+      if (round >= control_.most_rounds || idle >= kMostIdle || stopped_) break;
       ++control_.rounds;
       const Vector before = point_.state.z;
       descend_once();
