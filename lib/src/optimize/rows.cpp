@@ -37,8 +37,10 @@ Vec2 edge_normal(Vec2 from, Vec2 to, double side) {
 }  // namespace
 
 Rows::Rows(const ScaledProblem& problem, const Transcription& track)
-    : problem_(problem), track_(track), margins_(problem.limits.size(), 0.0) {
-  fixed_equalities_ = problem.finish == FinishKind::point ? 2 : 1;
+    : problem_(problem),
+      track_(track),
+      fixed_equalities_(problem.finish == FinishKind::point ? 2 : 1),
+      margins_(problem.limits.size(), 0.0) {
   if (problem.lead_in > 0.0) ++fixed_equalities_;
   if (problem.lead_out > 0.0) ++fixed_equalities_;
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {

@@ -229,14 +229,13 @@ Foot Transcription::advance(const Vector& z, const Shape& shape, std::size_t bas
   foot.at = later;
   foot.at.fixed_length = from.fixed_length + share * (to.fixed_length - from.fixed_length);
   foot.at.sigma = from.sigma + share * (to.sigma - from.sigma);
-  double from_share = later.share;
   double curvature_from = 0.0;
   double curvature_slope = 0.0;
   if (later.part == Part::core) {
     const double knot = mesh_.knots[later.piece];
     const double width = mesh_.knots[later.piece + 1] - knot;
     foot.at.share = (foot.at.sigma - knot) / width;
-    from_share = (from.sigma - knot) / width;
+    const double from_share = (from.sigma - knot) / width;
     const double c0 = z[layout_.turn(later.piece)] / length;
     const double c1 = z[layout_.turn(later.piece + 1)] / length;
     curvature_from = c0 + (c1 - c0) * from_share;
