@@ -84,11 +84,23 @@ std::vector<Vec3> in_unit(const std::vector<Vec3>& vertices, LengthUnit unit) {
   return scaled;
 }
 
-void put_facet(TextCursor& text, Vec3 a, Vec3 b, Vec3 c) {
+void put_point(TextCursor& text, RecurringNumbers& coordinates, Vec3 p) {
+  coordinates.put(text, p.x);
+  text.put(' ');
+  coordinates.put(text, p.y);
+  text.put(' ');
+  coordinates.put(text, p.z);
+  text.put('\n');
+}
+
+void put_facet(TextCursor& text, RecurringNumbers& coordinates, Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 normal = normal_of(a, b, c);
   text.put("facet normal ", static_cast<float>(normal.x), ' ', static_cast<float>(normal.y), ' ',
            static_cast<float>(normal.z), "\nouter loop\n");
-  for (const Vec3 corner : {a, b, c}) text.put("vertex ", corner.x, ' ', corner.y, ' ', corner.z, '\n');
+  for (const Vec3 corner : {a, b, c}) {
+    text.put("vertex ");
+    put_point(text, coordinates, corner);
+  }
   text.put("endloop\nendfacet\n");
 }
 
@@ -102,9 +114,10 @@ void write_stl_ascii(AtomicFile& file, const TriangleMesh& mesh, const MeshFileO
   write_in_order(
       file, {mesh.triangles.size(), kLongestFacet, [&](std::size_t first, std::size_t last, char* block) {
                TextCursor cursor(block);
+               RecurringNumbers coordinates;
                for (std::size_t i = first; i < last; ++i) {
                  const auto& [a, b, c] = mesh.triangles[i];
-                 put_facet(cursor, vertices[a], vertices[b], vertices[c]);
+                 put_facet(cursor, coordinates, vertices[a], vertices[b], vertices[c]);
                }
                return cursor.place();
              }});
@@ -120,9 +133,9 @@ void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshFileOptions
   write_in_order(file,
                  {mesh.vertices.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
                     TextCursor cursor(block);
+                    RecurringNumbers coordinates;
                     for (std::size_t i = first; i < last; ++i) {
-                      const Vec3 p = per_metre * mesh.vertices[i];
-                      cursor.put(p.x, ' ', p.y, ' ', p.z, '\n');
+                      put_point(cursor, coordinates, per_metre * mesh.vertices[i]);
                     }
                     return cursor.place();
                   }});

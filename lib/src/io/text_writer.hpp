@@ -2,9 +2,12 @@
 
 #include "glissade/io/atomic_file.hpp"
 
+#include <array>
+#include <bit>
 #include <charconv>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string_view>
 #include <vector>
@@ -26,6 +29,12 @@ class TextCursor {
     (append(parts), ...);
   }
 
+  /// Appends the first `size` characters of a number's text; copies all of it, as a fixed length is quicker.
+  void put_number(const std::array<char, kLongestNumber>& text, std::size_t size) {
+    std::memcpy(place_, text.data(), text.size());
+    place_ += size;
+  }
+
   [[nodiscard]] char* place() const { return place_; }
 
  private:
@@ -43,6 +52,37 @@ class TextCursor {
   }
 
   char* place_;
+};
+
+/// Numbers of which many come again soon, such as the coordinates of a sweep's rows: the text of the last ones is
+/// kept, because copying it costs a fraction of working it out.
+class RecurringNumbers {
+ public:
+  /// Appends what cursor.put(value) would.
+  void put(TextCursor& cursor, double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    Entry& entry = entries_[(bits * kSpread) >> (64 - kIndexBits)];
+    if (entry.size == 0 || entry.bits != bits) {
+      TextCursor text(entry.text.data());
+      text.put(value);
+      entry.bits = bits;
+      entry.size = static_cast<std::size_t>(text.place() - entry.text.data());
+    }
+    cursor.put_number(entry.text, entry.size);
+  }
+
+ private:
+  static constexpr int kIndexBits = 9;
+  static constexpr std::uint64_t kSpread =
+      0x9E3779B97F4A7C15;  // Fibonacci hashing: 2^64 over the golden ratio
+
+  struct Entry {
+    std::uint64_t bits = 0;
+    std::size_t size = 0;  ///< of the text; 0: nothing kept yet
+    std::array<char, TextCursor::kLongestNumber> text;
+  };
+
+  std::array<Entry, std::size_t{1} << kIndexBits> entries_{};
 };
 
 /// Text that goes to a file, one piece after the other.
