@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 namespace glissade::testing_problems {
@@ -77,8 +78,44 @@ inline Problem random_limited(testing::Random& random) {
   if (chance(0.1)) {
     problem.finish.kind = FinishKind::vertical_line;
     problem.finish.free_range = {0.8 * ratio * run, 1.2 * ratio * run};
+  } else if (chance(0.08)) {
+    problem.finish.kind = FinishKind::level;
+    problem.finish.free_range = {0.8 * run, 1.2 * run};
   }
+  if (chance(0.08)) {
+    limits.stay_below.push_back({{{0.2 * run, 0.2 * ratio * run - 0.02 * chord},
+                                  {0.5 * run, 0.5 * ratio * run + random.between(-0.05, 0.1) * chord},
+                                  {0.8 * run, 0.8 * ratio * run - 0.02 * chord}},
+                                 0.005 * chord});
+  }
+  if (chance(0.08)) limits.lowest_normal_load = gravity * random.between(0.05, 0.5);
+  if (chance(0.05) && !limits.arc_length.limited()) {
+    limits.arc_length.lowest = chord * random.between(1.02, 1.15);
+  }
+  if (chance(0.05) && !limits.exit_speed.limited()) {
+    limits.exit_speed.lowest = fall_speed * random.between(0.2, 0.6);
+  }
+  if (chance(0.05)) {
+    problem.objective.kind = ObjectiveKind::exit_speed;
+  } else if (chance(0.05)) {
+    problem.objective.kind = ObjectiveKind::blend;
+    problem.objective.exit_speed_weight = random.between(0.1, 1.0) / gravity;
+  }
+  if (chance(0.1)) problem.objective.worst_case = true;
+  if (chance(0.2)) problem.endpoints.run = -run;
   return problem;
+}
+
+/// How many random problems a test takes: GLISSADE_PROBLEMS of the environment; 300 where that is not set, fewer
+/// in a build without optimisation.
+inline int problem_count() {
+  const char* const asked = std::getenv("GLISSADE_PROBLEMS");
+  if (asked != nullptr) return std::max(1, std::atoi(asked));
+#ifdef NDEBUG
+  return 300;
+#else
+  return 40;
+#endif
 }
 
 }  // namespace glissade::testing_problems
