@@ -20,8 +20,8 @@ namespace {
 // A limit may be missed by this much of its scale, at points ten times denser than the search's.
 constexpr double kKept = 1e-6;
 constexpr int kReferee = 70;
-// What margins may cost, as a share of the travel time, at most and in all but one of a hundred problems: of
-// 600, two took more than the second, and one 3.4e-4 (docs/optimization.md).
+// What margins may cost, as a share of the objective, at most and in all but one of a hundred problems
+// (docs/optimization.md).
 constexpr double kKeptBack = 1e-3;
 constexpr double kRarelyKeptBack = 1e-4;
 
