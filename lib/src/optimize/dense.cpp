@@ -28,7 +28,6 @@ ShiftedCholesky::ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal
   constexpr double kFirstShift = 1e-6;
   constexpr double kShiftGrowth = 8.0;
   constexpr double kLastShift = 1e9;
-  shift_ = 0.0;
   while (!factor(symmetric, diagonal) && shift_ <= kLastShift) {
     shift_ = shift_ == 0.0 ? kFirstShift : shift_ * kShiftGrowth;
   }
