@@ -391,6 +391,7 @@ describe("page", () => {
     }
     await page.emulateMedia({ media: "print" });
     await page.setViewportSize({ width: 718, height: 1000 });
+    await page.waitForSelector("html[data-printing=true]");
     const clipped = await page.evaluate(() => [...document.querySelectorAll("table, figure, svg, canvas, dl")]
       .filter((node) => node.getClientRects().length > 0 && node.getBoundingClientRect().right > innerWidth + 1)
       .map((node) => `${node.tagName} ${node.id || node.className.baseVal || node.className}`));

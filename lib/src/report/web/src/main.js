@@ -52,9 +52,10 @@ function start() {
     document.documentElement.dataset.printing = String(printing);
     store.set("paper", printing);
   };
+  const print = matchMedia("print");
   window.addEventListener("beforeprint", () => paper(true));
-  window.addEventListener("afterprint", () => paper(false));
-  matchMedia("print").addEventListener("change", (event) => paper(event.matches));
+  window.addEventListener("afterprint", () => paper(print.matches));
+  print.addEventListener("change", () => paper(print.matches));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => store.set("theme", `auto-${event.matches}`));
   // For readers who want the numbers from the console.
   window.glissadeReport = { document: doc, store, charts: plots.charts };
