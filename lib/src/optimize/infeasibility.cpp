@@ -41,16 +41,6 @@ struct Attempt {
   Relaxed relaxed;
 };
 
-Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
-  Mesh mesh;
-  mesh.knots = std::move(knots);
-  mesh.lead_in = problem.lead_in;
-  mesh.lead_out = problem.lead_out;
-  mesh.core_length = core_length;
-  mesh.entry_speed2 = problem.entry_speed2;
-  return mesh;
-}
-
 /// The least by which one limit must give way when all others hold: from the track that breaks all of them
 /// least; where that descent loses its way, from the straight line.
 std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elastic, SearchControl& control) {

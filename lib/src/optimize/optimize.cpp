@@ -139,12 +139,7 @@ class Searcher {
   }
 
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const {
-    Mesh mesh;
-    mesh.knots = std::move(knots);
-    mesh.lead_in = problem.lead_in;
-    mesh.lead_out = problem.lead_out;
-    mesh.core_length = core_length;
-    mesh.entry_speed2 = problem.entry_speed2;
+    Mesh mesh = mesh_of(problem, std::move(knots), core_length);
     if (problem.lowest_speed_from > problem.lead_in) {
       const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
       if (sigma < 1.0) mesh.extra_breaks = {sigma};

@@ -411,4 +411,14 @@ void require_valid(const OptimizeOptions& options) {
   check.finish();
 }
 
+Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
+  Mesh mesh;
+  mesh.knots = std::move(knots);
+  mesh.lead_in = problem.lead_in;
+  mesh.lead_out = problem.lead_out;
+  mesh.core_length = core_length;
+  mesh.entry_speed2 = problem.entry_speed2;
+  return mesh;
+}
+
 }  // namespace glissade::fastest

@@ -81,6 +81,10 @@ using Passages = std::vector<Passage>;
 /// @param passages  above or below, one for each keep-out
 [[nodiscard]] ScaledProblem scaled(const Problem& problem, const Passages& passages);
 
+/// @param knots        of the core, by its length: 0 to 1
+/// @param core_length  about the length of the core [chords]
+[[nodiscard]] Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length);
+
 /// @throws InputError listing every field that breaks its bound
 void require_valid(const Problem& problem);
 void require_valid(const OptimizeOptions& options);
