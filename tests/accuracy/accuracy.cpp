@@ -8,6 +8,7 @@
 #include "glissade/motion/motion.hpp"
 
 #include "centerline/coulomb_reference.hpp"
+#include "support/paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +101,7 @@ Section fastest_track() {
 }
 
 json tracks_file() {
-  std::ifstream file(std::string(GLISSADE_TEST_DATA) + "/reference/pudasaini_and_tracks.json");
+  std::ifstream file(test_data_path("reference/pudasaini_and_tracks.json"));
   return json::parse(file);
 }
 

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/random.hpp"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ TEST_CASE("clothoid spline: agrees with 50-digit integration on random tracks") 
 }
 
 TEST_CASE("clothoid spline: meets the finish of every reference track") {
-  std::ifstream file(std::string(GLISSADE_TEST_DATA) + "/reference/pudasaini_and_tracks.json");
+  std::ifstream file(test_data_path("reference/pudasaini_and_tracks.json"));
   const auto tracks = nlohmann::json::parse(file).at("tracks");
   REQUIRE(tracks.size() == 15);
   const auto number = [](const nlohmann::json& text) { return std::stod(text.get<std::string>()); };

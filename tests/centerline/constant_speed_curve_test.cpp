@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ struct ReferenceCurve {
 };
 
 std::vector<ReferenceCurve> reference_curves() {
-  std::ifstream file(GLISSADE_TEST_DATA "/reference/pudasaini_and_tracks.json");
+  std::ifstream file(test_data_path("reference/pudasaini_and_tracks.json"));
   REQUIRE(file);
   std::vector<ReferenceCurve> curves;
   const nlohmann::json document = nlohmann::json::parse(file);

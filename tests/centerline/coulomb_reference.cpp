@@ -1,5 +1,7 @@
 #include "coulomb_reference.hpp"
 
+#include "support/paths.hpp"
+
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -50,7 +52,7 @@ CurveCase curve_case(const json& item) {
 }  // namespace
 
 std::vector<CurveCase> curve_cases() {
-  std::ifstream file(GLISSADE_TEST_DATA "/reference/coulomb_brachistochrone.json");
+  std::ifstream file(test_data_path("reference/coulomb_brachistochrone.json"));
   std::vector<CurveCase> cases;
   for (const json& item : json::parse(file)) cases.push_back(curve_case(item));
   return cases;

@@ -1,6 +1,7 @@
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
 #include "support/openscad_check.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <algorithm>
@@ -268,7 +269,7 @@ TEST_CASE("where one file cannot be put in its place, none is replaced") {
 
 TEST_CASE("every shipped design builds, and admesh finds nothing to repair in its STL file") {
   std::size_t count = 0;
-  for (const auto& entry : fs::directory_iterator(GLISSADE_DESIGNS)) {
+  for (const auto& entry : fs::directory_iterator(designs_path())) {
     if (entry.path().extension() != ".yaml") continue;
     ++count;
     const TempDir place;

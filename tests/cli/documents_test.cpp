@@ -2,6 +2,7 @@
 
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <algorithm>
@@ -87,8 +88,8 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
 TEST_CASE("every example of --help does what it says") {
   const TempDir place;
   const RunLimits here{place.path(), {}, {}};
-  std::filesystem::create_directory_symlink(GLISSADE_DESIGNS, place / "designs");
-  const std::string program = GLISSADE_PROGRAM;
+  std::filesystem::create_directory_symlink(designs_path(), place / "designs");
+  const std::string program = glissade_program();
   const std::string find = "PATH=" + program.substr(0, program.rfind('/')) + ":$PATH; ";
   std::size_t tried = 0;
   for (const std::string command : {"", "init", "build", "solve", "compare", "plot", "inspect"}) {

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
+/// @return path of the program that users run
+std::string glissade_program();
+
 /// Runs the program that users run.
-inline Outcome glissade_run(const std::vector<std::string>& arguments, const RunLimits& limits = {}) {
-  return run_program(GLISSADE_PROGRAM, arguments, limits);
-}
+Outcome glissade_run(const std::vector<std::string>& arguments, const RunLimits& limits = {});
 
 /// @return path of a design that is shipped
-inline std::string shipped(const std::string& name) {
-  return std::string(GLISSADE_DESIGNS) + "/" + name + ".yaml";
-}
+std::string shipped(const std::string& name);

@@ -3,6 +3,7 @@
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
 #include "support/openscad_check.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("OpenSCAD takes every shipped design for a closed solid", "[external]") {
   std::size_t checked = 0;
-  for (const auto& entry : fs::directory_iterator(GLISSADE_DESIGNS)) {
+  for (const auto& entry : fs::directory_iterator(designs_path())) {
     if (entry.path().extension() != ".yaml") continue;
     const TempDir place;
     const std::string stem = entry.path().stem().string();

@@ -3,6 +3,7 @@
 
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <cmath>
@@ -43,7 +44,7 @@ double relative(double value, double expected) {
 
 TEST_CASE("solve --json of the fastest track gives the reference values") {
   // tests/reference: every value exact to the printed digits.
-  std::ifstream stream(GLISSADE_TEST_DATA "/reference/coulomb_brachistochrone.json");
+  std::ifstream stream(test_data_path("reference/coulomb_brachistochrone.json"));
   const json cases = json::parse(stream);
   REQUIRE(cases.size() == 120);
   // A program start each: every fifth is enough here, the library's own tests take all of them.

@@ -2,6 +2,7 @@
 
 #include "design/design_text.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <string>
@@ -15,7 +16,7 @@ namespace {
 
 /// The YAML blocks of docs/design-file.md.
 std::vector<std::string> examples() {
-  const std::string page = bytes_of(GLISSADE_DESIGNS "/../docs/design-file.md");
+  const std::string page = bytes_of(designs_path("../docs/design-file.md"));
   constexpr std::string_view kOpening = "```yaml\n";
   std::vector<std::string> blocks;
   for (std::size_t at = page.find(kOpening); at != std::string::npos; at = page.find(kOpening, at)) {
@@ -65,7 +66,7 @@ TEST_CASE("every part of a design in the reference reads in its place") {
 }
 
 TEST_CASE("the errors that the reference shows are those that are told") {
-  const std::string page = bytes_of(GLISSADE_DESIGNS "/../docs/design-file.md");
+  const std::string page = bytes_of(designs_path("../docs/design-file.md"));
   const auto shown = [&](std::string_view part, std::string_view replacement) {
     std::string text;
     for (const char letter : problems_with(part, replacement)) {

@@ -2,6 +2,7 @@
 
 #include "design/design_text.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <filesystem>
@@ -27,7 +28,7 @@ TEST_CASE("a file that is missing, a directory or too large is refused by its na
   CHECK_THROWS_AS(read_design("no/such.yaml"), FileError);
   CHECK_THROWS_WITH(read_design("no/such.yaml"),
                     StartsWith("no/such.yaml: cannot read the design file: no such file"));
-  CHECK_THROWS_WITH(read_design(GLISSADE_DESIGNS), Contains("it is a directory"));
+  CHECK_THROWS_WITH(read_design(designs_path()), Contains("it is a directory"));
 }
 
 TEST_CASE("a file of 100 MB is refused by its size, unread") {
@@ -105,7 +106,7 @@ TEST_CASE("columns count characters, not bytes") {
 
 TEST_CASE("everything that once broke a YAML reader is refused with a message") {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(GLISSADE_TEST_DATA "/corpus/design")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test_data_path("corpus/design"))) {
     INFO(entry.path().filename().string());
     ++files;
     // None of them is a design: each is refused, by a message that names the file.

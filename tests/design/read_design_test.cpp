@@ -1,11 +1,12 @@
 #include "glissade/design/design.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 using namespace glissade;
 
 TEST_CASE("the grain chute reads as its file says, in SI units") {
-  const Design design = read_design(GLISSADE_DESIGNS "/grain_chute.yaml");
+  const Design design = read_design(designs_path("grain_chute.yaml"));
   CHECK(design.name == "Grain chute, silo 3 to belt B");
   CHECK(design.track.start == Vec3{0.0, 0.0, 6.2});
   CHECK(design.track.finish == Vec3{5.4, 0.0, 1.1});
@@ -21,6 +22,6 @@ TEST_CASE("the grain chute reads as its file says, in SI units") {
   CHECK(design.mesh.tolerance == 0.0005);
   CHECK(design.exports.formats == std::vector{ExportFormat::stl, ExportFormat::off, ExportFormat::scad});
   CHECK(design.exports.unit == LengthUnit::millimetre);
-  CHECK(design.where("body.friction_angle") == std::string(GLISSADE_DESIGNS) + "/grain_chute.yaml:7:19");
+  CHECK(design.where("body.friction_angle") == designs_path("grain_chute.yaml:7:19"));
   CHECK(check(design).empty());
 }

@@ -2,6 +2,7 @@
 #include "glissade/design/template.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -12,7 +13,7 @@ using namespace glissade;
 
 TEST_CASE("every design in designs/ is sound") {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(GLISSADE_DESIGNS)) {
+  for (const auto& entry : std::filesystem::directory_iterator(designs_path())) {
     if (entry.path().extension() != ".yaml") continue;
     INFO(entry.path().filename().string());
     const Design design = read_design(entry.path());
@@ -29,7 +30,7 @@ TEST_CASE("every design in designs/ is sound") {
 }
 
 TEST_CASE("the in-run has the run, drop and friction of a large hill") {
-  const Design design = read_design(GLISSADE_DESIGNS "/ski_jump_inrun.yaml");
+  const Design design = read_design(designs_path("ski_jump_inrun.yaml"));
   CHECK(design.track.finish.x - design.track.start.x == 83.48);
   CHECK(design.track.start.z - design.track.finish.z == 45.79);
   CHECK(design.body.friction.coefficient() == 0.03);
@@ -38,7 +39,7 @@ TEST_CASE("the in-run has the run, drop and friction of a large hill") {
 TEST_CASE("figure 1's seven friction angles can all be set on its design") {
   for (const char* angle : {"11 deg", "13 deg", "15 deg", "17 deg", "20 deg", "25 deg", "40 deg"}) {
     const Design design =
-        read_design(GLISSADE_DESIGNS "/pudasaini_figure_1.yaml", {{"body.friction_angle", angle}});
+        read_design(designs_path("pudasaini_figure_1.yaml"), {{"body.friction_angle", angle}});
     REQUIRE(design.centerline.constant_speed_p.has_value());
     CHECK(*design.centerline.constant_speed_p == 100.0);
   }

@@ -3,6 +3,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,7 +13,7 @@ using namespace glissade;
 
 TEST_CASE("every file of the mesh corpus is a mesh that can be measured or one clear error") {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(GLISSADE_TEST_DATA "/corpus/mesh")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test_data_path("corpus/mesh"))) {
     files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());

@@ -4,6 +4,7 @@
 #include "glissade/motion/motion.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ double number(const nlohmann::json& text) {
 }
 
 nlohmann::json reference(const std::string& name) {
-  std::ifstream file(std::string(GLISSADE_TEST_DATA) + "/reference/" + name);
+  std::ifstream file(test_data_path("reference/" + name));
   return nlohmann::json::parse(file);
 }
 

@@ -1,6 +1,7 @@
 #include "glissade/pipeline.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <string>
@@ -11,8 +12,8 @@ using namespace glissade;
 
 TEST_CASE("a build tells each step and what part of the work is done, from none to less than all") {
   const TempDir place;
-  const Design design = read_design(std::string(GLISSADE_DESIGNS) + "/marble_run.yaml",
-                                    {{"export", "[stl, stl-ascii, off, scad, csv]"}});
+  const Design design =
+      read_design(designs_path("marble_run.yaml"), {{"export", "[stl, stl-ascii, off, scad, csv]"}});
   std::vector<std::string> stages;
   std::vector<double> fractions;
   RunContext context;
