@@ -14,7 +14,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 
 using namespace glissade;
-using namespace glissade::fastest;
+using namespace glissade::optimizer;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 
 using namespace glissade;
-using namespace glissade::fastest;
+using namespace glissade::optimizer;
 
 namespace {
 

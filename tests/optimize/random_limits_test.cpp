@@ -68,7 +68,7 @@ std::optional<std::shared_ptr<ClothoidSpline>> through_finish(double entry,
 }
 
 /// What a problem minimises, of a ride at the nominal friction.
-double objective_of(const Problem& problem, const fastest::Verdict& verdict) {
+double objective_of(const Problem& problem, const optimizer::Verdict& verdict) {
   if (problem.objective.kind == ObjectiveKind::exit_speed) return -verdict.exit_speed;
   return verdict.travel_time - problem.objective.exit_speed_weight * verdict.exit_speed;
 }
@@ -109,7 +109,7 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
     undecided += optimum.report.status == OptimizeStatus::no_track_found ? 1 : 0;
     if (!optimum.centerline) continue;
     ++solved;
-    const fastest::Verdict verdict = fastest::judge_track(problem, optimum.centerline, kReferee);
+    const optimizer::Verdict verdict = optimizer::judge_track(problem, optimum.centerline, kReferee);
     CHECK(verdict.arrived);
     CHECK(verdict.worst <= kKept);
     CHECK(verdict.travel_time == optimum.report.travel_time);
@@ -152,12 +152,12 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
           spline.entry_slope_angle().radians() + random.between(-1.0, 1.0) * amplitude * spline.length();
       const auto neighbour = through_finish(entry, segments, run, drop);
       if (!neighbour) continue;
-      const fastest::Verdict other = fastest::judge_track(problem, *neighbour, 8);
+      const optimizer::Verdict other = optimizer::judge_track(problem, *neighbour, 8);
       if (!other.arrived || other.worst > 1e-7) continue;
       ++admissible;
       if (objective_of(problem, other) >= least - 1e-6 * std::fabs(least) - kept) continue;
       // Faster at eight points a piece: look as closely as at the optimum itself.
-      const fastest::Verdict close = fastest::judge_track(problem, *neighbour, kReferee);
+      const optimizer::Verdict close = optimizer::judge_track(problem, *neighbour, kReferee);
       CAPTURE(k, amplitude * spline.length());
       // A neighbour that breaks a limit by 1e-7 may win that much times the limit's price.
       CHECK((!close.arrived || close.worst > 1e-7));
@@ -259,7 +259,7 @@ TEST_CASE("a stop or an empty budget ends early and says so") {
   hurried.time_budget = 1e-9;
   const Optimum early = optimize(problem, hurried);
   CHECK(early.report.status != OptimizeStatus::optimal);
-  if (early.centerline) CHECK(fastest::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+  if (early.centerline) CHECK(optimizer::judge_track(problem, early.centerline, kReferee).worst <= kKept);
 }
 
 TEST_CASE(
@@ -279,6 +279,6 @@ TEST_CASE(
   CHECK(early.report.status == OptimizeStatus::feasible_not_converged);
   CHECK(early.report.message == "stopped: the best track so far");
   REQUIRE(early.centerline);
-  CHECK(fastest::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+  CHECK(optimizer::judge_track(problem, early.centerline, kReferee).worst <= kKept);
   CHECK(early.report.travel_time >= optimize(problem).report.travel_time * (1.0 - 1e-6));
 }

@@ -86,6 +86,29 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
   return found;
 }
 
+/// @return the namespace that what a private header of the module declares belongs to
+std::string private_namespace(const std::string& module) {
+  // Two folders are named as a public function or type is.
+  if (module == "optimize") return "glissade::optimizer";
+  if (module == "design") return "glissade::design_file";
+  return "glissade::" + module;
+}
+
+/// @return types that a header defines outside any other, each with its namespace
+std::vector<std::string> types_defined(const std::string& text) {
+  static const std::regex kLine(
+      R"re((?:^|\n)(?:namespace ([a-z_:]+) \{|(?:class|struct|enum class|enum)[ ]+(\w+)[^;\n]*\{|using (\w+) =))re");
+  std::vector<std::string> types;
+  std::string space;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), kLine); match != std::sregex_iterator();
+       ++match) {
+    if ((*match)[1].matched) space = (*match)[1];
+    if ((*match)[2].matched) types.push_back(space + "::" + std::string((*match)[2]));
+    if ((*match)[3].matched) types.push_back(space + "::" + std::string((*match)[3]));
+  }
+  return types;
+}
+
 std::vector<fs::path> sources_below(const std::string& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLISSADE_SOURCE_DIR) / folder)) {
@@ -122,6 +145,40 @@ TEST_CASE("every file of the library includes only what its layer may know") {
     }
   }
   CHECK(files.size() >= 20);
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("what a private header declares lies in a namespace of its module") {
+  std::vector<std::string> found;
+  static const std::regex kNamespace(R"re(\nnamespace ([a-z_:]+) \{)re");
+  for (const fs::path& file : sources_below("lib/src")) {
+    if (file.extension() != ".hpp") continue;
+    const std::string name = relative_name(file);
+    const std::string text = text_of(file);
+    const std::string wanted = private_namespace(module_of(name));
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), kNamespace);
+         match != std::sregex_iterator(); ++match) {
+      const std::string space = (*match)[1];
+      if (space != wanted && !space.starts_with(wanted + "::"))
+        found.push_back(name + " opens namespace " + space);
+    }
+  }
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("no two headers define a type of one name in one namespace") {
+  CHECK(types_defined("namespace glissade::io {\nstruct Trim {\nclass Ahead;\nusing Ids = int;\n") ==
+        std::vector<std::string>{"glissade::io::Trim", "glissade::io::Ids"});
+  std::map<std::string, std::string> known;
+  std::vector<std::string> found;
+  for (const fs::path& file : sources_below("lib")) {
+    if (file.extension() != ".hpp") continue;
+    for (const std::string& type : types_defined(text_of(file))) {
+      const auto [entry, fresh] = known.emplace(type, relative_name(file));
+      if (!fresh) found.push_back(type + " in " + entry->second + " and " + relative_name(file));
+    }
+  }
+  CHECK(known.size() >= 100);
   CHECK(found == std::vector<std::string>{});
 }
 

@@ -18,6 +18,9 @@
 #include <boost/math/special_functions/cos_pi.hpp>
 
 namespace glissade {
+
+using namespace centerline;
+
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;

@@ -18,7 +18,7 @@
 #include <limits>
 #include <numbers>
 
-namespace glissade {
+namespace glissade::centerline {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;
@@ -132,4 +132,4 @@ CoulombState coulomb_state(const CoulombSolution& solution, double half_tangent)
   return state;
 }
 
-}  // namespace glissade
+}  // namespace glissade::centerline

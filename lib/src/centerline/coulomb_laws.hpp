@@ -2,7 +2,7 @@
 
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 
-namespace glissade {
+namespace glissade::centerline {
 
 /// @return tan(phi/2) where the track of `solution` has that slope angle
 /// @throws InputError if it has it nowhere, or everywhere (a vertical track)
@@ -20,4 +20,4 @@ namespace glissade {
 /// @return ds/d(phi) [m/rad] at tan(phi/2)
 [[nodiscard]] double arc_length_slope(const CoulombShape& shape, double half_tangent);
 
-}  // namespace glissade
+}  // namespace glissade::centerline

@@ -24,6 +24,9 @@
 #include <numbers>
 
 namespace glissade {
+
+using namespace centerline;
+
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;

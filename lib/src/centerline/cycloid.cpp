@@ -14,6 +14,9 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 namespace glissade {
+
+using namespace centerline;
+
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;

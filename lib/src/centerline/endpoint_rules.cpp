@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace glissade {
+namespace glissade::centerline {
 namespace {
 
 constexpr int kUsualDigits = 4;
@@ -71,4 +71,4 @@ void require_reachable_from_rest(const Endpoints& endpoints, Friction friction) 
   throw InfeasibleError(out_of_reach(endpoints, friction));
 }
 
-}  // namespace glissade
+}  // namespace glissade::centerline

@@ -3,7 +3,7 @@
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/core/units.hpp"
 
-namespace glissade {
+namespace glissade::centerline {
 
 /// @throws InputError if run or drop is not finite, or drop is not positive; names every fault at once
 void require_falling(const Endpoints& endpoints);
@@ -17,4 +17,4 @@ void require_gravity(double gravity);
 /// @throws as require_falling; InfeasibleError if drop <= mu |run|: out of reach from rest
 void require_reachable_from_rest(const Endpoints& endpoints, Friction friction);
 
-}  // namespace glissade
+}  // namespace glissade::centerline

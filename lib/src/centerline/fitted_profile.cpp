@@ -11,6 +11,9 @@
 #include <utility>
 
 namespace glissade {
+
+using namespace centerline;
+
 namespace {
 
 std::string point_text(const std::vector<Vec2>& points, std::size_t index) {

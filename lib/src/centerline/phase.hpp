@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace glissade {
+namespace glissade::centerline {
 
 /// A phase phi in (0, pi) with the trigonometry and the two integrals that the closed forms need, all of them
 /// accurate relative to their own size at both ends of the range:
@@ -81,4 +81,4 @@ inline Phase phase_at(double half_tangent) {
   return phase;
 }
 
-}  // namespace glissade
+}  // namespace glissade::centerline

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace glissade {
+namespace glissade::centerline {
 namespace {
 
 // The smoothing is lowered from the first to the last in these steps: from "an arc" to "through every point"
@@ -245,4 +245,4 @@ std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve, const s
   return deviations;
 }
 
-}  // namespace glissade
+}  // namespace glissade::centerline

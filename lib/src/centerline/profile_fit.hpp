@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace glissade {
+namespace glissade::centerline {
 
 /// Fits a clothoid spline from the origin, which is the first point, to points in order along it.
 /// @param points  at least 3, without repeated neighbours, in an order that a track can follow
@@ -17,4 +17,4 @@ namespace glissade {
 [[nodiscard]] std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve,
                                                           const std::vector<Vec2>& points);
 
-}  // namespace glissade
+}  // namespace glissade::centerline

@@ -9,7 +9,7 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
-namespace glissade {
+namespace glissade::centerline {
 namespace {
 
 constexpr std::size_t kCoarseChords = 24;
@@ -274,4 +274,4 @@ ClothoidSpline ProfileModel::spline(const Shape& shape) const {
   return {Angle::from_radians(shape.entry), std::move(segments)};
 }
 
-}  // namespace glissade
+}  // namespace glissade::centerline

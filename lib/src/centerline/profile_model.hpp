@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace glissade {
+namespace glissade::centerline {
 
 [[nodiscard]] inline Vec2 perpendicular(Vec2 a) {
   return {-a.y, a.x};
@@ -96,4 +96,4 @@ class ProfileModel {
   std::vector<std::vector<Vec2>> knot_changes_;  // of position by each bend
 };
 
-}  // namespace glissade
+}  // namespace glissade::centerline

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace glissade {
+namespace glissade::centerline {
 
 /// A dense symmetric positive definite matrix, lower triangle, row by row.
 class SymmetricMatrix {
@@ -61,4 +61,4 @@ class SymmetricMatrix {
   std::vector<double> values_;
 };
 
-}  // namespace glissade
+}  // namespace glissade::centerline

@@ -18,6 +18,9 @@
 #include <unistd.h>
 
 namespace glissade {
+
+using namespace io;
+
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18U;

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 /// @return size of the regular file behind `descriptor`
@@ -58,4 +58,4 @@ std::size_t FileSource::read(char* buffer, std::size_t count) {
   return done;
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

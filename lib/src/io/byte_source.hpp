@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace glissade {
+namespace glissade::io {
 
 /// Bytes in order, of a known number: a file, or memory in tests.
 class ByteSource {
@@ -58,4 +58,4 @@ class MemorySource final : public ByteSource {
   std::uint64_t size_;
 };
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -16,7 +16,7 @@
 #include <numbers>
 #include <string>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 constexpr double kLargestFloat = std::numeric_limits<float>::max();
@@ -91,8 +91,8 @@ class DistinctRounding {
 
   void keep_apart() {
     if (!has_merged()) return;
-    PositionIndex taken(positions_, positions_.size());
-    PositionIndex originals(exact_, exact_.size());
+    solid::PositionIndex taken(positions_, positions_.size());
+    solid::PositionIndex originals(exact_, exact_.size());
     std::vector<std::uint32_t> leader(exact_.size());
     std::vector<std::uint32_t> homeless;
     for (std::uint32_t i = 0; i < exact_.size(); ++i) {
@@ -105,14 +105,14 @@ class DistinctRounding {
 
  private:
   [[nodiscard]] bool has_merged() const {
-    PositionIndex index(positions_, positions_.size());
+    solid::PositionIndex index(positions_, positions_.size());
     for (std::uint32_t i = 0; i < positions_.size(); ++i) {
       if (!(exact_[index.enter(positions_[i], i)] == exact_[i])) return true;
     }
     return false;
   }
 
-  void settle(std::uint32_t vertex, PositionIndex& taken) {
+  void settle(std::uint32_t vertex, solid::PositionIndex& taken) {
     const std::uint32_t rival = taken.enter(positions_[vertex], vertex);
     for (const FloatPosition& point : alternatives(exact_[vertex])) {
       positions_[vertex] = to_vec(point);
@@ -173,7 +173,7 @@ bool fits_single_precision(Vec3 p) {
 
 void refuse_beyond_single_precision(const TriangleMesh& mesh, std::size_t first, std::size_t last,
                                     LengthUnit unit) {
-  require_usable_positions(mesh, first, last, "written");
+  solid::require_usable_positions(mesh, first, last, "written");
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 p = units_per_metre(unit) * mesh.vertices[i];
     if (fits_single_precision(p)) continue;
@@ -196,10 +196,11 @@ std::string_view unit_symbol(LengthUnit unit) {
 
 void require_writable(const TriangleMesh& mesh) {
   in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
-    require_usable_positions(mesh, first, last, "written");
+    solid::require_usable_positions(mesh, first, last, "written");
   });
-  in_ranges(mesh.triangles.size(),
-            [&](std::size_t first, std::size_t last) { require_existing_vertices(mesh, first, last); });
+  in_ranges(mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    solid::require_existing_vertices(mesh, first, last);
+  });
 }
 
 bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit) {
@@ -238,10 +239,14 @@ std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
   return positions;
 }
 
+}  // namespace glissade::io
+
+namespace glissade {
+
 TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit) {
-  require_writable(mesh);
-  if (format == MeshFormat::stl_binary) return {single_precision(mesh, unit), mesh.triangles};
-  return as_double_precision(mesh, unit);
+  io::require_writable(mesh);
+  if (format == MeshFormat::stl_binary) return {io::single_precision(mesh, unit), mesh.triangles};
+  return io::as_double_precision(mesh, unit);
 }
 
 }  // namespace glissade

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace glissade {
+namespace glissade::io {
 
 using FloatPosition = std::array<float, 3>;
 
@@ -34,4 +34,4 @@ void require_writable(const TriangleMesh& mesh);
 /// @throws InputError as as_written(); triangles must name vertices that exist
 [[nodiscard]] std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit);
 
-}  // namespace glissade
+}  // namespace glissade::io

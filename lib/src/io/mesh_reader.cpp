@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -76,9 +76,13 @@ TriangleMesh read_mesh_bytes(ByteSource& source, const std::string& name, Length
   return mesh;
 }
 
+}  // namespace glissade::io
+
+namespace glissade {
+
 TriangleMesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
-  FileSource source(file);
-  return read_mesh_bytes(source, file.string(), unit);
+  io::FileSource source(file);
+  return io::read_mesh_bytes(source, file.string(), unit);
 }
 
 }  // namespace glissade

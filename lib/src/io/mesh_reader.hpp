@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace glissade {
+namespace glissade::io {
 
 /// read_mesh() for bytes from anywhere.
 /// @param name  of the file, for messages
@@ -21,4 +21,4 @@ namespace glissade {
 [[nodiscard]] TriangleMesh read_stl_ascii(Reading& reading);
 [[nodiscard]] TriangleMesh read_off(Reading& reading);
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -16,6 +16,9 @@
 #include <vector>
 
 namespace glissade {
+
+using namespace io;
+
 namespace {
 
 // Of the comment in a text file.
@@ -60,7 +63,7 @@ void write_stl_binary(AtomicFile& file, const TriangleMesh& mesh, const MeshFile
   static_assert(kBytesBeyondFacets <= kBytesBeyondBlock);
   const double per_metre = units_per_metre(options.unit);
   const bool is_rounded = is_single_precision(mesh, options.unit);
-  if (!is_rounded) require_existing_vertices(mesh, 0, mesh.triangles.size());
+  if (!is_rounded) solid::require_existing_vertices(mesh, 0, mesh.triangles.size());
   const std::vector<Vec3> rounded = is_rounded ? std::vector<Vec3>() : single_precision(mesh, options.unit);
   const std::vector<Vec3>& vertices = is_rounded ? mesh.vertices : rounded;
 
@@ -70,7 +73,7 @@ void write_stl_binary(AtomicFile& file, const TriangleMesh& mesh, const MeshFile
   write_in_order(
       file, {mesh.triangles.size(), stl::kFacetBytes, [&](std::size_t first, std::size_t last, char* block) {
                // Here and not at first: the triangles of a block stay in the cache.
-               if (is_rounded) require_existing_vertices(mesh, first, last);
+               if (is_rounded) solid::require_existing_vertices(mesh, first, last);
                return put_stl_facets(block, mesh.triangles.data() + first, mesh.triangles.data() + last,
                                      vertices, per_metre);
              }});

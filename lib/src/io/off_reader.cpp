@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 template <typename Part>
@@ -177,4 +177,4 @@ TriangleMesh read_off(Reading& reading) {
   return mesh;
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 // A block stays in the cache of the core that formats it until the system has copied it.
@@ -117,4 +117,4 @@ void in_ranges(std::size_t count, const std::function<void(std::size_t first, st
   for (std::future<void>& other : others) other.get();
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace glissade {
+namespace glissade::io {
 
 inline constexpr std::size_t kBytesBeyondBlock = 8;
 
@@ -29,4 +29,4 @@ void write_in_order(AtomicFile& file, const BlockPlan& plan);
 /// @throws what `work` throws; where several do, that of the lowest range
 void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work);
 
-}  // namespace glissade
+}  // namespace glissade::io

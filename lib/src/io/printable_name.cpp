@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 unsigned byte_at(std::string_view text, std::size_t place) {
@@ -49,4 +49,4 @@ std::string printable_name(std::string_view name, std::size_t most_bytes) {
   return text;
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

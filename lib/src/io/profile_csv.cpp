@@ -16,6 +16,9 @@
 #include <system_error>
 
 namespace glissade {
+
+using namespace io;
+
 namespace {
 
 std::string read_text(const std::filesystem::path& file) {

@@ -12,7 +12,7 @@
 #include <limits>
 #include <utility>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 enum class NumberFault { none, not_a_number, not_finite, too_large };
@@ -106,4 +106,4 @@ FileError bad_coordinate(const Reading& reading, const std::string& part, std::s
   }
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace glissade {
+namespace glissade::io {
 
 /// What the readers of all mesh formats share: the bytes, whose they are, and how to say where something is
 /// wrong.
@@ -73,4 +73,4 @@ template <typename Part>
   return {x, y, z};
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -13,6 +13,9 @@
 #include <string_view>
 
 namespace glissade {
+
+using namespace io;
+
 namespace {
 
 // Modules hold their data themselves: OpenSCAD evaluates the variables of a used file anew at every call.

@@ -12,6 +12,9 @@
 #include <string>
 
 namespace glissade {
+
+using namespace io;
+
 namespace {
 
 constexpr std::array<std::string_view, 9> kTrackColumns = {

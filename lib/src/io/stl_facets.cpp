@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstring>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 constexpr std::size_t kFloatBytes = 4;
@@ -102,4 +102,4 @@ char* put_stl_facets(char* place, const std::array<std::uint32_t, 3>* begin,
   return place;
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace glissade {
+namespace glissade::io {
 
 /// Puts triangles down as the facets of binary STL: unit normal, three corners, two bytes of zero.
 ///
@@ -23,4 +23,4 @@ namespace glissade {
 
 inline constexpr std::size_t kBytesBeyondFacets = 2;
 
-}  // namespace glissade
+}  // namespace glissade::io

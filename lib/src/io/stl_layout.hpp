@@ -5,7 +5,7 @@
 
 /// Binary STL: a header of free text, a count, then facets of twelve floats and two unused bytes; numbers
 /// with their lowest byte first.
-namespace glissade::stl {
+namespace glissade::io::stl {
 
 inline constexpr std::size_t kHeaderBytes = 80;
 inline constexpr std::size_t kPrefixBytes = kHeaderBytes + 4;
@@ -22,4 +22,4 @@ inline constexpr std::size_t kFacetBytes = 12 * 4 + 2;
   return value;
 }
 
-}  // namespace glissade::stl
+}  // namespace glissade::io::stl

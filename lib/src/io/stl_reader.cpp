@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 /// Facets whose corners are given as positions; equal positions become one vertex.
@@ -37,7 +37,7 @@ class WeldingMesh {
   }
 
   TriangleMesh mesh_;
-  PositionIndex index_;
+  solid::PositionIndex index_;
 };
 
 Vec3 position_at(const char* bytes, double per_metre) {
@@ -131,4 +131,4 @@ TriangleMesh read_stl_ascii(Reading& reading) {
   return result.take();
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 std::string hint_for(int code) {
@@ -42,4 +42,4 @@ FileError system_error(const std::filesystem::path& file, const std::string& wha
   return FileError({file.string(), what + ": " + std::generic_category().message(code), "", hint_for(code)});
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

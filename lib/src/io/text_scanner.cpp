@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace glissade {
+namespace glissade::io {
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18U;
@@ -95,4 +95,4 @@ std::string_view TextScanner::take_word() {
   return word;
 }
 
-}  // namespace glissade
+}  // namespace glissade::io

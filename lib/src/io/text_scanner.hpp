@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace glissade {
+namespace glissade::io {
 
 /// Words and lines of a text file of any size in constant memory.
 ///
@@ -55,4 +55,4 @@ class TextScanner {
   std::uint64_t line_ = 1;
 };
 
-}  // namespace glissade
+}  // namespace glissade::io

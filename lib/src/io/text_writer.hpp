@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace glissade {
+namespace glissade::io {
 
 /// Appends text to memory that the caller has made room for. Numbers are the shortest decimals that read back
 /// as the same value, independent of locale; -0 is written as 0.
@@ -110,4 +110,4 @@ class TextWriter {
   std::vector<char> line_;
 };
 
-}  // namespace glissade
+}  // namespace glissade::io

@@ -6,7 +6,7 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
-namespace glissade::chebyshev {
+namespace glissade::motion::chebyshev {
 namespace {
 
 constexpr std::size_t kDegree = kNodes - 1;
@@ -161,4 +161,4 @@ double Interpolation::operator()(const Values& f) const {
   return dot(weights_, f);
 }
 
-}  // namespace glissade::chebyshev
+}  // namespace glissade::motion::chebyshev

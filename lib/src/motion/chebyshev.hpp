@@ -5,7 +5,7 @@
 
 /// Polynomials given by their values at the Chebyshev-Lobatto nodes of [0, 1]: what a panel of a ride is made
 /// of.
-namespace glissade::chebyshev {
+namespace glissade::motion::chebyshev {
 
 inline constexpr std::size_t kNodes = 17;
 
@@ -55,4 +55,4 @@ class Interpolation {
   Values weights_;
 };
 
-}  // namespace glissade::chebyshev
+}  // namespace glissade::motion::chebyshev

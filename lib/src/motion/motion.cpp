@@ -14,6 +14,9 @@
 #include <boost/math/tools/minima.hpp>
 
 namespace glissade {
+
+using namespace motion;
+
 namespace {
 
 void require_body(const Body& body, double gravity) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glissade {
+namespace glissade::motion {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -193,4 +193,4 @@ RideSums Panel::sums_to(double sigma) const {
           all.speed_squared - from_anchor.speed_squared};
 }
 
-}  // namespace glissade
+}  // namespace glissade::motion

@@ -4,7 +4,7 @@
 
 #include "chebyshev.hpp"
 
-namespace glissade {
+namespace glissade::motion {
 
 /// The energy equation of one body on one centerline, docs/theory.md, in the form that has a closed integral:
 /// w = v e^(-2 mu zeta + 2 k s), dw/ds = push(zeta) e^(-2 mu zeta + 2 k s).
@@ -114,4 +114,4 @@ struct Panel {
   [[nodiscard]] RideSums sums_to(double sigma) const;
 };
 
-}  // namespace glissade
+}  // namespace glissade::motion

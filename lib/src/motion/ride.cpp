@@ -11,7 +11,7 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
-namespace glissade {
+namespace glissade::motion {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -381,4 +381,4 @@ RideRecord ride_down(const Equation& equation, double entry_speed) {
   return Integrator(equation, entry_speed).run();
 }
 
-}  // namespace glissade
+}  // namespace glissade::motion

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace glissade {
+namespace glissade::motion {
 
 /// What a ride left behind: panels in order from the start, and how it ended.
 struct RideRecord {
@@ -24,4 +24,4 @@ struct RideRecord {
 /// needed
 [[nodiscard]] RideRecord ride_down(const Equation& equation, double entry_speed);
 
-}  // namespace glissade
+}  // namespace glissade::motion

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 double dot(const double* a, const double* b, std::size_t n) {
   // Four sums side by side: the order is fixed, and the processor need not wait for each addition.
@@ -63,4 +63,4 @@ void ShiftedCholesky::forward(double* x) const {
   for (std::size_t i = 0; i < lower_.columns(); ++i) x[i] = (x[i] - dot(lower_.row(i), x, i)) * inverse_[i];
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 using Vector = std::vector<double>;
 
@@ -51,4 +51,4 @@ class ShiftedCholesky {
   double shift_ = 0.0;
 };
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

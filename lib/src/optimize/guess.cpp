@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 constexpr double kRightAngle = 0.5 * std::numbers::pi;
@@ -155,4 +155,4 @@ Vector fit(const GuessCurve& curve, const Transcription& track) {
   return right;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -3,7 +3,7 @@
 #include "optimize/dense.hpp"
 #include "optimize/transcription.hpp"
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// Slope angle over the share of arc length, as a table fine towards the start; the shape that a search
 /// begins with. Scaled as everything here.
@@ -30,4 +30,4 @@ struct GuessCurve {
 /// length.
 [[nodiscard]] Vector fit(const GuessCurve& curve, const Transcription& track);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

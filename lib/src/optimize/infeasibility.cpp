@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 constexpr std::size_t kPieces = 24;
@@ -203,4 +203,4 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   return explanation;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// What the reach theorem alone forbids (docs/theory.md): from rest, no track leads to a finish whose mean
 /// slope is not steeper than the steepest friction angle.
@@ -25,4 +25,4 @@ struct Explanation {
 [[nodiscard]] Explanation explain(const Problem& problem, const std::vector<Passages>& passages,
                                   SearchControl& control);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 // Rows this much further from their bound than the worst one take part in a step.
@@ -345,4 +345,4 @@ Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Ve
   return Search(problem, mesh, elastic, margins, control).run(start);
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// Which limits give way in the search for the least violation.
 struct Elastic {
@@ -32,4 +32,4 @@ struct Relaxed {
 [[nodiscard]] Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
                                       const Elastic& elastic, const Vector& margins, SearchControl& control);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

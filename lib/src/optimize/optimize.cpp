@@ -21,7 +21,7 @@
 #include <optional>
 
 namespace glissade {
-namespace fastest {
+namespace optimizer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -398,20 +398,21 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
 }
 
 }  // namespace
-}  // namespace fastest
+}  // namespace optimizer
 
 std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track) {
   Problem checked = problem;
   // A body held from both sides cannot be searched for, but what else is asked of its track can be checked.
   checked.limits.lowest_normal_load = problem.limits.lowest_normal_load.value_or(0.0);
-  fastest::require_valid(checked);
+  optimizer::require_valid(checked);
   if (!track) throw InputError({"", "there is no track to hold against the limits", "", ""});
-  return fastest::judge_track(problem, track, fastest::kRefereeSamples, fastest::BrokenRides::judged).checks;
+  return optimizer::judge_track(problem, track, optimizer::kRefereeSamples, optimizer::BrokenRides::judged)
+      .checks;
 }
 
 Optimum optimize(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
                  const Progress& progress) {
-  using namespace fastest;
+  using namespace optimizer;
   require_valid(problem);
   require_valid(options);
   const auto begin = Clock::now();

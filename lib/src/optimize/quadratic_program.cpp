@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 // A row whose part outside the active ones is smaller than this share of it depends on them.
@@ -286,4 +286,4 @@ QuadraticSolution solve(const QuadraticProgram& program, const ShiftedCholesky& 
   return DualMethod(program, metric).run(likely);
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// min g.d + 1/2 d^T H d over d, where E d + e = 0 and A d + a <= 0; H = L L^T is given by its factor.
 struct QuadraticProgram {
@@ -46,4 +46,4 @@ struct QuadraticSolution {
 [[nodiscard]] QuadraticSolution solve(const QuadraticProgram& program, const ShiftedCholesky& metric,
                                       const std::vector<std::size_t>& likely = {});
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 constexpr std::size_t kNodes = PanelRule::kNodes;
@@ -65,4 +65,4 @@ const PanelRule& panel_rule() {
   return rule;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// Gauss-Legendre nodes on (0, 1), their weights, and the matrix that integrates the interpolating polynomial
 /// from 0 to each node.
@@ -16,4 +16,4 @@ struct PanelRule {
 
 [[nodiscard]] const PanelRule& panel_rule();
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

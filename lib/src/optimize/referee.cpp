@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 double distance_to_segment(Vec2 point, Vec2 from, Vec2 to) {
@@ -484,4 +484,4 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
   return verdict;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

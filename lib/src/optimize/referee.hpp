@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// A stretch along which a limit is broken.
 struct Broken {
@@ -44,4 +44,4 @@ inline constexpr int kRefereeSamples = 70;
 [[nodiscard]] Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
                                   BrokenRides broken_rides = BrokenRides::left_out);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 /// 2 (s + v_0/2): squared speed of free fall through the arc length.
@@ -624,4 +624,4 @@ Matrix Rows::hessian(const State& state, const Vector& equality, const std::vect
   return hessian;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

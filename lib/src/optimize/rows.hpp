@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// One scalar condition on the unknowns: a limit at one place, for one friction.
 struct Row {
@@ -87,4 +87,4 @@ class Rows {
   Vector margins_;
 };
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

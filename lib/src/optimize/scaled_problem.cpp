@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 /// Collects the limits of one problem.
@@ -421,4 +421,4 @@ Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
   return mesh;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// What a limit is about; each is one scalar that is kept on one side of a bound.
 enum class Measure {
@@ -89,4 +89,4 @@ using Passages = std::vector<Passage>;
 void require_valid(const Problem& problem);
 void require_valid(const OptimizeOptions& options);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 // Rows this close to their bound take part in a quadratic program.
@@ -419,4 +419,4 @@ GuessCurve curve_of(const Transcription& track, const Vector& z) {
   return curve;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// What a search may cost, and who may end it.
 struct SearchControl {
@@ -42,4 +42,4 @@ struct Found {
 /// Slope angle over arc length of an iterate.
 [[nodiscard]] GuessCurve curve_of(const Transcription& track, const Vector& z);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

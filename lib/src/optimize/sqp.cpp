@@ -6,7 +6,7 @@
 
 #include <nlopt.h>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 struct OptimizerDeleter {
@@ -109,4 +109,4 @@ Descent descend(const SampleFunction& function, const Vector& z, std::size_t equ
   return result;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

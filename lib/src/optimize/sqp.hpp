@@ -4,7 +4,7 @@
 
 #include <functional>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// Values and derivatives at one point; inequality rows are kept where <= 0, equality rows where 0.
 struct Sample {
@@ -37,4 +37,4 @@ struct Descent {
                               std::size_t inequalities, const ShiftedCholesky& metric,
                               const DescentOptions& options, const std::function<bool()>& stop);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

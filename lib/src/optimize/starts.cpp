@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 /// Where the search expects a free finish.
@@ -88,4 +88,4 @@ std::optional<double> unlimited_travel_time(const Problem& problem) {
   return solve_coulomb_brachistochrone(ends, problem.body.friction, problem.gravity).travel_time;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

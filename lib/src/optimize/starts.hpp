@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// Curves to begin the search with, the most promising first; none comes from the user. Lengths are those of
 /// the core, without the straight ends.
@@ -16,4 +16,4 @@ namespace glissade::fastest {
 /// does not apply.
 [[nodiscard]] std::optional<double> unlimited_travel_time(const Problem& problem);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 // Knots before and behind a jump, in shares of the core length: near enough for what the ramp costs, far
@@ -609,4 +609,4 @@ Vector refined_knots(const Transcription& track, const Vector& z, const std::vec
   return knots;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// A stretch of the track.
 struct Span {
@@ -37,4 +37,4 @@ struct Switch {
 [[nodiscard]] Vector refined_knots(const Transcription& track, const Vector& z,
                                    const std::vector<Switch>& switches, std::size_t pieces);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

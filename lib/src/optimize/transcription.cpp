@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 namespace {
 
 constexpr std::size_t kNodes = PanelRule::kNodes;
@@ -565,4 +565,4 @@ Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::ve
   return h;
 }
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

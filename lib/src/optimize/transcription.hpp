@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace glissade::fastest {
+namespace glissade::optimizer {
 
 /// Everything in this folder but the facade is in units of a chord and of sqrt(chord/gravity): gravity is 1.
 
@@ -153,4 +153,4 @@ struct Slowness {
 };
 [[nodiscard]] Slowness slowness(double v, double floor);
 
-}  // namespace glissade::fastest
+}  // namespace glissade::optimizer

@@ -15,6 +15,9 @@
 #include <utility>
 
 namespace glissade {
+
+using namespace pipeline;
+
 namespace {
 
 namespace fs = std::filesystem;

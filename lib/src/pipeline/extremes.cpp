@@ -9,7 +9,7 @@
 
 #include <boost/math/tools/minima.hpp>
 
-namespace glissade {
+namespace glissade::pipeline {
 namespace {
 
 using Quantity = std::function<double(double s)>;
@@ -60,4 +60,4 @@ double steepest_slope_angle(const Centerline& centerline) {
   return highest_along(centerline, [&](double s) { return centerline.slope_angle(s); });
 }
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

@@ -2,7 +2,7 @@
 
 #include "glissade/centerline/centerline.hpp"
 
-namespace glissade {
+namespace glissade::pipeline {
 
 /// @return smallest radius of curvature along a centerline [m]: 0 where the curvature is unbounded at the
 ///         start, infinity on a straight
@@ -11,4 +11,4 @@ namespace glissade {
 /// @return largest slope angle along a centerline [rad]
 [[nodiscard]] double steepest_slope_angle(const Centerline& centerline);
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

@@ -11,6 +11,9 @@
 #include <string_view>
 
 namespace glissade {
+
+using namespace pipeline;
+
 namespace {
 
 /// The track leads towards smaller x, so that runs count the other way.
@@ -241,7 +244,7 @@ Problem problem_of(const Design& design) {
   return problem;
 }
 
-Optimum search_within_limits(const Design& design, const RunContext& context) {
+Optimum pipeline::search_within_limits(const Design& design, const RunContext& context) {
   OptimizeOptions options;
   options.time_budget = context.time_budget;
   Optimum optimum = at_place(design.where("limits"), [&] {
@@ -259,8 +262,8 @@ Optimum search_within_limits(const Design& design, const RunContext& context) {
   throw ConvergenceError({place, optimum.report.message, "", "a larger --time-budget, or wider limits"});
 }
 
-std::vector<LimitCheck> checked_limits(const Design& design, const Endpoints& endpoints,
-                                       const CenterlinePtr& centerline) {
+std::vector<LimitCheck> pipeline::checked_limits(const Design& design, const Endpoints& endpoints,
+                                                 const CenterlinePtr& centerline) {
   if (!design.limits) return {};
   Problem problem = problem_of(design);
   problem.endpoints = endpoints;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace glissade {
+namespace glissade::pipeline {
 
 /// The fastest track within a design's limits, and how the search for it ended, in the design's frame.
 /// @throws LimitsConflict, ConvergenceError, Interrupted as solve()
@@ -14,4 +14,4 @@ namespace glissade {
 [[nodiscard]] std::vector<LimitCheck> checked_limits(const Design& design, const Endpoints& endpoints,
                                                      const CenterlinePtr& centerline);
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace glissade {
+namespace glissade::pipeline {
 
 /// @return the issues of an error; those that do not say where they arose get `where`
 inline std::vector<Issue> located(const Error& error, const std::string& where) {
@@ -31,4 +31,4 @@ auto at_place(const std::string& where, Make&& make) {
   }
 }
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

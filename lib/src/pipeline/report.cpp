@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace glissade {
+namespace glissade::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,4 +156,4 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   return input;
 }
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

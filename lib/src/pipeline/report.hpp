@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace glissade {
+namespace glissade::pipeline {
 
 /// What a build has made so far, for the report that goes beside it.
 struct BuildForReport {
@@ -22,4 +22,4 @@ struct BuildForReport {
 ///         the numbers that stand beside it
 [[nodiscard]] ReportInput report_input(const Design& design, const BuildForReport& build);
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

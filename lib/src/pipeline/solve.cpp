@@ -19,6 +19,9 @@
 #include <vector>
 
 namespace glissade {
+
+using namespace pipeline;
+
 namespace {
 
 void require_sound(const Design& design) {

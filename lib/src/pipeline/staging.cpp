@@ -11,7 +11,7 @@
 
 #include <unistd.h>
 
-namespace glissade {
+namespace glissade::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ std::vector<fs::path> Staging::publish() {
   return places;
 }
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace glissade {
+namespace glissade::pipeline {
 
 /// A directory inside the target directory in which files are made and checked before all of them move to
 /// their places together. What has not been published is gone when this is destroyed, the target directory
@@ -33,4 +33,4 @@ class Staging {
   std::vector<std::string> names_;
 };
 
-}  // namespace glissade
+}  // namespace glissade::pipeline

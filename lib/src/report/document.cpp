@@ -13,7 +13,7 @@
 
 #include <openssl/evp.h>
 
-namespace glissade {
+namespace glissade::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -253,9 +253,13 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   return document;
 }
 
+}  // namespace glissade::report
+
+namespace glissade {
+
 std::string report_json(const ReportInput& input) {
   // A name that is not UTF-8 must not stop a build: replaced bytes are visible, and harmless.
-  return report_document(input).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return report::report_document(input).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace glissade

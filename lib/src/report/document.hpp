@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-namespace glissade {
+namespace glissade::report {
 
 /// The report's data, fields in the order that docs/report-data.md lists them.
 [[nodiscard]] nlohmann::ordered_json report_document(const ReportInput& input);
 
-}  // namespace glissade
+}  // namespace glissade::report

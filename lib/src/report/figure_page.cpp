@@ -10,6 +10,9 @@
 #include <utility>
 
 namespace glissade {
+
+using namespace report;
+
 namespace {
 
 constexpr const char* kStyle =

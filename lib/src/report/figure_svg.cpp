@@ -14,6 +14,9 @@
 #include <fmt/format.h>
 
 namespace glissade {
+
+using namespace report;
+
 namespace {
 
 // Lightness differs from one to the next, so that the lines stay apart in grey.

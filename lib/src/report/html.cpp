@@ -7,6 +7,9 @@
 #include <string_view>
 
 namespace glissade {
+
+using namespace report;
+
 namespace {
 
 /// JSON inside a script element: "</script" and "<!--" must not occur, and a JSON string may spell '<' as

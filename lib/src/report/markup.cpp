@@ -1,6 +1,6 @@
 #include "report/markup.hpp"
 
-namespace glissade {
+namespace glissade::report {
 
 std::string escaped_markup(std::string_view text) {
   std::string escaped;
@@ -25,4 +25,4 @@ std::string escaped_markup(std::string_view text) {
   return escaped;
 }
 
-}  // namespace glissade
+}  // namespace glissade::report

@@ -2,11 +2,11 @@
 
 #include <string_view>
 
-namespace glissade::page_assets {
+namespace glissade::report::page_assets {
 
 /// The committed bundle of the page (web/dist), as built from web/src.
 extern const std::string_view kScript;
 extern const std::string_view kStyle;
 extern const std::string_view kLicences;
 
-}  // namespace glissade::page_assets
+}  // namespace glissade::report::page_assets

@@ -14,6 +14,9 @@
 #include <utility>
 
 namespace glissade {
+
+using namespace report;
+
 namespace {
 
 constexpr std::array<std::pair<RideQuantity, std::string_view>, 6> kWords = {{

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glissade {
+namespace glissade::report {
 
 namespace {
 
@@ -37,4 +37,4 @@ std::vector<double> track_stations(const Centerline& centerline) {
   return stations_to(centerline, centerline.length());
 }
 
-}  // namespace glissade
+}  // namespace glissade::report

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glissade {
+namespace glissade::report {
 namespace {
 
 struct Station {
@@ -110,4 +110,4 @@ ViewMesh make_view(const ReportInput& input) {
   return view;
 }
 
-}  // namespace glissade
+}  // namespace glissade::report

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace glissade {
+namespace glissade::report {
 
 /// The solid as the page's 3-D view draws it: positions on a grid of kSteps steps along each side of the
 /// bounding box, the arc length beside each vertex on as many steps of the track.
@@ -22,4 +22,4 @@ struct ViewMesh {
 
 [[nodiscard]] ViewMesh make_view(const ReportInput& input);
 
-}  // namespace glissade
+}  // namespace glissade::report

@@ -10,7 +10,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -91,4 +91,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulate_loops(const std::vector<st
   return triangles;
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace glissade {
+namespace glissade::solid {
 
 /// Triangles that fill the region between closed loops of a plane, using exactly the given points.
 ///
@@ -18,4 +18,4 @@ namespace glissade {
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangulate_loops(
     const std::vector<std::vector<Vec2>>& loops);
 
-}  // namespace glissade
+}  // namespace glissade::solid

@@ -9,7 +9,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -651,4 +651,4 @@ double LevelCurves::height_of(Vec2 point) const {
   return std::copysign(norm(away), dot(away, foot.normal));
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

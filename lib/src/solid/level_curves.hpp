@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace glissade {
+namespace glissade::solid {
 
 /// A stretch of stations that a level curve leaves out, and the one point that takes its place.
 struct Trim {
@@ -150,4 +150,4 @@ class LevelCurves {
   double least_below_ = 0.0;
 };
 
-}  // namespace glissade
+}  // namespace glissade::solid

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 // NaN is not usable either: it compares with nothing.
@@ -56,4 +56,4 @@ void require_existing_vertices(const TriangleMesh& mesh, std::size_t first, std:
   }
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

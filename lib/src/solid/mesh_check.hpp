@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace glissade {
+namespace glissade::solid {
 
 /// What every function that takes a mesh asks of it first. Ranges, so that several threads can share the work.
 
@@ -19,4 +19,4 @@ void require_usable_positions(const TriangleMesh& mesh, std::size_t first, std::
 ///         first such triangle
 void require_existing_vertices(const TriangleMesh& mesh, std::size_t first, std::size_t last);
 
-}  // namespace glissade
+}  // namespace glissade::solid

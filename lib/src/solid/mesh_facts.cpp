@@ -13,6 +13,9 @@
 #include <numeric>
 
 namespace glissade {
+
+using namespace solid;
+
 namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 constexpr std::size_t kMostPieces = 5'000;
@@ -105,4 +105,4 @@ bool bounds_material(const std::vector<Vec3>& positions, const std::vector<Facet
   return true;
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

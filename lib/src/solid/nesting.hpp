@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace glissade {
+namespace glissade::solid {
 
 /// The pieces of a surface: which one each facet belongs to, and what volume each encloses, negative where it
 /// faces inward.
@@ -25,4 +25,4 @@ struct Pieces {
 [[nodiscard]] bool bounds_material(const std::vector<Vec3>& positions,
                                    const std::vector<FacetCorners>& facets, const Pieces& pieces);
 
-}  // namespace glissade
+}  // namespace glissade::solid

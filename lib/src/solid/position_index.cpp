@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 constexpr std::size_t kSmallestTable = 64;
@@ -58,4 +58,4 @@ void PositionIndex::grow() {
   }
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace glissade {
+namespace glissade::solid {
 
 /// Finds equal positions in constant time each: a hash table of indices into an array of positions.
 ///
@@ -37,4 +37,4 @@ class PositionIndex {
   std::size_t used_ = 0;
 };
 
-}  // namespace glissade
+}  // namespace glissade::solid

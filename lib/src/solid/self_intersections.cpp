@@ -8,7 +8,7 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -248,4 +248,4 @@ SelfIntersections find_self_intersections(const std::vector<Vec3>& positions,
   return {.pairs = tester.pairs(), .complete = true};
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

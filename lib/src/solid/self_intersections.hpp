@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace glissade {
+namespace glissade::solid {
 
 /// The questions about a mesh that only exact arithmetic can answer; CGAL stays behind this header.
 
@@ -42,4 +42,4 @@ struct SelfIntersectionLimits {
                                                         const std::vector<FacetCorners>& facets,
                                                         const SelfIntersectionLimits& limits);
 
-}  // namespace glissade
+}  // namespace glissade::solid

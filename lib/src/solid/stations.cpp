@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 // A step that turns further than this no longer looks like the curve, however loose the tolerance.
@@ -119,4 +119,4 @@ void StationPlan::meet_breaks(std::vector<Station>& stations) const {
   stations = std::move(merged);
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

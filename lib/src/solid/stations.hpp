@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace glissade {
+namespace glissade::solid {
 
 /// A point of the centerline with its frame, in the vertical plane with z UP (z = -drop).
 struct Station {
@@ -65,4 +65,4 @@ class StationPlan {
   std::vector<Panel> panels_;
 };
 
-}  // namespace glissade
+}  // namespace glissade::solid

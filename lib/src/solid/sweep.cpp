@@ -20,6 +20,9 @@
 #include <utility>
 
 namespace glissade {
+
+using namespace solid;
+
 namespace {
 
 using Polygon = CrossSection::Polygon;

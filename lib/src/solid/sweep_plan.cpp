@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 using Polygon = CrossSection::Polygon;
@@ -150,4 +150,4 @@ void check_options(const Centerline& centerline, const CrossSection& section, co
              : "a tolerance of " + length_text(2.0 * finest, 1)});
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

@@ -7,7 +7,7 @@
 
 #include "solid/stations.hpp"
 
-namespace glissade {
+namespace glissade::solid {
 
 /// Steps are planned for this share of the tolerance: one step beside a trim may be that much longer.
 inline constexpr double kPlannedShare = 0.75;
@@ -57,4 +57,4 @@ class Planner {
 void check_options(const Centerline& centerline, const CrossSection& section, const Placement& placement,
                    const SweepOptions& options);
 
-}  // namespace glissade
+}  // namespace glissade::solid

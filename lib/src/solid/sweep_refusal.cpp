@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 std::string place_text(const Station& station) {
@@ -55,4 +55,4 @@ void refuse_section(const Centerline& centerline, const CrossSection& section, c
   throw InputError(issue);
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid

@@ -5,7 +5,7 @@
 
 #include "solid/level_curves.hpp"
 
-namespace glissade {
+namespace glissade::solid {
 
 /// Tells why a section cannot follow a track, where, and how far it may reach.
 /// @param height  of a level that meets an obstacle
@@ -13,4 +13,4 @@ namespace glissade {
 [[noreturn]] void refuse_section(const Centerline& centerline, const CrossSection& section,
                                  const LevelCurves& curves, double height);
 
-}  // namespace glissade
+}  // namespace glissade::solid

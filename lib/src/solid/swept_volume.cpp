@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace glissade {
+namespace glissade::solid {
 namespace {
 
 using Polygon = CrossSection::Polygon;
@@ -66,4 +66,4 @@ double swept_volume(const Centerline& centerline, const CrossSection& section, c
   return volume;
 }
 
-}  // namespace glissade
+}  // namespace glissade::solid
