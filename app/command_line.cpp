@@ -5,6 +5,7 @@
 
 #include "app/console.hpp"
 #include "app/help.hpp"
+#include "app/usage_problem.hpp"
 
 #include <memory>
 #include <string>
@@ -30,16 +31,6 @@ constexpr const char* kFooter =
     "body does not arrive; 4 not converged; 5 a file cannot be read or written; 70 a defect of Glissade;\n"
     "130 interrupted.\n"
     "'glissade COMMAND --help' tells more about a command.";
-
-std::string command_given(const CLI::App& program) {
-  const auto given = program.get_subcommands();
-  return given.empty() ? program.get_name() : program.get_name() + " " + given.front()->get_name();
-}
-
-Issue usage_issue(const CLI::App& program, std::string what) {
-  while (!what.empty() && (what.back() == '\n' || what.back() == ' ')) what.pop_back();
-  return {"", what, "", command_given(program) + " --help"};
-}
 
 }  // namespace
 
@@ -71,6 +62,7 @@ ExitCode run(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw InputError(usage_issue(program, error.what()));
   }
+  require_values(program);
   if (!action)
     throw InputError(usage_issue(program, argc > 1 ? "no command is given" : "nothing is asked for"));
   return action();

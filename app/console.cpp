@@ -7,17 +7,37 @@
 #include <cstdlib>
 #include <system_error>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace glissade::app {
+namespace {
+
+Issue unwritable_output(int error) {
+  Issue issue{"standard output", "writing failed: " + std::generic_category().message(error), "", ""};
+  if (error == EBADF)
+    issue = {"standard output", "it is closed", "The result has nowhere to go.", "> FILE, or | COMMAND"};
+  if (error == ENOSPC || error == EDQUOT) issue.hint = "a disk with space left";
+  if (error == EFBIG) issue.hint = "a higher limit on the size of files (ulimit -f)";
+  return issue;
+}
+
+}  // namespace
 
 void print(std::string_view text) {
   errno = 0;
   const bool written =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (written || errno == EPIPE) return;
-  throw FileError({"standard output", "writing failed: " + std::generic_category().message(errno), "",
-                   "a disk with space left"});
+  throw FileError(unwritable_output(errno));
+}
+
+void reserve_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    // The lowest free number is taken: it is this one, as those below are open. Nothing can be written there.
+    (void)open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
 }
 
 void print_error(std::string_view text) {

@@ -6,8 +6,12 @@
 namespace glissade::app {
 
 /// Writes to standard output and flushes. A reader that went away (a pipe that is closed) is no error.
-/// @throws FileError if the bytes cannot be written, e.g. on a full disk
+/// @throws FileError if the bytes cannot be written: a full disk, a stream that was closed from the start
 void print(std::string_view text);
+
+/// Gives closed standard streams a file that refuses every byte, so that no file that is opened later takes
+/// their number, and with it what is printed. To be called before any file is opened.
+void reserve_standard_streams();
 
 /// Writes to standard error; what cannot be written there is lost.
 void print_error(std::string_view text);

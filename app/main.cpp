@@ -30,6 +30,7 @@ int defect(const std::string& what) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  glissade::app::reserve_standard_streams();
   // A closed pipe is noticed where it is written to, after files have been finished.
   std::signal(SIGPIPE, SIG_IGN);
   // So is a limit on the size of files: writing fails, and what was begun is removed.

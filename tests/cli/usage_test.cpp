@@ -2,6 +2,9 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <fstream>
+#include <iterator>
+
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
@@ -82,4 +85,76 @@ TEST_CASE("a full disk behind standard output is an error with exit code 5") {
   const Outcome outcome = glissade_run({"init"}, limits);
   CHECK(outcome.exit_code == 5);
   CHECK_THAT(outcome.errors, Contains("standard output: writing failed: No space left on device"));
+}
+
+TEST_CASE("a slip in a command or an option is answered with the one that was meant") {
+  struct Slip {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const std::vector<Slip> cases = {
+      {{"bild", "x.yaml"}, "there is no command bild\n      There are build, solve, "},
+      {{"bild", "x.yaml"}, "Try: glissade build"},
+      {{"--hlep"}, "glissade has no option --hlep\n      Try: glissade --help"},
+      {{"solve", "--jsno"},
+       "glissade solve has no option --jsno\n      Try: --json, or glissade solve --help"},
+      {{"build", "--jsno"}, "glissade build has no option --jsno"},
+      {{"solve", "--firction-angle=11deg"}, "has no option --firction-angle\n      Try: --friction-angle"},
+      {{"solve", "\u2014json"}, "\u2014json: it begins with a dash (U+2014), not with -"},
+      {{"build", "a.yaml", "--csv", "b"}, "It belongs to "},
+      {{"solve", "a.yaml", "b.yaml"}, "glissade solve does not know what to do with b.yaml"},
+      {{"swim"}, "Try: glissade --help"},
+  };
+  for (const Slip& slip : cases) {
+    const Outcome outcome = glissade_run(slip.arguments);
+    INFO(outcome.errors);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.output.empty());
+    CHECK_THAT(outcome.errors, StartsWith("glissade: error: ") && Contains(slip.message));
+  }
+}
+
+TEST_CASE("an empty value, and - for a file, are refused by every option") {
+  const std::string design = shipped("powder_chute");
+  const std::vector<std::vector<std::string>> empty = {
+      {"build", design, "-o", ""},
+      {"plot", design, "--output", ""},
+      {"compare", design, "--csv", ""},
+      {"compare", design, "--html", ""},
+      {"init", "-o", ""},
+      {"solve", ""},
+      {"solve", "--run", "", "--drop", "1", "--friction-coefficient", "0"}};
+  for (const auto& arguments : empty) {
+    const Outcome outcome = glissade_run(arguments);
+    INFO(outcome.errors);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors, Contains("an empty text is given"));
+  }
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"compare", design, "--csv", "-"}, {"init", "-o", "-"}, {"build", design, "-o", "-"}}) {
+    const Outcome outcome = glissade_run(arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors, Contains("- is no name of a file"));
+  }
+  CHECK_THAT(glissade_run({"solve", "-"}).errors, Contains("Try: /dev/stdin"));
+}
+
+TEST_CASE("a closed standard output is called that") {
+  RunLimits limits;
+  limits.closes_output = true;
+  const Outcome outcome = glissade_run({"init"}, limits);
+  CHECK(outcome.exit_code == 5);
+  CHECK_THAT(outcome.errors, Contains("standard output: it is closed") && !Contains("disk"));
+}
+
+TEST_CASE("a file never takes the place of a closed standard error") {
+  const TempDir place;
+  RunLimits limits;
+  limits.closes_errors = true;
+  const Outcome outcome = glissade_run(
+      {"compare", shipped("powder_chute"), "--csv", (place / "c.csv").string(), "--verbose"}, limits);
+  CHECK(outcome.exit_code == 0);
+  std::ifstream file(place / "c.csv");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK_THAT(text, !Contains("finding") && !Contains("glissade:"));
 }

@@ -38,6 +38,32 @@ TEST_CASE("a key of another kind is refused with the kind that has it") {
              Contains("d.yaml:7:1: unknown key friction_angle") && Contains("below body:"));
 }
 
+TEST_CASE("characters that cannot be told from plain ones are named where they do harm") {
+  CHECK_THAT(
+      problems_with("  friction_angle", "\u00a0\u00a0friction_angle"),
+      Contains("d.yaml:7:1: unknown key <U+00A0><U+00A0>friction_angle: it begins with a no-break space "
+               "(U+00A0)") &&
+          Contains("Try: blanks before friction_angle"));
+  CHECK_THAT(problems_with("friction_angle: 17", "friction_angle:\u00a017"),
+             Contains("there is a no-break space (U+00A0) in it") && Contains("Try: friction_angle: 17 deg"));
+  CHECK_THAT(problems_with("wall_height", "wall\u2011height"), Contains("it holds a hyphen (U+2011)"));
+  CHECK_THAT(problems_with("fastest", "\u2018fastest\u2019"),
+             Contains("it holds a curly quote (U+2018)") && Contains("Try: fastest"));
+  // In names and comments they are welcome.
+  CHECK(problems_with("name: Chute", "name: Rutsche \u2013 Silo\u00a03 # 11\u00a0\u00b0").empty());
+}
+
+TEST_CASE("a tab in the indentation is named where it stands") {
+  CHECK(problems_with("  friction_angle", "\tfriction_angle") ==
+        "d.yaml:7:1: not valid YAML: a tab indents this line\n"
+        "      YAML indents with blanks alone.\n"
+        "      Try: blanks instead of the tab");
+  CHECK_THAT(problems_with("  start: {x", "  \tstart: {x"), Contains("d.yaml:4:3: not valid YAML: a tab"));
+  CHECK_THAT(problems_with("  finish", "\t\tfinish"), Contains("d.yaml:5:1: not valid YAML: a tab"));
+  // A tab elsewhere is a blank.
+  CHECK(problems_with("name: Chute", "name:\tChute\t# the first").empty());
+}
+
 TEST_CASE("a key that is missing is asked for with an example") {
   CHECK_THAT(problems_with("  friction_angle: 17 deg", "  entry_speed: 0 m/s"),
              Contains("friction_angle is missing") && Contains("or friction_coefficient: 0.306"));

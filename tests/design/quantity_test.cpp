@@ -77,6 +77,25 @@ TEST_CASE("a value of another dimension is refused by its name") {
       Catch::Matchers::Contains("has the unknown unit furlong") && Catch::Matchers::Contains("Try: 4 m"));
 }
 
+TEST_CASE("a character that only looks like a plain one is named, with what to write") {
+  CHECK(refusal("11\u00a0deg", Dimension::angle) ==
+        "width: 11<U+00A0>deg holds a no-break space (U+00A0)\n"
+        "      It takes blanks, digits and signs of the keyboard.\n"
+        "      Try: 11 deg");
+  CHECK_THAT(refusal("11\u2009deg", Dimension::angle), Catch::Matchers::Contains("a thin space (U+2009)"));
+  CHECK_THAT(refusal("\u22121 m", Dimension::length),
+             Catch::Matchers::Contains("\u22121 m holds a minus sign (U+2212)") &&
+                 Catch::Matchers::Contains("Try: -1 m"));
+  CHECK_THAT(refusal("\u20131 m", Dimension::length), Catch::Matchers::Contains("a dash (U+2013)"));
+  CHECK_THAT(refusal("4\u200b00 mm", Dimension::length),
+             Catch::Matchers::Contains("4<U+200B>00 mm holds a zero-width mark") &&
+                 Catch::Matchers::Contains("Try: 400 mm"));
+  CHECK_THAT(refusal("\uff14 m", Dimension::length), Catch::Matchers::Contains("a full-width 4 (U+FF14)"));
+  CHECK_THAT(refusal("90\u00ba", Dimension::angle), Catch::Matchers::Contains("Try: 90\u00b0"));
+  // What is wrong beside it is said in the hint.
+  CHECK_THAT(refusal("17\u00a0mm", Dimension::angle), Catch::Matchers::Contains("Try: 17 deg"));
+}
+
 TEST_CASE("only finite decimal numbers are numbers") {
   for (const char* text : {"nan m", "inf m", "-inf m", "infinity m"}) {
     INFO(text);

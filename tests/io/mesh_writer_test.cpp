@@ -262,7 +262,7 @@ TEST_CASE("a solid so far from the origin that single precision cannot hold it i
   const TriangleMesh far = moved(torus(0.3, 0.1, 40, 20), {1e6, 0, 0});
   const TempDir dir;
   const std::string message = input_error([&] { write_mesh(dir / "far.stl", MeshFormat::stl_binary, far); });
-  CHECK_THAT(message, Contains("binary STL turns it by more than 45 deg; it is"));
+  CHECK_THAT(message, Contains(" by more than 45 deg: it is"));
   CHECK_THAT(message, Contains("at 1000 km its steps are 64 mm"));
   CHECK_THAT(message, Contains("Try: an origin so close that coordinates stay below"));
   CHECK(dir.names().empty());
@@ -276,7 +276,7 @@ TEST_CASE("the size that a refusal names does work") {
   TriangleMesh crowd = pair_at(too_far);
   for (int i = 7; i > 0; --i) crowd.vertices.push_back({too_far + 1e-6 * i, too_far, too_far});
   CHECK_THAT(input_error([&] { (void)as_written(crowd, MeshFormat::stl_binary, LengthUnit::metre); }),
-             Contains("vertex 8") && Contains("below 2.1 m"));
+             Contains("vertices 8 and 0") && Contains("below 2.1 m"));
   const TriangleMesh near = as_written(pair_at(good), MeshFormat::stl_binary, LengthUnit::metre);
   CHECK_FALSE(near.vertices[0] == near.vertices[1]);
 }
@@ -294,7 +294,7 @@ TEST_CASE("a mesh that no file can hold is refused and leaves nothing behind") {
   TriangleMesh late = as_written(torus(0.3, 0.1, 307, 101), MeshFormat::stl_binary, LengthUnit::millimetre);
   late.triangles[60'000][1] = 1'000'000;
   CHECK_THAT(refused(late, MeshFormat::stl_binary),
-             Contains("mesh, triangle 60000: vertex 1000000 does not exist"));
+             Contains("triangle 60000 of the mesh: vertex 1000000 does not exist"));
   CHECK(dir.names().empty());
 }
 

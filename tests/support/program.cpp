@@ -29,6 +29,8 @@ void redirect(const std::filesystem::path& file, int flags, int descriptor) {
     const rlimit limit{*limits.largest_file, *limits.largest_file};
     if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
   }
+  if (limits.closes_output) ::close(STDOUT_FILENO);
+  if (limits.closes_errors) ::close(STDERR_FILENO);
   std::vector<char*> words;
   std::string name = program.string();
   std::vector<std::string> copies = arguments;

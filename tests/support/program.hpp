@@ -17,6 +17,8 @@ struct RunLimits {
   std::filesystem::path directory;                 ///< empty: here
   std::optional<unsigned long long> largest_file;  ///< in bytes; writing more fails, as on a full disk
   std::filesystem::path output_to;                 ///< a device or file instead of Outcome::output
+  bool closes_output = false;                      ///< standard output is closed from the start
+  bool closes_errors = false;                      ///< so is standard error
 };
 
 /// Runs a program to its end, without a shell; standard input is empty.

@@ -1,5 +1,7 @@
 #include "design/map_reader.hpp"
 
+#include "glissade/core/odd_characters.hpp"
+
 #include "design/quantity_reading.hpp"
 #include "design/words.hpp"
 
@@ -31,7 +33,19 @@ void add_wrong_type(const Value& value, std::string_view wanted, std::string_vie
                     Findings& findings) {
   const std::string name = value.key.empty() ? "the design" : value.key;
   std::string what = name + " is " + std::string(kind_of(*value.node)) + ", not " + std::string(wanted);
-  findings.add(value.node->at, value.key_path, {"", std::move(what), "", std::string(example)});
+  Issue issue{"", std::move(what), "", std::string(example)};
+  // A colon with an odd blank behind it parts no key from its value.
+  const auto odd = odd_character(value.node->scalar);
+  if (odd) {
+    issue.why = "It reads " + shown(value.node->scalar) + ": there is " + odd->name + " in it.";
+    issue.hint = with_plain_characters(value.node->scalar);
+  }
+  findings.add(value.node->at, value.key_path, std::move(issue));
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t from = std::min(text.find_first_not_of(' '), text.size());
+  return text.substr(from, text.find_last_not_of(' ') + 1 - from);
 }
 
 }  // namespace
@@ -176,10 +190,12 @@ std::optional<std::size_t> MapReader::choose(const Value& value, const std::vect
   if (!text) return {};
   const auto found = std::find(words.begin(), words.end(), *text);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  const std::string_view near = nearest_word(*text, words);
+  const std::string plain = trimmed(with_plain_characters(*text));
+  const std::string_view near = nearest_word(plain, words);
+  std::string what = value.key + ": " + shown(*text) + " is not known";
+  if (const auto odd = odd_character(*text)) what += "; it holds " + odd->name;
   findings_.add(value.node->at, value.key_path,
-                {"", value.key + ": " + shown(*text) + " is not known",
-                 "It is one of " + listed(words, "or") + ".", std::string(near)});
+                {"", std::move(what), "It is one of " + listed(words, "or") + ".", std::string(near)});
   return {};
 }
 
@@ -187,6 +203,14 @@ Issue MapReader::unknown_key(const std::string& key) const {
   const std::vector<std::string_view>& keys = known_;
   Issue issue{"", "unknown key " + shown(key), std::string(noun_) + " has the keys " + listed(keys) + ".",
               ""};
+  if (const auto odd = odd_character(key)) {
+    const bool leads = odd->offset == 0;
+    issue.what += leads ? ": it begins with " + odd->name : ": it holds " + odd->name;
+    issue.hint = trimmed(with_plain_characters(key));
+    if (leads) issue.why = "YAML indents with plain blanks, and takes any other for a part of the key.";
+    if (leads) issue.hint = "blanks before " + issue.hint;
+    return issue;
+  }
   for (const auto& [stranger, belongs_to] : strangers_) {
     if (stranger != key) continue;
     issue.hint = std::string(belongs_to);

@@ -1,5 +1,7 @@
 #include "glissade/design/quantity.hpp"
 
+#include "glissade/core/odd_characters.hpp"
+
 #include "design/quantity_reading.hpp"
 #include "design/words.hpp"
 
@@ -161,9 +163,25 @@ Issue out_of_range(std::string_view name, std::string_view text) {
           "Numbers reach from about 1e-308 to 1e308.", ""};
 }
 
+/// What is wrong with a text that reads as a quantity, or comes nearer to one, once its odd characters are
+/// plain ones.
+Issue with_odd_character(std::string_view name, std::string_view text, const OddCharacter& odd,
+                         Dimension dimension) {
+  const std::string plain(trimmed(with_plain_characters(text)));
+  const auto reading = read_quantity(plain, dimension, name);
+  Issue issue{"", named(name, text) + " holds " + odd.name,
+              "It takes blanks, digits and signs of the keyboard.", plain};
+  if (const Issue* const other = std::get_if<Issue>(&reading)) {
+    issue.why = other->why;
+    issue.hint = other->hint;
+  }
+  return issue;
+}
+
 }  // namespace
 
 std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimension, std::string_view name) {
+  if (const auto odd = odd_character(text)) return with_odd_character(name, text, *odd, dimension);
   text = trimmed(text);
   std::string_view digits = text;
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);

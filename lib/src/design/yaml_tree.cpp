@@ -264,8 +264,24 @@ void refuse_what_is_not_text(std::string_view text, const Lines& lines) {
 }
 
 std::string hint_for(const std::string& message) {
-  if (message == YAML::ErrorMsg::TAB_IN_INDENTATION) return "spaces instead of tabs";
+  if (message == YAML::ErrorMsg::TAB_IN_INDENTATION) return "blanks instead of the tab";
   return R"(indentation, closing brackets and quotes near here; quotes around a text with ": " or " #")";
+}
+
+/// The first line up to `last` that is indented with a tab: the parser stumbles over it, but does not always
+/// say so, nor there.
+std::optional<Position> indented_with_tab(const Lines& lines, int last) {
+  const std::string_view text = lines.text();
+  int line = 1;
+  for (std::size_t from = 0; from < text.size() && line <= last; ++line) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    const std::size_t content = std::min(text.find_first_not_of(" \t\r", from), end);
+    const std::size_t tab = text.substr(0, content).find('\t', from);
+    const bool blank = content == end || text[content] == '#';
+    if (tab != std::string_view::npos && !blank) return lines.at_offset(tab);
+    from = end + 1;
+  }
+  return {};
 }
 
 SyntaxProblem explained(const YAML::Exception& problem, const Lines& lines, const TreeBuilder& builder) {
@@ -273,6 +289,11 @@ SyntaxProblem explained(const YAML::Exception& problem, const Lines& lines, cons
   const bool is_open =
       problem.msg == YAML::ErrorMsg::END_OF_MAP_FLOW || problem.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW;
   const std::optional<Position> since = builder.open_since();
+  if (const auto tab = is_open ? std::nullopt : indented_with_tab(lines, at.line)) {
+    return {*tab,
+            {"", "not valid YAML: a tab indents this line", "YAML indents with blanks alone.",
+             hint_for(YAML::ErrorMsg::TAB_IN_INDENTATION)}};
+  }
   if (!is_open || !since) return {at, {"", "not valid YAML: " + problem.msg, "", hint_for(problem.msg)}};
   const bool map = problem.msg == YAML::ErrorMsg::END_OF_MAP_FLOW;
   const bool at_end = std::pair(at.line, at.column) <= std::pair(since->line, since->column);

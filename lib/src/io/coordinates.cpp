@@ -21,8 +21,11 @@ namespace {
 
 constexpr double kLargestFloat = std::numeric_limits<float>::max();
 
-std::string vertex_name(std::size_t vertex) {
-  return "mesh, vertex " + std::to_string(vertex);
+/// @param p  in metres
+std::string place_text(Vec3 p) {
+  constexpr int kDigits = 6;
+  return "(" + length_text(p.x, kDigits) + ", " + length_text(p.y, kDigits) + ", " +
+         length_text(p.z, kDigits) + ")";
 }
 
 Vec3 to_vec(const FloatPosition& position) {
@@ -67,14 +70,14 @@ std::array<FloatPosition, 7> alternatives(Vec3 p) {
 
 /// @param size  largest coordinate of the place in question, `feature` what must be told apart there; both in
 ///              the file's unit
-InputError too_coarse(std::string where, std::string what, double size, double feature, LengthUnit unit) {
+InputError too_coarse(std::string what, double size, double feature, LengthUnit unit) {
   const double per_metre = units_per_metre(unit);
   // A float of size X steps by 2^-23 X at most: the feature is then four steps or more.
   const double size_that_works = feature * 0x1p21;
   const auto single = static_cast<float>(size);
   const double step = std::nextafter(single, std::numeric_limits<float>::infinity()) - single;
   return InputError(
-      {std::move(where), std::move(what),
+      {"", std::move(what),
        "The format holds coordinates in single precision; at " + length_text(size / per_metre, 3) +
            " its steps are " + length_text(step / per_metre, 3) + ".",
        "an origin so close that coordinates stay below " + length_text(size_that_works / per_metre, 2) +
@@ -121,9 +124,10 @@ class DistinctRounding {
       return;
     }
     const double distance = norm(exact_[vertex] - exact_[rival]);
-    throw too_coarse(vertex_name(vertex),
-                     "binary STL cannot keep it apart from vertex " + std::to_string(rival) + ", " +
-                         length_text(distance / units_per_metre(unit_), 3) + " away",
+    const double metres = 1.0 / units_per_metre(unit_);
+    throw too_coarse("binary STL cannot keep vertices " + std::to_string(vertex) + " and " +
+                         std::to_string(rival) + " apart: they lie " + length_text(distance * metres, 3) +
+                         " from each other at " + place_text(metres * exact_[vertex]),
                      largest_coordinate(exact_[vertex]), distance, unit_);
   }
 
@@ -150,8 +154,8 @@ void require_same_attitude(const TriangleMesh& mesh, const std::vector<FloatPosi
     if (before == Vec3{}) continue;
     const double longest = std::max({norm(ab), norm(ac), norm(ac - ab)});
     const double height = norm(before) / longest;
-    throw too_coarse("mesh, triangle " + std::to_string(i),
-                     "binary STL turns it by more than 45 deg; it is " + length_text(height, 3) + " high",
+    throw too_coarse("binary STL turns triangle " + std::to_string(i) + " by more than 45 deg: it is " +
+                         length_text(height, 3) + " high, at " + place_text(a),
                      per_metre * largest_coordinate(a), per_metre * height, unit);
   }
 }
@@ -177,9 +181,10 @@ void refuse_beyond_single_precision(const TriangleMesh& mesh, std::size_t first,
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 p = units_per_metre(unit) * mesh.vertices[i];
     if (fits_single_precision(p)) continue;
-    throw InputError({vertex_name(i),
-                      "a coordinate of " + rounded_text(largest_coordinate(p), 3) + " " +
-                          std::string(unit_symbol(unit)) + " does not fit binary STL",
+    throw InputError({"",
+                      "vertex " + std::to_string(i) + " of the mesh: a coordinate of " +
+                          rounded_text(largest_coordinate(p), 3) + " " + std::string(unit_symbol(unit)) +
+                          " does not fit binary STL",
                       "Single precision ends at 3.4e38.", "OFF or ASCII STL"});
   }
 }

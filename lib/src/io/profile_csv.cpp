@@ -1,6 +1,7 @@
 #include "glissade/io/profile_csv.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/odd_characters.hpp"
 
 #include "io/reading.hpp"
 #include "io/system_error.hpp"
@@ -126,8 +127,11 @@ ProfilePoints read_profile_csv(const std::filesystem::path& file, const ProfileC
     double number = 0.0;
     const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
     if (status != std::errc() || rest != cell.data() + cell.size() || !std::isfinite(number)) {
-      throw FileError({here, "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is no number",
-                       "", "numbers with a decimal point and without a unit"});
+      const auto odd = odd_character(cell);
+      throw FileError(
+          {here, "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is no number",
+           odd ? "It holds " + odd->name + "." : "",
+           odd ? with_plain_characters(cell) : "numbers with a decimal point and without a unit"});
     }
     if (std::fabs(number * scale) > kLargestProfileCoordinate) {
       throw FileError({here, "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is too large",

@@ -153,7 +153,8 @@ std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, Ste
     const auto format = mesh_format(exported);
     if (!format || held_by(meshes, *format) != nullptr) continue;
     steps.enter("checking the mesh", kCheckCost);
-    TriangleMesh rounded = as_written(solid.mesh, *format, design.exports.unit);
+    TriangleMesh rounded = at_place(design.where("export"),
+                                    [&] { return as_written(solid.mesh, *format, design.exports.unit); });
     const auto known = std::find_if(meshes.begin(), meshes.end(), [&](const MeasuredMesh& other) {
       return same_mesh(other.mesh, rounded);
     });

@@ -194,7 +194,8 @@ std::optional<Issue> ride_problem(const Design& design, const Track& track) {
                  "The slope angle there is " + angle_text(track.centerline->slope_angle(stall->arc_length)) +
                      ", " + angle_text(stall->missing_slope) + " less than the friction angle, " +
                      angle_text(design.body.friction.angle().radians()) + ".",
-                 "a steeper track, less friction, or an entry_speed"};
+                 std::string("a steeper track, less friction, or ") +
+                     (design.body.entry_speed > 0.0 ? "a higher entry_speed" : "an entry_speed")};
   }
   if (const auto& lift_off = track.motion.lift_off()) {
     return Issue{design.where("centerline"),

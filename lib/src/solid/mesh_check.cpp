@@ -19,9 +19,10 @@ bool is_usable(Vec3 p) {
 }
 
 InputError unusable(std::size_t vertex, Vec3 p, std::string_view use) {
-  return InputError({"mesh, vertex " + std::to_string(vertex),
-                     "coordinates (" + rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " +
-                         rounded_text(p.z, 6) + ") m cannot be " + std::string(use),
+  return InputError({"",
+                     "vertex " + std::to_string(vertex) + " of the mesh: coordinates (" +
+                         rounded_text(p.x, 6) + ", " + rounded_text(p.y, 6) + ", " + rounded_text(p.z, 6) +
+                         ") m cannot be " + std::string(use),
                      "Every coordinate must be a finite number of at most " +
                          rounded_text(kLargestMeshCoordinate, 3) + " m.",
                      ""});
@@ -49,9 +50,11 @@ void require_existing_vertices(const TriangleMesh& mesh, std::size_t first, std:
   for (std::size_t i = first; !all_exist && i < last; ++i) {
     for (const std::uint32_t vertex : mesh.triangles[i]) {
       if (vertex < mesh.vertices.size()) continue;
-      throw InputError(
-          {"mesh, triangle " + std::to_string(i), "vertex " + std::to_string(vertex) + " does not exist",
-           "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.", ""});
+      throw InputError({"",
+                        "triangle " + std::to_string(i) + " of the mesh: vertex " + std::to_string(vertex) +
+                            " does not exist",
+                        "The mesh has " + std::to_string(mesh.vertices.size()) + " vertices, counted from 0.",
+                        ""});
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
 
 #include "solid/mesh_check.hpp"
 #include "solid/nesting.hpp"
@@ -8,9 +9,13 @@
 #include "solid/self_intersections.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace glissade {
 
@@ -109,12 +114,17 @@ struct Spoke {
   bool outgoing = false;    ///< the facet runs through the edge away from the vertex
 };
 
+using Edge = std::array<std::uint32_t, 2>;
+
 struct Topology {
   std::size_t edges = 0;
   std::size_t boundary_edges = 0;
   std::size_t non_manifold_edges = 0;
   std::size_t non_manifold_vertices = 0;
   std::size_t used_vertices = 0;
+  std::optional<Edge> boundary_edge;  ///< the first of each
+  std::optional<Edge> non_manifold_edge;
+  std::optional<std::uint32_t> non_manifold_vertex;
 };
 
 /// Walks once around every vertex; an edge is counted at its vertex of lower number.
@@ -140,7 +150,9 @@ class TopologyCount {
       visit_edge(vertex, first, last);
       first = last;
     }
-    if (!is_fan_ || wedge_count() != 1) ++topology_.non_manifold_vertices;
+    if (is_fan_ && wedge_count() == 1) return;
+    ++topology_.non_manifold_vertices;
+    if (!topology_.non_manifold_vertex) topology_.non_manifold_vertex = vertex;
   }
 
   void gather_spokes(std::uint32_t vertex) {
@@ -171,9 +183,15 @@ class TopologyCount {
 
     ++topology_.edges;
     for (std::size_t i = first + 1; i < last; ++i) groups_.join(spokes_[first].facet, spokes_[i].facet);
-    if (facets_here == 1) ++topology_.boundary_edges;
+    const Edge edge{vertex, spokes_[first].neighbour};
+    if (facets_here == 1) {
+      ++topology_.boundary_edges;
+      if (!topology_.boundary_edge) topology_.boundary_edge = edge;
+    }
     const bool is_flipped = facets_here == 2 && spokes_[first].outgoing == spokes_[first + 1].outgoing;
-    if (facets_here > 2 || is_flipped) ++topology_.non_manifold_edges;
+    if (facets_here <= 2 && !is_flipped) return;
+    ++topology_.non_manifold_edges;
+    if (!topology_.non_manifold_edge) topology_.non_manifold_edge = edge;
   }
 
   [[nodiscard]] std::uint32_t wedge_root(std::uint32_t wedge) {
@@ -203,15 +221,19 @@ class TopologyCount {
 struct Welding {
   std::vector<std::uint32_t> leader;
   std::size_t duplicates = 0;
+  std::optional<std::uint32_t> first_duplicate;
 };
 
 Welding weld(const std::vector<Vec3>& vertices) {
-  Welding welding{.leader = std::vector<std::uint32_t>(vertices.size())};
+  Welding welding{
+      .leader = std::vector<std::uint32_t>(vertices.size()), .duplicates = 0, .first_duplicate = {}};
   PositionIndex index(vertices, vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const auto vertex = static_cast<std::uint32_t>(i);
     welding.leader[i] = index.enter(vertices[i], vertex);
-    if (welding.leader[i] != vertex) ++welding.duplicates;
+    if (welding.leader[i] == vertex) continue;
+    ++welding.duplicates;
+    if (!welding.first_duplicate) welding.first_duplicate = vertex;
   }
   return welding;
 }
@@ -288,6 +310,15 @@ void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>&
   facts.euler_characteristic = static_cast<long long>(topology.used_vertices) -
                                static_cast<long long>(topology.edges) + static_cast<long long>(facets.size());
 
+  const auto middle = [&](const std::optional<Edge>& edge) {
+    return edge ? std::optional(0.5 * (mesh.vertices[(*edge)[0]] + mesh.vertices[(*edge)[1]])) : std::nullopt;
+  };
+  facts.places.boundary_edge = middle(topology.boundary_edge);
+  facts.places.non_manifold_edge = middle(topology.non_manifold_edge);
+  if (topology.non_manifold_vertex) {
+    facts.places.non_manifold_vertex = mesh.vertices[*topology.non_manifold_vertex];
+  }
+
   const Vec3 centre = 0.5 * (facts.lower + facts.upper);
   const Pieces pieces = find_pieces(mesh.vertices, facets, count.groups(), centre);
   CompensatedSum total;
@@ -317,16 +348,36 @@ std::vector<FacetCorners> facets_of_three_vertices(const TriangleMesh& mesh) {
   return facets;
 }
 
-std::vector<FacetCorners> proper_facets(const TriangleMesh& mesh, const Welding& welding) {
+bool is_degenerate(const std::vector<Vec3>& vertices, const FacetCorners& facet) {
+  return has_repeated_vertex(facet) ||
+         are_collinear(vertices[facet[0]], vertices[facet[1]], vertices[facet[2]]);
+}
+
+std::vector<FacetCorners> proper_facets(const TriangleMesh& mesh, const Welding& welding, MeshFacts& facts) {
   std::vector<FacetCorners> facets;
   facets.reserve(mesh.triangles.size());
   for (const auto& [ia, ib, ic] : mesh.triangles) {
     const FacetCorners facet{welding.leader[ia], welding.leader[ib], welding.leader[ic]};
-    if (has_repeated_vertex(facet)) continue;
-    if (are_collinear(mesh.vertices[facet[0]], mesh.vertices[facet[1]], mesh.vertices[facet[2]])) continue;
-    facets.push_back(facet);
+    if (!is_degenerate(mesh.vertices, facet)) {
+      facets.push_back(facet);
+    } else if (!facts.places.degenerate_facet) {
+      facts.places.degenerate_facet = mesh.vertices[ia];
+    }
   }
+  facts.degenerate_facets = mesh.triangles.size() - facets.size();
   return facets;
+}
+
+std::string place_text(Vec3 p) {
+  constexpr int kDigits = 6;
+  return "(" + length_text(p.x, kDigits) + ", " + length_text(p.y, kDigits) + ", " +
+         length_text(p.z, kDigits) + ")";
+}
+
+/// "3 edges with one facet only: the surface is open; the first at (0 m, 5 mm, 0 m)"
+std::string with_place(std::string fault, std::size_t count, const std::optional<Vec3>& place) {
+  if (!place) return fault;
+  return fault + (count == 1 ? "; at " : "; the first at ") + place_text(*place);
 }
 
 std::string counted(std::size_t count, const char* singular, const char* plural) {
@@ -343,24 +394,28 @@ bool MeshFacts::valid() const {
 std::vector<std::string> MeshFacts::faults() const {
   std::vector<std::string> faults;
   if (triangles == 0) return {"no facets"};
-  const auto report = [&faults](std::size_t count, const char* singular, const char* plural) {
-    if (count > 0) faults.push_back(counted(count, singular, plural));
+  const auto report = [&faults](std::size_t count, const std::optional<Vec3>& place, const char* singular,
+                                const char* plural) {
+    if (count > 0) faults.push_back(with_place(counted(count, singular, plural), count, place));
   };
-  report(boundary_edges, "edge with one facet only: the surface is open",
+  report(boundary_edges, places.boundary_edge, "edge with one facet only: the surface is open",
          "edges with one facet only: the surface is open");
-  report(non_manifold_edges, "edge where three or more facets meet, or two of opposite winding",
+  report(non_manifold_edges, places.non_manifold_edge,
+         "edge where three or more facets meet, or two of opposite winding",
          "edges where three or more facets meet, or two of opposite winding");
-  report(non_manifold_vertices, "vertex whose facets are not one fan",
+  report(non_manifold_vertices, places.non_manifold_vertex, "vertex whose facets are not one fan",
          "vertices whose facets are not one fan");
-  report(degenerate_facets, "facet without area", "facets without area");
-  report(duplicate_vertices, "vertex at the position of another", "vertices at the position of another");
+  report(degenerate_facets, places.degenerate_facet, "facet without area", "facets without area");
+  report(duplicate_vertices, places.duplicate_vertex, "vertex at the position of another",
+         "vertices at the position of another");
   if (!self_intersections_complete) {
-    faults.push_back(
-        "at least " +
-        counted(self_intersections, "pair of facets that intersect", "pairs of facets that intersect") +
-        "; the search stopped at its limit");
+    const std::string pairs =
+        counted(self_intersections, "pair of facets that intersect", "pairs of facets that intersect");
+    faults.push_back("at least " + with_place(pairs, self_intersections, places.self_intersection) +
+                     "; the search stopped at its limit");
   } else {
-    report(self_intersections, "pair of facets that intersect", "pairs of facets that intersect");
+    report(self_intersections, places.self_intersection, "pair of facets that intersect",
+           "pairs of facets that intersect");
   }
   if (closed() && non_manifold_edges == 0 && !oriented_outward) {
     faults.emplace_back(
@@ -381,12 +436,13 @@ MeshFacts measure(const TriangleMesh& mesh) {
   {
     const Welding welding = weld(mesh.vertices);
     facts.duplicate_vertices = welding.duplicates;
-    const std::vector<FacetCorners> facets = proper_facets(mesh, welding);
-    facts.degenerate_facets = mesh.triangles.size() - facets.size();
+    if (welding.first_duplicate) facts.places.duplicate_vertex = mesh.vertices[*welding.first_duplicate];
+    const std::vector<FacetCorners> facets = proper_facets(mesh, welding, facts);
     const SelfIntersections found =
         find_self_intersections(mesh.vertices, facets, SelfIntersectionLimits::for_facets(facets.size()));
     facts.self_intersections = found.pairs;
     facts.self_intersections_complete = found.complete;
+    facts.places.self_intersection = found.first;
   }
   measure_shape(mesh, facts);
   measure_topology(mesh, facets_of_three_vertices(mesh), facts);

@@ -104,12 +104,23 @@ class PairTester {
   void test(std::uint32_t first, std::uint32_t second) {
     if (++tests_ > limits_.tests) throw LimitReached{};
     if (!meet(facets_[first], facets_[second])) return;
+    const FacetPair pair = std::minmax(first, second);
+    if (pairs_ == 0 || pair < first_) first_ = pair;
     if (++pairs_ >= limits_.pairs) throw LimitReached{};
   }
 
-  [[nodiscard]] std::size_t pairs() const { return pairs_; }
+  [[nodiscard]] SelfIntersections found(bool complete) const {
+    if (pairs_ == 0) return {.pairs = 0, .complete = complete, .first = {}};
+    Vec3 sum;
+    for (const std::uint32_t facet : {first_.first, first_.second}) {
+      for (const std::uint32_t vertex : facets_[facet]) sum = sum + at(vertex);
+    }
+    return {.pairs = pairs_, .complete = complete, .first = (1.0 / 6.0) * sum};
+  }
 
  private:
+  using FacetPair = std::pair<std::uint32_t, std::uint32_t>;
+
   [[nodiscard]] bool meet(const FacetCorners& a, const FacetCorners& b) const {
     // Corners that both have, moved to the front of copies of both.
     FacetCorners mine = a;
@@ -209,6 +220,7 @@ class PairTester {
   SelfIntersectionLimits limits_;
   std::size_t tests_ = 0;
   std::size_t pairs_ = 0;
+  FacetPair first_;
 };
 
 }  // namespace
@@ -243,9 +255,9 @@ SelfIntersections find_self_intersections(const std::vector<Vec3>& positions,
     CGAL::box_self_intersection_d<CGAL::Sequential_tag>(boxes.begin(), boxes.end(), callback,
                                                         FacetBoxTraits{}, kCutoff);
   } catch (const LimitReached&) {
-    return {.pairs = tester.pairs(), .complete = false};
+    return tester.found(false);
   }
-  return {.pairs = tester.pairs(), .complete = true};
+  return tester.found(true);
 }
 
 }  // namespace glissade::solid

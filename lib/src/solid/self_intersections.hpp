@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace glissade::solid {
@@ -19,6 +20,8 @@ using FacetCorners = std::array<std::uint32_t, 3>;
 struct SelfIntersections {
   std::size_t pairs = 0;
   bool complete = true;  ///< false: the search stopped at a limit, `pairs` is a lower bound
+  /// Middle of the corners of the pair with the lowest numbers of those found.
+  std::optional<Vec3> first;
 };
 
 /// Where the search stops. Both limits count work, never time: same mesh, same answer.

@@ -4,10 +4,22 @@
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace glissade {
+
+/// Where the first fault of each kind lies, by the number of vertex or facet [m]; none where there is none, or
+/// where it is not known.
+struct MeshFaultPlaces {
+  std::optional<Vec3> boundary_edge;        ///< middle of the edge
+  std::optional<Vec3> non_manifold_edge;    ///< middle of the edge
+  std::optional<Vec3> non_manifold_vertex;  ///< the vertex
+  std::optional<Vec3> degenerate_facet;     ///< its first corner
+  std::optional<Vec3> duplicate_vertex;     ///< the position that two vertices share
+  std::optional<Vec3> self_intersection;    ///< middle of the corners of both facets
+};
 
 /// Everything that is known of a mesh, measured on the mesh alone.
 ///
@@ -40,7 +52,8 @@ struct MeshFacts {
   double area = 0.0;    ///< [m^2]
   double smallest_angle = 0.0;  ///< of any facet [rad]; 0 if one is degenerate
   double shortest_edge = 0.0;   ///< [m]
-  Vec3 lower;                   ///< bounding box [m]
+  MeshFaultPlaces places;
+  Vec3 lower;  ///< bounding box [m]
   Vec3 upper;
 
   [[nodiscard]] bool closed() const { return triangles > 0 && boundary_edges == 0; }
@@ -49,7 +62,7 @@ struct MeshFacts {
   [[nodiscard]] bool watertight() const { return closed() && manifold(); }
   /// watertight, outward, proven free of self-intersection, without degenerate facet or duplicate vertex
   [[nodiscard]] bool valid() const;
-  /// @return every fault in plain words with its number, empty if valid()
+  /// @return every fault in plain words with its number and the place of the first, empty if valid()
   [[nodiscard]] std::vector<std::string> faults() const;
 };
 

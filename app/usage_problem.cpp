@@ -1,0 +1,130 @@
+#include "app/usage_problem.hpp"
+
+#include "glissade/core/nearest_word.hpp"
+#include "glissade/core/odd_characters.hpp"
+
+#include "app/track_input.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+/// The command that is given, or the program itself.
+const CLI::App& given(const CLI::App& program) {
+  const auto commands = program.get_subcommands();
+  return commands.empty() ? program : *commands.front();
+}
+
+std::string full_name(const CLI::App& program) {
+  const CLI::App& command = given(program);
+  return &command == &program ? program.get_name() : program.get_name() + " " + command.get_name();
+}
+
+std::vector<std::string> commands_of(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string nearest_of(const std::string& word, const std::vector<std::string>& words) {
+  const std::vector<std::string_view> candidates(words.begin(), words.end());
+  return std::string(nearest_word(word, candidates));
+}
+
+Issue unknown_command(const CLI::App& program, const std::string& word) {
+  const std::vector<std::string> commands = commands_of(program);
+  const std::string near = nearest_of(word, commands);
+  return {"", "there is no command " + with_visible_characters(word), "There are " + listed(commands) + ".",
+          near.empty() ? full_name(program) + " --help" : full_name(program) + " " + near};
+}
+
+Issue unknown_option(const CLI::App& program, const std::string& argument) {
+  const std::string word = argument.substr(0, argument.find('='));
+  const std::string help = full_name(program) + " --help";
+  Issue issue{"", full_name(program) + " has no option " + with_visible_characters(word), "", help};
+  const std::string near = nearest_of(with_plain_characters(word), options_of(given(program)));
+  if (!near.empty()) issue.hint = near == "--help" ? help : near + ", or " + help;
+  // An option of another command, or one before the command that it belongs to.
+  const std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+  std::vector<std::string> owners;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::vector<std::string> options = options_of(*command);
+    if (std::find(options.begin(), options.end(), "--" + name) != options.end())
+      owners.push_back(command->get_name());
+  }
+  if (!owners.empty() && word.starts_with("--")) issue.why = "It belongs to " + listed(owners) + ".";
+  return issue;
+}
+
+bool is_option(const std::string& argument) {
+  return argument.size() > 1 && with_plain_characters(argument).front() == '-';
+}
+
+std::string name_of(const CLI::Option& option) {
+  if (option.get_positional()) return option.get_type_name();
+  return option.get_lnames().empty() ? "-" + option.get_snames().front() : "--" + option.get_lnames().front();
+}
+
+void require_values_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const bool names_file = type == "FILE" || type == "DIR" || type == "MESH" || type.starts_with("DESIGN");
+  for (const std::string& value : option.results()) {
+    if (value.empty()) {
+      throw InputError({name_of(option), "an empty text is given", "It takes " + type + ".",
+                        names_file ? "the name of a file or directory; a shell's variable may be empty"
+                                   : "a value, or no " + name_of(option)});
+    }
+    const auto odd = odd_character(value);
+    if (option.get_positional() && odd && odd->offset == 0 && is_option(value)) {
+      throw InputError({with_visible_characters(value), "it begins with " + odd->name + ", not with -",
+                        "Options begin with the minus of the keyboard.", with_plain_characters(value)});
+    }
+    if (!names_file || value != "-") continue;
+    const bool reads = option.get_positional();
+    throw InputError({name_of(option), "- is no name of a file",
+                      reads ? "Standard input has a name of its own."
+                            : "Standard output carries the result alone: files are written whole, beside it.",
+                      reads ? "/dev/stdin" : name_of(option) + " and a name"});
+  }
+}
+
+}  // namespace
+
+Issue usage_issue(const CLI::App& program, const std::string& parser_text) {
+  const std::vector<std::string> rest = program.remaining(true);
+  const auto option = std::find_if(rest.begin(), rest.end(), &is_option);
+  const bool has_command = &given(program) != &program;
+  const bool command_first = !has_command && !rest.empty() && !is_option(rest.front());
+  if (command_first) return unknown_command(program, rest.front());
+  if (option != rest.end()) return unknown_option(program, *option);
+  const std::string help = full_name(program) + " --help";
+  if (!rest.empty()) {
+    return {"",
+            full_name(program) + " does not know what to do with " + with_visible_characters(rest.front()),
+            "It takes no further argument.", help};
+  }
+  std::string what = parser_text;
+  while (!what.empty() && (what.back() == '\n' || what.back() == ' ')) what.pop_back();
+  return {"", std::move(what), "", help};
+}
+
+void require_values(const CLI::App& program) {
+  for (const CLI::Option* option : given(program).get_options()) require_values_of(*option);
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "glissade/core/error.hpp"
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace glissade::app {
+
+/// What is wrong with arguments that were not understood.
+/// @param parser_text  what the parser says of them
+/// @return an unknown command, option or argument by its name, with the one that was probably meant; else what
+///         the parser says
+[[nodiscard]] Issue usage_issue(const CLI::App& program, const std::string& parser_text);
+
+/// Looks at values that the parser took but that name nothing: an empty one, or "-" for a file.
+/// @throws InputError with the option
+void require_values(const CLI::App& program);
+
+}  // namespace glissade::app

@@ -1,0 +1,138 @@
+#include "glissade/core/odd_characters.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+
+namespace glissade {
+namespace {
+
+/// Code points from `first` to `last`, and what each of them stands for. Names are those of Unicode, the
+/// usual words where those are longer than helpful.
+struct Odd {
+  std::uint32_t first;
+  std::uint32_t last;
+  const char* name;
+  const char* plain;
+  bool visible;
+};
+
+constexpr std::array kOdd = {
+    Odd{0x00A0, 0x00A0, "a no-break space", " ", false},
+    Odd{0x00AD, 0x00AD, "a soft hyphen", "", false},
+    Odd{0x00BA, 0x00BA, "an ordinal indicator", "\u00b0", true},
+    Odd{0x02DA, 0x02DA, "a ring above", "\u00b0", true},
+    Odd{0x1680, 0x1680, "an ogham space", " ", false},
+    Odd{0x180E, 0x180E, "a vowel separator", "", false},
+    Odd{0x2000, 0x2006, "a wide space", " ", false},
+    Odd{0x2007, 0x2007, "a figure space", " ", false},
+    Odd{0x2008, 0x2008, "a punctuation space", " ", false},
+    Odd{0x2009, 0x2009, "a thin space", " ", false},
+    Odd{0x200A, 0x200A, "a hair space", " ", false},
+    Odd{0x200B, 0x200D, "a zero-width mark", "", false},
+    Odd{0x200E, 0x200F, "a direction mark", "", false},
+    Odd{0x2010, 0x2011, "a hyphen", "-", true},
+    Odd{0x2012, 0x2015, "a dash", "-", true},
+    Odd{0x2018, 0x201B, "a curly quote", "'", true},
+    Odd{0x201C, 0x201F, "a curly quote", "\"", true},
+    Odd{0x2028, 0x2029, "a line separator", " ", false},
+    Odd{0x202A, 0x202E, "a direction mark", "", false},
+    Odd{0x202F, 0x202F, "a narrow no-break space", " ", false},
+    Odd{0x2032, 0x2032, "a prime", "'", true},
+    Odd{0x2044, 0x2044, "a fraction slash", "/", true},
+    Odd{0x205F, 0x205F, "a mathematical space", " ", false},
+    Odd{0x2060, 0x2064, "an invisible mark", "", false},
+    Odd{0x2066, 0x2069, "a direction mark", "", false},
+    Odd{0x2212, 0x2212, "a minus sign", "-", true},
+    Odd{0x2215, 0x2215, "a division slash", "/", true},
+    Odd{0x3000, 0x3000, "a wide space", " ", false},
+    Odd{0xFE63, 0xFE63, "a small hyphen", "-", true},
+    Odd{0xFEFF, 0xFEFF, "a byte order mark", "", false},
+};
+
+constexpr std::uint32_t kFullWidthFirst = 0xFF01;  // to U+FF5E: ASCII from '!' to '~', twice as wide
+constexpr std::uint32_t kFullWidthLast = 0xFF5E;
+
+struct CodePoint {
+  std::uint32_t value = 0;
+  std::size_t bytes = 1;
+};
+
+/// @return the code point at `offset`; a byte that begins none counts for itself
+CodePoint code_point_at(std::string_view text, std::size_t offset) {
+  const auto byte = [&](std::size_t index) -> std::uint32_t {
+    return offset + index < text.size() ? static_cast<unsigned char>(text[offset + index]) : 0U;
+  };
+  const std::uint32_t lead = byte(0);
+  const std::size_t bytes = lead >= 0xF0U ? 4 : lead >= 0xE0U ? 3 : lead >= 0xC0U ? 2 : 1;
+  if (bytes == 1) return {lead, 1};
+  std::uint32_t value = lead & (0xFFU >> (bytes + 1));
+  for (std::size_t index = 1; index < bytes; ++index) {
+    if ((byte(index) & 0xC0U) != 0x80U) return {lead, 1};
+    value = value << 6U | (byte(index) & 0x3FU);
+  }
+  return {value, bytes};
+}
+
+std::string number_of(std::uint32_t code_point) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "U+%04X", static_cast<unsigned>(code_point));
+  return text.data();
+}
+
+struct Meaning {
+  std::string name;
+  std::string plain;
+  bool visible = true;
+};
+
+std::optional<Meaning> meaning_of(std::uint32_t code_point) {
+  for (const Odd& odd : kOdd) {
+    if (code_point < odd.first || code_point > odd.last) continue;
+    return Meaning{odd.name, odd.plain, odd.visible};
+  }
+  if (code_point < kFullWidthFirst || code_point > kFullWidthLast) return {};
+  const char plain = static_cast<char>('!' + static_cast<int>(code_point - kFullWidthFirst));
+  return Meaning{"a full-width " + std::string(1, plain), std::string(1, plain), true};
+}
+
+/// @return `text` with each odd character as `replaced` gives it
+template <typename Replace>
+std::string rewritten(std::string_view text, Replace&& replaced) {
+  std::string result;
+  for (std::size_t offset = 0; offset < text.size();) {
+    const CodePoint point = code_point_at(text, offset);
+    const std::string_view as_it_is = text.substr(offset, point.bytes);
+    const auto meaning = point.bytes > 1 ? meaning_of(point.value) : std::nullopt;
+    result += meaning ? replaced(point.value, *meaning, as_it_is) : std::string(as_it_is);
+    offset += point.bytes;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<OddCharacter> odd_character(std::string_view text) {
+  for (std::size_t offset = 0; offset < text.size();) {
+    const CodePoint point = code_point_at(text, offset);
+    if (point.bytes > 1) {
+      const auto meaning = meaning_of(point.value);
+      if (meaning) return OddCharacter{offset, meaning->name + " (" + number_of(point.value) + ")"};
+    }
+    offset += point.bytes;
+  }
+  return {};
+}
+
+std::string with_plain_characters(std::string_view text) {
+  return rewritten(text,
+                   [](std::uint32_t, const Meaning& meaning, std::string_view) { return meaning.plain; });
+}
+
+std::string with_visible_characters(std::string_view text) {
+  return rewritten(text, [](std::uint32_t code_point, const Meaning& meaning, std::string_view as_it_is) {
+    return meaning.visible ? std::string(as_it_is) : "<" + number_of(code_point) + ">";
+  });
+}
+
+}  // namespace glissade
