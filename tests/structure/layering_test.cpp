@@ -20,12 +20,13 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"core", {}},
     {"centerline", {"core"}},
     {"motion", {"core", "centerline"}},
-    {"optimize", {"core", "centerline", "motion"}},
+    {"clearance", {"core", "centerline"}},
+    {"optimize", {"core", "centerline", "motion", "clearance"}},
     {"solid", {"core", "centerline"}},
     {"design", {"core"}},
     {"io", {"core", "centerline", "motion", "solid", "design"}},
-    {"report", {"core", "centerline", "motion", "optimize", "solid", "design", "io"}},
-    {"pipeline", {"core", "centerline", "motion", "optimize", "solid", "design", "io", "report"}},
+    {"report", {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io"}},
+    {"pipeline", {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io", "report"}},
 };
 
 /// Third parties by the start of their include path, and the modules whose .cpp files and private headers may

@@ -1,0 +1,233 @@
+#include "clearance/strip.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace glissade::clearance {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
+// Halving ends here: a cell of a station's distance by 2^40 is a point.
+constexpr int kDeepest = 40;
+// Heights that differ by less than this share of the envelope's are the same.
+constexpr double kSameHeight = 1e-9;
+
+/// The hull of two segments, in order.
+std::vector<Vec2> hull(std::array<Vec2, 4> points) {
+  std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<Vec2> corners;
+  const auto add = [&](Vec2 point, std::size_t least) {
+    while (corners.size() >= least + 2 &&
+           cross(corners.back() - corners[corners.size() - 2], point - corners.back()) <= 0.0) {
+      corners.pop_back();
+    }
+    if (corners.empty() || !(corners.back() == point)) corners.push_back(point);
+  };
+  for (const Vec2 point : points) add(point, 0);
+  const std::size_t upper = corners.size() - 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], upper);
+  if (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
+  return corners;
+}
+
+/// The part of a convex shape in front of a line.
+std::vector<Vec2> clipped(const std::vector<Vec2>& shape, Vec2 on_line, Vec2 forward) {
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const Vec2 a = shape[i];
+    const Vec2 b = shape[(i + 1) % shape.size()];
+    const double at_a = dot(a - on_line, forward);
+    const double at_b = dot(b - on_line, forward);
+    if (at_a >= 0.0) corners.push_back(a);
+    if ((at_a < 0.0) != (at_b < 0.0)) corners.push_back(a + at_a / (at_a - at_b) * (b - a));
+  }
+  return corners;
+}
+
+}  // namespace
+
+/// The closest place found so far, and what it is looked for against.
+struct Strip::Search {
+  const Region& region;
+  double accuracy;
+  Approach best;
+};
+
+Strip::Strip(const Centerline& centerline, const Envelope& envelope,
+             const std::vector<CenterlinePoint>& stations)
+    : centerline_(centerline), envelope_(envelope) {
+  start_ = rib(stations.front());
+  finish_ = rib(stations.back());
+  // A plane cuts only normals of stations whose direction is within a right angle of its own.
+  start_zone_ = finish_.s;
+  for (const CenterlinePoint& station : stations) {
+    if (std::fabs(station.slope_angle - start_.slope) < kRightAngle) continue;
+    start_zone_ = station.arc_length;
+    break;
+  }
+  for (auto station = stations.rbegin(); station != stations.rend(); ++station) {
+    if (std::fabs(station->slope_angle - finish_.slope) < kRightAngle) continue;
+    finish_zone_ = station->arc_length;
+    break;
+  }
+  ribs_.reserve(stations.size());
+  for (const CenterlinePoint& station : stations) {
+    ribs_.push_back(rib(station));
+    cut(ribs_.back());
+  }
+}
+
+Strip::Rib Strip::rib(const CenterlinePoint& point) const {
+  Rib rib;
+  rib.s = point.arc_length;
+  rib.point = {point.x, point.drop};
+  const double sine = std::sin(point.slope_angle);
+  const double cosine = std::cos(point.slope_angle);
+  rib.tangent = {cosine, sine};
+  rib.normal = {sine, -cosine};
+  rib.slope = point.slope_angle;
+  rib.kappa = point.curvature;
+  rib.low = -envelope_.below;
+  rib.high = envelope_.top();
+  return rib;
+}
+
+void Strip::cut(Rib& rib) const {
+  const auto meet = [&rib](double ahead, double approach, bool& at_top, bool& at_bottom) {
+    if (approach > 0.0 && ahead < rib.high * approach) {
+      rib.high = std::max(0.0, ahead / approach);
+      at_top = true;
+    } else if (approach < 0.0 && ahead < rib.low * approach) {
+      rib.low = std::min(0.0, ahead / approach);
+      at_bottom = true;
+    }
+  };
+  if (rib.s > 0.0 && rib.s < start_zone_) {
+    meet(dot(rib.point - start_.point, start_.tangent), -dot(rib.normal, start_.tangent), rib.cut_at_start,
+         rib.cut_at_start);
+  }
+  if (rib.s < finish_.s && rib.s > finish_zone_) {
+    meet(dot(finish_.point - rib.point, finish_.tangent), dot(rib.normal, finish_.tangent), rib.cut_at_finish,
+         rib.cut_at_finish);
+  }
+}
+
+EnvelopePart Strip::part_of(const Rib& rib, double height) const {
+  const double same = kSameHeight * (envelope_.below + envelope_.top());
+  if (height >= envelope_.top() - same) {
+    if (envelope_.headroom > envelope_.above) return EnvelopePart::headroom;
+    return envelope_.above > 0.0 ? EnvelopePart::rim : EnvelopePart::floor;
+  }
+  if (height <= -envelope_.below + same) {
+    return envelope_.below > 0.0 ? EnvelopePart::underside : EnvelopePart::floor;
+  }
+  if (rib.s == 0.0 || rib.cut_at_start) return EnvelopePart::start_face;
+  if (rib.s == finish_.s || rib.cut_at_finish) return EnvelopePart::finish_face;
+  return EnvelopePart::side;
+}
+
+Approach Strip::approach(const Rib& rib, const Region& region) const {
+  const std::array<Vec2, 2> ends{rib.point + rib.low * rib.normal, rib.point + rib.high * rib.normal};
+  const Nearest nearest = region.nearest(ends);
+  const double height = dot(nearest.point - rib.point, rib.normal);
+  return {nearest.value, rib.s, {part_of(rib, height), height, nearest.point}};
+}
+
+std::vector<Approach> Strip::along(const Region& region) const {
+  std::vector<Approach> approaches;
+  approaches.reserve(ribs_.size());
+  for (const Rib& rib : ribs_) approaches.push_back(approach(rib, region));
+  return approaches;
+}
+
+// By how much the levels between two stations stray from the chords of their ends. In between, L^2 - l^2 is
+// convex in the height on either side of the floor, so that its ends and the floor tell.
+double Strip::straying(const Rib& a, const Rib& b) const {
+  const double length = b.s - a.s;
+  const double turn = a.slope - b.slope;
+  const double bend = std::max(std::fabs(a.kappa), std::fabs(b.kappa));
+  const double turned = a.kappa * b.kappa >= 0.0 ? std::fabs(turn) : length * bend;
+  double most = 0.0;
+  for (const double height : {-envelope_.below, 0.0, envelope_.top()}) {
+    // Beyond 1 the level folds over; on the floor nothing does, however tight the curve.
+    const double fold_a = height == 0.0 ? 0.0 : a.kappa * height;
+    const double fold_b = height == 0.0 ? 0.0 : b.kappa * height;
+    const double least_fold = std::min(fold_a, fold_b);
+    const double most_fold = std::max(fold_a, fold_b);
+    const bool plain = most_fold < 1.0;
+    double arc = length + std::fabs(height) * turned;
+    if (plain) arc = length - height * turn;
+    if (least_fold > 1.0) arc = height * turn - length;
+    const double chord = norm(b.point + height * b.normal - a.point - height * a.normal);
+    // The difference of two lengths that are all but equal is rounding.
+    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (finish_.s + std::fabs(height));
+    double straying = 0.5 * std::sqrt(std::max(0.0, arc - chord + rounding) * (arc + chord));
+    if (plain || least_fold > 1.0) straying = std::min(straying, 0.25 * arc * turned);
+    most = std::max(most, straying);
+  }
+  return most;
+}
+
+double Strip::lower_bound(const Rib& a, const Rib& b, const Region& region) const {
+  const double straying = this->straying(a, b);
+  const double low = -envelope_.below;
+  const double high = envelope_.top();
+  std::vector<Vec2> shape = hull({a.point + low * a.normal, a.point + high * a.normal,
+                                  b.point + low * b.normal, b.point + high * b.normal});
+  if (a.s < start_zone_) {
+    shape = clipped(shape, start_.point - straying * start_.tangent, start_.tangent);
+  }
+  if (b.s > finish_zone_) {
+    shape = clipped(shape, finish_.point + straying * finish_.tangent, -1.0 * finish_.tangent);
+  }
+  if (shape.empty()) return kInfinity;
+  return region.nearest(shape).value - straying;
+}
+
+// Halves a cell as long as it may hold something closer. Once the envelope reaches into the region, further
+// cells are looked at no more closely than along() has: its sign is known.
+void Strip::look(const Rib& a, double at_a, const Rib& b, double at_b, int depth, Search& search) const {
+  // No point of the cell is further from both normals than this.
+  const double height = std::max(envelope_.below, envelope_.top());
+  const double turned = a.kappa * b.kappa >= 0.0
+                            ? std::fabs(a.slope - b.slope)
+                            : (b.s - a.s) * std::max(std::fabs(a.kappa), std::fabs(b.kappa));
+  const double across = b.s - a.s + height * turned;
+  const bool is_cut = a.cut_at_start || b.cut_at_start || a.cut_at_finish || b.cut_at_finish;
+  const double reach = across + height;
+  const bool steady = !is_cut && !search.region.jumps_within(std::min(a.point.x, b.point.x) - reach,
+                                                             std::max(a.point.x, b.point.x) + reach);
+  if (steady && std::min(at_a, at_b) - across > search.best.value) return;
+  if (depth >= kDeepest || search.best.value < 0.0) return;
+  if (lower_bound(a, b, search.region) >= search.best.value - search.accuracy) return;
+  const double middle = 0.5 * (a.s + b.s);
+  if (!(middle > a.s && middle < b.s)) return;
+  Rib between = rib(centerline_.at(middle));
+  cut(between);
+  const Approach here = approach(between, search.region);
+  if (here.value < search.best.value) search.best = here;
+  look(a, at_a, between, here.value, depth + 1, search);
+  look(between, here.value, b, at_b, depth + 1, search);
+}
+
+Approach Strip::least(const Region& region, const std::vector<Approach>& stations, double accuracy) const {
+  Search search{region, accuracy,
+                *std::min_element(stations.begin(), stations.end(),
+                                  [](const Approach& a, const Approach& b) { return a.value < b.value; })};
+  // The most promising cells first: what they find spares the others.
+  std::vector<std::size_t> order(ribs_.size() - 1);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto promise = [&](std::size_t i) { return std::min(stations[i].value, stations[i + 1].value); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t k) { return promise(i) < promise(k); });
+  for (const std::size_t i : order) {
+    look(ribs_[i], stations[i].value, ribs_[i + 1], stations[i + 1].value, 0, search);
+  }
+  return search.best;
+}
+
+}  // namespace glissade::clearance

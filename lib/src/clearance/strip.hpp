@@ -1,0 +1,76 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/clearance/envelope.hpp"
+
+#include "clearance/region.hpp"
+
+#include <vector>
+
+namespace glissade::clearance {
+
+/// How close an envelope comes to a region, at one station or anywhere.
+struct Approach {
+  double value = 0.0;       ///< Region's signed distance [m]
+  double arc_length = 0.0;  ///< of the station whose normal carries the closest place [m]
+  EnvelopePlace place;
+};
+
+/// The envelope of a centerline as a region of the plane, and its distance from what must be kept clear.
+///
+/// Shape: the union of the normals of all stations, each from the underside to the top, cut where it passes
+///   behind an end plane. Where normals meet beyond a centre of curvature, nothing needs cutting: a point that
+///   several normals pass lies in the solid all the same (docs/solid.md).
+/// Method: between two stations a level at height n strays from the chord of its ends by no more than
+///   sqrt(L^2 - l^2)/2, L its arc length and l that chord, nor by more than L/4 times the angle that it turns.
+///   The cell between two stations lies within that of the hull of their normals: a lower bound of its
+///   distance. Cells that may hold the least one are halved until the bounds meet.
+/// Accuracy: least() exceeds the true least distance by no more than `accuracy`, as long as that is positive,
+///   and its sign is right; on each smooth piece curvature is taken to be monotone or of one sign.
+class Strip {
+ public:
+  /// @param stations  points of the centerline from start to finish, its breaks among them
+  Strip(const Centerline& centerline, const Envelope& envelope, const std::vector<CenterlinePoint>& stations);
+
+  /// @return how close each station's normal comes, in their order
+  [[nodiscard]] std::vector<Approach> along(const Region& region) const;
+
+  /// @param stations  what along() found
+  /// @return the closest place of all
+  [[nodiscard]] Approach least(const Region& region, const std::vector<Approach>& stations,
+                               double accuracy) const;
+
+ private:
+  /// A station's normal, from the underside to the top.
+  struct Rib {
+    double s = 0.0;
+    Vec2 point;
+    Vec2 tangent;
+    Vec2 normal;
+    double slope = 0.0;
+    double kappa = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+    bool cut_at_start = false;
+    bool cut_at_finish = false;
+  };
+  struct Search;
+
+  [[nodiscard]] Rib rib(const CenterlinePoint& point) const;
+  void cut(Rib& rib) const;
+  [[nodiscard]] Approach approach(const Rib& rib, const Region& region) const;
+  [[nodiscard]] EnvelopePart part_of(const Rib& rib, double height) const;
+  [[nodiscard]] double straying(const Rib& a, const Rib& b) const;
+  [[nodiscard]] double lower_bound(const Rib& a, const Rib& b, const Region& region) const;
+  void look(const Rib& a, double at_a, const Rib& b, double at_b, int depth, Search& search) const;
+
+  const Centerline& centerline_;
+  Envelope envelope_;
+  std::vector<Rib> ribs_;
+  Rib start_;
+  Rib finish_;
+  double start_zone_ = 0.0;   // up to here normals may pass behind the start's plane [m]
+  double finish_zone_ = 0.0;  // from here on behind that of the finish [m]
+};
+
+}  // namespace glissade::clearance
