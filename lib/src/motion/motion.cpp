@@ -29,9 +29,52 @@ void require_body(const Body& body, double gravity) {
   require(body.drag_per_metre >= 0.0 && std::isfinite(body.drag_per_metre),
           "drag_per_metre: " + exact_text(body.drag_per_metre) + " 1/m is not a finite number, 0 or larger",
           "Drag slows a body down: k = air density * drag coefficient * frontal area / (2 * mass).");
+  require(std::isfinite(body.head_wind), "head_wind: " + exact_text(body.head_wind) + " m/s is not finite",
+          "Wind along the track, against the motion where positive.");
+  double before = 0.0;
+  for (const FrictionChange& change : body.friction_changes) {
+    require(change.from >= before && std::isfinite(change.from),
+            "friction_changes: " + exact_text(change.from) + " m after " + exact_text(before) + " m",
+            "The places from which on friction changes are finite and ascend.");
+    before = change.from;
+  }
   require(gravity > 0.0 && std::isfinite(gravity),
           "gravity: " + exact_text(gravity) + " m/s^2 is not a finite number larger than 0",
           "Gravity drives the body.");
+}
+
+void require_ride(const Centerline& centerline, const Body& body) {
+  if (!body.law || !body.law->depends_on_speed()) return;
+  if (!(body.entry_speed > 0.0)) {
+    throw InputError({"", "entry_speed: 0 m/s", "What resists more the slower it is cannot start from rest.",
+                      "the speed with which the " + std::string(body.law->kind()) + " is fed"});
+  }
+  if (!centerline.unbounded_curvature_at_start()) return;
+  throw InputError({"", "the track starts with unbounded curvature",
+                    "What resists in proportion to its load cannot enter it with speed.",
+                    "a track with a smallest radius"});
+}
+
+Equation equation_of(const Centerline& centerline, const Body& body, double gravity) {
+  Equation equation;
+  equation.centerline = &centerline;
+  equation.mu = body.friction.coefficient();
+  equation.k = body.drag_per_metre;
+  equation.gravity = gravity;
+  // Without drag there is no air to feel.
+  equation.head_wind = body.drag_per_metre == 0.0 ? 0.0 : body.head_wind;
+  equation.changes = body.friction_changes;
+  if (!body.law) return equation;
+  equation.gain = 2.0 / body.law->inertia();
+  equation.height = body.law->centre_height();
+  if (body.law->depends_on_speed()) equation.law = body.law.get();
+  return equation;
+}
+
+void require_quantity(const Motion& motion, std::size_t index) {
+  if (index < motion.quantities().size()) return;
+  throw InputError({"", "quantity " + std::to_string(index) + " is not one of the ride's",
+                    "The body's law adds " + std::to_string(motion.quantities().size()) + ".", ""});
 }
 
 /// A value along a ride and its place.
@@ -95,8 +138,7 @@ class Motion::Ride {
   Ride(CenterlinePtr centerline, const Body& body, double gravity)
       : centerline_(std::move(centerline)),
         body_(body),
-        record_(ride_down({centerline_.get(), body.friction.coefficient(), body.drag_per_metre, gravity},
-                          body.entry_speed)) {}
+        record_(ride_down(equation_of(*centerline_, body_, gravity), body.entry_speed)) {}
 
   [[nodiscard]] const Centerline& centerline() const { return *centerline_; }
   [[nodiscard]] const Body& body() const { return body_; }
@@ -104,6 +146,8 @@ class Motion::Ride {
   [[nodiscard]] MotionState at(double s) const;
   [[nodiscard]] MotionState load_extreme(double sign) const;
   [[nodiscard]] MotionState highest_speed() const;
+  [[nodiscard]] LawState law_state(const MotionState& state) const;
+  [[nodiscard]] QuantityPeak highest(std::size_t index) const;
 
  private:
   [[nodiscard]] const Equation& equation() const { return record_.equation; }
@@ -142,7 +186,7 @@ MotionState Motion::Ride::state(const Panel& panel, double s) const {
           sums.time,
           std::sqrt(v),
           equation().load(direction, v),
-          equation().mu * sums.load,
+          equation().loss_friction() * sums.load,
           equation().k * sums.speed_squared};
 }
 
@@ -174,9 +218,87 @@ MotionState Motion::Ride::highest_speed() const {
   return highest;
 }
 
+LawState Motion::Ride::law_state(const MotionState& state) const {
+  const double s = state.arc_length;
+  const Direction direction = centerline_->direction(s);
+  const double v = state.speed * state.speed;
+  return {
+      .arc_length = s,
+      .slope_angle = direction.slope_angle,
+      .curvature = direction.curvature,
+      .v = v,
+      .normal_load = state.normal_load,
+      .friction = equation().friction_at(s),
+      .drive = equation().gravity * std::sin(direction.slope_angle) - equation().k * equation().dragged(v)};
+}
+
+QuantityPeak Motion::Ride::highest(std::size_t index) const {
+  const auto value_at = [&](double s) { return body_.law->quantity(index, law_state(at(s))); };
+  // Infinite values are told apart by no search: it goes by a value that stays finite.
+  const auto finite_at = [&](double s) { return std::atan(value_at(s)); };
+  std::vector<double> places;
+  for (const Panel& panel : record_.panels) {
+    for (std::size_t i = 0; i + 1 < chebyshev::kNodes; i += 2) {
+      places.push_back(
+          panel.stretch.anchored_at_end
+              ? panel.stretch.arc_length(panel.stretch.width * chebyshev::nodes()[chebyshev::kNodes - 1 - i])
+              : panel.stretch.arc_length(panel.stretch.width * chebyshev::nodes()[i]));
+    }
+    places.push_back(std::nextafter(panel.stretch.end, panel.stretch.begin));
+  }
+  places.push_back(record_.end.arc_length);
+  std::vector<double> values;
+  for (const double s : places) values.push_back(finite_at(s));
+  const auto highest =
+      static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  QuantityPeak peak{value_at(places[highest]), places[highest], {}};
+  const double from = places[highest == 0 ? 0 : highest - 1];
+  const double to = places[std::min(highest + 1, places.size() - 1)];
+  if (from < to && std::isfinite(peak.value)) {
+    std::uintmax_t iterations = 60;
+    const auto [s, value] =
+        boost::math::tools::brent_find_minima([&](double at) { return -finite_at(at); }, from, to,
+                                              std::numeric_limits<double>::digits / 2, iterations);
+    if (-value > values[highest]) peak = {value_at(s), s, {}};
+  }
+  const std::optional<double> bound = body_.law->quantities().at(index).highest;
+  if (!bound || !(peak.value > *bound)) return peak;
+  const double limit = std::atan(*bound);
+  std::size_t first = 0;
+  while (first + 1 < places.size() && values[first] <= limit) ++first;
+  if (values[first] <= limit) {
+    peak.beyond_from = peak.arc_length;  // it exceeds the bound between two samples only
+  } else if (first == 0) {
+    peak.beyond_from = places.front();
+  } else {
+    double within = places[first - 1];
+    double beyond = places[first];
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (within + beyond);
+      (finite_at(middle) <= limit ? within : beyond) = middle;
+    }
+    peak.beyond_from = beyond;
+  }
+  return peak;
+}
+
+bool is_sliding_point(const Body& body) {
+  const bool point = !body.law || (body.law->inertia() == 1.0 && body.law->centre_height() == 0.0 &&
+                                   !body.law->depends_on_speed());
+  const bool calm = body.head_wind == 0.0 || body.drag_per_metre == 0.0;
+  return point && calm && body.friction_changes.empty();
+}
+
+Friction least_friction(const Body& body) {
+  Friction least = body.friction;
+  for (const FrictionChange& change : body.friction_changes) least = std::min(least, change.friction);
+  return least;
+}
+
 Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
   if (!centerline) throw InputError({"", "there is no centerline to ride on", "", ""});
   require_body(body, gravity);
+  require_ride(*centerline, body);
   ride_ = std::make_unique<const Ride>(std::move(centerline), body, gravity);
 }
 
@@ -197,7 +319,7 @@ double Motion::gravity() const noexcept {
 }
 
 bool Motion::arrived() const noexcept {
-  return !stall() && !lift_off();
+  return !stall() && !lift_off() && !law_end();
 }
 
 const std::optional<Stall>& Motion::stall() const noexcept {
@@ -206,6 +328,10 @@ const std::optional<Stall>& Motion::stall() const noexcept {
 
 const std::optional<LiftOff>& Motion::lift_off() const noexcept {
   return ride_->record().lift_off;
+}
+
+const std::optional<LawEnd>& Motion::law_end() const noexcept {
+  return ride_->record().law_end;
 }
 
 double Motion::distance() const noexcept {
@@ -242,6 +368,20 @@ std::vector<MotionState> Motion::at(const std::vector<double>& stations) const {
   states.reserve(stations.size());
   for (const double s : stations) states.push_back(ride_->at(s));
   return states;
+}
+
+std::vector<LawQuantity> Motion::quantities() const {
+  return body().law ? body().law->quantities() : std::vector<LawQuantity>{};
+}
+
+double Motion::quantity(std::size_t index, double s) const {
+  require_quantity(*this, index);
+  return body().law->quantity(index, ride_->law_state(at(s)));
+}
+
+QuantityPeak Motion::highest(std::size_t index) const {
+  require_quantity(*this, index);
+  return ride_->highest(index);
 }
 
 }  // namespace glissade

@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
+// A law is continued below the squared speed at which it ends by this share of it.
+constexpr double kContinued = 0.25;
+// What is not linear in v is iterated on until v moves by no more than rounding. Newton's method takes some 5
+// rounds; a panel that takes more than this is halved.
+constexpr double kSettled = 4.0 * kEpsilon;
+constexpr int kMostIterations = 25;
+
 /// Direction at s; at the end of a smooth part that from before the break, a jump of curvature is not ours.
 Direction direction_within(const Equation& equation, const Stretch& stretch, double s) {
   Direction direction = equation.centerline->direction(s);
@@ -25,17 +32,66 @@ double integral_of_push(const Stretch& stretch, double sigma, double mean, doubl
 
 }  // namespace
 
-double Equation::push(double zeta) const {
-  return 2.0 * gravity * (std::sin(zeta) - mu * std::cos(zeta));
+double Equation::friction_at(double s) const {
+  double friction = mu;
+  for (const FrictionChange& change : changes) {
+    if (change.from <= s) friction = change.friction.coefficient();
+  }
+  return friction;
 }
 
-double Equation::keep(double turn, double distance) const {
-  return std::exp(2.0 * (mu * turn - k * distance));
+double Equation::path_rate(const Direction& direction) const {
+  return height == 0.0 ? 1.0 : 1.0 - direction.curvature * height;
+}
+
+double Equation::push(const Direction& direction, double friction) const {
+  const double zeta = direction.slope_angle;
+  const double along = gain * gravity * (std::sin(zeta) - friction * std::cos(zeta));
+  return height == 0.0 ? along : along * path_rate(direction);
+}
+
+double Equation::keep(double turn, double distance, double friction) const {
+  // The centre's way is shorter by h where the track turns upwards by 1 rad.
+  return std::exp(gain * (friction * turn - k * (distance + height * turn)));
+}
+
+double Equation::resistance(double s, double v) const {
+  return law == nullptr ? 1.0 : law->resistance(s, v).factor;
+}
+
+double Equation::dragged(double v) const {
+  if (head_wind == 0.0) return v;
+  const double air_speed = std::sqrt(std::max(0.0, v)) + head_wind;
+  return air_speed * std::fabs(air_speed);
+}
+
+Equation::Extra Equation::extra(const Direction& direction, double s, double friction, double v) const {
+  const double path = path_rate(direction);
+  Extra extra;
+  if (law != nullptr) {
+    // Below the speed at which the law ends it is continued as it is a little further down, so that the panel
+    // in which that happens is smooth.
+    const double v_of_law = std::max(v, kContinued * law->least_v(s));
+    const Resistance c = law->resistance(s, v_of_law);
+    const double pressing = path * gravity * std::cos(direction.slope_angle) + direction.curvature * v;
+    const double by_v = v_of_law > v ? 0.0 : c.by_v;
+    extra.rate = -gain * friction * (by_v * pressing + (c.factor - 1.0) * direction.curvature);
+    extra.push = -gain * friction * (c.factor - 1.0) * pressing - extra.rate * v;
+  }
+  if (head_wind != 0.0) extra.push += gain * k * path * (v - dragged(v));
+  return extra;
+}
+
+double Equation::slope_at_rest(const Direction& direction, double friction) const {
+  const double closed_push = push(direction, friction);
+  return head_wind == 0.0 ? closed_push : closed_push - gain * k * path_rate(direction) * dragged(0.0);
 }
 
 double Equation::load(const Direction& direction, double v) const {
   const double weight = gravity * std::cos(direction.slope_angle);
-  return v == 0.0 ? weight : weight + direction.curvature * v;
+  if (v == 0.0) return weight;
+  if (height == 0.0) return weight + direction.curvature * v;
+  return weight + direction.curvature * v / path_rate(direction);
 }
 
 Stretch Stretch::even(double begin, double end) {
@@ -109,41 +165,114 @@ Stretch Stretch::cut_at(double s) const {
 }
 
 Panel::Panel(const Equation& equation, const Stretch& covered, double v_at_anchor)
-    : stretch(covered), anchor_v(v_at_anchor) {
+    : stretch(covered),
+      friction(equation.changes.empty() ? equation.mu
+                                        : equation.friction_at(0.5 * (covered.begin + covered.end))),
+      anchor_v(v_at_anchor) {
   const chebyshev::Values& x = chebyshev::nodes();
-  chebyshev::Values keeping{};
-  std::array<Direction, chebyshev::kNodes> directions;
-  const double side = stretch.anchored_at_end ? -1.0 : 1.0;
+  Nodes nodes;
   for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
     const double s = stretch.arc_length(i + 1 == chebyshev::kNodes ? stretch.width : stretch.width * x[i]);
-    directions[i] = direction_within(equation, stretch, s);
-    if (i == 0) anchor_zeta = directions[0].slope_angle;
-    keeping[i] = equation.keep(directions[i].slope_angle - anchor_zeta, s - stretch.anchor());
-    push[i] = equation.push(directions[i].slope_angle) / keeping[i];
+    nodes.directions[i] = direction_within(equation, stretch, s);
+    if (i == 0) anchor_zeta = nodes.directions[0].slope_angle;
+    nodes.keeping[i] =
+        equation.keep(nodes.directions[i].slope_angle - anchor_zeta, s - stretch.anchor(), friction);
+    push[i] = equation.push(nodes.directions[i], friction) / nodes.keeping[i];
   }
-  kept = keeping.back();
+  if (equation.closed()) {
+    add_up(nodes);
+  } else {
+    settle(equation, nodes);
+  }
+  kept = nodes.keeping.back();
+  weigh(equation, nodes);
+}
+
+void Panel::add_up(const Nodes& nodes) {
+  const chebyshev::Values& x = chebyshev::nodes();
+  const double side = stretch.anchored_at_end ? -1.0 : 1.0;
   mean_push = chebyshev::running_mean(push);
   if (stretch.spacing == Spacing::root) weighted_mean_push = chebyshev::weighted_running_mean(push);
+  for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+    v[i] = nodes.keeping[i] * (anchor_v + side * integral_of_push(stretch, stretch.width * x[i], mean_push[i],
+                                                                  weighted_mean_push[i]));
+  }
+}
 
+void Panel::settle(const Equation& equation, Nodes& nodes) {
+  const chebyshev::Values& x = chebyshev::nodes();
+  const double side = stretch.anchored_at_end ? -1.0 : 1.0;
+  nodes.closed_keeping = nodes.keeping;
+  chebyshev::Values closed_push;
+  for (std::size_t i = 0; i < chebyshev::kNodes; ++i) closed_push[i] = push[i] * nodes.keeping[i];
+  v.fill(anchor_v);
+  resolved = false;
+  mean_rate.emplace();
+  chebyshev::Values rate{};
+  for (int iteration = 0; iteration < kMostIterations && !resolved; ++iteration) {
+    const chebyshev::Values before = v;
+    for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+      const double sigma = stretch.width * x[i];
+      const Equation::Extra extra =
+          equation.extra(nodes.directions[i], stretch.arc_length(sigma), friction, before[i]);
+      rate[i] = extra.rate * stretch.stretching(sigma);
+      push[i] = closed_push[i] + extra.push;
+    }
+    if (equation.law != nullptr) *mean_rate = chebyshev::running_mean(rate);
+    for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+      nodes.keeping[i] = nodes.closed_keeping[i] * std::exp(side * stretch.width * x[i] * (*mean_rate)[i]);
+      push[i] /= nodes.keeping[i];
+    }
+    add_up(nodes);
+    double change = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+      change = std::max(change, std::fabs(v[i] - before[i]));
+      size = std::max(size, std::fabs(v[i]));
+    }
+    resolved = change <= kSettled * size;
+  }
+}
+
+void Panel::weigh(const Equation& equation, const Nodes& nodes) {
+  const chebyshev::Values& x = chebyshev::nodes();
+  const double side = stretch.anchored_at_end ? -1.0 : 1.0;
   chebyshev::Values stretched_v;
   for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
     const double sigma = stretch.width * x[i];
     const double stretching = stretch.stretching(sigma);
-    v[i] = keeping[i] *
-           (anchor_v + side * integral_of_push(stretch, sigma, mean_push[i], weighted_mean_push[i]));
-    pace[i] =
-        at_rest() ? 2.0 / std::sqrt(keeping[i] * side * weighted_mean_push[i]) : stretching / std::sqrt(v[i]);
-    load[i] = equation.load(directions[i], v[i]);
+    pace[i] = at_rest() ? 2.0 / std::sqrt(nodes.keeping[i] * side * weighted_mean_push[i])
+                        : stretching / std::sqrt(v[i]);
+    load[i] = equation.load(nodes.directions[i], v[i]);
     stretched_load[i] = load[i] * stretching;
     stretched_v[i] = v[i] * stretching;
   }
+  const bool plain = equation.height == 0.0 && equation.closed() && equation.changes.empty();
+  chebyshev::Values pressed;  // c N ds_c/dsigma over loss_friction()
+  if (!plain) weigh_law(equation, nodes, pressed, stretched_v);
   if (!std::isfinite(stretched_load[0])) {
     load[0] = std::numeric_limits<double>::infinity();
     stretched_load[0] = chebyshev::extrapolated_to_zero(stretched_load);
+    if (!plain) pressed[0] = chebyshev::extrapolated_to_zero(pressed);
   }
   mean_pace = chebyshev::running_mean(pace);
-  mean_load = chebyshev::running_mean(stretched_load);
+  mean_load = chebyshev::running_mean(plain ? stretched_load : pressed);
   mean_v = chebyshev::running_mean(stretched_v);
+}
+
+void Panel::weigh_law(const Equation& equation, const Nodes& nodes, chebyshev::Values& pressed,
+                      chebyshev::Values& stretched_v) {
+  const chebyshev::Values& x = chebyshev::nodes();
+  const double share = equation.changes.empty() ? 1.0 : friction;
+  if (equation.height > 0.0) path_rate.emplace();
+  for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+    const double sigma = stretch.width * x[i];
+    const double path = equation.path_rate(nodes.directions[i]);
+    if (path_rate) (*path_rate)[i] = path;
+    pace[i] *= path;
+    stretched_v[i] = equation.dragged(v[i]) * path * stretch.stretching(sigma);
+    pressed[i] = stretched_load[i] * path * share * equation.resistance(stretch.arc_length(sigma), v[i]);
+  }
 }
 
 bool Panel::load_unbounded() const {
@@ -160,8 +289,13 @@ double Panel::scaled_w(double sigma) const {
 
 double Panel::v_for(const Equation& equation, double sigma, double zeta) const {
   const double s = stretch.arc_length(sigma);
+  double keeping = equation.keep(zeta - anchor_zeta, s - stretch.anchor(), friction);
+  if (mean_rate) {
+    const double rate = chebyshev::Interpolation(sigma / stretch.width)(*mean_rate);
+    keeping *= std::exp((stretch.anchored_at_end ? -sigma : sigma) * rate);
+  }
   // Rounding alone can take w below zero, where the body comes to rest.
-  return equation.keep(zeta - anchor_zeta, s - stretch.anchor()) * std::max(0.0, scaled_w(sigma));
+  return keeping * std::max(0.0, scaled_w(sigma));
 }
 
 double Panel::v_at(const Equation& equation, double sigma) const {
@@ -171,6 +305,10 @@ double Panel::v_at(const Equation& equation, double sigma) const {
 double Panel::load_at(const Equation& equation, double sigma) const {
   const Direction direction = direction_within(equation, stretch, stretch.arc_length(sigma));
   return equation.load(direction, v_for(equation, sigma, direction.slope_angle));
+}
+
+double Panel::path_rate_at(const Equation& equation, double sigma) const {
+  return equation.path_rate(direction_within(equation, stretch, stretch.arc_length(sigma)));
 }
 
 double Panel::far_v_terms() const {

@@ -1,25 +1,56 @@
 #pragma once
 
-#include "glissade/centerline/centerline.hpp"
+#include "glissade/motion/motion.hpp"
 
 #include "chebyshev.hpp"
 
+#include <array>
+#include <optional>
+#include <vector>
+
 namespace glissade::motion {
 
-/// The energy equation of one body on one centerline, docs/theory.md, in the form that has a closed integral:
-/// w = v e^(-2 mu zeta + 2 k s), dw/ds = push(zeta) e^(-2 mu zeta + 2 k s).
+/// The energy equation of one body on one centerline, docs/theory.md, in the form that has a closed integral
+/// where c does not depend on the speed and no wind blows:
+///   w = v e^(-(2/f)(mu zeta - k s_c)), dw/ds = push e^(-(2/f)(mu zeta - k s_c)), ds_c = (1 - kappa h) ds.
+/// What else a law or the wind asks for enters as `extra`, which a panel iterates on.
 struct Equation {
   const Centerline* centerline = nullptr;
-  double mu = 0.0;       ///< friction coefficient
-  double k = 0.0;        ///< drag [1/m]
-  double gravity = 0.0;  ///< [m/s^2]
+  double mu = 0.0;           ///< friction coefficient at the start
+  double k = 0.0;            ///< drag [1/m]
+  double gravity = 0.0;      ///< [m/s^2]
+  double gain = 2.0;         ///< 2/f
+  double height = 0.0;       ///< h, of the centre of mass above the track [m]
+  double head_wind = 0.0;    ///< [m/s]
+  const Law* law = nullptr;  ///< where c depends on the speed; none otherwise
+  std::vector<FrictionChange> changes;
 
-  /// @return 2 g (sin(zeta) - mu cos(zeta)) [m/s^2]
-  [[nodiscard]] double push(double zeta) const;
-  /// @return e^(2 mu turn - 2 k distance): what v keeps where the slope angle grows by `turn`
-  [[nodiscard]] double keep(double turn, double distance) const;
+  /// What is added to the closed form: dv/ds = ... + push + rate v, linear about some v.
+  struct Extra {
+    double push = 0.0;
+    double rate = 0.0;
+  };
+
+  [[nodiscard]] bool closed() const { return law == nullptr && head_wind == 0.0; }
+  /// @return mu on the stretch that holds s
+  [[nodiscard]] double friction_at(double s) const;
+  /// @return (2/f) g (sin(zeta) - mu cos(zeta)) (1 - kappa h) [m/s^2]
+  [[nodiscard]] double push(const Direction& direction, double friction) const;
+  /// @return what v keeps where the slope angle grows by `turn`
+  [[nodiscard]] double keep(double turn, double distance, double friction) const;
+  [[nodiscard]] Extra extra(const Direction& direction, double s, double friction, double v) const;
+  /// @return dv/ds of a body at rest, were it to move [m/s^2]
+  [[nodiscard]] double slope_at_rest(const Direction& direction, double friction) const;
+  /// @return ds_c/ds = 1 - kappa h
+  [[nodiscard]] double path_rate(const Direction& direction) const;
   /// @return N for v = u^2 [m/s^2]; at rest the curvature does not count, even where it is unbounded
   [[nodiscard]] double load(const Direction& direction, double v) const;
+  /// @return c/mu
+  [[nodiscard]] double resistance(double s, double v) const;
+  /// @return D(v): drag over k
+  [[nodiscard]] double dragged(double v) const;
+  /// Losses are sums of c N over this: mu alone where it is the same everywhere.
+  [[nodiscard]] double loss_friction() const { return changes.empty() ? mu : 1.0; }
 };
 
 /// How the place on a panel, sigma in [0, width], maps to distance from the panel's anchor.
@@ -62,9 +93,9 @@ struct Stretch {
 
 /// Time and energies that a ride adds up.
 struct RideSums {
-  double time = 0.0;           ///< [s]
-  double load = 0.0;           ///< integral of N ds [m^2/s^2]
-  double speed_squared = 0.0;  ///< integral of v ds [m^3/s^2]
+  double time = 0.0;  ///< [s]
+  double load = 0.0;  ///< integral of c N/Equation::loss_friction() along the centre's path [m^2/s^2]
+  double speed_squared = 0.0;  ///< integral of D(v) along the centre's path [m^3/s^2]
 
   friend RideSums operator+(const RideSums& a, const RideSums& b) {
     return {a.time + b.time, a.load + b.load, a.speed_squared + b.speed_squared};
@@ -74,9 +105,11 @@ struct RideSums {
 /// A stretch of a ride as polynomials in sigma.
 struct Panel {
   Stretch stretch;
+  double friction = 0.0;  ///< mu, the same on all of it
   double anchor_zeta = 0.0;
   double anchor_v = 0.0;
-  double kept = 1.0;  ///< share of v at the anchor that is left at the other end
+  double kept = 1.0;     ///< share of v at the anchor that is left at the other end
+  bool resolved = true;  ///< false where what is not linear in v did not settle
 
   // At the nodes, in ascending order of sigma.
   chebyshev::Values push{};            // dw/ds, scaled by the weight at the anchor
@@ -91,6 +124,10 @@ struct Panel {
   chebyshev::Values mean_pace{};
   chebyshev::Values mean_load{};
   chebyshev::Values mean_v{};
+  std::optional<chebyshev::Values>
+      path_rate;  ///< ds_c/ds at the nodes, of a body whose centre is off the track
+  std::optional<chebyshev::Values>
+      mean_rate;  ///< of what v keeps beyond the closed form, where it is not closed
 
   Panel(const Equation& equation, const Stretch& covered, double v_at_anchor);
 
@@ -102,6 +139,8 @@ struct Panel {
   /// @param zeta  the slope angle at sigma, for callers who know it
   [[nodiscard]] double v_for(const Equation& equation, double sigma, double zeta) const;
   [[nodiscard]] double load_at(const Equation& equation, double sigma) const;
+  /// @return ds_c/ds at sigma
+  [[nodiscard]] double path_rate_at(const Equation& equation, double sigma) const;
   /// @return w, scaled by the weight at the anchor
   [[nodiscard]] double scaled_w(double sigma) const;
   /// @return size of the terms that make up v at the end that is not the anchor: its rounding is in
@@ -112,6 +151,22 @@ struct Panel {
   [[nodiscard]] RideSums sums() const;
   /// @return sums from the begin of the panel to sigma
   [[nodiscard]] RideSums sums_to(double sigma) const;
+
+ private:
+  struct Nodes {
+    std::array<Direction, chebyshev::kNodes> directions;
+    chebyshev::Values closed_keeping;  ///< of the closed form
+    chebyshev::Values keeping;
+  };
+  /// v at the nodes, from what pushes and what is kept.
+  void add_up(const Nodes& nodes);
+  /// v where the equation is not linear in it, by Newton's method on all nodes at once.
+  void settle(const Equation& equation, Nodes& nodes);
+  /// Loads, paces and their sums, for the v found.
+  void weigh(const Equation& equation, const Nodes& nodes);
+  /// What `weigh` leaves out for a sliding point.
+  void weigh_law(const Equation& equation, const Nodes& nodes, chebyshev::Values& pressed,
+                 chebyshev::Values& stretched_v);
 };
 
 }  // namespace glissade::motion

@@ -31,6 +31,9 @@ constexpr double kLoadRounding = 1e-12;
 constexpr double kRestRounding = 64.0 * kEpsilon;
 // Slope angles as near as this to the friction angle do not start a resting body.
 constexpr double kPushRounding = 8.0 * kEpsilon;
+// A valley is too tight where the centre of mass advances by less than this share of the track below it, and
+// the ride is told up to twice that: beyond, its load grows without bound.
+constexpr double kTight = 1e-6;
 // Smooth parts are looked at in this many panels at least, in all, before their smoothness is believed.
 constexpr std::size_t kLeastPanels = 4;
 constexpr int kDeepest = 200;
@@ -101,6 +104,7 @@ Miss miss_of(const Equation& equation, const Panel& panel) {
       std::max(kLoadTailTolerance * std::max(load_size, equation.gravity), place_rounding * spread(load));
 
   Miss miss;
+  if (!panel.resolved) return miss;
   miss.shape = std::max(chebyshev::tail(panel.push) * push_size / push_tolerance,
                         chebyshev::tail(load) * load_size / load_tolerance);
   const bool moves_throughout =
@@ -138,10 +142,12 @@ class Integrator {
   RideRecord run();
 
  private:
-  enum class Verdict { pass, split, stall, rest_at_finish, endless, lift_off };
+  enum class Verdict { pass, split, stall, rest_at_finish, endless, lift_off, too_tight, law_ends };
 
   [[nodiscard]] const Equation& equation() const { return record_.equation; }
   [[nodiscard]] bool starts();
+  [[nodiscard]] std::vector<double> breaks() const;
+  [[nodiscard]] Direction direction(double s) const { return equation().centerline->direction(s); }
   [[nodiscard]] Stretch first_stretch(double end) const;
   void slide(const Stretch& whole, int halvings);
   [[nodiscard]] Verdict judge(const Panel& panel, const Task& task, const Miss& miss) const;
@@ -154,6 +160,11 @@ class Integrator {
   void stall(const Panel& panel);
   [[nodiscard]] double where_load_ends(const Panel& panel) const;
   void leave_track(double s);
+  [[nodiscard]] chebyshev::Values law_margin(const Panel& panel) const;
+  [[nodiscard]] double where_it_is_too_tight(const Panel& panel) const;
+  [[nodiscard]] double where_law_ends(const Panel& panel) const;
+  void end_in_valley(double s);
+  void end_law(double s);
   void close(double s, double v);
   [[nodiscard]] Panel integrated(const Stretch& stretch, double v);
 
@@ -168,7 +179,7 @@ class Integrator {
 
 RideRecord Integrator::run() {
   if (!starts()) return std::move(record_);
-  const std::vector<double> breaks = equation().centerline->breaks();
+  const std::vector<double> breaks = this->breaks();
   panels_left_ = kMostPanels + 100 * breaks.size();
   int halvings = 0;
   while ((breaks.size() - 1) << static_cast<unsigned>(halvings) < kLeastPanels) ++halvings;
@@ -180,12 +191,27 @@ RideRecord Integrator::run() {
   return std::move(record_);
 }
 
+std::vector<double> Integrator::breaks() const {
+  std::vector<double> breaks = equation().centerline->breaks();
+  std::vector<double> others;
+  if (equation().law != nullptr) others = equation().law->breaks();
+  for (const FrictionChange& change : equation().changes) others.push_back(change.from);
+  if (others.empty()) return breaks;
+  std::erase_if(others, [&](double s) { return !(s > 0.0 && s < length_); });
+  breaks.insert(breaks.end(), others.begin(), others.end());
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
 bool Integrator::starts() {
   if (v_ > 0.0) return true;
-  const double zeta = equation().centerline->slope_angle(0.0);
-  const double rounding = kPushRounding * 2.0 * equation().gravity * (1.0 + equation().mu);
-  if (equation().push(zeta) > rounding) return true;
-  record_.stall = Stall{0.0, std::max(0.0, std::atan(equation().mu) - zeta)};
+  const double mu = equation().friction_at(0.0);
+  const Direction start =
+      equation().height == 0.0 ? Direction{equation().centerline->slope_angle(0.0), 0.0} : direction(0.0);
+  const double rounding = kPushRounding * 2.0 * equation().gravity * (1.0 + mu);
+  // Where the valley is too tight at once, the ride ends for that.
+  if (equation().path_rate(start) <= kTight || equation().slope_at_rest(start, mu) > rounding) return true;
+  record_.stall = Stall{0.0, std::max(0.0, std::atan(mu) - start.slope_angle)};
   close(0.0, 0.0);
   return false;
 }
@@ -194,7 +220,8 @@ Stretch Integrator::first_stretch(double end) const {
   const bool from_root = v_ == 0.0 || equation().centerline->unbounded_curvature_at_start();
   if (from_root) return Stretch::root(0.0, end, 0.0);
   // Near the start v = v0 + push s: as from rest, but from a point v0 / push further up.
-  const double push = equation().push(equation().centerline->slope_angle(0.0));
+  const double push =
+      equation().slope_at_rest({equation().centerline->slope_angle(0.0), 0.0}, equation().friction_at(0.0));
   const double way_from_rest = v_ / push;
   const bool slow_start = push > 0.0 && way_from_rest < 0.25 * end;
   return slow_start ? Stretch::root(0.0, end, std::sqrt(way_from_rest)) : Stretch::even(0.0, end);
@@ -203,6 +230,14 @@ Stretch Integrator::first_stretch(double end) const {
 void Integrator::slide(const Stretch& whole, int halvings) {
   std::vector<Task> tasks{{whole, false, 0, {}}};
   std::optional<double> lift_off;
+  std::optional<double> too_tight;
+  std::optional<double> law_ends;
+  // What has been found to happen at s: only the way there is still to be told.
+  const auto go_to = [&](const Task& task, double s, bool proven) {
+    tasks.clear();
+    if (s > task.stretch.begin) tasks.push_back({task.stretch.cut_at(s), proven, 0, {}});
+    return s;
+  };
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
@@ -229,17 +264,27 @@ void Integrator::slide(const Stretch& whole, int halvings) {
         record_.end.time = kInfinity;
         return;
       case Verdict::lift_off:
-        lift_off = where_load_ends(panel);
-        tasks.clear();
-        if (*lift_off > task.stretch.begin) tasks.push_back({task.stretch.cut_at(*lift_off), true, 0, {}});
+        lift_off = go_to(task, where_load_ends(panel), true);
+        break;
+      case Verdict::too_tight:
+        // Other things may still happen on the way.
+        too_tight = go_to(task, where_it_is_too_tight(panel), false);
+        break;
+      case Verdict::law_ends:
+        law_ends = go_to(task, where_law_ends(panel), true);
         break;
     }
   }
-  if (lift_off) leave_track(*lift_off);
+  if (lift_off) return leave_track(*lift_off);
+  if (law_ends) return end_law(*law_ends);
+  if (too_tight) end_in_valley(*too_tight);
 }
 
 Integrator::Verdict Integrator::judge(const Panel& panel, const Task& task, const Miss& miss) const {
   const bool may_split = task.depth < kDeepest && task.stretch.can_split();
+  if (panel.path_rate && *std::min_element(panel.path_rate->begin(), panel.path_rate->end()) <= kTight) {
+    return Verdict::too_tight;
+  }
   if (may_split && !fine_enough(miss.shape, task.of_parent.shape)) return Verdict::split;
   const Verdict events = task.proven ? Verdict::pass : judge_events(panel, may_split);
   if (events != Verdict::pass) return events;
@@ -249,6 +294,15 @@ Integrator::Verdict Integrator::judge(const Panel& panel, const Task& task, cons
 /// What happens on a panel whose shape is known; split where that is not yet clear.
 Integrator::Verdict Integrator::judge_events(const Panel& panel, bool may_split) const {
   const Sign load = load_sign(panel);
+  if (equation().law != nullptr) {
+    const chebyshev::Values margin = law_margin(panel);
+    const Sign sign = sign_of(margin, 0.0);
+    if (may_split && sign == Sign::unknown) return Verdict::split;
+    if (sign == Sign::negative_somewhere) {
+      const bool clear = load == Sign::positive && (margin.front() < 0.0 || falls_throughout(margin));
+      return may_split && !clear ? Verdict::split : Verdict::law_ends;
+    }
+  }
   if (rests_at_finish(panel)) {
     return may_split && load != Sign::positive ? Verdict::split : judge_finish(panel, may_split);
   }
@@ -301,7 +355,7 @@ void Integrator::stall(const Panel& panel) {
       root_between([&](double at) { return panel.scaled_w(at); }, node_sigma(node - 1), node_sigma(node));
   const double s = panel.stretch.arc_length(sigma);
   come_to_rest(panel.stretch, s, kDeepest);
-  const double missing = std::atan(equation().mu) - equation().centerline->slope_angle(s);
+  const double missing = std::atan(panel.friction) - equation().centerline->slope_angle(s);
   record_.stall = Stall{s, std::max(0.0, missing)};
   close(s, 0.0);
 }
@@ -354,13 +408,66 @@ void Integrator::leave_track(double s) {
   record_.lift_off = LiftOff{s, std::sqrt(v_), equation().centerline->direction(s).curvature};
 }
 
+/// How far v at the nodes lies above where the law ends.
+chebyshev::Values Integrator::law_margin(const Panel& panel) const {
+  chebyshev::Values margin = panel.v;
+  for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+    margin[i] -=
+        equation().law->least_v(panel.stretch.arc_length(panel.stretch.width * chebyshev::nodes()[i]));
+  }
+  return margin;
+}
+
+double Integrator::where_it_is_too_tight(const Panel& panel) const {
+  const chebyshev::Values& rate = *panel.path_rate;
+  const auto node_sigma = [&](std::size_t i) { return panel.stretch.width * chebyshev::nodes()[i]; };
+  std::size_t tight = 0;
+  while (rate[tight] > kTight) ++tight;
+  if (tight == 0) return panel.stretch.begin;
+  const double sigma =
+      root_between([&](double at) { return panel.path_rate_at(equation(), at) - 2.0 * kTight; },
+                   node_sigma(tight - 1), node_sigma(tight));
+  return panel.stretch.arc_length(sigma);
+}
+
+double Integrator::where_law_ends(const Panel& panel) const {
+  const chebyshev::Values margin = law_margin(panel);
+  const auto node_sigma = [&](std::size_t i) { return panel.stretch.width * chebyshev::nodes()[i]; };
+  std::size_t ended = 0;
+  while (ended + 1 < chebyshev::kNodes && margin[ended] >= 0.0) ++ended;
+  if (ended == 0) return panel.stretch.begin;
+  const double sigma = root_between(
+      [&](double at) {
+        return panel.v_at(equation(), at) - equation().law->least_v(panel.stretch.arc_length(at));
+      },
+      node_sigma(ended - 1), node_sigma(ended));
+  return panel.stretch.arc_length(sigma);
+}
+
+void Integrator::end_in_valley(double s) {
+  close(s, v_);
+  record_.law_end =
+      LawEnd{"valley_radius_m", s, std::sqrt(v_), 1.0 / direction(s).curvature, equation().height};
+}
+
+void Integrator::end_law(double s) {
+  close(s, v_);
+  const Law& law = *equation().law;
+  const std::size_t index = law.ending_quantity();
+  const auto value_at = [&](double v) {
+    return law.quantity(index, {.arc_length = s, .v = v, .friction = equation().friction_at(s)});
+  };
+  record_.law_end =
+      LawEnd{law.quantities()[index].key, s, std::sqrt(v_), value_at(v_), value_at(law.least_v(s))};
+}
+
 void Integrator::close(double s, double v) {
   ended_ = true;
   record_.end = {s,
                  sums_.time,
                  std::sqrt(v),
                  equation().load(equation().centerline->direction(s), v),
-                 equation().mu * sums_.load,
+                 equation().loss_friction() * sums_.load,
                  equation().k * sums_.speed_squared};
 }
 

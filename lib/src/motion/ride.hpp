@@ -16,6 +16,7 @@ struct RideRecord {
   std::vector<RideSums> sums_before;  ///< of each panel
   std::optional<Stall> stall;
   std::optional<LiftOff> lift_off;
+  std::optional<LawEnd> law_end;
   MotionState end;  ///< the state at the end of the ride
 };
 

@@ -2,26 +2,46 @@
 
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/core/units.hpp"
+#include "glissade/motion/law.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace glissade {
 
-/// What slides, and on what.
+/// A place from which on the track rubs differently.
+struct FrictionChange {
+  double from = 0.0;  ///< arc length [m]; >= 0
+  Friction friction;
+};
+
+/// What slides, rolls or flows, and on what.
 struct Body {
-  Friction friction;            ///< between body and track
+  Friction friction;            ///< between body and track; of a rolling body its rolling resistance
   double entry_speed = 0.0;     ///< u at the start [m/s]; >= 0; 0 is a start from rest
   double drag_per_metre = 0.0;  ///< k = rho_air c_d A / (2 m) [1/m]; >= 0
+  /// Friction from these places on, by ascending place; `friction` holds before the first.
+  std::vector<FrictionChange> friction_changes = {};
+  /// Wind along the track, against the motion where positive [m/s]: drag is k (u + w)|u + w|.
+  double head_wind = 0.0;
+  LawPtr law = nullptr;  ///< none: a sliding point
 };
+
+/// Whether a body is the sliding point of Coulomb's law with one friction everywhere and no wind, whose
+/// optimum without limits, constant-speed track and reach have closed forms (docs/theory.md).
+[[nodiscard]] bool is_sliding_point(const Body& body);
+/// @return the least friction anywhere on the track, and c at any speed is no less
+[[nodiscard]] Friction least_friction(const Body& body);
 
 /// The body at one station.
 struct MotionState {
   double arc_length = 0.0;     ///< [m]
   double time = 0.0;           ///< since the start [s]
-  double speed = 0.0;          ///< u [m/s]
-  double normal_load = 0.0;    ///< N = g cos(zeta) + kappa u^2 per unit mass [m/s^2]
+  double speed = 0.0;          ///< u of the centre of mass [m/s]
+  double normal_load = 0.0;    ///< N = g cos(zeta) + kappa u^2/(1 - kappa h) per unit mass [m/s^2]
   double friction_loss = 0.0;  ///< energy per unit mass lost to friction since the start [J/kg]
   double drag_loss = 0.0;      ///< energy per unit mass lost to drag since the start [J/kg]
 };
@@ -40,23 +60,42 @@ struct LiftOff {
   double curvature = 0.0;   ///< of the track just after that point [1/m]; negative on a crest
 };
 
+/// How a ride ended before the finish: what the body's law says no longer holds.
+struct LawEnd {
+  /// The quantity beyond its bound, as LawQuantity::key: "burden_depth_m" where a stream chokes. Or
+  /// "valley_radius_m", where a valley is too tight for a body whose centre of mass runs above the track.
+  std::string_view what;
+  double arc_length = 0.0;  ///< [m]
+  double speed = 0.0;       ///< [m/s]
+  double value = 0.0;       ///< of the quantity there, after it if it jumps there
+  double bound = 0.0;
+};
+
+/// Where a quantity of a law is highest, and where it first exceeds its bound.
+struct QuantityPeak {
+  double value = 0.0;                 ///< may be +infinity
+  double arc_length = 0.0;            ///< [m]
+  std::optional<double> beyond_from;  ///< first place beyond LawQuantity::highest [m]; none if it never is
+};
+
 /// The ride of one body down one centerline: the referee of everything that Glissade reports.
 ///
 /// Solves dv/ds = 2 g sin(zeta) - 2 mu N - 2 k v, N = g cos(zeta) + kappa v, v = u^2 (docs/theory.md, energy
-/// equation) through its integrating factor, by Chebyshev panels between the centerline's breaks, each halved
+/// equation), or what the body's Law makes of it, through its integrating factor, by Chebyshev panels between the centerline's breaks, each halved
 /// until speed, time and load are resolved to some 1e-14. Starts from rest, slow starts, unbounded curvature
 /// at the start and stops are integrated in s = r^2 from the place of rest, where 1/u has an integrable
 /// singularity. It knows nothing of how the centerline was found.
 ///
-/// Ends: at the finish (arrived), at a stall, or at a lift-off, whichever comes first. A normal load down to
+/// Ends: at the finish (arrived), at a stall, at a lift-off, or where the law ends, whichever comes first. A normal load down to
 ///   -1e-12 g counts as contact, so that free fall along a track (N = 0) is not lost to rounding. A body
 ///   whose speed at the finish rounding cannot tell from zero arrives there with exit speed 0.
 /// Accuracy: kMotionAccuracy relative in speed and travel time, if the centerline's slope angle is exact to a
 ///   few units in the last place of s and zeta; measured in docs/accuracy.md.
 /// Domain: a centerline that is smooth between its breaks(). A bump narrower than some 1/40 of a smooth
 ///   stretch that no break tells of may go unseen.
-/// Identity: u^2/2 + friction_loss + drag_loss = g drop + entry_speed^2/2 at every station. The losses are
-///   integrals of N and v, the speed is not computed from them.
+/// Identity: f u^2/2 + friction_loss + drag_loss = g drop + f entry_speed^2/2 at every station, f = 1 and the
+///   drop that of the track where there is no law, that of the centre of mass where there is one. The losses
+///   are integrals of N and v, the speed is not computed from them.
 /// Cost: the constructor evaluates direction() at 17 places for each of some 4 to 100 panels, and at least
 ///   one panel for each smooth stretch; at() is O(log panels).
 class Motion {
@@ -64,7 +103,8 @@ class Motion {
   /// Rides the whole track, or up to the stall or lift-off.
   /// @param gravity  [m/s^2]; finite, > 0
   /// @throws InputError if there is no centerline, entry_speed or drag_per_metre is negative or not finite,
-  ///         or gravity is not positive and finite
+  ///         head_wind is not finite, friction_changes do not ascend, gravity is not positive and finite, or a
+  ///         law that depends on speed is to start from rest or where curvature is unbounded
   /// @throws ConvergenceError if the centerline is so rough between its breaks that no panels resolve it
   Motion(CenterlinePtr centerline, Body body, double gravity = kDefaultGravity);
   ~Motion();
@@ -81,6 +121,7 @@ class Motion {
   [[nodiscard]] bool arrived() const noexcept;
   [[nodiscard]] const std::optional<Stall>& stall() const noexcept;
   [[nodiscard]] const std::optional<LiftOff>& lift_off() const noexcept;
+  [[nodiscard]] const std::optional<LawEnd>& law_end() const noexcept;
 
   /// @return how far the body came [m]; the length of the centerline if it arrived
   [[nodiscard]] double distance() const noexcept;
@@ -103,6 +144,15 @@ class Motion {
   [[nodiscard]] MotionState at(double s) const;
   /// @param stations  ascending arc lengths, each as for at()
   [[nodiscard]] std::vector<MotionState> at(const std::vector<double>& stations) const;
+
+  /// @return what the body's law adds to every station; empty without a law
+  [[nodiscard]] std::vector<LawQuantity> quantities() const;
+  /// @param index  of quantities()
+  /// @param s      as for at()
+  /// @return its value there
+  [[nodiscard]] double quantity(std::size_t index, double s) const;
+  /// @return its highest value over the ride, to 1e-9 relative where it is smooth, and its place
+  [[nodiscard]] QuantityPeak highest(std::size_t index) const;
 
  private:
   class Ride;

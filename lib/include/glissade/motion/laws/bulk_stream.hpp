@@ -1,0 +1,59 @@
+#pragma once
+
+#include "glissade/motion/law.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace glissade {
+
+/// The inside width of a chute at a place.
+struct WidthAt {
+  double at = 0.0;     ///< arc length [m]
+  double width = 0.0;  ///< B [m]; > 0
+};
+
+/// What flows, and in what channel.
+struct StreamShape {
+  double mass_flow = 0.0;               ///< Q [kg/s]; > 0
+  double bulk_density = 0.0;            ///< rho [kg/m^3]; > 0
+  double lateral_pressure_ratio = 0.5;  ///< K_v [-]; >= 0
+  /// Widths by ascending places, at least one; linear in between, constant before the first and after the last.
+  std::vector<WidthAt> widths;
+  std::optional<double> wall_height;  ///< inside [m]; > 0; none: no wall to spill over
+};
+
+/// A stream of bulk solid that moves as one: Roberts' lumped model of a fast, thin stream.
+///
+/// Continuity gives its depth H = Q/(rho B u), the side walls add to the floor's friction:
+/// c = mu (1 + K_v H/B). Body::friction is the wall friction of floor and side walls.
+/// Source: Roberts 1969, Roberts & Scott 1981, Roberts 2003; docs/theory.md, laws of motion.
+/// Domain: H < B. Where the stream grows deeper than its chute is wide, or than its wall, it chokes and the
+///   ride ends: quantity 0. It must enter with speed, since a stream at rest is infinitely deep.
+/// Quantities: 0 "burden_depth" H [m]; 1 "equivalent_friction" c.
+class BulkStream final : public Law {
+ public:
+  /// @throws InputError if a value breaks its stated bound
+  explicit BulkStream(const StreamShape& shape);
+
+  [[nodiscard]] const StreamShape& shape() const noexcept { return shape_; }
+  /// @return B at s [m]
+  [[nodiscard]] double width(double s) const;
+  /// @return H at s for a speed [m]
+  [[nodiscard]] double depth(double s, double speed) const;
+
+  [[nodiscard]] std::string_view kind() const noexcept override { return "stream"; }
+  [[nodiscard]] bool depends_on_speed() const noexcept override { return true; }
+  [[nodiscard]] Resistance resistance(double s, double v) const override;
+  [[nodiscard]] std::vector<double> breaks() const override;
+  [[nodiscard]] std::vector<LawQuantity> quantities() const override;
+  [[nodiscard]] double quantity(std::size_t index, const LawState& state) const override;
+  [[nodiscard]] double least_v(double s) const override;
+  [[nodiscard]] LawPtr in_units(double length, double speed) const override;
+
+ private:
+  StreamShape shape_;
+  double flow_;  ///< Q/rho [m^3/s]
+};
+
+}  // namespace glissade

@@ -1,0 +1,116 @@
+#include "glissade/motion/laws/bulk_stream.hpp"
+
+#include "motion/laws/requirement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade {
+namespace {
+
+/// B at a place and its slope along the track, that after the place where it changes there.
+struct Width {
+  double value = 0.0;
+  double by_s = 0.0;
+};
+
+Width width_at(const std::vector<WidthAt>& widths, double s) {
+  const auto after = std::upper_bound(widths.begin(), widths.end(), s,
+                                      [](double at, const WidthAt& w) { return at < w.at; });
+  if (after == widths.begin()) return {widths.front().width};
+  if (after == widths.end()) return {widths.back().width};
+  const auto before = std::prev(after);
+  const double by_s = (after->width - before->width) / (after->at - before->at);
+  return {before->width + (s - before->at) * by_s, by_s};
+}
+
+void require_widths(const std::vector<WidthAt>& widths) {
+  if (widths.empty()) throw InputError({"", "width: none is given", "A chute has a width.", ""});
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    motion::require_positive("width", widths[i].width, " m", "A chute has a width.");
+    if (i == 0 || widths[i - 1].at < widths[i].at) continue;
+    throw InputError({"", "width: " + length_text(widths[i].at) + " after " + length_text(widths[i - 1].at),
+                      "The places of widths ascend.", ""});
+  }
+}
+
+}  // namespace
+
+BulkStream::BulkStream(const StreamShape& shape)
+    : shape_(shape), flow_(shape.mass_flow / shape.bulk_density) {
+  motion::require_positive("mass_flow", shape.mass_flow, " kg/s", "A stream carries something.");
+  motion::require_positive("bulk_density", shape.bulk_density, " kg/m^3", "A bulk solid weighs something.");
+  require_widths(shape.widths);
+  if (shape.wall_height) {
+    motion::require_positive("wall_height", *shape.wall_height, " m",
+                             "A wall that holds a stream has a height.");
+  }
+  if (shape.lateral_pressure_ratio >= 0.0 && std::isfinite(shape.lateral_pressure_ratio)) return;
+  throw InputError({"",
+                    "lateral_pressure_ratio: " + exact_text(shape.lateral_pressure_ratio) +
+                        " is not a finite number, 0 or larger",
+                    "What presses on the side walls, over the pressure from above.", "0.5"});
+}
+
+double BulkStream::width(double s) const {
+  return width_at(shape_.widths, s).value;
+}
+
+double BulkStream::depth(double s, double speed) const {
+  return flow_ / (width(s) * speed);
+}
+
+Resistance BulkStream::resistance(double s, double v) const {
+  // 1 + K_v H/B = 1 + C1/u, C1 = K_v Q/(rho B^2).
+  const Width width = width_at(shape_.widths, s);
+  const double excess = shape_.lateral_pressure_ratio * flow_ / (width.value * width.value * std::sqrt(v));
+  const double narrowing = -2.0 * width.by_s / width.value;
+  Resistance resistance;
+  resistance.factor = 1.0 + excess;
+  resistance.by_v = -0.5 * excess / v;
+  resistance.by_v_v = 0.75 * excess / (v * v);
+  resistance.by_s = excess * narrowing;
+  resistance.by_s_v = resistance.by_v * narrowing;
+  resistance.by_s_s = 1.5 * excess * narrowing * narrowing;
+  return resistance;
+}
+
+std::vector<double> BulkStream::breaks() const {
+  std::vector<double> places;
+  for (const WidthAt& width : shape_.widths) places.push_back(width.at);
+  return places;
+}
+
+std::vector<LawQuantity> BulkStream::quantities() const {
+  // Its bound is the wall's, or the width's where that is less: least_v() knows which.
+  return {{"burden_depth_m", "burden depth", "m", {}, true},
+          {"equivalent_friction", "equivalent friction", "", {}, false}};
+}
+
+double BulkStream::quantity(std::size_t index, const LawState& state) const {
+  if (index == 0) return depth(state.arc_length, std::sqrt(state.v));
+  if (index == 1) return state.friction * resistance(state.arc_length, state.v).factor;
+  return Law::quantity(index, state);
+}
+
+double BulkStream::least_v(double s) const {
+  const double wide = width(s);
+  const double deepest = std::min(wide, shape_.wall_height.value_or(wide));
+  const double speed = flow_ / (wide * deepest);
+  return speed * speed;
+}
+
+LawPtr BulkStream::in_units(double length, double speed) const {
+  StreamShape scaled = shape_;
+  // Depth is all that counts: Q/rho in units of length^2 speed.
+  scaled.bulk_density = 1.0;
+  scaled.mass_flow = flow_ / (length * length * speed);
+  for (WidthAt& width : scaled.widths) {
+    width.at /= length;
+    width.width /= length;
+  }
+  if (scaled.wall_height) *scaled.wall_height /= length;
+  return std::make_shared<const BulkStream>(scaled);
+}
+
+}  // namespace glissade
