@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/stop.hpp"
 
 #include "solid/mesh_check.hpp"
 #include "solid/nesting.hpp"
@@ -424,7 +425,7 @@ std::vector<std::string> MeshFacts::faults() const {
   return faults;
 }
 
-MeshFacts measure(const TriangleMesh& mesh) {
+MeshFacts measure(const TriangleMesh& mesh, const std::stop_token& stop) {
   check_sizes(mesh);
   require_usable_positions(mesh, 0, mesh.vertices.size(), "measured");
   require_existing_vertices(mesh, 0, mesh.triangles.size());
@@ -435,16 +436,19 @@ MeshFacts measure(const TriangleMesh& mesh) {
   measure_bounds(mesh.vertices, facts);
   {
     const Welding welding = weld(mesh.vertices);
+    require_going(stop);
     facts.duplicate_vertices = welding.duplicates;
     if (welding.first_duplicate) facts.places.duplicate_vertex = mesh.vertices[*welding.first_duplicate];
     const std::vector<FacetCorners> facets = proper_facets(mesh, welding, facts);
-    const SelfIntersections found =
-        find_self_intersections(mesh.vertices, facets, SelfIntersectionLimits::for_facets(facets.size()));
+    require_going(stop);
+    const SelfIntersections found = find_self_intersections(
+        mesh.vertices, facets, SelfIntersectionLimits::for_facets(facets.size()), stop);
     facts.self_intersections = found.pairs;
     facts.self_intersections_complete = found.complete;
     facts.places.self_intersection = found.first;
   }
   measure_shape(mesh, facts);
+  require_going(stop);
   measure_topology(mesh, facets_of_three_vertices(mesh), facts);
   return facts;
 }

@@ -1,11 +1,12 @@
 #include "solid/self_intersections.hpp"
 
+#include "glissade/core/stop.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
 namespace glissade::solid {
@@ -48,50 +49,6 @@ bool plane_parts(Vec3 direction, const std::array<Vec3, 3>& a, const std::array<
       std::minmax({dot(direction, b[0]), dot(direction, b[1]), dot(direction, b[2])});
   return b_low - a_high > error || a_low - b_high > error;
 }
-
-/// A box of single precision, rounded outward: half the memory, and overlaps only where doubles nearly do.
-class FacetBox {
- public:
-  FacetBox(Vec3 a, Vec3 b, Vec3 c, std::uint32_t facet) : facet_(facet) {
-    set(0, a.x, b.x, c.x);
-    set(1, a.y, b.y, c.y);
-    set(2, a.z, b.z, c.z);
-  }
-
-  [[nodiscard]] float low(int axis) const { return low_[static_cast<std::size_t>(axis)]; }
-  [[nodiscard]] float high(int axis) const { return high_[static_cast<std::size_t>(axis)]; }
-  [[nodiscard]] std::uint32_t facet() const { return facet_; }
-
- private:
-  void set(std::size_t axis, double a, double b, double c) {
-    const auto [low, high] = std::minmax({a, b, c});
-    low_[axis] = rounded(low, -std::numeric_limits<float>::infinity());
-    high_[axis] = rounded(high, std::numeric_limits<float>::infinity());
-  }
-
-  static float rounded(double value, float towards) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    const auto nearest = static_cast<float>(std::clamp(value, -kLargest, kLargest));
-    const bool is_beyond = towards > 0.0F ? nearest >= value : nearest <= value;
-    return is_beyond ? nearest : std::nextafter(nearest, towards);
-  }
-
-  std::array<float, 3> low_{};
-  std::array<float, 3> high_{};
-  std::uint32_t facet_;
-};
-
-/// What CGAL's box intersection asks of a box (concept BoxIntersectionTraits_d).
-struct FacetBoxTraits {
-  using Box_parameter = const FacetBox&;
-  using NT = float;
-  using ID = std::uint32_t;
-
-  static int dimension() { return 3; }
-  static ID id(Box_parameter box) { return box.facet(); }
-  static NT min_coord(Box_parameter box, int axis) { return box.low(axis); }
-  static NT max_coord(Box_parameter box, int axis) { return box.high(axis); }
-};
 
 struct LimitReached {};
 
@@ -237,23 +194,13 @@ bool are_collinear(Vec3 a, Vec3 b, Vec3 c) {
 
 SelfIntersections find_self_intersections(const std::vector<Vec3>& positions,
                                           const std::vector<FacetCorners>& facets,
-                                          const SelfIntersectionLimits& limits) {
-  // Below this many boxes CGAL compares all with all, which is faster than its tree.
-  constexpr std::ptrdiff_t kCutoff = 200;
-  std::vector<FacetBox> boxes;
-  boxes.reserve(facets.size());
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    const FacetCorners& facet = facets[i];
-    boxes.emplace_back(positions[facet[0]], positions[facet[1]], positions[facet[2]],
-                       static_cast<std::uint32_t>(i));
-  }
+                                          const SelfIntersectionLimits& limits, const std::stop_token& stop) {
   PairTester tester(positions, facets, limits);
-  const auto callback = [&tester](const FacetBox& a, const FacetBox& b) {
-    tester.test(a.facet(), b.facet());
-  };
+  const FacetBoxes boxes(positions, facets);
+  require_going(stop);
   try {
-    CGAL::box_self_intersection_d<CGAL::Sequential_tag>(boxes.begin(), boxes.end(), callback,
-                                                        FacetBoxTraits{}, kCutoff);
+    boxes.for_each_pair([&tester](std::uint32_t a, std::uint32_t b) { tester.test(a, b); },
+                        [&stop] { require_going(stop); });
   } catch (const LimitReached&) {
     return tester.found(false);
   }

@@ -2,17 +2,18 @@
 
 #include "glissade/core/vec.hpp"
 
+#include "solid/facet_boxes.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 namespace glissade::solid {
 
 /// The questions about a mesh that only exact arithmetic can answer; CGAL stays behind this header.
-
-using FacetCorners = std::array<std::uint32_t, 3>;
 
 /// @return true if the three points lie on one line, decided exactly
 [[nodiscard]] bool are_collinear(Vec3 a, Vec3 b, Vec3 c);
@@ -41,8 +42,10 @@ struct SelfIntersectionLimits {
 /// Exact: every decision is certain, made in floating point with an error bound where that suffices and by
 /// CGAL's exact predicates where it does not.
 /// @param facets  none with collinear corners
+/// @throws Interrupted if `stop` asks for it
 [[nodiscard]] SelfIntersections find_self_intersections(const std::vector<Vec3>& positions,
                                                         const std::vector<FacetCorners>& facets,
-                                                        const SelfIntersectionLimits& limits);
+                                                        const SelfIntersectionLimits& limits,
+                                                        const std::stop_token& stop = {});
 
 }  // namespace glissade::solid

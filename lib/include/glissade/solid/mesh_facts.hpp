@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -75,7 +76,8 @@ inline constexpr double kLargestMeshCoordinate = 1e60;
 
 /// Measures a mesh; never throws for a faulty one: that is what the facts are for.
 /// @throws InputError if a triangle names a vertex that does not exist, a coordinate is not finite or beyond
-///         kLargestMeshCoordinate, or there are 2^32 - 1 vertices or triangles or more
-[[nodiscard]] MeshFacts measure(const TriangleMesh& mesh);
+///         kLargestMeshCoordinate, or there are 2^32 - 1 vertices or triangles or more; Interrupted if `stop`
+///         asks for it
+[[nodiscard]] MeshFacts measure(const TriangleMesh& mesh, const std::stop_token& stop = {});
 
 }  // namespace glissade
