@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/design/quantity.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include <string>
 

@@ -1,3 +1,4 @@
+#include "glissade/core/words.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/report/figure.hpp"

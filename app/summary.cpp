@@ -3,7 +3,7 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/number_text.hpp"
-#include "glissade/design/quantity.hpp"
+#include "glissade/core/units.hpp"
 
 #include "app/console.hpp"
 #include "app/limits_text.hpp"
@@ -159,16 +159,6 @@ std::string load_text(double metres_per_second_squared) {
 std::string volume_text(double cubic_metres, int digits) {
   if (std::fabs(cubic_metres) < 1.0) return rounded_text(cubic_metres * 1e3, digits) + " litres";
   return rounded_text(cubic_metres, digits) + " m^3";
-}
-
-std::string size_text(double bytes) {
-  constexpr std::array<const char*, 4> kUnits = {" bytes", " kB", " MB", " GB"};
-  std::size_t unit = 0;
-  while (bytes >= 1000.0 && unit + 1 < kUnits.size()) {
-    bytes /= 1000.0;
-    ++unit;
-  }
-  return rounded_text(bytes, 3) + kUnits[unit];
 }
 
 std::string count_text(std::size_t count) {

@@ -28,8 +28,6 @@ namespace glissade::app {
 [[nodiscard]] std::string load_text(double metres_per_second_squared);
 /// @return "12.3 litres" below a cubic metre, "4.56 m^3" from there
 [[nodiscard]] std::string volume_text(double cubic_metres, int digits);
-/// @return what a count of bytes is for people: "2.4 MB"
-[[nodiscard]] std::string size_text(double bytes);
 /// @return digits in groups of three: "48 212"
 [[nodiscard]] std::string count_text(std::size_t count);
 

@@ -1,6 +1,7 @@
 #include "app/track_input.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/words.hpp"
 
 #include "app/option_value.hpp"
 
@@ -26,15 +27,6 @@ void require_drawable(CenterlineKind kind) {
 }
 
 }  // namespace
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t index = 0; index < words.size(); ++index) {
-    if (index != 0) text += index + 1 == words.size() ? " and " : ", ";
-    text += words[index];
-  }
-  return text;
-}
 
 void Overrides::add_to(CLI::App& command) {
   command

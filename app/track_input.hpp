@@ -61,7 +61,4 @@ class TrackInput {
   std::string p_;
 };
 
-/// @return words joined for people: "a", "a and b", "a, b and c"
-[[nodiscard]] std::string listed(const std::vector<std::string>& words);
-
 }  // namespace glissade::app

@@ -24,7 +24,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"optimize", {"core", "centerline", "motion", "clearance"}},
     {"solid", {"core", "centerline"}},
     {"design", {"core"}},
-    {"io", {"core", "centerline", "motion", "solid", "design"}},
+    {"io", {"core", "centerline", "motion", "solid"}},
     {"report", {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io"}},
     {"pipeline", {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io", "report"}},
 };
@@ -35,13 +35,12 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
     {"CGAL/", {"solid"}},
     {"nlopt", {"centerline", "optimize"}},
     {"yaml-cpp/", {"design"}},
-    {"boost/", {"core", "centerline", "motion", "optimize", "solid", "pipeline"}},
-    {"fmt/", {"core", "io", "design", "solid", "pipeline", "report"}},
+    {"boost/", {"centerline", "motion", "solid", "pipeline"}},
+    {"fmt/", {"report"}},
     {"nlohmann/", {"report"}},
     {"openssl/", {"report"}},
     {"librsvg/", {"report"}},
     {"cairo", {"report"}},
-    {"tbb/", {"solid", "io"}},
 };
 
 std::string text_of(const fs::path& file) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace glissade {
@@ -40,6 +41,16 @@ std::string angle_text(double radians, int digits) {
   constexpr double kLevel = 1e-12;
   if (std::fabs(radians) < kLevel) return "0 deg";
   return rounded_text(radians * (180.0 / std::numbers::pi), digits) + " deg";
+}
+
+std::string size_text(double bytes, int digits) {
+  constexpr std::array<const char*, 4> kUnits = {" bytes", " kB", " MB", " GB"};
+  std::size_t unit = 0;
+  while (bytes >= 1000.0 && unit + 1 < kUnits.size()) {
+    bytes /= 1000.0;
+    ++unit;
+  }
+  return rounded_text(bytes, digits) + kUnits[unit];
 }
 
 }  // namespace glissade

@@ -1,9 +1,9 @@
 #include "design/map_reader.hpp"
 
 #include "glissade/core/odd_characters.hpp"
-
-#include "design/quantity_reading.hpp"
-#include "design/words.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/core/nearest_word.hpp"
+#include "glissade/core/words.hpp"
 
 #include <algorithm>
 #include <variant>

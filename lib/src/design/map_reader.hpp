@@ -1,7 +1,7 @@
 #pragma once
 
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/vec.hpp"
-#include "glissade/design/quantity.hpp"
 
 #include "design/findings.hpp"
 #include "design/yaml_tree.hpp"

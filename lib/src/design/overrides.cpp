@@ -1,6 +1,6 @@
 #include "design/overrides.hpp"
 
-#include "design/words.hpp"
+#include "glissade/core/words.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,5 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
 #include "glissade/design/design.hpp"
 
 #include "design/check.hpp"
@@ -7,7 +8,6 @@
 #include "design/overrides.hpp"
 #include "design/read_limits.hpp"
 #include "design/schema_words.hpp"
-#include "design/words.hpp"
 #include "design/yaml_tree.hpp"
 
 #include <algorithm>

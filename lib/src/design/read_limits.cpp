@@ -1,7 +1,8 @@
 #include "design/read_limits.hpp"
 
+#include "glissade/core/words.hpp"
+
 #include "design/schema_words.hpp"
-#include "design/words.hpp"
 
 #include <string>
 #include <utility>

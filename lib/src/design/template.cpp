@@ -1,8 +1,8 @@
 #include "glissade/design/template.hpp"
 
 #include "glissade/core/error.hpp"
-
-#include "design/words.hpp"
+#include "glissade/core/nearest_word.hpp"
+#include "glissade/core/words.hpp"
 
 namespace glissade {
 namespace {
@@ -196,9 +196,8 @@ std::string design_template(std::string_view kind) {
     if (source.entry.kind == kind) return std::string(kHead).append(source.text);
     kinds.push_back(source.entry.kind);
   }
-  throw InputError({"", "there is no template named " + design_file::shown(kind),
-                    "There are " + design_file::listed(kinds) + ".",
-                    std::string(design_file::nearest_word(kind, kinds))});
+  throw InputError({"", "there is no template named " + shown(kind), "There are " + listed(kinds) + ".",
+                    std::string(nearest_word(kind, kinds))});
 }
 
 std::string_view design_template_profile() {

@@ -1,6 +1,6 @@
 #include "design/yaml_tree.hpp"
 
-#include "design/words.hpp"
+#include "glissade/core/words.hpp"
 
 #include <algorithm>
 #include <cstddef>

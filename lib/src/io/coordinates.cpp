@@ -191,14 +191,6 @@ void refuse_beyond_single_precision(const TriangleMesh& mesh, std::size_t first,
 
 }  // namespace
 
-double units_per_metre(LengthUnit unit) {
-  return unit == LengthUnit::millimetre ? 1000.0 : 1.0;
-}
-
-std::string_view unit_symbol(LengthUnit unit) {
-  return unit == LengthUnit::millimetre ? "mm" : "m";
-}
-
 void require_writable(const TriangleMesh& mesh) {
   in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
     solid::require_usable_positions(mesh, first, last, "written");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/design/design.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <array>
@@ -15,11 +15,6 @@ using FloatPosition = std::array<float, 3>;
 [[nodiscard]] inline FloatPosition nearest(Vec3 p) {
   return {static_cast<float>(p.x) + 0.0F, static_cast<float>(p.y) + 0.0F, static_cast<float>(p.z) + 0.0F};
 }
-
-/// @return how many of the unit are one metre
-[[nodiscard]] double units_per_metre(LengthUnit unit);
-/// @return "mm" or "m"
-[[nodiscard]] std::string_view unit_symbol(LengthUnit unit);
 
 /// @throws InputError if a triangle names a vertex that does not exist or a coordinate is not finite
 ///         or beyond kLargestMeshCoordinate

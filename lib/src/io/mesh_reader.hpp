@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/design/design.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include "io/byte_source.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "glissade/core/error.hpp"
-#include "glissade/design/design.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include "io/text_scanner.hpp"

@@ -1,6 +1,7 @@
 // Reports as text for people.
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
 #include "glissade/optimize/optimize.hpp"
 
 #include <cstddef>
@@ -15,15 +16,6 @@ std::string quantity(double value, const std::string& unit) {
   if (unit == "rad") return angle_text(value);
   if (unit == "m") return length_text(value);
   return rounded_text(value, 4) + " " + unit;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
-    text += words[i];
-  }
-  return text;
 }
 
 /// A price per unit that people use: degrees for angles.
@@ -64,7 +56,7 @@ std::string conflict_text(const Conflict& conflict) {
   for (const StatedLimit& stated : conflict.limits) {
     words.push_back(stated.value ? stated.limit + " " + quantity(*stated.value, stated.unit) : stated.limit);
   }
-  std::string text = joined(words) + " cannot be met together";
+  std::string text = listed(words) + " cannot be met together";
   for (std::size_t i = 0; i < conflict.relaxations.size(); ++i) {
     const Relaxation& relaxation = conflict.relaxations[i];
     text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit + " " +

@@ -1,7 +1,7 @@
 #include "pipeline/report.hpp"
 
 #include "glissade/core/number_text.hpp"
-#include "glissade/design/quantity.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
 #include <cmath>

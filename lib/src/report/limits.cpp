@@ -1,5 +1,5 @@
 #include "glissade/core/number_text.hpp"
-#include "glissade/design/quantity.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/report/report.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "glissade/report/ride_figure.hpp"
 
 #include "glissade/core/error.hpp"
-#include "glissade/design/quantity.hpp"
+#include "glissade/core/units.hpp"
 
 #include "report/ride_stations.hpp"
 

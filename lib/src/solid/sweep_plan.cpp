@@ -57,11 +57,6 @@ std::string count_text(double count) {
   return rounded_text(count, 3);
 }
 
-std::string bytes_text(double bytes) {
-  if (bytes >= 1e9) return rounded_text(bytes * 1e-9, 3) + " GB";
-  return rounded_text(bytes * 1e-6, 3) + " MB";
-}
-
 }  // namespace
 
 Fineness Planner::fineness(double tolerance) const {
@@ -96,7 +91,7 @@ void Planner::require_room(double triangles) const {
   const double bytes = triangles * (kBytesPerTriangle + 0.5 * kBytesPerVertex);
   Issue issue;
   issue.what = "tolerance: " + length_text(options_.tolerance) + " needs " + count_text(triangles) +
-               " triangles, " + bytes_text(bytes) + " of memory";
+               " triangles, " + size_text(bytes) + " of memory";
   issue.why = "A mesh may have at most " + count_text(limit()) + " triangles.";
   const double fitting = fitting_tolerance();
   issue.hint = fitting > 0.0 ? "a tolerance of " + length_text(fitting) + " or coarser"

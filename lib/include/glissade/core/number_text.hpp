@@ -19,4 +19,7 @@ namespace glissade {
 /// @return an angle for people: "17 deg"; "0 deg" below 1e-12 rad, which no drawing can tell from level
 [[nodiscard]] std::string angle_text(double radians, int digits = 4);
 
+/// @return a size of memory or of a file for people: "512 bytes", "3.41 MB"
+[[nodiscard]] std::string size_text(double bytes, int digits = 3);
+
 }  // namespace glissade

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <numbers>
+#include <string_view>
 
 namespace glissade {
 
@@ -57,5 +58,19 @@ class Friction {
 
 /// Gravity that is taken where none is given [m/s^2].
 inline constexpr double kDefaultGravity = 9.81;
+/// The unit g of loads and accelerations [m/s^2], whatever the gravity of a design.
+inline constexpr double kStandardGravity = 9.80665;
+
+/// The unit that the numbers of a file are in.
+enum class LengthUnit { millimetre, metre };
+
+/// @return how many of the unit make a metre
+[[nodiscard]] constexpr double units_per_metre(LengthUnit unit) {
+  return unit == LengthUnit::millimetre ? 1000.0 : 1.0;
+}
+/// @return "mm", "m"
+[[nodiscard]] constexpr std::string_view unit_symbol(LengthUnit unit) {
+  return unit == LengthUnit::millimetre ? "mm" : "m";
+}
 
 }  // namespace glissade

@@ -57,8 +57,6 @@ struct BodyDesign {
   double drag_per_metre = 0.0;            ///< [1/m]; >= 0
 };
 
-enum class LengthUnit { millimetre, metre };
-
 enum class CenterlineKind { fastest, constant_speed, straight, cycloid, no_curvature_load, segments, points };
 
 /// @return the word that a design file uses, e.g. "constant-speed"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
-#include "glissade/design/design.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "glissade/design/quantity.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "glissade/core/error.hpp"
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "glissade/core/error.hpp"
+
 #include <string_view>
+#include <variant>
 
 namespace glissade {
-
-/// The unit g of loads and accelerations [m/s^2], whatever the gravity of a design.
-inline constexpr double kStandardGravity = 9.80665;
 
 /// What a value measures. Its units are listed in docs/design-file.md.
 enum class Dimension {
@@ -20,6 +20,11 @@ enum class Dimension {
   time,             ///< [s]
   time_per_speed,   ///< what a unit of speed is worth in time [s/(m/s)]
 };
+
+/// As parse_quantity().
+/// @return the value in SI units and radians, or what is wrong with the text (its `where` left empty)
+[[nodiscard]] std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimension,
+                                                        std::string_view name);
 
 /// Reads a value as design files and options write it: a decimal number, then the unit: "5.4 m", "19deg".
 ///

@@ -1,11 +1,12 @@
-#include "design/words.hpp"
+#include "glissade/core/words.hpp"
 
 #include "glissade/core/odd_characters.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace glissade::design_file {
+namespace glissade {
+
 std::string listed(const std::vector<std::string_view>& words, std::string_view last) {
   std::string text;
   for (std::size_t index = 0; index < words.size(); ++index) {
@@ -17,6 +18,10 @@ std::string listed(const std::vector<std::string_view>& words, std::string_view 
     text += words[index];
   }
   return text;
+}
+
+std::string listed(const std::vector<std::string>& words, std::string_view last) {
+  return listed(std::vector<std::string_view>(words.begin(), words.end()), last);
 }
 
 std::string shown(std::string_view given) {
@@ -33,4 +38,4 @@ std::string shown(std::string_view given) {
   return result;
 }
 
-}  // namespace glissade::design_file
+}  // namespace glissade

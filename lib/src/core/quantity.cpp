@@ -1,9 +1,8 @@
-#include "glissade/design/quantity.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "glissade/core/odd_characters.hpp"
-
-#include "design/quantity_reading.hpp"
-#include "design/words.hpp"
+#include "glissade/core/units.hpp"
+#include "glissade/core/words.hpp"
 
 #include <array>
 #include <charconv>
@@ -14,7 +13,6 @@
 #include <vector>
 
 namespace glissade {
-namespace design_file {
 namespace {
 
 /// One spelling of a unit. Its size in SI units is multiply / divide: of the two one is 1 wherever a decimal
@@ -211,10 +209,8 @@ std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimen
   return value;
 }
 
-}  // namespace design_file
-
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view name) {
-  const auto reading = design_file::read_quantity(text, dimension, name);
+  const auto reading = read_quantity(text, dimension, name);
   if (const Issue* issue = std::get_if<Issue>(&reading)) throw InputError(*issue);
   return std::get<double>(reading);
 }
