@@ -13,9 +13,6 @@ namespace glissade::design_file {
 [[nodiscard]] std::vector<Finding> check_values(const Design& design);
 [[nodiscard]] std::optional<Finding> find_unreachable(const Design& design);
 
-/// Every problem of the limits, and of them with the rest of the design.
-[[nodiscard]] std::vector<Finding> check_limits(const Design& design);
-
 /// Where `segments` lead: run towards the finish, and height (negative below the start) [m].
 [[nodiscard]] Vec2 end_of_segments(const CenterlineDesign& centerline);
 

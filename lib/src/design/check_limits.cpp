@@ -1,6 +1,6 @@
 #include "glissade/core/number_text.hpp"
 
-#include "design/check.hpp"
+#include "design/checks.hpp"
 #include "design/outline.hpp"
 
 #include <algorithm>
@@ -14,7 +14,6 @@
 namespace glissade::design_file {
 namespace {
 
-using Collected = std::vector<Finding>;
 using ValueText = std::string (*)(double);
 
 std::string angle_of(double radians) {
@@ -35,10 +34,6 @@ std::string rate_of(double rate) {
 
 std::string path(const std::string& key) {
   return "limits." + key;
-}
-
-void report(Collected& findings, std::vector<std::string> key_paths, Issue issue) {
-  findings.push_back({std::move(key_paths), std::move(issue)});
 }
 
 /// A range whose ends lie within (least, most) and in order.
@@ -356,9 +351,8 @@ void check_objective(const Design& design, Collected& findings) {
 
 }  // namespace
 
-std::vector<Finding> check_limits(const Design& design) {
-  Collected findings;
-  if (!design.limits) return findings;
+void check_limits(const Design& design, Collected& findings) {
+  if (!design.limits) return;
   check_slopes(*design.limits, findings);
   check_curvature(*design.limits, findings);
   check_loads(*design.limits, findings);
@@ -366,7 +360,6 @@ std::vector<Finding> check_limits(const Design& design) {
   check_lengths(design, findings);
   check_clearances(design, findings);
   check_objective(design, findings);
-  return findings;
 }
 
 }  // namespace glissade::design_file

@@ -1,0 +1,86 @@
+#include "glissade/core/number_text.hpp"
+
+#include "design/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace glissade::design_file {
+namespace {
+
+double least_perimeter(const CrossSectionDesign& section) {
+  if (section.kind != CrossSectionKind::polygon) return 2.0 * (section.width + section.wall_height);
+  double left = 0.0;
+  double right = 0.0;
+  for (const Vec2& corner : section.outline) {
+    left = std::min(left, corner.x);
+    right = std::max(right, corner.x);
+  }
+  return 2.0 * (right - left);
+}
+
+/// A lower bound of the number of near-isotropic facets that a curved track needs: an edge of length h
+/// departs by h^2 kappa / 8 from an arc of curvature kappa, so facets of that size number 2 S P / h^2 = phi P
+/// / (4 e) on a track that turns by phi = kappa S under a section of perimeter P. Every curved kind turns by
+/// more than 0.25.
+double least_triangles(const Design& design) {
+  constexpr double kLeastTurn = 0.25;
+  return kLeastTurn * least_perimeter(*design.cross_section) / (4.0 * design.mesh.tolerance);
+}
+
+void check_mesh_size(const Design& design, Collected& findings) {
+  constexpr double kMostTriangles = 1e8;
+  constexpr double kBytesPerTriangle = 60.0;  // facet, half of a vertex, and what checking them takes
+  const bool curved = !is_given(design.centerline.kind) && design.centerline.kind != CenterlineKind::straight;
+  if (!design.cross_section || !curved) return;
+  const double triangles = least_triangles(design);
+  if (!(triangles > kMostTriangles)) return;
+  const double smallest = design.mesh.tolerance * triangles / kMostTriangles;
+  report(findings, {"mesh.tolerance", "cross_section", "centerline"},
+         {"",
+          "tolerance: " + rounded_text(design.mesh.tolerance * 1e3, 4) + " mm needs more than " +
+              rounded_text(triangles, 2) + " triangles, some " +
+              rounded_text(triangles * kBytesPerTriangle * 1e-9, 2) + " GB",
+          "Such a mesh does not fit in memory.",
+          "a tolerance above " + rounded_text(smallest * 1e3, 2) + " mm; 0.5 mm suits most workshops"});
+}
+
+}  // namespace
+
+void check_mesh(const Design& design, Collected& findings) {
+  const double tolerance = design.mesh.tolerance;
+  if (!(tolerance > 0.0 && std::isfinite(tolerance))) {
+    report(findings, {"mesh.tolerance"},
+           {"", "tolerance: " + rounded_text(tolerance * 1e3, 4) + " mm is not positive",
+            "It is how far the mesh may depart from the exact shape.", "0.5 mm"});
+    return;
+  }
+  const double distance = norm(design.track.finish - design.track.start);
+  if (distance > 0.0 && tolerance > distance) {
+    report(
+        findings, {"mesh.tolerance", "track"},
+        {"", "tolerance: " + length_text(tolerance) + " is larger than the track, " + length_text(distance),
+         "It is how far the mesh may depart from the exact shape.", "0.5 mm"});
+  }
+  check_mesh_size(design, findings);
+}
+
+void check_export(const Design& design, Collected& findings) {
+  const std::vector<ExportFormat>& formats = design.exports.formats;
+  const bool listed = !formats.empty();
+  if (!listed) {
+    report(findings, {"export"},
+           {"", "export: no format is named", "A build writes at least one file.", "[stl, off, scad]"});
+  }
+  for (std::size_t index = 1; index < formats.size(); ++index) {
+    const auto here = formats.begin() + static_cast<std::ptrdiff_t>(index);
+    if (std::find(formats.begin(), here, *here) == here) continue;
+    report(findings, {"export"},
+           {"", "export: " + std::string(word(*here)) + " is named twice", "", "each format once"});
+  }
+}
+
+}  // namespace glissade::design_file

@@ -1,0 +1,118 @@
+#include "glissade/core/number_text.hpp"
+
+#include "design/checks.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glissade::design_file {
+namespace {
+
+constexpr double kFarthestCoordinate =
+    1e7;                                 // [m]; beyond, a double no longer holds a tenth of a micrometre well
+constexpr double kShortestTrack = 1e-4;  // [m]
+
+void check_coordinates(const Vec3& position, const std::string& key_path, Collected& findings) {
+  const std::array<std::pair<const char*, double>, 3> coordinates = {
+      {{"x", position.x}, {"y", position.y}, {"z", position.z}}};
+  for (const auto& [name, value] : coordinates) {
+    if (std::fabs(value) <= kFarthestCoordinate) continue;
+    report(findings, {key_path + "." + name},
+           {"", std::string(name) + ": " + metres(value) + " is too far from the origin",
+            "Coordinates lie within 10000 km of the origin.", "a local origin"});
+  }
+}
+
+bool may_climb(const Design& design) {
+  if (is_given(design.centerline.kind)) return true;
+  // Only a search takes account of the entry speed; the closed form of the fastest track starts from rest.
+  const bool searched = design.centerline.kind == CenterlineKind::fastest &&
+                        (design.limits || design.track.free_finish != FreeFinish::none);
+  return (searched || design.centerline.kind == CenterlineKind::straight) && design.body.entry_speed > 0.0;
+}
+
+void check_drop(const Design& design, Collected& findings) {
+  const double drop = drop_of(design.track);
+  if (drop > 0.0) return;
+  const std::vector<std::string> paths = {"track.finish.z", "track.start.z",    "track.finish",
+                                          "track.start",    "body.entry_speed", "centerline"};
+  const std::string place = drop < 0.0 ? metres(-drop) + " above the start" : "level with the start";
+  if (!may_climb(design) && design.body.entry_speed > 0.0) {
+    report(
+        findings, paths,
+        {"", "the finish lies " + place,
+         "The kind " + std::string(word(design.centerline.kind)) +
+             " is made for a start from rest: it must go down.",
+         "limits: {} with the kind fastest, which searches the one for this entry_speed, or kind: straight"});
+    return;
+  }
+  if (!may_climb(design)) {
+    report(findings, paths,
+           {"", "the finish lies " + place, "Nothing but gravity drives the body: it must go down.",
+            "a finish.z below " + metres(design.track.start.z) + "; z counts upwards"});
+    return;
+  }
+  const double climb = design.body.entry_speed * design.body.entry_speed / (2.0 * design.gravity);
+  if (-drop < climb) return;
+  report(findings, paths,
+         {"", "the finish lies " + place + ", higher than the entry speed can carry the body",
+          "An entry_speed of " + rounded_text(design.body.entry_speed, 4) + " m/s is worth a climb of " +
+              metres(climb) + " without friction.",
+          "a lower finish.z or a higher entry_speed"});
+}
+
+void check_free_finish(const Design& design, Collected& findings) {
+  const TrackDesign& track = design.track;
+  const LimitRange& range = track.free_range;
+  const std::string key = track.free_finish == FreeFinish::run ? "x" : "z";
+  if (design.centerline.kind != CenterlineKind::fastest) {
+    report(findings, {"track.finish", "centerline.kind"},
+           {"", "a free " + key + " of the finish needs the kind fastest",
+            "It is the fastest track that chooses.", "kind: fastest, or a finish with a value for " + key});
+  }
+  if (range.lowest && range.highest && *range.lowest > *range.highest) {
+    report(findings, {"track.finish." + key},
+           {"", key + ": lowest " + metres(*range.lowest) + " is above highest " + metres(*range.highest),
+            "Nothing lies between them.", "the two the other way round"});
+  }
+  const bool aside = track.start.y == track.finish.y;
+  if (track.free_finish == FreeFinish::run && !aside) {
+    report(findings, {"track.finish.y", "track.start"},
+           {"", "y: a finish with a free x lies straight along x from the start", "", "the y of the start"});
+  }
+  if (track.free_finish == FreeFinish::height && track.start.x == track.finish.x && aside) {
+    report(findings, {"track.finish", "track.start"},
+           {"", "the finish lies on the vertical through the start",
+            "With a free height the track could end where it begins.", "a finish to the side"});
+  }
+  if (range.lowest) check_coordinates({*range.lowest, 0.0, 0.0}, "track.finish." + key, findings);
+  if (range.highest) check_coordinates({*range.highest, 0.0, 0.0}, "track.finish." + key, findings);
+}
+
+}  // namespace
+
+void check_track(const Design& design, Collected& findings) {
+  const TrackDesign& track = design.track;
+  check_coordinates(track.start, "track.start", findings);
+  check_coordinates(track.finish, "track.finish", findings);
+  if (!track.finish_given) return;
+  if (track.free_finish != FreeFinish::none) check_free_finish(design, findings);
+  const std::vector<std::string> paths = {"track.finish", "track.start"};
+  const double distance = norm(track.finish - track.start);
+  if (distance == 0.0) {
+    report(findings, paths, {"", "start and finish are the same point", "A track leads somewhere.", ""});
+    return;
+  }
+  if (distance < kShortestTrack || distance > kLongestTrack) {
+    report(findings, paths,
+           {"", "start and finish are " + length_text(distance) + " apart",
+            "A track is between 0.1 mm and 1000 km long.", "the units of start and finish"});
+    return;
+  }
+  check_drop(design, findings);
+}
+
+}  // namespace glissade::design_file

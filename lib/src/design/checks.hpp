@@ -1,0 +1,47 @@
+#pragma once
+
+#include "glissade/design/design.hpp"
+
+#include "design/findings.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glissade::design_file {
+
+/// What the checks of one part of a design have found; each adds to it what it finds.
+using Collected = std::vector<Finding>;
+
+void check_track(const Design& design, Collected& findings);
+void check_body(const Design& design, Collected& findings);
+void check_centerline(const Design& design, Collected& findings);
+void check_cross_section(const Design& design, Collected& findings);
+void check_mesh(const Design& design, Collected& findings);
+void check_export(const Design& design, Collected& findings);
+/// Every problem of the limits, and of them with the rest of the design.
+void check_limits(const Design& design, Collected& findings);
+
+inline constexpr double kLongestTrack = 1e6;  ///< [m]
+
+inline void report(Collected& findings, std::vector<std::string> key_paths, Issue issue) {
+  findings.push_back({std::move(key_paths), std::move(issue)});
+}
+
+/// @return the length in metres whatever its size
+[[nodiscard]] std::string metres(double value);
+
+/// @return the horizontal distance of the finish from the start [m]
+[[nodiscard]] double run_of(const TrackDesign& track);
+/// @return the height of the start above the finish [m]
+[[nodiscard]] double drop_of(const TrackDesign& track);
+/// @return "drop 1.08 m over 5.4 m"
+[[nodiscard]] std::string drop_over_run(const TrackDesign& track);
+
+/// Whether a track of this kind is drawn by the design, and not found by Glissade.
+[[nodiscard]] bool is_given(CenterlineKind kind);
+
+/// @return the key that the design gives its friction by
+[[nodiscard]] std::string friction_key(const Design& design);
+
+}  // namespace glissade::design_file
