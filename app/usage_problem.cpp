@@ -2,8 +2,7 @@
 
 #include "glissade/core/nearest_word.hpp"
 #include "glissade/core/odd_characters.hpp"
-
-#include "app/track_input.hpp"
+#include "glissade/core/words.hpp"
 
 #include <algorithm>
 #include <string_view>

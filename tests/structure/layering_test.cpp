@@ -32,14 +32,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 /// Third parties by the start of their include path, and the modules whose .cpp files and private headers may
 /// name them.
 const std::map<std::string, std::set<std::string>> kThirdParties = {
-    {"CGAL/", {"solid"}},
-    {"nlopt", {"centerline", "optimize"}},
-    {"yaml-cpp/", {"design"}},
-    {"boost/", {"centerline", "motion", "solid", "pipeline"}},
-    {"fmt/", {"report"}},
-    {"nlohmann/", {"report"}},
-    {"openssl/", {"report"}},
-    {"librsvg/", {"report"}},
+    {"CGAL/", {"solid"}},      {"nlopt", {"centerline", "optimize"}},
+    {"yaml-cpp/", {"design"}}, {"boost/", {"centerline", "motion", "solid", "pipeline"}},
+    {"fmt/", {"report"}},      {"nlohmann/", {"report"}},
+    {"openssl/", {"report"}},  {"librsvg/", {"report"}},
     {"cairo", {"report"}},
 };
 

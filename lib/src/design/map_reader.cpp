@@ -1,8 +1,8 @@
 #include "design/map_reader.hpp"
 
+#include "glissade/core/nearest_word.hpp"
 #include "glissade/core/odd_characters.hpp"
 #include "glissade/core/quantity.hpp"
-#include "glissade/core/nearest_word.hpp"
 #include "glissade/core/words.hpp"
 
 #include <algorithm>

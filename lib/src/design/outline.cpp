@@ -1,5 +1,7 @@
 #include "design/outline.hpp"
 
+#include "core/plane_geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -104,14 +106,7 @@ bool touches_outline(const std::vector<Vec2>& outline, Vec2 point) {
 
 bool inside_outline(const std::vector<Vec2>& outline, Vec2 point) {
   if (touches_outline(outline, point)) return true;
-  bool inside = false;
-  for (std::size_t index = 0; index < outline.size(); ++index) {
-    const Vec2 a = outline[index];
-    const Vec2 b = outline[(index + 1) % outline.size()];
-    if ((a.y > point.y) == (b.y > point.y)) continue;
-    if (point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)) inside = !inside;
-  }
-  return inside;
+  return core::is_inside(point, outline);
 }
 
 }  // namespace glissade::design_file

@@ -3,6 +3,8 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/motion/motion.hpp"
 
+#include "core/plane_geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -13,29 +15,12 @@
 namespace glissade::optimizer {
 namespace {
 
-double distance_to_segment(Vec2 point, Vec2 from, Vec2 to) {
-  const Vec2 along = to - from;
-  const double share = std::clamp(dot(point - from, along) / dot(along, along), 0.0, 1.0);
-  return norm(point - (from + share * along));
-}
-
-bool inside(Vec2 point, const std::vector<Vec2>& outline) {
-  bool odd = false;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 a = outline[i];
-    const Vec2 b = outline[(i + 1) % outline.size()];
-    if ((a.y > point.y) == (b.y > point.y)) continue;
-    if (point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)) odd = !odd;
-  }
-  return odd;
-}
-
 double distance_to_polygon(Vec2 point, const std::vector<Vec2>& outline) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    least = std::min(least, distance_to_segment(point, outline[i], outline[(i + 1) % outline.size()]));
+    least = std::min(least, core::distance_to_segment(point, outline[i], outline[(i + 1) % outline.size()]));
   }
-  return inside(point, outline) ? -least : least;
+  return core::is_inside(point, outline) ? -least : least;
 }
 
 /// side +1: free above the line, -1: free below it
@@ -45,7 +30,7 @@ double distance_to_profile(Vec2 point, const std::vector<Vec2>& line, double sid
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec2 a = line[i];
     const Vec2 b = line[i + 1];
-    least = std::min(least, distance_to_segment(point, a, b));
+    least = std::min(least, core::distance_to_segment(point, a, b));
     if (point.x >= a.x && point.x <= b.x) {
       const double drop = a.y + (b.y - a.y) * (point.x - a.x) / (b.x - a.x);
       behind = behind || side * (point.y - drop) > 0.0;

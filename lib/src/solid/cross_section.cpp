@@ -3,6 +3,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/plane_geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,12 +41,6 @@ void require_thinner(double thickness, const std::string& name, double width) {
                     "a thickness below " + length_text(width)});
 }
 
-double distance_to_segment(Vec2 point, Vec2 a, Vec2 b) {
-  const Vec2 along = b - a;
-  const double t = std::clamp(dot(point - a, along) / dot(along, along), 0.0, 1.0);
-  return norm(point - (a + t * along));
-}
-
 bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double side_c = cross(b - a, c - a);
   const double side_d = cross(b - a, d - a);
@@ -55,8 +51,8 @@ bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 double segment_distance(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   if (segments_meet(a, b, c, d)) return 0.0;
-  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
-                   distance_to_segment(d, a, b)});
+  return std::min({core::distance_to_segment(a, c, d), core::distance_to_segment(b, c, d),
+                   core::distance_to_segment(c, a, b), core::distance_to_segment(d, a, b)});
 }
 
 double signed_area(const Polygon& polygon) {
@@ -103,7 +99,7 @@ ClosestSides closest_sides(const Polygon& polygon) {
   // A triangle has no two sides apart: its heights stand for them.
   if (count == 3) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double height = distance_to_segment(polygon[i], polygon[(i + 1) % 3], polygon[(i + 2) % 3]);
+      const double height = core::distance_to_segment(polygon[i], polygon[(i + 1) % 3], polygon[(i + 2) % 3]);
       if (height < closest.distance) closest = {height, i, (i + 1) % 3};
     }
   }
@@ -151,7 +147,7 @@ void require_floor_at_origin(const Polygon& outline) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2 a = outline[i];
     const Vec2 b = outline[(i + 1) % outline.size()];
-    if (distance_to_segment({0.0, 0.0}, a, b) > reach) continue;
+    if (core::distance_to_segment({0.0, 0.0}, a, b) > reach) continue;
     on_outline = true;
     faces_up = faces_up || b.x < a.x;
     faces_down = faces_down || b.x > a.x;

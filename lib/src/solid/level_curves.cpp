@@ -1,5 +1,7 @@
 #include "solid/level_curves.hpp"
 
+#include "core/plane_geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -51,29 +53,6 @@ double squared(Vec2 a) {
   return dot(a, a);
 }
 
-struct Crossing {
-  double first = 0.0;  // share of the way along each segment
-  double second = 0.0;
-};
-
-std::optional<Crossing> segment_crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const Vec2 along = b - a;
-  const Vec2 other = d - c;
-  const double area = cross(along, other);
-  if (area == 0.0) return std::nullopt;
-  const Crossing crossing{cross(c - a, other) / area, cross(c - a, along) / area};
-  const bool inside =
-      crossing.first >= 0.0 && crossing.first <= 1.0 && crossing.second >= 0.0 && crossing.second <= 1.0;
-  if (!inside) return std::nullopt;
-  return crossing;
-}
-
-double distance_to_chord(Vec2 point, Vec2 a, Vec2 b) {
-  const Vec2 chord = b - a;
-  const double length = norm(chord);
-  return length > 0.0 ? std::fabs(cross(chord, point - a)) / length : norm(point - a);
-}
-
 // Which nodes of a level curve stand in the way of the facets beside its trims.
 class CrowdAtTrims {
  public:
@@ -109,7 +88,7 @@ class CrowdAtTrims {
   // Whether the chord from the trim to the node after `last` still follows the curve.
   [[nodiscard]] bool lies_on_chords(std::ptrdiff_t trim, std::ptrdiff_t last, std::ptrdiff_t step) const {
     for (std::ptrdiff_t i = trim + step; i != last + step; i += step) {
-      if (distance_to_chord(point(i), point(trim), point(last + step)) > limits_.sagitta) return false;
+      if (core::distance_to_line(point(i), point(trim), point(last + step)) > limits_.sagitta) return false;
     }
     return true;
   }
@@ -450,7 +429,7 @@ std::vector<Trim> LevelCurves::crease_trims(double height, std::size_t first_cut
   const std::size_t right_end = std::max(last_cut - std::min(last_cut, kCrossingWindow), first_cut - 1);
   for (std::size_t i = left_begin; i < left_end; ++i) {
     for (std::size_t j = right_begin; j > std::max(right_end, i + 2); --j) {
-      const auto crossing = segment_crossing(point(i), point(i + 1), point(j - 1), point(j));
+      const auto crossing = core::segment_crossing(point(i), point(i + 1), point(j - 1), point(j));
       if (!crossing) continue;
       const double from = stations_[i].s + crossing->first * (stations_[i + 1].s - stations_[i].s);
       const double to = stations_[j - 1].s + crossing->second * (stations_[j].s - stations_[j - 1].s);

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/plane_geometry.hpp"
 #include "solid/cap_triangulation.hpp"
 #include "solid/level_curves.hpp"
 #include "solid/stations.hpp"
@@ -37,18 +38,6 @@ constexpr double kRoomAtTrims = 0.25;
 constexpr double kSagittaAtTrims = 0.9;
 constexpr int kMostRefinements = 12;
 
-double distance_to_line(Vec2 point, Vec2 a, Vec2 b) {
-  const Vec2 along = b - a;
-  const double length = norm(along);
-  return length > 0.0 ? std::fabs(cross(along, point - a)) / length : norm(point - a);
-}
-
-double distance_to_side(Vec2 point, Vec2 a, Vec2 b) {
-  const Vec2 along = b - a;
-  const double t = std::clamp(dot(point - a, along) / dot(along, along), 0.0, 1.0);
-  return norm(point - (a + t * along));
-}
-
 // Greatest distance between the chord of two stations and the level curves of `heights` halfway between them.
 double chord_deviation(const Station& a, const Station& middle, const Station& b,
                        const std::array<double, 3>& heights) {
@@ -56,7 +45,8 @@ double chord_deviation(const Station& a, const Station& middle, const Station& b
   for (const double height : heights) {
     const auto folds = [height](const Station& at) { return height != 0.0 && at.kappa * height >= 1.0; };
     if (folds(a) || folds(middle) || folds(b)) continue;
-    worst = std::max(worst, distance_to_line(offset(middle, height), offset(a, height), offset(b, height)));
+    worst =
+        std::max(worst, core::distance_to_line(offset(middle, height), offset(a, height), offset(b, height)));
   }
   return worst;
 }
@@ -235,7 +225,7 @@ class Sweeper {
     const std::vector<LevelNode>& second = b.level->second.curve.nodes;
     double worst = 0.0;
     const auto measure = [&](Vec2 point, double across) {
-      worst = std::max(worst, distance_to_side({across, curves_->height_of(point)}, a.at, b.at));
+      worst = std::max(worst, core::distance_to_segment({across, curves_->height_of(point)}, a.at, b.at));
     };
     zip(first, second, [&](std::size_t i, std::size_t k, bool on_first) {
       const LevelNode& next = on_first ? first[i + 1] : second[k + 1];
