@@ -26,7 +26,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"design", {"core"}},
     {"io", {"core", "centerline", "motion", "solid"}},
     {"report", {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io"}},
-    {"pipeline", {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io", "report"}},
+    {"pipeline",
+     {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io", "report"}},
 };
 
 /// Third parties by the start of their include path, and the modules whose .cpp files and private headers may
