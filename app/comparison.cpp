@@ -1,6 +1,7 @@
 #include "app/comparison.hpp"
 
 #include "glissade/centerline/constant_speed_curve.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/report/ride_figure.hpp"
 
@@ -82,7 +83,7 @@ std::vector<double> friction_angles_deg(const Design& design) {
   constexpr double kMostOfMeanSlope = 0.98;
   constexpr double kLargest = 60.0;
   const Endpoints endpoints = endpoints_of(design);
-  const double mean_slope = Angle::from_radians(std::atan2(endpoints.drop, endpoints.run)).degrees();
+  const double mean_slope = Angle::from_radians(math::atan2(endpoints.drop, endpoints.run)).degrees();
   const double highest = mean_slope > 0.0 ? std::min(kMostOfMeanSlope * mean_slope, kLargest) : kLargest;
   std::vector<double> angles;
   for (int step = 0; step <= kSteps; ++step) {

@@ -3,6 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 
 #include "support/catch.hpp"
 
@@ -24,7 +25,7 @@ TEST_CASE("straight line: ends at its endpoints to the last bit, without curvatu
                                     Endpoints{1e5, 1e-3}, Endpoints{3.0, -1.0}}) {
     const StraightLine line(endpoints);
     CHECK(line.endpoints() == endpoints);
-    CHECK(line.length() == std::hypot(endpoints.run, endpoints.drop));
+    CHECK(line.length() == math::hypot(endpoints.run, endpoints.drop));
     const CenterlinePoint middle = line.at(0.5 * line.length());
     CHECK(middle.x == Approx(0.5 * endpoints.run).epsilon(1e-15));
     CHECK(middle.drop == Approx(0.5 * endpoints.drop).epsilon(1e-15));

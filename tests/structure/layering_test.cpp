@@ -188,6 +188,22 @@ TEST_CASE("no third party's name appears in a public header") {
   CHECK(found == std::vector<std::string>{});
 }
 
+TEST_CASE("elementary functions come from glissade/core/math.hpp, whose bits no processor changes") {
+  static const std::regex kProcessorsOwn(
+      R"(\bstd::(a?sinh?|a?cosh?|a?tanh?|atan2|exp2?|expm1|log(2|10|1p)?|pow|hypot|cbrt|erfc?|[lt]gamma)\b)"
+      R"(|boost::math::(sin_pi|cos_pi|expm1|log1p|cbrt|powm1|hypot)\b)");
+  CHECK(std::regex_search("std::sin(x)", kProcessorsOwn));
+  CHECK(std::regex_search("&std::atan2", kProcessorsOwn));
+  CHECK_FALSE(std::regex_search("std::sqrt(x) + std::fma(x, y, z) + math::sin(x)", kProcessorsOwn));
+  std::vector<std::string> found;
+  for (const char* folder : {"lib", "app"}) {
+    for (const fs::path& file : sources_below(folder)) {
+      if (std::regex_search(text_of(file), kProcessorsOwn)) found.push_back(relative_name(file));
+    }
+  }
+  CHECK(found == std::vector<std::string>{});
+}
+
 TEST_CASE("the program sees nothing of the library but its public headers") {
   std::vector<std::string> found;
   for (const fs::path& file : sources_below("app")) {

@@ -4,6 +4,7 @@
 // random numbers, so the same input gives the same bits.
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <cmath>
@@ -35,7 +36,7 @@ class TravelTimeOfP {
 
   [[nodiscard]] double smallest_p() const { return smallest_p_; }
   [[nodiscard]] ConstantSpeedCurve curve(double q) const {
-    return {endpoints_, friction_, gravity_, smallest_p_ * std::exp(q)};
+    return {endpoints_, friction_, gravity_, smallest_p_ * math::exp(q)};
   }
   [[nodiscard]] double operator()(double q) const { return curve(q).travel_time(entry_speed_); }
 
@@ -115,7 +116,7 @@ ConstantSpeedCurve ConstantSpeedCurve::fastest(Endpoints endpoints, Friction fri
         Issue{"",
               "friction_angle: " + angle_text(friction.angle().radians()) +
                   " is not flatter than the mean slope from start to finish, " +
-                  angle_text(std::atan2(endpoints.drop, std::abs(endpoints.run))),
+                  angle_text(math::atan2(endpoints.drop, std::abs(endpoints.run))),
               "From rest, no track between these points reaches the finish, whatever its shape "
               "(docs/theory.md, reach "
               "theorem).",

@@ -1,6 +1,7 @@
 #include "glissade/centerline/centerline.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ void Centerline::require_on_track(double s) const {
 
 double Centerline::arc_length_at_run(double x) const {
   const auto excess = [&](double s) { return at(s).x - x; };
-  const auto advance = [&](double s) { return std::cos(slope_angle(s)); };
+  const auto advance = [&](double s) { return math::cos(slope_angle(s)); };
   if (excess(0.0) == 0.0) return 0.0;
 
   const auto crossing = [&](double a, double b) -> std::optional<double> {

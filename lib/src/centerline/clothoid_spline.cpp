@@ -1,6 +1,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/vec.hpp"
 
@@ -42,8 +43,8 @@ double slope_after(double zeta, double kappa, double rate, double distance) {
 /// Displacement along an arc: its chord, in the direction of its middle.
 Vec2 arc_displacement(double zeta, double kappa, double distance) {
   const double half_turn = 0.5 * kappa * distance;
-  const double chord = half_turn == 0.0 ? distance : distance * (std::sin(half_turn) / half_turn);
-  return {chord * std::cos(zeta - half_turn), chord * std::sin(zeta - half_turn)};
+  const double chord = half_turn == 0.0 ? distance : distance * (math::sin(half_turn) / half_turn);
+  return {chord * math::cos(zeta - half_turn), chord * math::sin(zeta - half_turn)};
 }
 
 Vec2 clothoid_displacement(double zeta, double kappa, double rate, double distance) {
@@ -52,9 +53,9 @@ Vec2 clothoid_displacement(double zeta, double kappa, double rate, double distan
   Vec2 mean;
   for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
     const double offset = half * Rule::abscissa()[i];
-    const double before = slope_after(zeta, kappa, rate, half - offset);
-    const double after = slope_after(zeta, kappa, rate, half + offset);
-    const Vec2 pair{std::cos(before) + std::cos(after), std::sin(before) + std::sin(after)};
+    const auto before = math::sine_cosine(slope_after(zeta, kappa, rate, half - offset));
+    const auto after = math::sine_cosine(slope_after(zeta, kappa, rate, half + offset));
+    const Vec2 pair{before.cosine + after.cosine, before.sine + after.sine};
     mean = mean + Rule::weights()[i] * pair;
   }
   return half * mean;

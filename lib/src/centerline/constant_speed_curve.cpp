@@ -4,6 +4,7 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -40,32 +41,32 @@ struct TurnedFinish {
 
 TurnedFinish turned_finish(Endpoints endpoints, double mu) {
   const double run = std::abs(endpoints.run);
-  const double secant = std::hypot(1.0, mu);
+  const double secant = math::hypot(1.0, mu);
   // Fused, because H - mu L cancels near the reach limit, where it decides everything.
   return {std::fma(mu, endpoints.drop, run) / secant, std::fma(-mu, run, endpoints.drop) / secant};
 }
 
 /// (C7): the angle psi at the start, from the turned angle a = k eta_1 and the length ratio b = k xi_1.
 double entry_angle(double a, double b) {
-  return std::atan2(std::sin(a), -std::expm1(-b) - 2.0 * square(std::sin(a / 2.0)));
+  return math::atan2(math::sin(a), -math::expm1(-b) - 2.0 * square(math::sin(a / 2.0)));
 }
 
 /// (C7): psi at the finish; not psi_0 - a, which cancels where the track has flattened out.
 double exit_angle(double a, double b) {
-  const double decay = std::exp(-b);
-  return std::atan2(decay * std::sin(a), -std::expm1(-b) + 2.0 * decay * square(std::sin(a / 2.0)));
+  const double decay = math::exp(-b);
+  return math::atan2(decay * math::sin(a), -math::expm1(-b) + 2.0 * decay * square(math::sin(a / 2.0)));
 }
 
 /// (C8): k times the arc length between the endpoints.
 double scaled_length(double a, double b) {
-  const double half_turn = std::sin(a / 2.0);
+  const double half_turn = math::sin(a / 2.0);
   if (b < 2.0) {
-    return 2.0 * std::asinh(std::hypot(std::sinh(b / 2.0), half_turn) / std::cos(a / 2.0));
+    return 2.0 * math::asinh(math::hypot(math::sinh(b / 2.0), half_turn) / math::cos(a / 2.0));
   }
   // The same, with the large e^(b/2) taken out before it can overflow.
-  const double root_decay = std::exp(-b / 2.0);
-  const double scaled = std::hypot(-std::expm1(-b) / 2.0, root_decay * half_turn) / std::cos(a / 2.0);
-  return b + 2.0 * std::log(scaled + std::hypot(scaled, root_decay));
+  const double root_decay = math::exp(-b / 2.0);
+  const double scaled = math::hypot(-math::expm1(-b) / 2.0, root_decay * half_turn) / math::cos(a / 2.0);
+  return b + 2.0 * math::log(scaled + math::hypot(scaled, root_decay));
 }
 
 void require_positive(double value, const char* name, const char* unit) {
@@ -103,7 +104,7 @@ void require_endpoints(Endpoints endpoints) {
 }
 
 std::string mean_slope_text(Endpoints endpoints) {
-  return angle_text(std::atan2(endpoints.drop, std::abs(endpoints.run))) + " (drop " +
+  return angle_text(math::atan2(endpoints.drop, std::abs(endpoints.run))) + " (drop " +
          length_text(endpoints.drop) + " over " + length_text(std::abs(endpoints.run)) + ")";
 }
 
@@ -114,11 +115,11 @@ std::string mean_slope_text(Endpoints endpoints) {
 double p_of_entry_slope(Endpoints endpoints, Friction friction, double gravity, double zeta) {
   const double mu = friction.coefficient();
   const TurnedFinish finish = turned_finish(endpoints, mu);
-  const double psi = std::abs(zeta - std::atan(mu));
+  const double psi = std::abs(zeta - math::atan(mu));
   const double ratio = finish.along / std::abs(finish.across);
   const auto excess = [&](double alpha) {
-    return std::sin(alpha) * std::cos(psi) +
-           std::sin(psi) * (2.0 * square(std::sin(alpha / 2.0)) + std::expm1(-alpha * ratio));
+    return math::sin(alpha) * math::cos(psi) +
+           math::sin(psi) * (2.0 * square(math::sin(alpha / 2.0)) + math::expm1(-alpha * ratio));
   };
   double high = psi;
   double low = psi / 2.0;
@@ -136,7 +137,7 @@ double p_of_entry_slope(Endpoints endpoints, Friction friction, double gravity, 
                                           boost::math::tools::eps_tolerance<double>(52), iterations);
     alpha = (bracket.first + bracket.second) / 2.0;
   }
-  return gravity * std::hypot(1.0, mu) * std::abs(finish.across) / (mu * alpha);
+  return gravity * math::hypot(1.0, mu) * std::abs(finish.across) / (mu * alpha);
 }
 
 [[noreturn]] void refuse_p(double p, Endpoints endpoints, Friction friction, double gravity) {
@@ -160,8 +161,8 @@ ConstantSpeedCurve::ConstantSpeedCurve(Friction friction, double gravity, double
   require_positive(gravity, "gravity", " m/s^2");
   require_positive(p, "p", " m^2/s^2");
   const double mu = friction.coefficient();
-  delta_ = std::atan(mu);
-  rate_ = gravity * std::hypot(1.0, mu) / (p * mu);
+  delta_ = math::atan(mu);
+  rate_ = gravity * math::hypot(1.0, mu) / (p * mu);
 }
 
 ConstantSpeedCurve::ConstantSpeedCurve(Endpoints endpoints, Friction friction, double gravity, double p)
@@ -229,9 +230,9 @@ double ConstantSpeedCurve::turned_angle(double s) const {
     throw InputError(Issue{
         "", "s: " + exact_text(s) + " m lies outside the track, 0 to " + exact_text(length_) + " m", "", ""});
   }
-  const double cosine = std::cos(psi_entry_);
-  const double decay_less_1 = std::expm1(-rate_ * s);
-  return 2.0 * std::atan2(-decay_less_1 * std::sin(psi_entry_), 2.0 + (1.0 - cosine) * decay_less_1);
+  const double cosine = math::cos(psi_entry_);
+  const double decay_less_1 = math::expm1(-rate_ * s);
+  return 2.0 * math::atan2(-decay_less_1 * math::sin(psi_entry_), 2.0 + (1.0 - cosine) * decay_less_1);
 }
 
 double ConstantSpeedCurve::slope_angle(double s) const {
@@ -242,21 +243,21 @@ CenterlinePoint ConstantSpeedCurve::at(double s) const {
   const double turned = turned_angle(s);
   const double scaled = rate_ * s;
   const double psi =
-      2.0 * std::atan2(std::sin(psi_entry_ / 2.0) * std::exp(-scaled), std::cos(psi_entry_ / 2.0));
+      2.0 * math::atan2(math::sin(psi_entry_ / 2.0) * math::exp(-scaled), math::cos(psi_entry_ / 2.0));
   // (C5): both forms of k xi; the first cannot overflow, the second does not cancel where the track is short.
   const double scaled_along =
       scaled > 1.0
-          ? scaled + std::log1p(square(std::sin(psi_entry_ / 2.0)) * std::expm1(-2.0 * scaled))
-          : std::log1p(2.0 * square(std::sinh(scaled / 2.0)) + std::cos(psi_entry_) * std::sinh(scaled));
+          ? scaled + math::log1p(square(math::sin(psi_entry_ / 2.0)) * math::expm1(-2.0 * scaled))
+          : math::log1p(2.0 * square(math::sinh(scaled / 2.0)) + math::cos(psi_entry_) * math::sinh(scaled));
   const double along = scaled_along / rate_;
   const double across = turned / rate_;
-  const double cosine = std::cos(delta_);
-  const double sine = std::sin(delta_);
+  const double cosine = math::cos(delta_);
+  const double sine = math::sin(delta_);
   return {.arc_length = s,
           .x = along * cosine - across * sine,
           .drop = along * sine + across * cosine,
           .slope_angle = delta_ + (psi_entry_ - turned),
-          .curvature = rate_ * std::sin(psi)};
+          .curvature = rate_ * math::sin(psi)};
 }
 
 double ConstantSpeedCurve::arc_length_at_slope(Angle slope_angle) const {
@@ -270,9 +271,9 @@ double ConstantSpeedCurve::arc_length_at_slope(Angle slope_angle) const {
                                angle_text(psi_exit_ + delta_) + ".",
                            ""});
   }
-  const double turn = std::sin((psi_entry_ - psi) / 2.0);
-  const double mean_sine = std::sqrt(std::sin(psi_entry_) * std::sin(psi));
-  return std::clamp(2.0 * std::asinh(std::abs(turn) / mean_sine) / rate_, 0.0, length_);
+  const double turn = math::sin((psi_entry_ - psi) / 2.0);
+  const double mean_sine = std::sqrt(math::sin(psi_entry_) * math::sin(psi));
+  return std::clamp(2.0 * math::asinh(std::abs(turn) / mean_sine) / rate_, 0.0, length_);
 }
 
 bool ConstantSpeedCurve::holds_body() const noexcept {
@@ -280,7 +281,7 @@ bool ConstantSpeedCurve::holds_body() const noexcept {
 }
 
 double ConstantSpeedCurve::lift_off_speed(double s) const {
-  const double tangent = std::tan(slope_angle(s));
+  const double tangent = math::tan(slope_angle(s));
   const double mu = friction_.coefficient();
   if (!is_convex()) return std::numeric_limits<double>::infinity();
   // cos(zeta) g = |kappa| v with kappa from (C1): v = P mu/(mu - tan zeta), and tan zeta < mu on a crest.
@@ -289,7 +290,7 @@ double ConstantSpeedCurve::lift_off_speed(double s) const {
 
 double ConstantSpeedCurve::speed_squared(double s, double entry_speed) const {
   const double exponent = -2.0 * friction_.coefficient() * turned_angle(s);
-  return square(entry_speed) * std::exp(exponent) - p_ * std::expm1(exponent);
+  return square(entry_speed) * math::exp(exponent) - p_ * math::expm1(exponent);
 }
 
 void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
@@ -305,7 +306,7 @@ void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
   if (!is_convex()) return;
   if (speed_squared(s, entry_speed) < 0.0) {
     // (C10): v = 0 where e^(-2 mu theta) = P/(P - v_0)
-    const double turned = std::log1p(-square(entry_speed) / p_) / (2.0 * friction_.coefficient());
+    const double turned = math::log1p(-square(entry_speed) / p_) / (2.0 * friction_.coefficient());
     throw InfeasibleError(Issue{
         "",
         "a body that enters at " + rounded_text(entry_speed, 6) + " m/s stalls where the slope angle is " +
@@ -317,7 +318,8 @@ void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
     const double here = speed_squared(station, entry_speed);
     const double mu = friction_.coefficient();
     const double zeta = slope_angle(station);
-    if (here * (mu * std::cos(zeta) - std::sin(zeta)) <= p_ * mu * std::cos(zeta) * (1.0 + kVerticalRounding))
+    if (here * (mu * math::cos(zeta) - math::sin(zeta)) <=
+        p_ * mu * math::cos(zeta) * (1.0 + kVerticalRounding))
       return;
     throw InfeasibleError(
         Issue{"",
@@ -331,7 +333,7 @@ void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
   // (C13): with mu > sqrt(3) the margin can be least in between.
   const double mu = friction_.coefficient();
   if (mu * mu <= 3.0) return;
-  const double zeta = std::atan((mu + std::sqrt(mu * mu - 3.0)) / 3.0);
+  const double zeta = math::atan((mu + std::sqrt(mu * mu - 3.0)) / 3.0);
   if (zeta > psi_entry_ + delta_ && zeta < slope_angle(s))
     require_contact(arc_length_at_slope(Angle::from_radians(zeta)));
 }
@@ -350,7 +352,7 @@ double ConstantSpeedCurve::travel_time(double entry_speed) const {
 
   const double entry_v = square(entry_speed);
   const double exit_v = speed_squared(length_, entry_speed);
-  const double flat_after = (kFlatAfter + std::max(0.0, std::log(p_ / exit_v))) / rate_;
+  const double flat_after = (kFlatAfter + std::max(0.0, math::log(p_ / exit_v))) / rate_;
   const double curved_length = std::min(length_, flat_after);
 
   // Every integrand and interval below is made of order one, which the quadrature's tolerance counts on.
@@ -359,7 +361,8 @@ double ConstantSpeedCurve::travel_time(double entry_speed) const {
   };
   const auto panel_from_start = [&](double width) {
     // From rest u grows like sqrt(s). Take z = sqrt(v_0 + v_0' s) for s: z/u is smooth.
-    const double gain = 2.0 * friction_.coefficient() * rate_ * std::sin(psi_entry_) * (p_ - entry_v) * width;
+    const double gain =
+        2.0 * friction_.coefficient() * rate_ * math::sin(psi_entry_) * (p_ - entry_v) * width;
     const double rise = gain / (std::sqrt(entry_v + gain) + entry_speed);
     const auto smooth = [&](double part) {
       const double z = entry_speed + rise * part;

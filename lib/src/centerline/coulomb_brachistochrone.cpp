@@ -4,6 +4,7 @@
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 
 #include "coulomb_laws.hpp"
 #include "endpoint_rules.hpp"
@@ -15,7 +16,6 @@
 #include <numbers>
 
 #include <boost/math/quadrature/gauss.hpp>
-#include <boost/math/special_functions/cos_pi.hpp>
 
 namespace glissade {
 
@@ -122,7 +122,7 @@ double chebyshev_value(const std::array<double, kTerms>& coefficients, double x)
 template <std::size_t kTerms>
 double node_cosine(std::size_t k, std::size_t j) {
   const std::size_t halves = k * (2 * j + 1) % (4 * kTerms);
-  return boost::math::cos_pi(static_cast<double>(halves) / static_cast<double>(2 * kTerms));
+  return math::cos_pi(static_cast<double>(halves) / static_cast<double>(2 * kTerms));
 }
 
 template <std::size_t kTerms>

@@ -9,6 +9,7 @@
 #include "coulomb_laws.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "phase.hpp"
@@ -84,9 +85,9 @@ double half_tangent_at_slope_angle(const CoulombSolution& solution, double slope
                       ""});
   }
   if (slope_angle == kRightAngle) return 0.0;
-  const double sine = shape.q * std::cos(slope_angle);
-  const double cosine = std::sin(slope_angle) - shape.friction_coefficient * std::cos(slope_angle);
-  const double norm = std::hypot(sine, cosine);
+  const double sine = shape.q * math::cos(slope_angle);
+  const double cosine = math::sin(slope_angle) - shape.friction_coefficient * math::cos(slope_angle);
+  const double norm = math::hypot(sine, cosine);
   const double half_tangent = cosine > 0.0 ? sine / (norm + cosine) : (norm - cosine) / sine;
   return std::min(half_tangent, shape.finish_phase_half_tangent);
 }
@@ -94,7 +95,7 @@ double half_tangent_at_slope_angle(const CoulombSolution& solution, double slope
 double coulomb_slope_angle(const CoulombShape& shape, double half_tangent) {
   const double sine = 2.0 * half_tangent;
   const double cosine = (1.0 - half_tangent) * (1.0 + half_tangent);
-  return std::atan2(shape.friction_coefficient * sine + shape.q * cosine, sine);
+  return math::atan2(shape.friction_coefficient * sine + shape.q * cosine, sine);
 }
 
 double arc_length_slope(const CoulombShape& shape, double half_tangent) {

@@ -12,6 +12,7 @@
 // monotone in phi, with closed derivatives. No difference of large numbers is left in these forms.
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "coulomb_laws.hpp"
@@ -104,7 +105,7 @@ double flat_half_tangent(double mu, double ratio) {
   const double norm = std::sqrt(1.0 + mu * mu);
   const double linear = (ratio - mu) * std::numbers::pi;
   const double constant = 3.0 * std::numbers::pi * ratio * mu;
-  double p = std::cbrt(constant * norm) + std::sqrt(std::max(linear, 0.0) * norm);  // beyond the root
+  double p = math::cbrt(constant * norm) + std::sqrt(std::max(linear, 0.0) * norm);  // beyond the root
   if (ratio < mu) p = std::min(p, 3.0 * ratio * mu / (mu - ratio));
   for (int step = 0; step < 4; ++step) {
     const double sine = std::sqrt(p * (p + 2.0 * mu)) / norm;
@@ -134,12 +135,12 @@ FinishPhase solve_finish(double mu, double ratio) {
   double half_tangent = first_guess(mu, ratio);
   for (int step = 0; step < kMostSteps; ++step) {
     const FinishPhase finish = finish_at(mu, half_tangent);
-    const double excess = std::log(finish.drop / (finish.run * ratio));
+    const double excess = math::log(finish.drop / (finish.run * ratio));
     (excess > 0.0 ? below : above) = half_tangent;
     const Slopes slopes = ratio_slopes(mu, finish);
     const double halley =
         -2.0 * excess * slopes.first / (2.0 * slopes.first * slopes.first - excess * slopes.second);
-    const double next = half_tangent * std::exp(std::clamp(halley, -1.0, 1.0));
+    const double next = half_tangent * math::exp(std::clamp(halley, -1.0, 1.0));
     if (std::fabs(halley) < kCubicallyConverged) return finish_at(mu, next);
     half_tangent = next > below && next < above ? next : std::sqrt(below * above);
   }
@@ -152,8 +153,8 @@ FinishPhase solve_finish(double mu, double ratio) {
 double exit_slope(double mu, const FinishPhase& finish) {
   const double cosine = finish.phase.cosine;
   const double sine = finish.phase.sine;
-  if (cosine >= 0.0) return std::atan2(mu + cosine * finish.root, sine * sine);
-  return std::atan((mu - cosine) * (mu + cosine) / (mu - cosine * finish.root));
+  if (cosine >= 0.0) return math::atan2(mu + cosine * finish.root, sine * sine);
+  return math::atan((mu - cosine) * (mu + cosine) / (mu - cosine * finish.root));
 }
 
 CoulombSolution free_fall(const Endpoints& endpoints, double gravity) {
@@ -190,7 +191,7 @@ CoulombSolution solve_coulomb_brachistochrone(const Endpoints& endpoints, Fricti
                          (finish.phase.angle / sine +
                           2.0 * mu * (sine * sine + finish.phase.second_integral) / (3.0 * finish.p));
   solution.exit_slope_angle = exit_slope(mu, finish);
-  solution.straight_time = std::hypot(run, endpoints.drop) * std::sqrt(2.0 / (gravity * drop));
+  solution.straight_time = math::hypot(run, endpoints.drop) * std::sqrt(2.0 / (gravity * drop));
   solution.gravity = gravity;
   solution.endpoints = endpoints;
   return solution;

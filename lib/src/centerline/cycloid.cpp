@@ -2,6 +2,8 @@
 // root is bracketed and found by TOMS 748, independently of the way that the case with friction is solved.
 #include "glissade/centerline/cycloid.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include "endpoint_rules.hpp"
 #include "phase.hpp"
 
@@ -32,7 +34,7 @@ double finish_half_tangent(double ratio) {
   const double high = std::min(ratio / kSteep, std::sqrt(ratio / kFlat));
   const auto excess = [ratio](double half_tangent) {
     const Phase half = phase_at(half_tangent);
-    return std::log(half.first_integral / (half.sine * ratio));
+    return math::log(half.first_integral / (half.sine * ratio));
   };
   constexpr int kAllBits = 53;
   std::uintmax_t steps = 100;

@@ -1,6 +1,7 @@
 #include "endpoint_rules.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <cmath>
@@ -23,7 +24,7 @@ int digits_to_tell_apart(double first, double second) {
 
 Issue out_of_reach(const Endpoints& endpoints, Friction friction) {
   const double run = std::fabs(endpoints.run);
-  const double mean_slope = std::atan2(endpoints.drop, run);
+  const double mean_slope = math::atan2(endpoints.drop, run);
   const double friction_angle = friction.angle().radians();
   const double least_drop = friction.coefficient() * run;
   const int angle_digits =

@@ -4,6 +4,8 @@
 //     (y - mu x)/x falls from infinity at h = 0 to 0 at h = 1/mu, that is a = pi - 2 delta.
 #include "glissade/centerline/no_curvature_load.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include "endpoint_rules.hpp"
 #include "phase.hpp"
 
@@ -67,7 +69,7 @@ double NoCurvatureLoadCurve::travel_time_without_curvature_load(double gravity) 
   const Phase half = phase_at(finish_half_tangent_);
   const double fall = half.sine * (finish_half_tangent_ + mu_);        // 1 - cosine
   const double rest = half.sine * (1.0 / finish_half_tangent_ - mu_);  // 1 + cosine
-  return 4.0 * std::sqrt(scale_ / gravity) * std::atan2(std::sqrt(fall), std::sqrt(rest));
+  return 4.0 * std::sqrt(scale_ / gravity) * math::atan2(std::sqrt(fall), std::sqrt(rest));
 }
 
 bool NoCurvatureLoadCurve::unbounded_curvature_at_start() const noexcept {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "glissade/core/math.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -66,7 +68,7 @@ inline Phase phase_at(double half_tangent) {
   constexpr PhaseSeries kSecond = second_integral_series();
   Phase phase;
   const double norm = 1.0 / (1.0 + half_tangent * half_tangent);
-  phase.angle = 2.0 * std::atan(half_tangent);
+  phase.angle = 2.0 * math::atan(half_tangent);
   phase.sine = 2.0 * half_tangent * norm;
   phase.cosine = (1.0 - half_tangent) * (1.0 + half_tangent) * norm;
   if (phase.angle < kSeriesPhase) {

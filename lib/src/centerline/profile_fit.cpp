@@ -1,6 +1,7 @@
 #include "profile_fit.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "profile_model.hpp"
@@ -147,7 +148,7 @@ double Fitter::validation_score(double smoothing) {
   // Every point gives one equation, the last one two, the first one none.
   const auto equations = static_cast<double>(model_.point_count());
   if (freedom > kMostFreedom * equations) return std::numeric_limits<double>::infinity();
-  return data.mean_square / std::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
+  return data.mean_square / math::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
 }
 
 /// The shape of the best score. Where the score becomes better as long as it means anything, the points show
@@ -214,7 +215,7 @@ double nearest_place(const ClothoidSpline& curve, Vec2 point, double s) {
   constexpr int kNewtonSteps = 50;
   for (int step = 0; step < kNewtonSteps; ++step) {
     const CenterlinePoint here = curve.at(s);
-    const Vec2 tangent{std::cos(here.slope_angle), std::sin(here.slope_angle)};
+    const Vec2 tangent{math::cos(here.slope_angle), math::sin(here.slope_angle)};
     const Vec2 away = point - Vec2{here.x, here.drop};
     // Half the second derivative of the squared distance: kept away from zero where the point is a centre of
     // curvature.
@@ -239,7 +240,7 @@ std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve, const s
     const double s = nearest_place(curve, points[i], curve.length() * (lengths[i] / lengths.back()));
     const CenterlinePoint place = curve.at(s);
     const Vec2 away = points[i] - Vec2{place.x, place.drop};
-    const double side = dot(away, {-std::sin(place.slope_angle), std::cos(place.slope_angle)});
+    const double side = dot(away, {-math::sin(place.slope_angle), math::cos(place.slope_angle)});
     deviations.push_back({s, std::copysign(norm(away), side)});
   }
   return deviations;

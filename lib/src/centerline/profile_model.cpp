@@ -1,6 +1,7 @@
 #include "profile_model.hpp"
 
 #include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/core/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace glissade::centerline {
 namespace {
 
 constexpr std::size_t kCoarseChords = 24;
-constexpr unsigned kGaussPoints = 6;
+constexpr unsigned kGaussPoints = 7;  // of those that Boost has as a table: computed nodes vary by processor
 
 }  // namespace
 
@@ -66,7 +67,7 @@ Shape ProfileModel::first_shape() const {
     std::size_t to = from + 1;
     while (to + 1 < points.size() && places_[to] < goal) ++to;
     const Vec2 chord = points[to] - points[from];
-    const double slope = std::atan2(chord.y, chord.x);
+    const double slope = math::atan2(chord.y, chord.x);
     const double before = slopes.empty() ? slope : slopes.back();
     slopes.push_back(before + std::remainder(slope - before, 2.0 * std::numbers::pi));
     middles.push_back(0.5 * (places_[from] + places_[to]));
@@ -111,7 +112,8 @@ ProfileModel::Local ProfileModel::local_at(const Shape& shape, std::size_t inter
   const auto add = [&](double offset, double weight) {
     const double t = half + offset;
     const double slope = slope_at(shape, interval, t);
-    const Vec2 tangent{std::cos(slope), std::sin(slope)};
+    const auto [sine, cosine] = math::sine_cosine(slope);
+    const Vec2 tangent{cosine, sine};
     const double right_area = 0.5 * t * t / width(interval);
     const double left_area = area_before(interval) + t - right_area;
     const double weighted = half * weight * shape.length;
@@ -120,13 +122,14 @@ ProfileModel::Local ProfileModel::local_at(const Shape& shape, std::size_t inter
     sum.left_turned = sum.left_turned + (weighted * left_area) * perpendicular(tangent);
     sum.right_turned = sum.right_turned + (weighted * right_area) * perpendicular(tangent);
   };
-  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+  add(0.0, Rule::weights()[0]);
+  for (std::size_t i = 1; i < Rule::abscissa().size(); ++i) {
     add(-half * Rule::abscissa()[i], Rule::weights()[i]);
     add(half * Rule::abscissa()[i], Rule::weights()[i]);
   }
   sum.position = knot_positions_[interval] + sum.position;
-  const double slope = slope_at(shape, interval, local);
-  sum.tangent = {std::cos(slope), std::sin(slope)};
+  const auto [sine, cosine] = math::sine_cosine(slope_at(shape, interval, local));
+  sum.tangent = {cosine, sine};
   return sum;
 }
 

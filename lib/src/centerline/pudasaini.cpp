@@ -3,6 +3,7 @@
 #include "glissade/centerline/pudasaini.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -66,9 +67,9 @@ double speed_from_rest(const Centerline& track, double s, Friction friction, dou
   const double start = track.slope_angle(0.0);
   const auto drive = [&](double station) {
     const double zeta = track.slope_angle(station);
-    return std::exp(-2.0 * mu * (zeta - start)) * (std::sin(zeta) - mu * std::cos(zeta));
+    return math::exp(-2.0 * mu * (zeta - start)) * (math::sin(zeta) - mu * math::cos(zeta));
   };
-  const double square = 2.0 * gravity * std::exp(2.0 * mu * (track.slope_angle(s) - start)) *
+  const double square = 2.0 * gravity * math::exp(2.0 * mu * (track.slope_angle(s) - start)) *
                         integral_from_start(track, drive, s);
   if (square >= 0.0) return std::sqrt(square);
   throw InfeasibleError(Issue{"", "a body from rest stalls before s = " + length_text(s), "", ""});
@@ -80,7 +81,8 @@ double travel_time_from_rest(const Centerline& track, Friction friction, double 
 }
 
 double slope_angle_rate(double slope_angle, const Setting& setting) {
-  return -lambda(setting) * (std::sin(slope_angle) - setting.friction.coefficient() * std::cos(slope_angle));
+  return -lambda(setting) *
+         (math::sin(slope_angle) - setting.friction.coefficient() * math::cos(slope_angle));
 }
 
 double offset(double x, double y, double slope_angle, const Setting& setting) {
@@ -88,7 +90,7 @@ double offset(double x, double y, double slope_angle, const Setting& setting) {
 }
 
 double slope(double x, double y, double offset, const Setting& setting) {
-  return std::tan(lambda(setting) * (setting.friction.coefficient() * x - y) + offset);
+  return math::tan(lambda(setting) * (setting.friction.coefficient() * x - y) + offset);
 }
 
 double slope_derivative(double slope, const Setting& setting) {
@@ -98,23 +100,23 @@ double slope_derivative(double slope, const Setting& setting) {
 double implicit_constant(double x, double y, double offset, const Setting& setting) {
   const double mu = setting.friction.coefficient();
   const double angle = lambda(setting) * (mu * x - y) + offset;
-  const double argument = mu * std::cos(angle) - std::sin(angle);
+  const double argument = mu * math::cos(angle) - math::sin(angle);
   if (argument == 0.0) {
     throw InputError(
         Issue{"", "the implicit solution has no logarithm where the slope equals mu = " + exact_text(mu), "",
               "a track that is not straight"});
   }
-  return (mu * angle - std::log(std::abs(argument))) / (1.0 + mu * mu) - lambda(setting) * x;
+  return (mu * angle - math::log(std::abs(argument))) / (1.0 + mu * mu) - lambda(setting) * x;
 }
 
 double sag(const ConstantSpeedCurve& curve) {
   const double run = std::abs(curve.endpoints().run);
   const double drop = curve.endpoints().drop;
-  const double chord_angle = std::atan2(drop, run);
+  const double chord_angle = math::atan2(drop, run);
   if (curve.entry_slope_angle() == curve.exit_slope_angle()) return 0.0;
   // Farthest from the chord where the track is parallel to it.
   const CenterlinePoint farthest = curve.at(curve.arc_length_at_slope(Angle::from_radians(chord_angle)));
-  return std::abs(farthest.drop * std::cos(chord_angle) - farthest.x * std::sin(chord_angle));
+  return std::abs(farthest.drop * math::cos(chord_angle) - farthest.x * math::sin(chord_angle));
 }
 
 std::vector<ConstantSpeedCurve> figure_one(Endpoints endpoints, double p, double gravity) {

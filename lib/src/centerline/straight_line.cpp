@@ -1,6 +1,7 @@
 #include "glissade/centerline/straight_line.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <cmath>
@@ -10,8 +11,8 @@ namespace glissade {
 StraightLine::StraightLine(const Endpoints& endpoints)
     : run_(std::fabs(endpoints.run)),
       drop_(endpoints.drop),
-      length_(std::hypot(run_, drop_)),
-      slope_angle_(std::atan2(drop_, run_)) {
+      length_(math::hypot(run_, drop_)),
+      slope_angle_(math::atan2(drop_, run_)) {
   if (!std::isfinite(length_)) {
     throw InputError({"",
                       "endpoints: run " + exact_text(endpoints.run) + " m, drop " +

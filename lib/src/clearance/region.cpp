@@ -1,5 +1,7 @@
 #include "clearance/region.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -165,8 +167,8 @@ void Region::build_boxes(std::size_t node, std::size_t begin, std::size_t end) {
 void Region::search(std::size_t node, std::size_t begin, std::size_t end, std::span<const Vec2> shape,
                     const Box& around, Nearest& nearest) const {
   const auto apart = [&](const Box& box) {
-    return std::hypot(std::max({box.low.x - around.high.x, 0.0, around.low.x - box.high.x}),
-                      std::max({box.low.y - around.high.y, 0.0, around.low.y - box.high.y}));
+    return math::hypot(std::max({box.low.x - around.high.x, 0.0, around.low.x - box.high.x}),
+                       std::max({box.low.y - around.high.y, 0.0, around.low.y - box.high.y}));
   };
   if (end - begin <= kLeaf || 2 * node + 1 >= boxes_.size()) {
     for (std::size_t i = begin; i < end; ++i) {

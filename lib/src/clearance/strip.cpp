@@ -1,5 +1,7 @@
 #include "clearance/strip.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -85,8 +87,8 @@ Strip::Rib Strip::rib(const CenterlinePoint& point) const {
   Rib rib;
   rib.s = point.arc_length;
   rib.point = {point.x, point.drop};
-  const double sine = std::sin(point.slope_angle);
-  const double cosine = std::cos(point.slope_angle);
+  const double sine = math::sin(point.slope_angle);
+  const double cosine = math::cos(point.slope_angle);
   rib.tangent = {cosine, sine};
   rib.normal = {sine, -cosine};
   rib.slope = point.slope_angle;

@@ -1,6 +1,7 @@
 #include "glissade/core/units.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <cmath>
@@ -15,7 +16,7 @@ Friction Friction::from_angle(Angle angle) {
          "A friction angle lies between 0 and 90 deg (90 excluded).",
          "the angle at which the material just starts to slide on the track, often 10 to 40 deg"});
   }
-  return Friction(std::tan(radians));
+  return Friction(math::tan(radians));
 }
 
 Friction Friction::from_coefficient(double mu) {
@@ -28,7 +29,7 @@ Friction Friction::from_coefficient(double mu) {
 }
 
 Angle Friction::angle() const {
-  return Angle::from_radians(std::atan(coefficient_));
+  return Angle::from_radians(math::atan(coefficient_));
 }
 
 }  // namespace glissade

@@ -1,5 +1,6 @@
 #include "design/check.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/checks.hpp"
@@ -15,7 +16,7 @@ std::string metres(double value) {
 }
 
 double run_of(const TrackDesign& track) {
-  return std::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
+  return math::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
 }
 
 double drop_of(const TrackDesign& track) {
@@ -74,9 +75,9 @@ std::optional<Finding> find_unreachable(const Design& design) {
   constexpr double kAbove = 1.0 + 1e-3;
   const std::string key = friction_key(design);
   const bool by_coefficient = key == "friction_coefficient";
-  const double mean_slope = std::atan2(drop, run);
-  const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle_text(std::atan(mu)) + ")"
-                                           : angle_text(std::atan(mu));
+  const double mean_slope = math::atan2(drop, run);
+  const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle_text(math::atan(mu)) + ")"
+                                           : angle_text(math::atan(mu));
   const std::string better =
       by_coefficient ? rounded_text(kBelow * drop / run, 4) : angle_text(kBelow * mean_slope);
   Issue issue;

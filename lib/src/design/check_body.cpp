@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/checks.hpp"
@@ -19,8 +20,8 @@ void check_friction_range(const Design& design, Collected& findings) {
   if (low > nominal || nominal > high) {
     report(findings, {"body." + key},
            {"", key + ": low, nominal and high are not in ascending order",
-            "They are " + angle_text(std::atan(low)) + ", " + angle_text(std::atan(nominal)) + " and " +
-                angle_text(std::atan(high)) + ".",
+            "They are " + angle_text(math::atan(low)) + ", " + angle_text(math::atan(nominal)) + " and " +
+                angle_text(math::atan(high)) + ".",
             ""});
   }
   if ((body.low_friction || body.high_friction) && !design.limits) {

@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/check.hpp"
@@ -140,7 +141,7 @@ Vec2 end_of_segments(const CenterlineDesign& centerline) {
     for (int piece = 0; piece < pieces; ++piece) {
       for (const auto& [node, weight] : kRule) {
         const double zeta = slope_at(segment, slope, half * (2.0 * piece + 1.0 + node));
-        end = end + (weight * half) * Vec2{std::cos(zeta), -std::sin(zeta)};
+        end = end + (weight * half) * Vec2{math::cos(zeta), -math::sin(zeta)};
       }
     }
     slope += slope_change(segment);

@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/checks.hpp"
@@ -231,7 +232,7 @@ void check_line(const std::vector<Vec2>& line, const std::string& key, Collected
 /// The point of the track's vertical plane, in the coordinates that limits are given in.
 Vec2 in_limit_plane(const TrackDesign& track, Vec3 point) {
   if (track.start.y == track.finish.y) return {point.x, point.z};
-  return {std::hypot(point.x - track.start.x, point.y - track.start.y), point.z};
+  return {math::hypot(point.x - track.start.x, point.y - track.start.y), point.z};
 }
 
 struct NamedPoint {

@@ -1,5 +1,6 @@
 #include "glissade/design/design.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/check.hpp"
@@ -35,10 +36,10 @@ Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {
 
 std::optional<Issue> missed_finish(const TrackDesign& track, const std::string& who, Vec2 end,
                                    double allowance) {
-  const double run = std::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
+  const double run = math::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
   const double drop = track.start.z - track.finish.z;
-  const double miss = std::hypot(end.x - run, end.y - drop);
-  if (miss <= kFinishAgreement * std::hypot(run, drop) + allowance) return {};
+  const double miss = math::hypot(end.x - run, end.y - drop);
+  if (miss <= kFinishAgreement * math::hypot(run, drop) + allowance) return {};
   return Issue{"", who + " miss the finish by " + length_text(miss),
                "They end " + length_text(end.x) + " away and " + length_text(end.y) +
                    " below the start; the finish is " + length_text(run) + " away and " + length_text(drop) +

@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/design/design.hpp"
@@ -71,7 +72,7 @@ LimitRange read_free_range(const Value& value, Findings& findings) {
 /// A value for a free coordinate: within its range, and where the finish is easiest to reach.
 double easiest_height(const TrackDesign& track) {
   if (track.free_range.lowest) return *track.free_range.lowest;
-  const double run = std::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
+  const double run = math::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
   return std::min(track.start.z, track.free_range.highest.value_or(track.start.z)) - run;
 }
 

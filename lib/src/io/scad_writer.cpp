@@ -1,4 +1,5 @@
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/scad_file.hpp"
@@ -48,7 +49,7 @@ constexpr std::string_view kCenterlineModule =
 /// @return level unit vector from start to finish; +x where the finish lies straight below the start
 Vec3 direction_of(const std::vector<Vec3>& centerline) {
   const Vec3 chord = centerline.back() - centerline.front();
-  const double run = std::hypot(chord.x, chord.y);
+  const double run = math::hypot(chord.x, chord.y);
   return run > 0.0 ? Vec3{chord.x / run, chord.y / run, 0.0} : Vec3{1.0, 0.0, 0.0};
 }
 

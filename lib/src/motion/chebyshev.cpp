@@ -1,5 +1,7 @@
 #include "chebyshev.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,7 +30,7 @@ Values make_nodes() {
   Values x;
   for (std::size_t j = 0; j < kNodes; ++j) {
     const double half_angle = 0.5 * std::numbers::pi * static_cast<double>(j) / kDegree;
-    x[j] = std::sin(half_angle) * std::sin(half_angle);
+    x[j] = math::sin(half_angle) * math::sin(half_angle);
   }
   x.back() = 1.0;
   return x;
@@ -59,10 +61,12 @@ Values basis_at(double x) {
   return basis;
 }
 
-/// Row i: Int_0^1 basis(x_i t) weight(t) dt, by a Gauss rule that is exact for it.
+/// Row i: Int_0^1 basis(x_i t) weight(t) dt, by a Gauss rule that is exact for it, of those that Boost has as a
+/// table: nodes that it computes vary by processor.
 template <class Weight>
 Matrix mean_matrix(const Weight& weight) {
-  using Rule = boost::math::quadrature::gauss<double, kNodes + 1>;
+  using Rule = boost::math::quadrature::gauss<double, 20>;
+  static_assert(kNodes <= 2 * 20 - 1);  // degree kNodes - 1, times a weight of degree 1
   Matrix matrix{};
   const auto add = [&](std::size_t row, double t, double gauss_weight) {
     const Values basis = basis_at(nodes()[row] * t);
@@ -84,7 +88,7 @@ Matrix coefficient_matrix() {
       const double halves = (k == 0 || k == kDegree ? 0.5 : 1.0) * (j == 0 || j == kDegree ? 0.5 : 1.0);
       // Node j lies at -cos(j pi / n) on [-1, 1]; the angle is reduced so that it stays exact.
       const double turn = static_cast<double>((k * (kDegree - j)) % (2 * kDegree)) / kDegree;
-      matrix[k][j] = 2.0 * halves / kDegree * std::cos(std::numbers::pi * turn);
+      matrix[k][j] = 2.0 * halves / kDegree * math::cos_pi(turn);
     }
   }
   return matrix;

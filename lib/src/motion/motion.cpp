@@ -1,6 +1,7 @@
 #include "glissade/motion/motion.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "ride.hpp"
@@ -229,13 +230,13 @@ LawState Motion::Ride::law_state(const MotionState& state) const {
       .v = v,
       .normal_load = state.normal_load,
       .friction = equation().friction_at(s),
-      .drive = equation().gravity * std::sin(direction.slope_angle) - equation().k * equation().dragged(v)};
+      .drive = equation().gravity * math::sin(direction.slope_angle) - equation().k * equation().dragged(v)};
 }
 
 QuantityPeak Motion::Ride::highest(std::size_t index) const {
   const auto value_at = [&](double s) { return body_.law->quantity(index, law_state(at(s))); };
   // Infinite values are told apart by no search: it goes by a value that stays finite.
-  const auto finite_at = [&](double s) { return std::atan(value_at(s)); };
+  const auto finite_at = [&](double s) { return math::atan(value_at(s)); };
   std::vector<double> places;
   for (const Panel& panel : record_.panels) {
     for (std::size_t i = 0; i + 1 < chebyshev::kNodes; i += 2) {
@@ -263,7 +264,7 @@ QuantityPeak Motion::Ride::highest(std::size_t index) const {
   }
   const std::optional<double> bound = body_.law->quantities().at(index).highest;
   if (!bound || !(peak.value > *bound)) return peak;
-  const double limit = std::atan(*bound);
+  const double limit = math::atan(*bound);
   std::size_t first = 0;
   while (first + 1 < places.size() && values[first] <= limit) ++first;
   if (values[first] <= limit) {

@@ -1,5 +1,7 @@
 #include "panel.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,14 +47,14 @@ double Equation::path_rate(const Direction& direction) const {
 }
 
 double Equation::push(const Direction& direction, double friction) const {
-  const double zeta = direction.slope_angle;
-  const double along = gain * gravity * (std::sin(zeta) - friction * std::cos(zeta));
+  const auto [sine, cosine] = math::sine_cosine(direction.slope_angle);
+  const double along = gain * gravity * (sine - friction * cosine);
   return height == 0.0 ? along : along * path_rate(direction);
 }
 
 double Equation::keep(double turn, double distance, double friction) const {
   // The centre's way is shorter by h where the track turns upwards by 1 rad.
-  return std::exp(gain * (friction * turn - k * (distance + height * turn)));
+  return math::exp(gain * (friction * turn - k * (distance + height * turn)));
 }
 
 double Equation::resistance(double s, double v) const {
@@ -73,7 +75,7 @@ Equation::Extra Equation::extra(const Direction& direction, double s, double fri
     // in which that happens is smooth.
     const double v_of_law = std::max(v, kContinued * law->least_v(s));
     const Resistance c = law->resistance(s, v_of_law);
-    const double pressing = path * gravity * std::cos(direction.slope_angle) + direction.curvature * v;
+    const double pressing = path * gravity * math::cos(direction.slope_angle) + direction.curvature * v;
     const double by_v = v_of_law > v ? 0.0 : c.by_v;
     extra.rate = -gain * friction * (by_v * pressing + (c.factor - 1.0) * direction.curvature);
     extra.push = -gain * friction * (c.factor - 1.0) * pressing - extra.rate * v;
@@ -88,7 +90,7 @@ double Equation::slope_at_rest(const Direction& direction, double friction) cons
 }
 
 double Equation::load(const Direction& direction, double v) const {
-  const double weight = gravity * std::cos(direction.slope_angle);
+  const double weight = gravity * math::cos(direction.slope_angle);
   if (v == 0.0) return weight;
   if (height == 0.0) return weight + direction.curvature * v;
   return weight + direction.curvature * v / path_rate(direction);
@@ -220,7 +222,7 @@ void Panel::settle(const Equation& equation, Nodes& nodes) {
     }
     if (equation.law != nullptr) *mean_rate = chebyshev::running_mean(rate);
     for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
-      nodes.keeping[i] = nodes.closed_keeping[i] * std::exp(side * stretch.width * x[i] * (*mean_rate)[i]);
+      nodes.keeping[i] = nodes.closed_keeping[i] * math::exp(side * stretch.width * x[i] * (*mean_rate)[i]);
       push[i] /= nodes.keeping[i];
     }
     add_up(nodes);
@@ -292,7 +294,7 @@ double Panel::v_for(const Equation& equation, double sigma, double zeta) const {
   double keeping = equation.keep(zeta - anchor_zeta, s - stretch.anchor(), friction);
   if (mean_rate) {
     const double rate = chebyshev::Interpolation(sigma / stretch.width)(*mean_rate);
-    keeping *= std::exp((stretch.anchored_at_end ? -sigma : sigma) * rate);
+    keeping *= math::exp((stretch.anchored_at_end ? -sigma : sigma) * rate);
   }
   // Rounding alone can take w below zero, where the body comes to rest.
   return keeping * std::max(0.0, scaled_w(sigma));

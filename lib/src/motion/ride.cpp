@@ -1,6 +1,7 @@
 #include "ride.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -211,7 +212,7 @@ bool Integrator::starts() {
   const double rounding = kPushRounding * 2.0 * equation().gravity * (1.0 + mu);
   // Where the valley is too tight at once, the ride ends for that.
   if (equation().path_rate(start) <= kTight || equation().slope_at_rest(start, mu) > rounding) return true;
-  record_.stall = Stall{0.0, std::max(0.0, std::atan(mu) - start.slope_angle)};
+  record_.stall = Stall{0.0, std::max(0.0, math::atan(mu) - start.slope_angle)};
   close(0.0, 0.0);
   return false;
 }
@@ -355,7 +356,7 @@ void Integrator::stall(const Panel& panel) {
       root_between([&](double at) { return panel.scaled_w(at); }, node_sigma(node - 1), node_sigma(node));
   const double s = panel.stretch.arc_length(sigma);
   come_to_rest(panel.stretch, s, kDeepest);
-  const double missing = std::atan(panel.friction) - equation().centerline->slope_angle(s);
+  const double missing = math::atan(panel.friction) - equation().centerline->slope_angle(s);
   record_.stall = Stall{s, std::max(0.0, missing)};
   close(s, 0.0);
 }

@@ -1,6 +1,7 @@
 #include "optimize/guess.hpp"
 
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,8 @@ constexpr double kRightAngle = 0.5 * std::numbers::pi;
 
 /// ds/dzeta of the frictional brachistochrone with exit slope angle zeta_1, for scale C = 1.
 double arc_per_angle(double zeta, double zeta_1, double mu) {
-  const double cosine = std::cos(zeta);
-  const double sine = std::sin(zeta);
-  const double t1 = std::tan(zeta_1);
+  const auto [sine, cosine] = math::sine_cosine(zeta);
+  const double t1 = math::tan(zeta_1);
   const double q2 = 1.0 - mu * mu + 2.0 * mu * t1;
   // E cos^2, so that the vertical start stays finite.
   const double lean = sine - mu * cosine;
@@ -48,8 +48,9 @@ Arc trace(double zeta_1, double mu, int steps) {
       const double zeta = angle(from + (to - from) * kShare[k]);
       const double ds = kWeight[k] * turn * (to - from) * arc_per_angle(zeta, zeta_1, mu);
       s += ds;
-      arc.x += ds * std::cos(zeta);
-      arc.y += ds * std::sin(zeta);
+      const auto [sine, cosine] = math::sine_cosine(zeta);
+      arc.x += ds * cosine;
+      arc.y += ds * sine;
     }
     arc.s.push_back(s);
     arc.zeta.push_back(angle(to));
@@ -73,14 +74,15 @@ GuessCurve brachistochrone_guess(double run, double drop, double mu) {
   const CoulombSolution exact =
       solve_coulomb_brachistochrone({run, drop}, Friction::from_coefficient(mu), 1.0);
   const Arc arc = trace(exact.exit_slope_angle, mu, kSteps);
-  const double scale = std::hypot(run, drop) / std::hypot(arc.x, arc.y);
+  const double scale = math::hypot(run, drop) / math::hypot(arc.x, arc.y);
   GuessCurve guess;
   guess.length = arc.s.back() * scale;
   guess.zeta = arc.zeta;
-  const double q2 = 1.0 - mu * mu + 2.0 * mu * std::tan(exact.exit_slope_angle);
+  const double q2 = 1.0 - mu * mu + 2.0 * mu * math::tan(exact.exit_slope_angle);
   for (const double zeta : arc.zeta) {
-    const double lean = std::sin(zeta) - mu * std::cos(zeta);
-    guess.speed.push_back(std::cos(zeta) / (lean * lean + q2 * std::cos(zeta) * std::cos(zeta)));
+    const auto [sine, cosine] = math::sine_cosine(zeta);
+    const double lean = sine - mu * cosine;
+    guess.speed.push_back(cosine / (lean * lean + q2 * cosine * cosine));
   }
   for (const double s : arc.s) guess.sigma.push_back(s / arc.s.back());
   return guess;
@@ -107,7 +109,7 @@ Vector graded_knots(const GuessCurve& curve, std::size_t pieces, double entry_le
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double speed = curve.speed.empty() ? std::sqrt(middle(i) + entry_length)
                                              : 0.5 * (curve.speed[i] + curve.speed[i + 1]);
-    density[i] = std::pow(second[i] * second[i] / speed, 1.0 / 7.0);
+    density[i] = math::pow(second[i] * second[i] / speed, 1.0 / 7.0);
     mean += density[i] * (curve.sigma[i + 1] - curve.sigma[i]);
   }
   constexpr double kEvenShare = 0.05;

@@ -1,5 +1,6 @@
 #include "optimize/infeasibility.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "optimize/least_violation.hpp"
@@ -85,7 +86,7 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
   conflict.relaxations.push_back({"finish.drop", problem.endpoints.drop, friction.coefficient() * run, "m"});
   conflict.text = "from rest, no track reaches the finish at a friction angle of " +
                   angle_text(friction.angle().radians()) + ": the mean slope is " +
-                  angle_text(std::atan2(problem.endpoints.drop, run)) +
+                  angle_text(math::atan2(problem.endpoints.drop, run)) +
                   ", whatever the shape (reach theorem); a drop above " +
                   length_text(friction.coefficient() * run) + " would do";
   return conflict;

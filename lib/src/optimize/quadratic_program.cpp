@@ -1,5 +1,7 @@
 #include "optimize/quadratic_program.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -54,7 +56,7 @@ class ActiveBasis {
     for (std::size_t j = index; j < r_.size(); ++j) {
       const double a = r_[j][j];
       const double b = r_[j][j + 1];
-      const double size = std::hypot(a, b);
+      const double size = math::hypot(a, b);
       const double cosine = a / size;
       const double sine = b / size;
       for (std::size_t k = j; k < r_.size(); ++k) rotate(r_[k][j], r_[k][j + 1], cosine, sine);

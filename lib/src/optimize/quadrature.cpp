@@ -1,5 +1,7 @@
 #include "optimize/quadrature.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -29,7 +31,7 @@ PanelRule make_rule() {
   std::array<double, kNodes> t{};
   std::array<double, kNodes> w{};
   for (std::size_t i = 0; i < kNodes; ++i) {
-    double root = -std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
+    double root = -math::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
     double slope = 1.0;
     for (int step = 0; step < 60; ++step) {
       const Legendre p = legendre(root);

@@ -1,6 +1,7 @@
 #include "optimize/referee.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/motion/motion.hpp"
 
 #include "core/plane_geometry.hpp"
@@ -190,7 +191,7 @@ class Watches {
     // Unbounded curvature at a start from rest loads the track all the same no more than finitely.
     const double curvature_load = std::isfinite(point.curvature)
                                       ? point.curvature * state.speed * state.speed
-                                      : state.normal_load - problem_.gravity * std::cos(point.slope_angle);
+                                      : state.normal_load - problem_.gravity * math::cos(point.slope_angle);
     const double speed_scale = std::sqrt(problem_.gravity * chord_);
     if (limits.highest_normal_load) {
       watch("highest_normal_load", "m/s^2", +1, *limits.highest_normal_load,
@@ -232,7 +233,7 @@ class Watches {
     double miss = 0.0;
     switch (problem_.finish.kind) {
       case FinishKind::point:
-        miss = std::hypot(miss_run, miss_drop);
+        miss = math::hypot(miss_run, miss_drop);
         break;
       case FinishKind::vertical_line:
         miss = std::fabs(miss_run);
@@ -324,8 +325,8 @@ double closest_approach(const Centerline& track, const std::vector<CenterlinePoi
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
     const CenterlinePoint point = track.at(middle);
-    const double along = (target.x - point.x) * std::cos(point.slope_angle) +
-                         (target.y - point.drop) * std::sin(point.slope_angle);
+    const double along = (target.x - point.x) * math::cos(point.slope_angle) +
+                         (target.y - point.drop) * math::sin(point.slope_angle);
     (along > 0.0 ? low : high) = middle;
   }
   where = 0.5 * (low + high);
@@ -421,7 +422,7 @@ const LimitCheck* Verdict::find(const std::string& limit) const {
 Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
                     BrokenRides broken_rides) {
   const CenterlinePoint end = track->at(track->length());
-  const double chord = std::hypot(end.x, end.drop);
+  const double chord = math::hypot(end.x, end.drop);
   const std::vector<double> stations = sampled(*track, problem.limits, samples);
   std::vector<CenterlinePoint> points;
   points.reserve(stations.size());

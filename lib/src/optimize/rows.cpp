@@ -1,5 +1,7 @@
 #include "optimize/rows.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +18,7 @@ double free_fall(const Transcription& track, std::size_t station, double entry_s
 double corner_distance(const Foot& foot, Vec2 corner, double side) {
   const double dx = corner.x - foot.x;
   const double dy = corner.y - foot.y;
-  if (foot.end) return std::hypot(dx, dy);
+  if (foot.end) return math::hypot(dx, dy);
   return side * (-foot.sin * dx + foot.cos * dy);
 }
 
@@ -283,7 +285,7 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
   track_.foot_derivatives(state.z, shape, foot, dx, dy);
   Vec2 away{-side * foot.sin, side * foot.cos};
   if (foot.end) {
-    const double distance = std::hypot(corner.x - foot.x, corner.y - foot.y);
+    const double distance = math::hypot(corner.x - foot.x, corner.y - foot.y);
     if (distance == 0.0) return;
     away = {(corner.x - foot.x) / distance, (corner.y - foot.y) / distance};
   }

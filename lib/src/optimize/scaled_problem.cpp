@@ -1,6 +1,7 @@
 #include "optimize/scaled_problem.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   const double run = std::fabs(problem.endpoints.run);
   switch (problem.finish.kind) {
     case FinishKind::point:
-      out.chord = std::hypot(run, problem.endpoints.drop);
+      out.chord = math::hypot(run, problem.endpoints.drop);
       break;
     case FinishKind::vertical_line:
       out.chord = run;

@@ -1,6 +1,7 @@
 #include "optimize/starts.hpp"
 
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ Vec2 expected_finish(const ScaledProblem& problem) {
 
 GuessCurve straight(Vec2 finish) {
   GuessCurve curve;
-  const double angle = std::atan2(finish.y, finish.x);
+  const double angle = math::atan2(finish.y, finish.x);
   constexpr int kSteps = 64;
   for (int i = 0; i <= kSteps; ++i) {
     // A little sag breaks the tie between the two ways to bend.

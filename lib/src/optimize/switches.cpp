@@ -1,5 +1,7 @@
 #include "optimize/switches.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -482,7 +484,7 @@ class Demand {
     for (std::size_t i = 0; i + 1 < n; ++i) {
       const double error = 0.5 * (third[i] + third[i + 1]);
       const double speed = std::sqrt(0.5 * (knots_[i] + knots_[i + 1]) + before);
-      density[i] = std::pow(error * error / speed, 1.0 / 7.0);
+      density[i] = math::pow(error * error / speed, 1.0 / 7.0);
       mean += density[i] * (knots_[i + 1] - knots_[i]);
     }
     for (std::size_t i = 0; i + 1 < n; ++i) {

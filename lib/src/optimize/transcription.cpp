@@ -1,5 +1,7 @@
 #include "optimize/transcription.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include "optimize/quadrature.hpp"
 
 #include <algorithm>
@@ -102,7 +104,7 @@ void Transcription::add_panels(double a, double b, Part part, std::size_t piece)
   const double r_last = std::sqrt(b + shift);
   int count = 1;
   if (r_first > 0.0) {
-    const double growth = std::log(r_last / r_first) / std::log(kPanelGrowth);
+    const double growth = math::log(r_last / r_first) / math::log(kPanelGrowth);
     count = std::max(1, static_cast<int>(std::ceil(growth - 1e-9)));
   }
   const double whole =
@@ -112,7 +114,7 @@ void Transcription::add_panels(double a, double b, Part part, std::size_t piece)
   const auto r_at = [&](int i) {
     const double share = static_cast<double>(i) / count;
     if (i == count) return r_last;
-    return geometric ? r_first * std::pow(r_last / r_first, share) : r_first + share * (r_last - r_first);
+    return geometric ? r_first * math::pow(r_last / r_first, share) : r_first + share * (r_last - r_first);
   };
   for (int i = 0; i < count; ++i) {
     const double from = i == 0 ? r_first : r_at(i);
@@ -171,8 +173,9 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   out.y.assign(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     out.zeta[i] = dot(dzeta_.row(i), z.data(), n);
-    out.sin[i] = std::sin(out.zeta[i]);
-    out.cos[i] = std::cos(out.zeta[i]);
+    const auto [sine, cosine] = math::sine_cosine(out.zeta[i]);
+    out.sin[i] = sine;
+    out.cos[i] = cosine;
     out.curvature[i] = curvature(z, i);
   }
   if (derivatives) {
@@ -248,12 +251,13 @@ Foot Transcription::advance(const Vector& z, const Shape& shape, std::size_t bas
   foot.x = shape.x[base];
   foot.y = shape.y[base];
   for (std::size_t k = 0; k < kNodes; ++k) {
-    const double zeta = angle(ds * rule.node[k]);
-    foot.x += rule.weight[k] * ds * std::cos(zeta);
-    foot.y += rule.weight[k] * ds * std::sin(zeta);
+    const auto [sine, cosine] = math::sine_cosine(angle(ds * rule.node[k]));
+    foot.x += rule.weight[k] * ds * cosine;
+    foot.y += rule.weight[k] * ds * sine;
   }
-  foot.cos = std::cos(angle(ds));
-  foot.sin = std::sin(angle(ds));
+  const auto [sine, cosine] = math::sine_cosine(angle(ds));
+  foot.cos = cosine;
+  foot.sin = sine;
   return foot;
 }
 
@@ -261,7 +265,7 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
   std::size_t nearest = 0;
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const double distance = std::hypot(shape.x[i] - target_x, shape.y[i] - target_y);
+    const double distance = math::hypot(shape.x[i] - target_x, shape.y[i] - target_y);
     if (distance < least) {
       least = distance;
       nearest = i;
@@ -316,11 +320,11 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
       node.share = (node.sigma - knot) / (mesh_.knots[node.piece + 1] - knot);
     }
     turning_row(node, row.data());
-    const double zeta = dot(row.data(), z.data(), n);
-    add_scaled(dx.data(), -rule.weight[k] * ds * std::sin(zeta), row.data(), n);
-    add_scaled(dy.data(), rule.weight[k] * ds * std::cos(zeta), row.data(), n);
-    dx[layout_.length()] += rule.weight[k] * d_sigma * std::cos(zeta);
-    dy[layout_.length()] += rule.weight[k] * d_sigma * std::sin(zeta);
+    const auto [sine, cosine] = math::sine_cosine(dot(row.data(), z.data(), n));
+    add_scaled(dx.data(), -rule.weight[k] * ds * sine, row.data(), n);
+    add_scaled(dy.data(), rule.weight[k] * ds * cosine, row.data(), n);
+    dx[layout_.length()] += rule.weight[k] * d_sigma * cosine;
+    dy[layout_.length()] += rule.weight[k] * d_sigma * sine;
   }
 }
 
@@ -354,7 +358,7 @@ void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, 
       const std::size_t at = panel.first + k;
       const double s = stations_[at].arc_length(length) - s_start;
       const double turned = shape.zeta[at] - zeta_start;
-      const double weight = std::exp(-2.0 * mu * turned + 2.0 * ride.drag * s);
+      const double weight = math::exp(-2.0 * mu * turned + 2.0 * ride.drag * s);
       const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
       f[k] = drive * weight * panel.ds[k];
       if (!derivatives) continue;
@@ -378,7 +382,7 @@ void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, 
       for (std::size_t k = 0; k < kNodes; ++k) sum += row[k] * f[k];
       const double s = stations_[at].arc_length(length) - s_start;
       const double turned = shape.zeta[at] - zeta_start;
-      const double back = std::exp(2.0 * mu * turned - 2.0 * ride.drag * s);
+      const double back = math::exp(2.0 * mu * turned - 2.0 * ride.drag * s);
       const double w = v_start + scale * sum;
       out.v[at] = w * back;
       if (derivatives) {
@@ -496,7 +500,7 @@ void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ri
         add_scaled(parts.length.data(), 2.0 * mu * reach * by_v * flow.v[at], dzeta_.row(at), at_length);
         parts.length[at_length] -= 0.5 * reach * reach * by_v * flow.v[at];
       }
-      by_w[q] = by_v * std::exp(exponent(at));
+      by_w[q] = by_v * math::exp(exponent(at));
     }
     later += by_w[kNodes];
     for (std::size_t k = 0; k < kNodes; ++k) {
@@ -504,7 +508,7 @@ void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ri
       double sum = rule.weight[k] * later;
       for (std::size_t q = 0; q < kNodes; ++q) sum += rule.to_node[q][k] * by_w[q];
       if (sum == 0.0) continue;
-      sum *= panel.ds[k] * std::exp(-exponent(at));
+      sum *= panel.ds[k] * math::exp(-exponent(at));
       const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
       const double drive1 = 2.0 * (shape.cos[at] + mu * shape.sin[at]);
       const double f1 = drive1 - 2.0 * mu * drive;
@@ -517,7 +521,7 @@ void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ri
     for (std::size_t q = 0; q < kNodes; ++q) later += by_w[q];
   }
   // What the body brings along: w = v_0 e^(-2 mu zeta_0).
-  parts.zeta_zeta[0] += later * 4.0 * mu * mu * ride.entry_speed2 * std::exp(-exponent(0));
+  parts.zeta_zeta[0] += later * 4.0 * mu * mu * ride.entry_speed2 * math::exp(-exponent(0));
 }
 
 Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,

@@ -5,6 +5,7 @@
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/centerline/no_curvature_load.hpp"
 #include "glissade/centerline/straight_line.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/profile_csv.hpp"
 #include "glissade/pipeline.hpp"
@@ -126,7 +127,7 @@ std::optional<double> Track::straight_travel_time() const {
 
 Endpoints endpoints_of(const Design& design) {
   const Vec3 way = design.track.finish - design.track.start;
-  return {std::hypot(way.x, way.y), -way.z};
+  return {math::hypot(way.x, way.y), -way.z};
 }
 
 Design with_finish(Design design) {

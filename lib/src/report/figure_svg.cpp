@@ -1,4 +1,5 @@
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/report/figure.hpp"
 
@@ -44,7 +45,7 @@ struct Range {
 
 double round_step(double span, double count) {
   const double rough = span / count;
-  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  const double decade = math::decade_of(rough);
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * decade >= rough) return factor * decade;
   }

@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/report/report.hpp"
@@ -128,7 +129,7 @@ std::vector<ReportKeepOut> report_keep_outs(const Design& design) {
   for (const ProfileDesign& ground : limits.stay_above) add("stay above", ground.line, true);
   for (const ProfileDesign& ceiling : limits.stay_below) add("stay below", ceiling.line, true);
   const Vec3 way = design.track.finish - design.track.start;
-  const double reach = std::hypot(way.x, way.y, way.z);
+  const double reach = math::hypot(way.x, way.y, way.z);
   for (const HalfPlaneDesign& side : limits.half_planes) {
     const Vec2 along{-side.forbidden.y * reach, side.forbidden.x * reach};
     add("half-plane",

@@ -1,5 +1,7 @@
 #include "report/ride_stations.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +14,7 @@ std::vector<double> stations_to(const Centerline& centerline, double distance) {
   std::vector<double> stations;
   for (int i = 0; i <= kStations; ++i) {
     const double fraction = static_cast<double>(i) / kStations;
-    stations.push_back(distance * std::pow(fraction, 1.5));
+    stations.push_back(distance * math::pow(fraction, 1.5));
   }
   for (const double s : centerline.breaks()) {
     if (s < distance) stations.push_back(s);

@@ -1,5 +1,6 @@
 #include "report/view_mesh.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -69,8 +70,8 @@ void pack(const ReportInput& input, const TriangleMesh& mesh, ViewMesh& view) {
   const Centerline& centerline = input.motion->centerline();
   const std::vector<Station> stations = stations_of(centerline, 300);
   const Vec3 start = input.placement.start();
-  const double cosine = std::cos(input.placement.azimuth().radians());
-  const double sine = std::sin(input.placement.azimuth().radians());
+  const double cosine = math::cos(input.placement.azimuth().radians());
+  const double sine = math::sin(input.placement.azimuth().radians());
   view.positions.reserve(3 * mesh.vertices.size());
   view.arc_length.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) {

@@ -1,6 +1,7 @@
 #include "glissade/solid/cross_section.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "core/plane_geometry.hpp"
@@ -166,7 +167,7 @@ void require_floor_at_origin(const Polygon& outline) {
 
 // Chords of a quarter turn.
 double chords_per_quarter(double radius, double chord_tolerance) {
-  const double half_step = 2.0 * std::asin(std::sqrt(std::min(0.5, 0.5 * chord_tolerance / radius)));
+  const double half_step = 2.0 * math::asin(std::sqrt(std::min(0.5, 0.5 * chord_tolerance / radius)));
   return std::max(kLeastChordsPerQuarter, std::ceil(0.25 * kPi / half_step));
 }
 
@@ -177,8 +178,8 @@ Polygon quarter(double radius, double height, double lowest, std::size_t chords)
   points.push_back({0.0, lowest});
   for (std::size_t i = 1; i < chords; ++i) {
     const double angle = 0.5 * kPi * static_cast<double>(i) / static_cast<double>(chords);
-    const double rise = std::sin(0.5 * angle);
-    points.push_back({radius * std::sin(angle), lowest + 2.0 * radius * rise * rise});
+    const double rise = math::sin(0.5 * angle);
+    points.push_back({radius * math::sin(angle), lowest + 2.0 * radius * rise * rise});
   }
   points.push_back({radius, height});
   return points;
@@ -249,11 +250,11 @@ CrossSection CrossSection::trapezoid(double floor_width, double wall_height, Ang
                           " from upright.",
                       "0 deg for upright walls, 30 deg for a common chute"});
   }
-  const double lean = std::tan(wall_angle.radians());
-  const double across = 1.0 / std::cos(wall_angle.radians());
+  const double lean = math::tan(wall_angle.radians());
+  const double across = 1.0 / math::cos(wall_angle.radians());
   const double half = 0.5 * floor_width;
   const double top = half + wall_height * lean;
-  const double foot = half + thickness * (1.0 - std::sin(wall_angle.radians())) * across;
+  const double foot = half + thickness * (1.0 - math::sin(wall_angle.radians())) * across;
   const double outer = top + thickness * across;
   CrossSection section(Kind::trapezoid);
   section.corners_ = {{-foot, -thickness}, {foot, -thickness}, {outer, wall_height}, {top, wall_height},
@@ -364,7 +365,7 @@ double CrossSection::chord_error(double chord_tolerance) const {
   if (!round()) return 0.0;
   const double outer = 0.5 * diameter_ + thickness_;
   const double quarter_step = 0.125 * kPi / chords_per_quarter(outer, chord_tolerance);
-  const double sine = std::sin(quarter_step);
+  const double sine = math::sin(quarter_step);
   return 2.0 * outer * sine * sine;
 }
 

@@ -1,6 +1,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/stop.hpp"
 
@@ -274,7 +275,7 @@ void measure_shape(const TriangleMesh& mesh, MeshFacts& facts) {
   facts.area = 0.5 * double_area.value();
   facts.shortest_edge = mesh.triangles.empty() ? 0.0 : std::sqrt(shortest_squared);
   const bool has_angle = !mesh.triangles.empty() && facts.degenerate_facets == 0;
-  facts.smallest_angle = has_angle ? std::atan2(1.0, cotangent) : 0.0;
+  facts.smallest_angle = has_angle ? math::atan2(1.0, cotangent) : 0.0;
 }
 
 /// Volume of every piece by the divergence theorem about the middle of the bounding box, which keeps the

@@ -1,5 +1,7 @@
 #include "solid/nesting.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,7 +48,7 @@ double solid_angle(Vec3 a, Vec3 b, Vec3 c) {
   const double lb = std::sqrt(dot(b, b));
   const double lc = std::sqrt(dot(c, c));
   return 2.0 *
-         std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+         math::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
 
 /// Adds up how often pieces wind around points, within a bound of work.

@@ -1,6 +1,7 @@
 #include "glissade/solid/placement.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <cmath>
@@ -19,7 +20,7 @@ void require_finite(const char* name, Vec3 point) {
 }  // namespace
 
 Placement::Placement(Vec3 start, Angle azimuth)
-    : start_(start), cos_(std::cos(azimuth.radians())), sin_(std::sin(azimuth.radians())) {
+    : start_(start), cos_(math::cos(azimuth.radians())), sin_(math::sin(azimuth.radians())) {
   require_finite("start", start);
   if (!std::isfinite(azimuth.radians())) {
     throw InputError({"", "azimuth: " + exact_text(azimuth.degrees()) + " deg is not a direction",
@@ -32,7 +33,7 @@ Placement Placement::through(Vec3 start, Vec3 finish) {
   require_finite("finish", finish);
   Placement placement;
   placement.start_ = start;
-  const double run = std::hypot(finish.x - start.x, finish.y - start.y);
+  const double run = math::hypot(finish.x - start.x, finish.y - start.y);
   if (run > 0.0) {
     placement.cos_ = (finish.x - start.x) / run;
     placement.sin_ = (finish.y - start.y) / run;
@@ -41,7 +42,7 @@ Placement Placement::through(Vec3 start, Vec3 finish) {
 }
 
 Angle Placement::azimuth() const {
-  return Angle::from_radians(std::atan2(sin_, cos_));
+  return Angle::from_radians(math::atan2(sin_, cos_));
 }
 
 }  // namespace glissade

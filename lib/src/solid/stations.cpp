@@ -1,5 +1,7 @@
 #include "solid/stations.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,8 +23,7 @@ constexpr double kPanelAgreement = 0.05;
 
 Station station_at(const Centerline& centerline, double s) {
   const CenterlinePoint at = centerline.at(s);
-  const double cosine = std::cos(at.slope_angle);
-  const double sine = std::sin(at.slope_angle);
+  const auto [sine, cosine] = math::sine_cosine(at.slope_angle);
   return {s, {at.x, -at.drop}, {cosine, -sine}, {sine, cosine}, at.slope_angle, at.curvature};
 }
 

@@ -1,6 +1,7 @@
 #include "solid/sweep_plan.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ double Planner::fitting_tolerance() const {
     const double middle = std::sqrt(fine * coarse);
     (fits(middle) ? coarse : fine) = middle;
   }
-  const double unit = std::pow(10.0, std::floor(std::log10(coarse)) - 1.0);
+  const double unit = math::decade_of(coarse) / 10.0;
   return std::ceil(coarse / unit) * unit;
 }
 

@@ -1,6 +1,7 @@
 #include "solid/sweep_refusal.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <cmath>
@@ -31,7 +32,7 @@ void refuse_section(const Centerline& centerline, const CrossSection& section, c
   const double reach = side > 0 ? section.highest() : -section.lowest();
   const std::string direction = side > 0 ? "above the floor" : "below the floor";
   double largest = curves.largest_height(side);
-  const double unit = std::pow(10.0, std::floor(std::log10(largest)) - 2.0);
+  const double unit = math::decade_of(largest) / 100.0;
   while (largest > 0.0 && curves.trims(side * largest).obstacle.has_value()) largest -= unit;
   largest = largest > 0.0 ? std::floor(0.999 * largest / unit) * unit : 0.0;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "glissade/core/math.hpp"
+
 #include <cmath>
 
 namespace glissade {
@@ -35,7 +37,7 @@ struct Vec3 {
   return a.x * b.y - a.y * b.x;
 }
 [[nodiscard]] inline double norm(Vec2 a) {
-  return std::hypot(a.x, a.y);
+  return math::hypot(a.x, a.y);
 }
 
 [[nodiscard]] constexpr double dot(Vec3 a, Vec3 b) {
@@ -45,7 +47,7 @@ struct Vec3 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 [[nodiscard]] inline double norm(Vec3 a) {
-  return std::hypot(a.x, a.y, a.z);
+  return math::hypot(a.x, a.y, a.z);
 }
 
 }  // namespace glissade

@@ -1,0 +1,108 @@
+// SLEEF's "cinz" functions of one double in pure C: consistent results, no fused multiply-add. Their callers need
+// none of its header, which declares vectors of every processor.
+
+#include "glissade/core/math.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include <sleef.h>
+
+namespace glissade::math {
+
+double sin(double angle) {
+  return sine_cosine(angle).sine;
+}
+
+double cos(double angle) {
+  return sine_cosine(angle).cosine;
+}
+
+double tan(double angle) {
+  return Sleef_cinz_tand1_u10purec(angle);
+}
+
+double asin(double value) {
+  return Sleef_cinz_asind1_u10purec(value);
+}
+
+double acos(double value) {
+  return Sleef_cinz_acosd1_u10purec(value);
+}
+
+double atan(double value) {
+  return Sleef_cinz_atand1_u10purec(value);
+}
+
+double atan2(double y, double x) {
+  return Sleef_cinz_atan2d1_u10purec(y, x);
+}
+
+SineCosine sine_cosine(double angle) {
+  const Sleef_double_2 both = Sleef_cinz_sincosd1_u10purec(angle);
+  return {both.x, both.y};
+}
+
+double cos_pi(double turns) {
+  return Sleef_cinz_cospid1_u05purec(turns);
+}
+
+double sinh(double value) {
+  return Sleef_cinz_sinhd1_u10purec(value);
+}
+
+double cosh(double value) {
+  return Sleef_cinz_coshd1_u10purec(value);
+}
+
+double tanh(double value) {
+  return Sleef_cinz_tanhd1_u10purec(value);
+}
+
+double asinh(double value) {
+  return Sleef_cinz_asinhd1_u10purec(value);
+}
+
+double exp(double value) {
+  return Sleef_cinz_expd1_u10purec(value);
+}
+
+double expm1(double value) {
+  return Sleef_cinz_expm1d1_u10purec(value);
+}
+
+double log(double value) {
+  return Sleef_cinz_logd1_u10purec(value);
+}
+
+double log1p(double value) {
+  return Sleef_cinz_log1pd1_u10purec(value);
+}
+
+double pow(double base, double exponent) {
+  return Sleef_cinz_powd1_u10purec(base, exponent);
+}
+
+double cbrt(double value) {
+  return Sleef_cinz_cbrtd1_u10purec(value);
+}
+
+double hypot_of_extremes(double x, double y) {
+  return Sleef_cinz_hypotd1_u05purec(x, y);
+}
+
+double decade_of(double value) {
+  std::array<char, 32> text;
+  char* const end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific).ptr;
+  char* const exponent = std::find(text.data(), end, 'e');
+  double decade = 0.0;
+  if (exponent == end) return decade;
+  char* const one = exponent - 1;  // "2.5e+02": the last digit before the exponent gives way to 1
+  *one = '1';
+  std::from_chars(one, end, decade);
+  return decade;
+}
+
+}  // namespace glissade::math

@@ -1,0 +1,132 @@
+// The library's elementary functions against the C library's in extended precision.
+
+#include "glissade/core/math.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+using namespace glissade;
+
+namespace {
+
+/// @return error of `found` in units of its last place; `exact` has 64 bits
+double error_in_ulp(double found, long double exact) {
+  const double size = std::fabs(found);
+  const double place = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+  return static_cast<double>(std::fabs(found - exact) / place);
+}
+
+constexpr int kTries = 20'000;
+
+template <class Ours, class Exact>
+double worst(Ours ours, Exact exact, double low, double high) {
+  testing::Random random = testing::seeded_random();
+  double largest = 0.0;
+  for (int i = 0; i < kTries; ++i) {
+    const double x = random.between(low, high);
+    largest = std::max(largest, error_in_ulp(ours(x), exact(static_cast<long double>(x))));
+  }
+  return largest;
+}
+
+}  // namespace
+
+// Extended precision is itself good to some 0.001 ulp of a double.
+constexpr double kBound = math::kMathAccuracyUlp + 0.002;
+
+#define CHECK_FUNCTION(name, low, high)                                                                \
+  CHECK(worst([](double x) { return math::name(x); }, [](long double x) { return std::name(x); }, low, \
+              high) <= kBound)
+
+TEST_CASE("elementary functions keep the accuracy that is stated") {
+  CHECK_FUNCTION(sin, -7.0, 7.0);
+  CHECK_FUNCTION(sin, -1e6, 1e6);
+  CHECK_FUNCTION(cos, -7.0, 7.0);
+  CHECK_FUNCTION(tan, -1.57, 1.57);
+  CHECK_FUNCTION(asin, -1.0, 1.0);
+  CHECK_FUNCTION(acos, -1.0, 1.0);
+  CHECK_FUNCTION(atan, -5.0, 5.0);
+  CHECK_FUNCTION(sinh, -3.0, 3.0);
+  CHECK_FUNCTION(cosh, -3.0, 3.0);
+  CHECK_FUNCTION(tanh, -3.0, 3.0);
+  CHECK_FUNCTION(asinh, -5.0, 5.0);
+  CHECK_FUNCTION(exp, -700.0, 700.0);
+  CHECK_FUNCTION(exp, -1e-3, 1e-3);
+  CHECK_FUNCTION(expm1, -40.0, 40.0);
+  CHECK_FUNCTION(expm1, -1e-3, 1e-3);
+  CHECK_FUNCTION(log, 0.0, 10.0);
+  CHECK_FUNCTION(log, 0.999, 1.001);
+  CHECK_FUNCTION(log1p, -0.999, 10.0);
+  CHECK_FUNCTION(log1p, -1e-3, 1e-3);
+  CHECK_FUNCTION(cbrt, -5.0, 5.0);
+}
+
+TEST_CASE("elementary functions of two numbers keep the accuracy that is stated") {
+  testing::Random random = testing::seeded_random();
+  double largest_atan2 = 0.0;
+  double largest_pow = 0.0;
+  double largest_hypot = 0.0;
+  for (int i = 0; i < kTries; ++i) {
+    const double x = random.between(-3.0, 3.0);
+    const double y = random.between(-3.0, 3.0);
+    const long double long_x = x;
+    const long double long_y = y;
+    largest_atan2 = std::max(largest_atan2, error_in_ulp(math::atan2(y, x), std::atan2(long_y, long_x)));
+    largest_pow =
+        std::max(largest_pow, error_in_ulp(math::pow(std::fabs(x), y), std::pow(std::fabs(long_x), long_y)));
+    largest_hypot = std::max(largest_hypot, error_in_ulp(math::hypot(x, y), std::hypot(long_x, long_y)));
+  }
+  CHECK(largest_atan2 <= kBound);
+  CHECK(largest_pow <= kBound);
+  CHECK(largest_hypot <= math::kHypotAccuracyUlp);
+}
+
+TEST_CASE("sine and cosine asked for together are those asked for alone") {
+  testing::Random random = testing::seeded_random();
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = random.between(-10.0, 10.0);
+    const auto [sine, cosine] = math::sine_cosine(angle);
+    CHECK(sine == math::sin(angle));
+    CHECK(cosine == math::cos(angle));
+  }
+}
+
+TEST_CASE("elementary functions are exact where geometry counts on it") {
+  CHECK(math::sin(0.0) == 0.0);
+  CHECK(math::cos(0.0) == 1.0);
+  CHECK(math::tan(0.0) == 0.0);
+  CHECK(math::exp(0.0) == 1.0);
+  CHECK(math::log(1.0) == 0.0);
+  CHECK(math::atan2(0.0, 1.0) == 0.0);
+  CHECK(math::atan2(1.0, 0.0) == std::numbers::pi / 2.0);
+  CHECK(math::atan2(0.0, -1.0) == std::numbers::pi);
+  CHECK(math::cos_pi(0.5) == 0.0);
+  CHECK(math::cos_pi(1.0) == -1.0);
+  CHECK(math::hypot(3.0, 4.0) == 5.0);
+  CHECK(math::hypot(2.0, 3.0, 6.0) == 7.0);
+  CHECK(math::hypot(0.0, -7.0) == 7.0);
+}
+
+TEST_CASE("a hypotenuse neither overflows nor vanishes before its sides do") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CHECK(math::hypot(3e200, 4e200) == Approx(5e200).epsilon(1e-15));
+  CHECK(math::hypot(3e-200, 4e-200) == Approx(5e-200).epsilon(1e-15));
+  CHECK(math::hypot(2e-200, 3e-200, 6e-200) == Approx(7e-200).epsilon(1e-15));
+  CHECK(math::hypot(0.0, 0.0) == 0.0);
+  CHECK(math::hypot(kInfinity, 1.0) == kInfinity);
+  CHECK(std::isnan(math::hypot(std::numeric_limits<double>::quiet_NaN(), 1.0)));
+}
+
+TEST_CASE("the decade of a number is the power of ten below it, to the last bit") {
+  CHECK(math::decade_of(1.0) == 1.0);
+  CHECK(math::decade_of(250.0) == 100.0);
+  CHECK(math::decade_of(0.005) == 0.001);
+  CHECK(math::decade_of(1000.0) == 1000.0);
+  CHECK(math::decade_of(std::nextafter(1000.0, 0.0)) == 100.0);
+  CHECK(math::decade_of(9.999999e-7) == 1e-7);
+  CHECK(math::decade_of(1e300) == 1e300);
+}
