@@ -36,6 +36,17 @@ Vec2 edge_normal(Vec2 from, Vec2 to, double side) {
   return {-side * along.y / size, side * along.x / size};
 }
 
+/// Whether an edge of a chain tells how far a point lies from what the chain bounds. A point on its free side
+/// is as far from it as from the line through it where it lies beside the edge; one behind that line lies within
+/// only over the edge's own runs: elsewhere, in a gully or beyond a cliff, other edges stand before this one.
+bool concerns(Vec2 point, Vec2 from, Vec2 to, double side) {
+  const Vec2 along = to - from;
+  const Vec2 rest = point - from;
+  if (side * cross(along, rest) > 0.0) return point.x >= from.x && point.x <= to.x;
+  const double share = dot(rest, along) / dot(along, along);
+  return share >= 0.0 && share <= 1.0;
+}
+
 }  // namespace
 
 Rows::Rows(const ScaledProblem& problem, const Transcription& track)
@@ -391,12 +402,12 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
         }
         for (row.edge = 0; row.edge + 1 < obstacle.corners.size(); ++row.edge) {
           const Vec2 from = obstacle.corners[row.edge];
-          const Vec2 along = obstacle.corners[row.edge + 1] - from;
+          const Vec2 to = obstacle.corners[row.edge + 1];
           for (row.place = 0; row.place <= last; ++row.place) {
             if (!stations[row.place].watched) continue;
-            const Vec2 rest = Vec2{state.shape.x[row.place], state.shape.y[row.place]} - from;
-            const double share = dot(rest, along) / dot(along, along);
-            if (share >= 0.0 && share <= 1.0) consider(row);
+            if (concerns({state.shape.x[row.place], state.shape.y[row.place]}, from, to, obstacle.side)) {
+              consider(row);
+            }
           }
         }
         row.foot = true;
