@@ -8,6 +8,7 @@
 
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_violation.hpp"
+#include "optimize/load_arcs.hpp"
 #include "optimize/referee.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
@@ -62,10 +63,21 @@ CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   const double length = found.z[layout.length()];
   std::vector<ClothoidSegment> segments;
   if (mesh.lead_in > 0.0) segments.push_back({mesh.lead_in * problem.chord, 0.0, 0.0});
+  const double scale = 1.0 / (length * problem.chord);
+  const std::vector<FineKnot>& fine = found.track->fine_knots();
+  std::size_t next = 0;
   for (std::size_t i = 0; i + 1 < layout.knots; ++i) {
-    const double scale = 1.0 / (length * problem.chord);
-    segments.push_back({(mesh.knots[i + 1] - mesh.knots[i]) * length * problem.chord,
-                        found.z[layout.turn(i)] * scale, found.z[layout.turn(i + 1)] * scale});
+    double sigma = mesh.knots[i];
+    double turn = found.z[layout.turn(i)];
+    const auto add_up_to = [&](double to, double turn_there) {
+      segments.push_back({(to - sigma) * length * problem.chord, turn * scale, turn_there * scale});
+      sigma = to;
+      turn = turn_there;
+    };
+    for (; next < fine.size() && fine[next].piece == i; ++next) {
+      add_up_to(fine[next].sigma, found.track->fine_turn(found.z, next));
+    }
+    add_up_to(mesh.knots[i + 1], found.z[layout.turn(i + 1)]);
   }
   if (mesh.lead_out > 0.0) segments.push_back({mesh.lead_out * problem.chord, 0.0, 0.0});
   return std::make_shared<ClothoidSpline>(Angle::from_radians(found.z[layout.angle()]), std::move(segments));
@@ -231,6 +243,7 @@ class Searcher {
       if (last_ones && converged(found) && !pays) break;
       found = std::move(next);
     }
+    if (!unlimited && !found.stopped) found = followed(problem, std::move(found));
     candidate.stopped = candidate.stopped || found.stopped;
     tell("referee", 0.9);
     const std::function<bool()> stop = control_.stop;
@@ -259,6 +272,8 @@ class Searcher {
       control_.most_rounds = 10;
       const double core_length = found.z[found.track->layout().length()];
       Mesh mesh = mesh_with(problem, found.track->mesh().knots, core_length);
+      mesh.fine = found.track->mesh().fine;
+      mesh.fine_turns = found.track->mesh().fine_turns;
       for (const double place : places_to_hold(problem, verdict, round)) {
         const double sigma = (place / problem.chord - problem.lead_in) / core_length;
         if (sigma > 0.0 && sigma < 1.0) hold(sigma, mesh.knots, held);
@@ -271,6 +286,24 @@ class Searcher {
       found.stopped = found.stopped || stopped;
     }
     candidate.stopped = candidate.stopped || found.stopped;
+  }
+
+  /// The same track with a curvature that follows the load limits which it lies at.
+  [[nodiscard]] Found followed(const ScaledProblem& problem, Found found) {
+    constexpr int kMostRounds = 3;
+    constexpr double kPays = 3e-8;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::optional<Mesh> mesh = following_loads(problem, found);
+      if (!mesh) break;
+      control_.tolerance = options_.tolerance;
+      control_.most_rounds = 3;
+      Found next = minimise(problem, *mesh, found.z, margins_, control_);
+      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
+      const double won = found.objective - next.objective;
+      found = std::move(next);
+      if (std::fabs(won) < kPays * std::fabs(found.objective)) break;
+    }
+    return found;
   }
 
   /// Where the referee found the ride ending, or in the first rounds limits broken the most: holding a limit

@@ -172,7 +172,7 @@ double Rows::measure(const State& state, const LimitSpec& limit, const Row& row)
     case Measure::slope_angle:
       return shape.zeta[row.place];
     case Measure::curvature:
-      return state.z[layout.turn(row.place)] / length;
+      return bend(state.z, row.place).turn / length;
     case Measure::curvature_rate: {
       const Vector& knots = track_.mesh().knots;
       return (state.z[layout.turn(row.place + 1)] - state.z[layout.turn(row.place)]) /
@@ -237,10 +237,13 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
     case Measure::slope_angle:
       std::copy_n(track_.dzeta(row.place), n, out);
       return;
-    case Measure::curvature:
-      out[layout.turn(row.place)] = 1.0 / length;
-      out[layout.length()] = -state.z[layout.turn(row.place)] / (length * length);
+    case Measure::curvature: {
+      const Bend at = bend(state.z, row.place);
+      out[layout.turn(at.piece)] = (1.0 - at.share) / length;
+      out[layout.turn(at.piece + 1)] = at.share / length;
+      out[layout.length()] = -at.turn / (length * length);
       return;
+    }
     case Measure::curvature_rate: {
       const Vector& knots = track_.mesh().knots;
       const double factor = 1.0 / ((knots[row.place + 1] - knots[row.place]) * length * length);
@@ -304,6 +307,17 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
   add_scaled(out, -away.y, dy.data(), n);
 }
 
+Rows::Bend Rows::bend(const Vector& z, std::size_t place) const {
+  const Layout& layout = track_.layout();
+  if (place >= layout.knots) {
+    const FineKnot& fine = track_.fine_knots()[place - layout.knots];
+    return {fine.piece, fine.share, track_.fine_turn(z, place - layout.knots), fine.sigma};
+  }
+  // The last knot is the end of the last piece.
+  const std::size_t piece = std::min(place, layout.knots - 2);
+  return {piece, place == piece ? 0.0 : 1.0, z[layout.turn(place)], track_.mesh().knots[place]};
+}
+
 double Rows::value(const State& state, const Row& row) const {
   const LimitSpec& limit = problem_.limits[row.limit];
   return limit.side * (measure(state, limit, row) - effective_bound(limit)) / effective_scale(limit) +
@@ -320,7 +334,10 @@ void Rows::gradient(const State& state, const Row& row, double* out) const {
 double Rows::place(const State& state, const Row& row) const {
   const LimitSpec& limit = problem_.limits[row.limit];
   const double length = state.z[track_.layout().length()];
-  if (limit.measure == Measure::curvature || limit.measure == Measure::curvature_rate) {
+  if (limit.measure == Measure::curvature) {
+    return problem_.lead_in + length * bend(state.z, row.place).sigma;
+  }
+  if (limit.measure == Measure::curvature_rate) {
     return problem_.lead_in + length * track_.mesh().knots[row.place];
   }
   if (row.foot) {
@@ -364,7 +381,9 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
         everywhere(0, 0);
         break;
       case Measure::curvature:
-        for (row.place = 0; row.place < track_.layout().knots; ++row.place) consider(row);
+        for (row.place = 0; row.place < track_.layout().knots + track_.fine_knots().size(); ++row.place) {
+          consider(row);
+        }
         break;
       case Measure::curvature_rate:
         for (row.place = 0; row.place + 1 < track_.layout().knots; ++row.place) consider(row);
@@ -558,10 +577,12 @@ void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Ro
                           curvature, length, factor * flow.v[row.place]);
       return;
     }
-    case Measure::curvature:
-      add_curvature_terms(hessian, layout.turn(row.place), 1.0, 0.0, at_length, measure(state, limit, row),
-                          length, factor);
+    case Measure::curvature: {
+      const Bend at = bend(state.z, row.place);
+      add_curvature_terms(hessian, layout.turn(at.piece), 1.0 - at.share, at.share, at_length,
+                          at.turn / length, length, factor);
       return;
+    }
     case Measure::curvature_rate: {
       const Vector& knots = track_.mesh().knots;
       const double by_turn =
@@ -598,7 +619,8 @@ void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Ro
       double curvature = 0.0;
       if (foot.at.part == Part::core) {
         curvature = ((1.0 - foot.at.share) * state.z[layout.turn(foot.at.piece)] +
-                     foot.at.share * state.z[layout.turn(foot.at.piece + 1)]) /
+                     foot.at.share * state.z[layout.turn(foot.at.piece + 1)] +
+                     track_.own_turn(foot.at.sigma)) /
                     length;
       }
       const double bend = side * curvature;

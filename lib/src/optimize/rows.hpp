@@ -14,7 +14,7 @@ namespace glissade::optimizer {
 struct Row {
   std::size_t limit = 0;
   std::size_t ride = 0;
-  std::size_t place = 0;  ///< station; knot or piece of curvature limits; corner of a foot row
+  std::size_t place = 0;  ///< station; knot (fine ones behind the others) or piece; corner of a foot row
   std::size_t edge = 0;   ///< of an obstacle's chain
   bool foot = false;      ///< measured at the foot of a corner instead of at a station
 
@@ -77,6 +77,14 @@ class Rows {
                            StationWeights& weights) const;
   void add_direct_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
                         Matrix& hessian) const;
+  struct Bend {
+    std::size_t piece = 0;
+    double share = 0.0;  ///< of the way through it
+    double turn = 0.0;
+    double sigma = 0.0;
+  };
+  /// The knot of a row of Measure::curvature.
+  [[nodiscard]] Bend bend(const Vector& z, std::size_t place) const;
   [[nodiscard]] double effective_bound(const LimitSpec& limit) const;
   [[nodiscard]] double effective_scale(const LimitSpec& limit) const;
 

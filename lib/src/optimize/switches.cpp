@@ -49,12 +49,16 @@ bool holds_along(Measure measure) {
   return false;
 }
 
+bool is_load(Measure measure) {
+  return measure == Measure::normal_load || measure == Measure::curvature_load;
+}
+
 /// By how much a limit may be left alone between two places where it binds: a linear curvature cannot follow
 /// that of a load.
 double slack_within(Measure measure) {
-  constexpr double kOfLoad = 3e-3;
+  constexpr double kOfLoad = 0.1;
   constexpr double kElse = 1e-5;
-  return measure == Measure::normal_load || measure == Measure::curvature_load ? kOfLoad : kElse;
+  return is_load(measure) ? kOfLoad : kElse;
 }
 
 /// Places where a limit that carries a price begins or ceases to bind, counted in pieces.
@@ -68,10 +72,17 @@ std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& f
   std::vector<double> ends;
   for (std::size_t i = 0; i < bindings.size(); ++i) {
     if (price[i] <= 0.0 || !holds_along(problem.limits[i].measure)) continue;
+    // A load that a linear curvature misses next to an end of the core is held up to there all the same: a body
+    // that flies off with little speed bends more in the first pieces than they can follow.
+    constexpr double kJoined = 3.0;
+    const double last = static_cast<double>(mesh.knots.size() - 1);
+    const bool load = is_load(problem.limits[i].measure);
     for (const Span& span : bindings[i]) {
       for (const double place : {span.from, span.to}) {
         const double at = count_pieces(mesh.knots, (place - mesh.lead_in) / length);
-        if (at > kEnd && at < static_cast<double>(mesh.knots.size() - 1) - kEnd) ends.push_back(at);
+        const bool joins_start = load && place == span.from && at < kJoined && mesh.lead_in == 0.0;
+        const bool joins_finish = load && place == span.to && at > last - kJoined && mesh.lead_out == 0.0;
+        if (at > kEnd && at < last - kEnd && !joins_start && !joins_finish) ends.push_back(at);
       }
     }
   }
@@ -82,7 +93,7 @@ std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& f
 class SlopeAngle {
  public:
   explicit SlopeAngle(const Found& found)
-      : knots_(found.track->mesh().knots), turns_(knots_.size()), at_knots_(knots_.size()) {
+      : track_(*found.track), knots_(track_.mesh().knots), turns_(knots_.size()), at_knots_(knots_.size()) {
     const Layout& layout = found.track->layout();
     for (std::size_t i = 0; i < knots_.size(); ++i) turns_[i] = found.z[layout.turn(i)];
     at_knots_[0] = found.z[layout.angle()];
@@ -93,10 +104,12 @@ class SlopeAngle {
   /// @param share  of the way through the piece
   [[nodiscard]] double value(std::size_t piece, double share) const {
     const double bend = turns_[piece] + 0.5 * share * (turns_[piece + 1] - turns_[piece]);
-    return at_knots_[piece] - share * (knots_[piece + 1] - knots_[piece]) * bend;
+    const double width = share * (knots_[piece + 1] - knots_[piece]);
+    return at_knots_[piece] - width * bend + track_.own_angle(knots_[piece] + width);
   }
 
  private:
+  const Transcription& track_;
   const Vector& knots_;
   Vector turns_;
   Vector at_knots_;

@@ -40,8 +40,10 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
   const std::size_t last_piece = mesh.knots.size() - 2;
   add_station(0.0, mesh.lead_in > 0.0 ? Part::lead_in : Part::core, 0);
   if (mesh.lead_in > 0.0) add_panels(0.0, mesh.lead_in, Part::lead_in, 0);
+  add_fine_knots();
   Vector breaks = mesh.extra_breaks;
   breaks.insert(breaks.end(), mesh.knots.begin(), mesh.knots.end());
+  breaks.insert(breaks.end(), mesh.fine.begin(), mesh.fine.end());
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   std::size_t piece = 0;
@@ -52,7 +54,58 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.lead_out > 0.0) add_panels(0.0, mesh.lead_out, Part::lead_out, last_piece);
 
   dzeta_ = Matrix(stations_.size(), layout_.size());
-  for (std::size_t i = 0; i < stations_.size(); ++i) turning_row(stations_[i], dzeta_.row(i));
+  station_turn_.resize(stations_.size());
+  station_angle_.resize(stations_.size());
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    turning_row(stations_[i], dzeta_.row(i));
+    station_turn_[i] = own_turn(stations_[i].sigma);
+    station_angle_[i] = own_angle(stations_[i].sigma);
+  }
+}
+
+void Transcription::add_fine_knots() {
+  if (mesh_.fine.empty()) return;
+  std::size_t next = 0;
+  for (std::size_t piece = 0; piece + 1 < mesh_.knots.size(); ++piece) {
+    const double from = mesh_.knots[piece];
+    const double to = mesh_.knots[piece + 1];
+    own_sigma_.push_back(from);
+    own_turn_.push_back(0.0);
+    for (; next < mesh_.fine.size() && mesh_.fine[next] < to; ++next) {
+      const double sigma = mesh_.fine[next];
+      fine_.push_back({sigma, piece, (sigma - from) / (to - from), mesh_.fine_turns[next]});
+      own_sigma_.push_back(sigma);
+      own_turn_.push_back(mesh_.fine_turns[next]);
+    }
+  }
+  own_sigma_.push_back(mesh_.knots.back());
+  own_turn_.push_back(0.0);
+  own_angle_.assign(own_sigma_.size(), 0.0);
+  for (std::size_t i = 0; i + 1 < own_sigma_.size(); ++i) {
+    const double width = own_sigma_[i + 1] - own_sigma_[i];
+    own_angle_[i + 1] = own_angle_[i] - 0.5 * width * (own_turn_[i] + own_turn_[i + 1]);
+  }
+}
+
+double Transcription::own_turn(double sigma) const {
+  if (own_sigma_.empty()) return 0.0;
+  const auto above = std::upper_bound(own_sigma_.begin() + 1, own_sigma_.end() - 1, sigma);
+  const auto i = static_cast<std::size_t>(above - own_sigma_.begin()) - 1;
+  const double share = (sigma - own_sigma_[i]) / (own_sigma_[i + 1] - own_sigma_[i]);
+  return own_turn_[i] + share * (own_turn_[i + 1] - own_turn_[i]);
+}
+
+double Transcription::own_angle(double sigma) const {
+  if (own_sigma_.empty()) return 0.0;
+  const auto above = std::upper_bound(own_sigma_.begin() + 1, own_sigma_.end() - 1, sigma);
+  const auto i = static_cast<std::size_t>(above - own_sigma_.begin()) - 1;
+  return own_angle_[i] - 0.5 * (sigma - own_sigma_[i]) * (own_turn_[i] + own_turn(sigma));
+}
+
+double Transcription::fine_turn(const Vector& z, std::size_t fine_knot) const {
+  const FineKnot& fine = fine_[fine_knot];
+  return (1.0 - fine.share) * z[layout_.turn(fine.piece)] + fine.share * z[layout_.turn(fine.piece + 1)] +
+         fine.turn;
 }
 
 void Transcription::turning_row(const Station& station, double* row) const {
@@ -144,7 +197,7 @@ double Transcription::curvature(const Vector& z, std::size_t index) const {
   const Station& station = stations_[index];
   if (station.part != Part::core) return 0.0;
   const double c = (1.0 - station.share) * z[layout_.turn(station.piece)] +
-                   station.share * z[layout_.turn(station.piece + 1)];
+                   station.share * z[layout_.turn(station.piece + 1)] + station_turn_[index];
   return c / z[layout_.length()];
 }
 
@@ -155,7 +208,8 @@ bool Transcription::is_track(const Vector& z) const {
   const double length = z[layout_.length()];
   if (!(length > kShortest && length < kLongest)) return false;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    if (!(std::fabs(dot(dzeta_.row(i), z.data(), layout_.size())) < kSteepest)) return false;
+    const double zeta = dot(dzeta_.row(i), z.data(), layout_.size()) + station_angle_[i];
+    if (!(std::fabs(zeta) < kSteepest)) return false;
   }
   return true;
 }
@@ -172,7 +226,7 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   out.x.assign(count, 0.0);
   out.y.assign(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    out.zeta[i] = dot(dzeta_.row(i), z.data(), n);
+    out.zeta[i] = dot(dzeta_.row(i), z.data(), n) + station_angle_[i];
     const auto [sine, cosine] = math::sine_cosine(out.zeta[i]);
     out.sin[i] = sine;
     out.cos[i] = cosine;
@@ -241,8 +295,12 @@ Foot Transcription::advance(const Vector& z, const Shape& shape, std::size_t bas
     const double from_share = (from.sigma - knot) / width;
     const double c0 = z[layout_.turn(later.piece)] / length;
     const double c1 = z[layout_.turn(later.piece + 1)] / length;
-    curvature_from = c0 + (c1 - c0) * from_share;
+    curvature_from = c0 + (c1 - c0) * from_share + station_turn_[base] / length;
     curvature_slope = (c1 - c0) / (width * length);
+    const double gap = (to.sigma - from.sigma) * length;
+    if (!fine_.empty() && gap != 0.0) {
+      curvature_slope += (station_turn_[towards] - station_turn_[base]) / (gap * length);
+    }
   }
   const double ds = foot.at.arc_length(length) - from.arc_length(length);
   const auto angle = [&](double s) {
@@ -320,7 +378,7 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
       node.share = (node.sigma - knot) / (mesh_.knots[node.piece + 1] - knot);
     }
     turning_row(node, row.data());
-    const auto [sine, cosine] = math::sine_cosine(dot(row.data(), z.data(), n));
+    const auto [sine, cosine] = math::sine_cosine(dot(row.data(), z.data(), n) + own_angle(node.sigma));
     add_scaled(dx.data(), -rule.weight[k] * ds * sine, row.data(), n);
     add_scaled(dy.data(), rule.weight[k] * ds * cosine, row.data(), n);
     dx[layout_.length()] += rule.weight[k] * d_sigma * cosine;

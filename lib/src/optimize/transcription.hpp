@@ -26,6 +26,10 @@ struct Layout {
 struct Mesh {
   Vector knots;              ///< sigma, ascending from 0 to 1: shares of the core length
   Vector extra_breaks;       ///< further sigma at which limits are to be held exactly
+  /// Sigma, ascending, none of them a knot: here the curvature has further knots, which go along with those
+  /// around them, ...
+  Vector fine;
+  Vector fine_turns;         ///< ... but for this turning rate each, which is no unknown [rad]
   double lead_in = 0.0;      ///< straight before the core [chords]
   double lead_out = 0.0;     ///< straight after it
   double core_length = 1.0;  ///< of the guess: places the nodes of the substitution only
@@ -50,6 +54,14 @@ struct Ride {
   double friction = 0.0;      ///< mu
   double entry_speed2 = 0.0;  ///< v at the start
   double drag = 0.0;          ///< k [1/chord]
+};
+
+/// A further knot of the curvature, between two that are unknowns.
+struct FineKnot {
+  double sigma = 0.0;
+  std::size_t piece = 0;
+  double share = 0.0;  ///< of the way through the piece
+  double turn = 0.0;   ///< turning rate beyond what lies between the knots of the piece [rad]
 };
 
 /// Geometry at every station, with derivatives by the unknowns.
@@ -103,6 +115,12 @@ class Transcription {
   /// dzeta/d(unknown) of a station; constant
   [[nodiscard]] const double* dzeta(std::size_t station) const { return dzeta_.row(station); }
   [[nodiscard]] double curvature(const Vector& z, std::size_t station) const;
+  [[nodiscard]] const std::vector<FineKnot>& fine_knots() const { return fine_; }
+  /// Turning rate at a fine knot, its own included.
+  [[nodiscard]] double fine_turn(const Vector& z, std::size_t fine_knot) const;
+  /// What the fine knots add to the turning rate, and to the slope angle, at any place of the core.
+  [[nodiscard]] double own_turn(double sigma) const;
+  [[nodiscard]] double own_angle(double sigma) const;
   /// Whether a trial point is a track at all; a search comes back from where it is not.
   [[nodiscard]] bool is_track(const Vector& z) const;
   /// The same row for any point of the track; `row` has layout().size() entries.
@@ -135,6 +153,7 @@ class Transcription {
   [[nodiscard]] Foot advance(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
                              double share) const;
   void add_station(double at, Part part, std::size_t piece);
+  void add_fine_knots();
   [[nodiscard]] std::size_t start_station(std::size_t panel) const;
 
   Mesh mesh_;
@@ -142,6 +161,10 @@ class Transcription {
   std::vector<Panel> panels_;
   std::vector<Station> stations_;
   Matrix dzeta_;
+  std::vector<FineKnot> fine_;
+  /// Knots of both kinds, with what the fine ones add there; empty where there are none of those.
+  Vector own_sigma_, own_turn_, own_angle_;
+  Vector station_turn_, station_angle_;  ///< of the same, at every station
 };
 
 /// 1/sqrt(v), continued below a floor by its second-order Taylor polynomial, so that a body that would not

@@ -1,0 +1,217 @@
+#include "optimize/load_arcs.hpp"
+
+#include "optimize/switches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade::optimizer {
+namespace {
+
+// A piece counts as held if this share of it lies where a limit binds; one at the end of an arc, which a linear
+// curvature leaves too early, is held only in part. So does one that stays this close to the bound, in scales.
+constexpr double kHeld = 0.05;
+constexpr double kNearBound = 0.02;
+// What fine knots may leave to win in a piece, as a share of the objective: with some ten pieces held, a tenth of
+// the accuracy that is stated for the whole.
+constexpr double kLeft = 1e-8;
+// Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong.
+constexpr std::size_t kMostFine = 32;
+// Below this squared speed, as a share of that of free fall through a chord, a body is at rest: the curvature of
+// constant load has no bound there.
+constexpr double kAtRest = 1e-9;
+
+bool is_load(Measure measure) {
+  return measure == Measure::normal_load || measure == Measure::curvature_load;
+}
+
+/// One piece along which a load limit is held.
+struct HeldPiece {
+  std::size_t piece = 0;
+  std::size_t limit = 0;
+  double price = 0.0;  ///< of the limit's rows within the piece
+};
+
+/// The curvature at which a load is at its bound, on the ride that is closest to it.
+double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const State& state, std::size_t limit,
+                          std::size_t station) {
+  const LimitSpec& spec = problem.limits[limit];
+  const double bound = spec.bound - spec.side * rows.margins()[limit] * spec.scale;
+  const double weight = spec.measure == Measure::normal_load ? state.shape.cos[station] : 0.0;
+  const auto at_ride = [&](std::size_t ride) { return (bound - weight) / state.flows[ride].v[station]; };
+  const double first = at_ride(0);
+  // The rides at which the limit is held are those of Rows::candidates.
+  if (spec.side > 0 || problem.rides.size() == 1) return first;
+  return std::max(first, at_ride(problem.rides.size() - 1));
+}
+
+/// How far a load stays from its bound, at most, at the stations of each piece, on the closest ride.
+Vector slack_by_piece(const ScaledProblem& problem, const Found& found, const State& state, std::size_t limit) {
+  const LimitSpec& spec = problem.limits[limit];
+  const Transcription& track = *found.track;
+  Vector slack(track.mesh().knots.size() - 1, 0.0);
+  for (std::size_t i = 0; i < track.stations().size(); ++i) {
+    const Station& station = track.stations()[i];
+    if (station.part != Part::core) continue;
+    const double v = state.flows[0].v[i];
+    const double off = curvature_at_bound(problem, *found.rows, state, limit, i) - state.shape.curvature[i];
+    slack[station.piece] = std::max(slack[station.piece], std::fabs(off) * v / spec.scale);
+  }
+  return slack;
+}
+
+/// Pieces that lie where a load binds, in order, with what its rows cost there: no less than their share of what
+/// the whole stretch costs, since of rows side by side a few carry all.
+std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& found, const State& state) {
+  const Transcription& track = *found.track;
+  const Vector& knots = track.mesh().knots;
+  const std::size_t pieces = knots.size() - 1;
+  std::vector<std::optional<HeldPiece>> best(pieces);
+  const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
+  std::vector<bool> has_fine(pieces, false);
+  for (const FineKnot& fine : track.fine_knots()) has_fine[fine.piece] = true;
+  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
+    if (!is_load(problem.limits[i].measure)) continue;
+    Vector price(pieces, 0.0);
+    double whole = 0.0;
+    for (std::size_t k = 0; k < found.active.size(); ++k) {
+      const Row& row = found.active[k];
+      const Station& station = track.stations()[row.place];
+      if (row.limit != i || station.part != Part::core) continue;
+      price[station.piece] += found.inequality[k];
+      whole += found.inequality[k];
+    }
+    if (whole <= 0.0) continue;
+    const Vector slack = slack_by_piece(problem, found, state, i);
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      const double width = knots[piece + 1] - knots[piece];
+      const double cost = std::max(price[piece], whole * width);
+      const bool binds = std::any_of(bindings[i].begin(), bindings[i].end(), [&](const Span& span) {
+        const double length = found.z[track.layout().length()];
+        const double from = std::max(knots[piece], (span.from - track.mesh().lead_in) / length);
+        const double to = std::min(knots[piece + 1], (span.to - track.mesh().lead_in) / length);
+        return to - from >= kHeld * width;
+      });
+      if (!binds && !has_fine[piece] && slack[piece] > kNearBound) continue;
+      if (!best[piece] || cost > best[piece]->price) best[piece] = HeldPiece{piece, i, cost};
+    }
+  }
+  std::vector<HeldPiece> held;
+  for (const std::optional<HeldPiece>& piece : best) {
+    if (piece) held.push_back(*piece);
+  }
+  return held;
+}
+
+/// Stations at given places of the core, which are ends of panels, both in order.
+std::vector<std::size_t> stations_at(const Transcription& track, const Vector& places) {
+  std::vector<std::size_t> result;
+  const std::vector<Station>& stations = track.stations();
+  std::size_t at = 0;
+  for (const double place : places) {
+    while (stations[at].part == Part::lead_in && at + 1 < stations.size()) ++at;
+    while (at + 1 < stations.size() && stations[at].sigma < place) ++at;
+    result.push_back(at);
+  }
+  return result;
+}
+
+/// How far the load strays from its bound within a piece whose curvature is linear, in scales of the limit.
+double load_missed(const ScaledProblem& problem, const Found& found, const State& state, const HeldPiece& held) {
+  const Vector& knots = found.track->mesh().knots;
+  const std::vector<std::size_t> ends =
+      stations_at(*found.track, {knots[held.piece], knots[held.piece + 1]});
+  const auto wanted = [&](std::size_t station) {
+    return curvature_at_bound(problem, *found.rows, state, held.limit, station);
+  };
+  const double first = wanted(ends[0]);
+  const double last = wanted(ends[1]);
+  double missed = 0.0;
+  for (std::size_t station = ends[0] + 1; station < ends[1]; ++station) {
+    const double share = (found.track->stations()[station].sigma - knots[held.piece]) /
+                         (knots[held.piece + 1] - knots[held.piece]);
+    const double off = wanted(station) - (first + share * (last - first));
+    missed = std::max(missed, std::fabs(off) * state.flows[0].v[station]);
+  }
+  return missed / problem.limits[held.limit].scale;
+}
+
+/// Into how many parts the fine knots cut a piece.
+std::size_t fine_count(const Transcription& track, std::size_t piece) {
+  const std::vector<FineKnot>& fine = track.fine_knots();
+  return 1 + static_cast<std::size_t>(std::count_if(
+                 fine.begin(), fine.end(), [&](const FineKnot& knot) { return knot.piece == piece; }));
+}
+
+bool moves(const State& state, const Transcription& track, std::size_t piece) {
+  const Vector& knots = track.mesh().knots;
+  for (const std::size_t station : stations_at(track, {knots[piece], knots[piece + 1]})) {
+    for (const Flow& flow : state.flows) {
+      if (!(flow.v[station] > kAtRest)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found) {
+  const bool smooth = std::any_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {
+    return limit.measure == Measure::curvature_rate;
+  });
+  if (smooth) return std::nullopt;
+  Mesh mesh = found.track->mesh();
+  const Vector knots = mesh.knots;
+  const State before = found.rows->state(found.z, false);
+  const std::vector<HeldPiece> held = held_pieces(problem, found, before);
+  if (held.empty()) return std::nullopt;
+  std::vector<HeldPiece> fine_pieces;
+  mesh.fine.clear();
+  mesh.fine_turns.clear();
+  for (const HeldPiece& piece : held) {
+    if (!moves(before, *found.track, piece.piece)) continue;
+    // The mean of a parabola's distance from its chord is two thirds of the greatest.
+    const double loss = 2.0 / 3.0 * piece.price * load_missed(problem, found, before, piece);
+    const double parts = std::sqrt(loss / (kLeft * std::fabs(found.objective)));
+    const std::size_t known = fine_count(*found.track, piece.piece);
+    const auto wanted = static_cast<std::size_t>(std::ceil(std::max(parts, 1.0)));
+    const std::size_t count = std::min(kMostFine, std::max(known, wanted));
+    if (count < 2) continue;
+    fine_pieces.push_back(piece);
+    const double width = (knots[piece.piece + 1] - knots[piece.piece]) / static_cast<double>(count);
+    for (std::size_t k = 1; k < count; ++k) {
+      const double sigma = knots[piece.piece] + width * static_cast<double>(k);
+      mesh.fine.push_back(sigma);
+      mesh.fine_turns.push_back(found.track->own_turn(sigma));
+    }
+  }
+  if (mesh.fine.empty()) return std::nullopt;
+
+  const Transcription track(mesh);
+  Rows rows(problem, track);
+  rows.set_margins(found.rows->margins());
+  const State state = rows.state(found.z, false);
+  const double length = found.z[track.layout().length()];
+  std::size_t next = 0;
+  for (const HeldPiece& piece : fine_pieces) {
+    const double from = knots[piece.piece];
+    const double to = knots[piece.piece + 1];
+    Vector places{from};
+    const std::size_t first = next;
+    while (next < mesh.fine.size() && mesh.fine[next] < to) places.push_back(mesh.fine[next++]);
+    places.push_back(to);
+    const std::vector<std::size_t> stations = stations_at(track, places);
+    const auto wanted = [&](std::size_t i) {
+      return length * curvature_at_bound(problem, rows, state, piece.limit, stations[i]);
+    };
+    const double at_first = wanted(0);
+    const double at_last = wanted(places.size() - 1);
+    for (std::size_t i = first; i < next; ++i) {
+      const double share = (mesh.fine[i] - from) / (to - from);
+      mesh.fine_turns[i] = wanted(i - first + 1) - (at_first + share * (at_last - at_first));
+    }
+  }
+  return mesh;
+}
+
+}  // namespace glissade::optimizer

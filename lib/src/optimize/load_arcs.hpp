@@ -1,0 +1,19 @@
+#pragma once
+
+#include "optimize/search.hpp"
+
+#include <optional>
+
+namespace glissade::optimizer {
+
+/// A mesh whose curvature follows a load limit wherever the track found lies at it for a stretch.
+///
+/// There the curvature is that of constant load, kappa = (N - g cos(zeta))/v (a parabola in flight for N = 0),
+/// which is not linear in arc length: between two knots a clothoid keeps the limit at the cost of second order in
+/// their distance. The mesh returned has fine knots along these stretches, as many as their price asks for; the
+/// turning rates that they add are what the track found lacks between its knots. They are as good as that track,
+/// so that a search on the mesh, and this once more, come closer by another order each time.
+/// @return none where no load is held over whole pieces, or where fine knots would win nothing
+[[nodiscard]] std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found);
+
+}  // namespace glissade::optimizer
