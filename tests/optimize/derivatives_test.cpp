@@ -57,6 +57,14 @@ Setup make_setup(double entry_speed) {
   return setup;
 }
 
+/// The same with fine knots, whose turning rates are no unknowns.
+Setup make_fine_setup(double entry_speed) {
+  Setup setup = make_setup(entry_speed);
+  setup.mesh.fine = {0.15, 0.2, 0.6, 0.7};
+  setup.mesh.fine_turns = {0.2, -0.3, 0.15, 0.1};
+  return setup;
+}
+
 // Truncation h^2 f'''/6 and rounding 1e-16/h balance near here.
 constexpr double kStep = 1e-5;
 constexpr double kDifferenceError = 2e-8;
@@ -179,12 +187,11 @@ TEST_CASE("time and exit speed carry the derivatives that complex steps in long 
 }
 
 TEST_CASE("every row and the objective carry their exact gradient") {
-  for (const double entry_speed : {0.0, 2.5}) {
-    const Setup setup = make_setup(entry_speed);
+  for (const Setup& setup : {make_setup(0.0), make_setup(2.5), make_fine_setup(0.0), make_fine_setup(2.5)}) {
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);
     const State state = rows.state(setup.z, true);
-    CAPTURE(entry_speed);
+    CAPTURE(setup.mesh.entry_speed2, setup.mesh.fine.size());
 
     const auto objective = [&](const Vector& z) { return rows.objective(rows.state(z, false)); };
     CHECK(gradient_error(objective, setup.z, rows.objective_gradient(state)) < kDifferenceError);
@@ -215,6 +222,47 @@ TEST_CASE("every row and the objective carry their exact gradient") {
       CHECK(gradient_error(inequality, setup.z, gradient) < kDifferenceError);
     }
   }
+}
+
+TEST_CASE("a track of fine knots is the clothoid spline that has them all") {
+  const Setup setup = make_fine_setup(2.5);
+  const Transcription track(setup.mesh);
+  Setup spline = make_setup(2.5);
+  spline.mesh.knots = {0.0, 0.1, 0.15, 0.2, 0.25, 0.5, 0.6, 0.7, 0.8, 1.0};
+  const Vector& z = setup.z;
+  const auto between = [](double a, double b, double share) { return a + share * (b - a); };
+  spline.z = {z[0],
+              z[1],
+              z[2],
+              between(z[2], z[3], 1.0 / 3.0) + 0.2,
+              between(z[2], z[3], 2.0 / 3.0) - 0.3,
+              z[3],
+              z[4],
+              between(z[4], z[5], 1.0 / 3.0) + 0.15,
+              between(z[4], z[5], 2.0 / 3.0) + 0.1,
+              z[5],
+              z[6],
+              z[7]};
+  const Transcription all(spline.mesh);
+  const Rows rows(setup.problem, track);
+  const Rows other(spline.problem, all);
+  const State fine = rows.state(z, true);
+  const State plain = other.state(spline.z, true);
+  REQUIRE(track.stations().size() == all.stations().size());
+  constexpr double kRounding = 1e-13;
+  for (std::size_t i = 0; i < track.stations().size(); ++i) {
+    CAPTURE(i);
+    CHECK(fine.shape.zeta[i] == Approx(plain.shape.zeta[i]).margin(kRounding));
+    CHECK(fine.shape.curvature[i] == Approx(plain.shape.curvature[i]).margin(kRounding));
+    CHECK(fine.shape.x[i] == Approx(plain.shape.x[i]).margin(kRounding));
+    CHECK(fine.shape.y[i] == Approx(plain.shape.y[i]).margin(kRounding));
+    CHECK(fine.flows[0].v[i] == Approx(plain.flows[0].v[i]).margin(kRounding));
+  }
+  CHECK(fine.flows[1].time == Approx(plain.flows[1].time).margin(kRounding));
+  const Foot foot = track.foot(z, fine.shape, 0.4, 0.3);
+  const Foot same = all.foot(spline.z, plain.shape, 0.4, 0.3);
+  CHECK(foot.x == Approx(same.x).margin(kRounding));
+  CHECK(foot.y == Approx(same.y).margin(kRounding));
 }
 
 namespace {
@@ -248,12 +296,11 @@ double hessian_error(const Setup& setup, const Rows& rows, const Vector& equalit
 }  // namespace
 
 TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
-  for (const double entry_speed : {0.0, 2.5}) {
-    Setup setup = make_setup(entry_speed);
+  for (Setup setup : {make_setup(0.0), make_setup(2.5), make_fine_setup(0.0), make_fine_setup(2.5)}) {
     setup.problem.speed_weight = 0.3;
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);
-    CAPTURE(entry_speed);
+    CAPTURE(setup.mesh.entry_speed2, setup.mesh.fine.size());
     Vector equality(rows.equality_count(), 0.0);
     equality[0] = 0.4;
     equality[1] = -0.7;

@@ -15,8 +15,10 @@ constexpr double kNearBound = 0.02;
 // What fine knots may leave to win in a piece, as a share of the objective: with some ten pieces held, a tenth of
 // the accuracy that is stated for the whole.
 constexpr double kLeft = 1e-8;
-// Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong.
+// Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong. And so many at least where a
+// body left the track.
 constexpr std::size_t kMostFine = 32;
+constexpr std::size_t kLifting = 8;
 // Below this squared speed, as a share of that of free fall through a chord, a body is at rest: the curvature of
 // constant load has no bound there.
 constexpr double kAtRest = 1e-9;
@@ -155,7 +157,7 @@ bool moves(const State& state, const Transcription& track, std::size_t piece) {
 
 }  // namespace
 
-std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found) {
+std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found, const Vector& lifts) {
   const bool smooth = std::any_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {
     return limit.measure == Measure::curvature_rate;
   });
@@ -175,7 +177,11 @@ std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& f
     const double parts = std::sqrt(loss / (kLeft * std::fabs(found.objective)));
     const std::size_t known = fine_count(*found.track, piece.piece);
     const auto wanted = static_cast<std::size_t>(std::ceil(std::max(parts, 1.0)));
-    const std::size_t count = std::min(kMostFine, std::max(known, wanted));
+    const bool lifts_here = std::any_of(lifts.begin(), lifts.end(), [&](double sigma) {
+      return sigma >= knots[piece.piece] && sigma <= knots[piece.piece + 1];
+    });
+    const std::size_t least = lifts_here ? std::max(kLifting, 2 * known) : known;
+    const std::size_t count = std::min(kMostFine, std::max(least, wanted));
     if (count < 2) continue;
     fine_pieces.push_back(piece);
     const double width = (knots[piece.piece + 1] - knots[piece.piece]) / static_cast<double>(count);

@@ -13,7 +13,10 @@ namespace glissade::optimizer {
 /// their distance. The mesh returned has fine knots along these stretches, as many as their price asks for; the
 /// turning rates that they add are what the track found lacks between its knots. They are as good as that track,
 /// so that a search on the mesh, and this once more, come closer by another order each time.
+/// @param lifts  places of the core, by its length, at which a body left the track between two stations: the
+///               pieces there get twice as many fine knots as they have
 /// @return none where no load is held over whole pieces, or where fine knots would win nothing
-[[nodiscard]] std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found);
+[[nodiscard]] std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found,
+                                                  const Vector& lifts = {});
 
 }  // namespace glissade::optimizer

@@ -10,6 +10,7 @@
 #include "optimize/least_violation.hpp"
 #include "optimize/load_arcs.hpp"
 #include "optimize/referee.hpp"
+#include "optimize/refinement.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
 #include "optimize/starts.hpp"
@@ -83,6 +84,34 @@ CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   return std::make_shared<ClothoidSpline>(Angle::from_radians(found.z[layout.angle()]), std::move(segments));
 }
 
+/// Whether the fastest track would turn down at once from where a limit on the entry holds it: a body at rest
+/// loses nothing by that, the tighter the crest the better, and no crest is the tightest. How tight it may be is
+/// then up to the mesh, which has to be the same there for every such problem.
+bool starts_with_crest(const ScaledProblem& problem) {
+  if (problem.entry_speed2 > 0.0 || problem.lead_in > 0.0) return false;
+  bool held = false;
+  for (const LimitSpec& limit : problem.limits) {
+    if (limit.measure == Measure::curvature_rate) return false;
+    held = held || (limit.measure == Measure::entry_slope_angle && limit.side >= 0);
+  }
+  return held;
+}
+
+/// Knots in shares of the core that do not depend on the track found: from a hundred-millionth on, each this factor
+/// behind the one before.
+Vector with_crest_knots(const Vector& knots) {
+  constexpr double kFirst = 1e-8;
+  constexpr double kFactor = 4.0;
+  constexpr double kLast = 2e-3;
+  Vector result{0.0};
+  double next = kFirst;
+  for (; next < kLast; next *= kFactor) result.push_back(next);
+  for (const double knot : knots) {
+    if (knot > 0.75 * next) result.push_back(knot);
+  }
+  return result;
+}
+
 /// One way past the keep-outs, searched to its end.
 struct Candidate {
   std::shared_ptr<ScaledProblem> problem;
@@ -147,16 +176,21 @@ class Searcher {
   [[nodiscard]] bool is_unlimited() const {
     Limits limits;
     return problem_.limits == limits && problem_.finish.kind == FinishKind::point &&
-           problem_.body.entry_speed == 0.0;
+           problem_.body.entry_speed == 0.0 && problem_.objective.kind == ObjectiveKind::travel_time;
   }
 
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const {
+    if (starts_with_crest(problem)) knots = with_crest_knots(knots);
     Mesh mesh = mesh_of(problem, std::move(knots), core_length);
-    if (problem.lowest_speed_from > problem.lead_in) {
-      const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
-      if (sigma < 1.0) mesh.extra_breaks = {sigma};
-    }
+    mesh.extra_breaks = breaks_of(problem, core_length);
     return mesh;
+  }
+
+  /// Where a limit begins to hold.
+  [[nodiscard]] static Vector breaks_of(const ScaledProblem& problem, double core_length) {
+    if (!(problem.lowest_speed_from > problem.lead_in)) return {};
+    const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
+    return sigma < 1.0 ? Vector{sigma} : Vector{};
   }
 
   [[nodiscard]] static double entry_share(const ScaledProblem& problem, double core_length) {
@@ -244,6 +278,7 @@ class Searcher {
       found = std::move(next);
     }
     if (!unlimited && !found.stopped) found = followed(problem, std::move(found));
+    if (!unlimited && !found.stopped) found = halved(problem, std::move(found));
     candidate.stopped = candidate.stopped || found.stopped;
     tell("referee", 0.9);
     const std::function<bool()> stop = control_.stop;
@@ -267,15 +302,29 @@ class Searcher {
         control_.stop = [] { return false; };
       }
       if (round >= kPatientRounds && !found.feasible(kNearlyFeasible)) break;
+      const double core_length = found.z[found.track->layout().length()];
+      const auto share_of = [&](double place) { return (place / problem.chord - problem.lead_in) / core_length; };
+      // A curvature that follows the load more closely, rather than a load that keeps its distance everywhere.
+      if (verdict.lift_off && round < kHoldingRounds && !found.stopped) {
+        const std::optional<Mesh> closer = following_loads(problem, found, {share_of(*verdict.lift_off)});
+        if (closer && closer->fine.size() > found.track->mesh().fine.size()) {
+          control_.tolerance = options_.tolerance;
+          control_.most_rounds = 10;
+          Found next = minimise(problem, *closer, found.z, margins_, control_);
+          if (next.feasible(options_.limit_tolerance)) {
+            found = std::move(next);
+            continue;
+          }
+        }
+      }
       tighten(problem, verdict, round);
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 10;
-      const double core_length = found.z[found.track->layout().length()];
-      Mesh mesh = mesh_with(problem, found.track->mesh().knots, core_length);
-      mesh.fine = found.track->mesh().fine;
-      mesh.fine_turns = found.track->mesh().fine_turns;
+      Mesh mesh = found.track->mesh();
+      mesh.core_length = core_length;
+      mesh.extra_breaks = breaks_of(problem, core_length);
       for (const double place : places_to_hold(problem, verdict, round)) {
-        const double sigma = (place / problem.chord - problem.lead_in) / core_length;
+        const double sigma = share_of(place);
         if (sigma > 0.0 && sigma < 1.0) hold(sigma, mesh.knots, held);
       }
       mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.begin(), held.end());
@@ -302,6 +351,25 @@ class Searcher {
       const double won = found.objective - next.objective;
       found = std::move(next);
       if (std::fabs(won) < kPays * std::fabs(found.objective)) break;
+    }
+    return found;
+  }
+
+  /// Pieces are halved where a finer mesh has much left to win.
+  [[nodiscard]] Found halved(const ScaledProblem& problem, Found found) {
+    constexpr int kMostRounds = 4;
+    constexpr double kLeft = 1e-6;
+    constexpr std::size_t kMostPieces = 120;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const Remainder left = remainder_of(problem, found, control_);
+      if (left.objective <= kLeft * std::fabs(found.objective)) break;
+      if (found.track->mesh().knots.size() > kMostPieces) break;
+      const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
+      control_.tolerance = options_.tolerance;
+      control_.most_rounds = 3;
+      Found next = minimise(problem, finer.mesh, finer.z, margins_, control_);
+      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
+      found = followed(problem, std::move(next));
     }
     return found;
   }

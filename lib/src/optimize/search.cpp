@@ -138,6 +138,26 @@ class Minimiser {
     return found;
   }
 
+  [[nodiscard]] Outlook look(const Vector& start) {
+    Outlook outlook;
+    point_ = point(rows_->state(start, true), Multipliers{});
+    point_ = point(std::move(point_.state), point_.next);
+    outlook.step = point_.solution.step;
+    outlook.force.assign(n_, 0.0);
+    if (!solved(point_)) return outlook;
+    outlook.force = point_.program.gradient;
+    for (std::size_t i = 0; i < point_.program.equality.rows(); ++i) {
+      add_scaled(outlook.force.data(), point_.solution.equality[i], point_.program.equality.row(i), n_);
+    }
+    for (const std::size_t i : point_.solution.active) {
+      add_scaled(outlook.force.data(), point_.solution.inequality[i], point_.program.inequality.row(i), n_);
+    }
+    // With d^T H d = -force.d = |L^T d|^2.
+    outlook.won = -dot(point_.program.gradient.data(), outlook.step.data(), n_) -
+                  0.5 * point_.solution.length * point_.solution.length;
+    return outlook;
+  }
+
  private:
   /// Multipliers with the rows that they belong to.
   struct Multipliers {
@@ -285,6 +305,7 @@ class Minimiser {
     const State& state = point_.state;
     found.violation = std::max(greatest_size(point_.program.equality_value),
                                greatest_of(values_of(*rows_, state, rows_->candidates(state, 0.0))));
+    if (!track_->is_track(state.z) || !std::isfinite(rows_->objective(state))) found.violation = HUGE_VAL;
     if (has_arrived(point_)) {
       found.residual = point_.distance;
       found.equality = point_.next.equality;
@@ -398,6 +419,11 @@ class Minimiser {
 Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& start, const Vector& margins,
                SearchControl& control) {
   return Minimiser(problem, mesh, margins, control).run(start);
+}
+
+Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z, const Vector& margins,
+                   SearchControl& control) {
+  return Minimiser(problem, mesh, margins, control).look(z);
 }
 
 GuessCurve curve_of(const Transcription& track, const Vector& z) {

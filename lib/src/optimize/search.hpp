@@ -39,6 +39,15 @@ struct Found {
 [[nodiscard]] Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
                              const Vector& margins, SearchControl& control);
 
+/// One quadratic program at a point: what its step would change.
+struct Outlook {
+  Vector step;
+  Vector force;      ///< the Lagrangian's gradient at the point, with the program's multipliers
+  double won = 0.0;  ///< by which the step lowers the objective, to second order
+};
+[[nodiscard]] Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
+                                 const Vector& margins, SearchControl& control);
+
 /// Slope angle over arc length of an iterate.
 [[nodiscard]] GuessCurve curve_of(const Transcription& track, const Vector& z);
 

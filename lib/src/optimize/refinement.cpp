@@ -1,0 +1,101 @@
+#include "optimize/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace glissade::optimizer {
+namespace {
+
+// A piece as short as this, of the core's length, is not halved: it stands for a jump of the curvature, or next to
+// one.
+constexpr double kShortest = 1.5e-3;
+// This share of what is left is to be won by the pieces that are halved.
+constexpr double kMost = 0.9;
+
+}  // namespace
+
+MeshTrack with_halved_pieces(const Transcription& track, const Vector& z, const std::vector<bool>& halved) {
+  const Mesh& mesh = track.mesh();
+  const Layout& layout = track.layout();
+  const auto turn_at = [&](std::size_t piece, double sigma) {
+    const double share = (sigma - mesh.knots[piece]) / (mesh.knots[piece + 1] - mesh.knots[piece]);
+    return (1.0 - share) * z[layout.turn(piece)] + share * z[layout.turn(piece + 1)] + track.own_turn(sigma);
+  };
+  MeshTrack result;
+  result.mesh = mesh;
+  result.mesh.knots.clear();
+  result.mesh.fine.clear();
+  result.mesh.fine_turns.clear();
+  Vector turns;
+  std::size_t next = 0;
+  for (std::size_t piece = 0; piece + 1 < mesh.knots.size(); ++piece) {
+    const double from = mesh.knots[piece];
+    const double to = mesh.knots[piece + 1];
+    Vector ends{from, to};
+    if (halved[piece]) ends.insert(ends.begin() + 1, 0.5 * (from + to));
+    for (std::size_t part = 0; part + 1 < ends.size(); ++part) {
+      const double first = turn_at(piece, ends[part]);
+      const double last = turn_at(piece, ends[part + 1]);
+      result.mesh.knots.push_back(ends[part]);
+      turns.push_back(first);
+      const double width = ends[part + 1] - ends[part];
+      constexpr double kSame = 1e-9;
+      for (; next < mesh.fine.size() && mesh.fine[next] < ends[part + 1] - kSame * width; ++next) {
+        const double sigma = mesh.fine[next];
+        if (sigma <= ends[part] + kSame * width) continue;  // a knot now
+        const double share = (sigma - ends[part]) / width;
+        result.mesh.fine.push_back(sigma);
+        result.mesh.fine_turns.push_back(turn_at(piece, sigma) - ((1.0 - share) * first + share * last));
+      }
+    }
+  }
+  result.mesh.knots.push_back(mesh.knots.back());
+  turns.push_back(z[layout.turn(layout.knots - 1)]);
+  result.mesh.core_length = z[layout.length()];
+  result.z.push_back(z[layout.angle()]);
+  result.z.insert(result.z.end(), turns.begin(), turns.end());
+  result.z.push_back(z[layout.length()]);
+  return result;
+}
+
+Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchControl& control) {
+  const Vector& knots = found.track->mesh().knots;
+  std::vector<bool> halved(knots.size() - 1);
+  for (std::size_t i = 0; i < halved.size(); ++i) halved[i] = knots[i + 1] - knots[i] > kShortest;
+  const MeshTrack finer = with_halved_pieces(*found.track, found.z, halved);
+  const Outlook outlook = look_ahead(problem, finer.mesh, finer.z, found.rows->margins(), control);
+  Remainder remainder;
+  remainder.objective = std::max(0.0, outlook.won);
+  remainder.by_piece.assign(halved.size(), 0.0);
+  std::size_t knot = 0;
+  for (std::size_t i = 0; i < halved.size(); ++i, ++knot) {
+    if (!halved[i]) continue;
+    // In the middle, beyond what the knots on either side do.
+    const Layout layout{finer.mesh.knots.size()};
+    const double own = outlook.step[layout.turn(knot + 1)] -
+                       0.5 * (outlook.step[layout.turn(knot)] + outlook.step[layout.turn(knot + 2)]);
+    remainder.by_piece[i] = std::fabs(own * outlook.force[layout.turn(knot + 1)]);
+    ++knot;
+  }
+  return remainder;
+}
+
+std::vector<bool> worth_halving(const Remainder& remainder) {
+  std::vector<std::size_t> order(remainder.by_piece.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return remainder.by_piece[a] > remainder.by_piece[b];
+  });
+  const double whole = std::accumulate(remainder.by_piece.begin(), remainder.by_piece.end(), 0.0);
+  std::vector<bool> halved(remainder.by_piece.size(), false);
+  double sum = 0.0;
+  for (const std::size_t piece : order) {
+    if (sum >= kMost * whole || remainder.by_piece[piece] <= 0.0) break;
+    halved[piece] = true;
+    sum += remainder.by_piece[piece];
+  }
+  return halved;
+}
+
+}  // namespace glissade::optimizer

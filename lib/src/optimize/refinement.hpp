@@ -1,0 +1,31 @@
+#pragma once
+
+#include "optimize/search.hpp"
+
+#include <vector>
+
+namespace glissade::optimizer {
+
+/// A track on a mesh.
+struct MeshTrack {
+  Mesh mesh;
+  Vector z;
+};
+
+/// The same track with a knot more in the middle of some pieces.
+/// @param halved  one entry a piece
+[[nodiscard]] MeshTrack with_halved_pieces(const Transcription& track, const Vector& z,
+                                           const std::vector<bool>& halved);
+
+/// What is left to win by a finer mesh: the step of the quadratic program on the mesh whose every piece is
+/// halved, which knows the rows that hold between the stations of the coarser one.
+struct Remainder {
+  double objective = 0.0;  ///< by which that step lowers the objective; >= 0
+  Vector by_piece;         ///< where: the part of it that is due to the knot in the middle of each piece
+};
+[[nodiscard]] Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchControl& control);
+
+/// The fewest pieces to halve for most of what is left.
+[[nodiscard]] std::vector<bool> worth_halving(const Remainder& remainder);
+
+}  // namespace glissade::optimizer
