@@ -26,7 +26,8 @@ double objective_of(const Problem& problem, const OptimizeReport& report) {
 
 }  // namespace
 
-TEST_CASE("with an entry speed the search flies where that is fastest: at most 1e-6 above the exact optimum") {
+TEST_CASE(
+    "with an entry speed the search flies where that is fastest: at most 1e-6 above the exact optimum") {
   std::ifstream file(test_data_path("reference/entry_speed.json"));
   const nlohmann::json cases = nlohmann::json::parse(file);
   REQUIRE(cases.size() == 20);

@@ -35,8 +35,8 @@ struct HeldPiece {
 };
 
 /// The curvature at which a load is at its bound, on the ride that is closest to it.
-double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const State& state, std::size_t limit,
-                          std::size_t station) {
+double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const State& state,
+                          std::size_t limit, std::size_t station) {
   const LimitSpec& spec = problem.limits[limit];
   const double bound = spec.bound - spec.side * rows.margins()[limit] * spec.scale;
   const double weight = spec.measure == Measure::normal_load ? state.shape.cos[station] : 0.0;
@@ -48,7 +48,8 @@ double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const 
 }
 
 /// How far a load stays from its bound, at most, at the stations of each piece, on the closest ride.
-Vector slack_by_piece(const ScaledProblem& problem, const Found& found, const State& state, std::size_t limit) {
+Vector slack_by_piece(const ScaledProblem& problem, const Found& found, const State& state,
+                      std::size_t limit) {
   const LimitSpec& spec = problem.limits[limit];
   const Transcription& track = *found.track;
   Vector slack(track.mesh().knots.size() - 1, 0.0);
@@ -119,10 +120,10 @@ std::vector<std::size_t> stations_at(const Transcription& track, const Vector& p
 }
 
 /// How far the load strays from its bound within a piece whose curvature is linear, in scales of the limit.
-double load_missed(const ScaledProblem& problem, const Found& found, const State& state, const HeldPiece& held) {
+double load_missed(const ScaledProblem& problem, const Found& found, const State& state,
+                   const HeldPiece& held) {
   const Vector& knots = found.track->mesh().knots;
-  const std::vector<std::size_t> ends =
-      stations_at(*found.track, {knots[held.piece], knots[held.piece + 1]});
+  const std::vector<std::size_t> ends = stations_at(*found.track, {knots[held.piece], knots[held.piece + 1]});
   const auto wanted = [&](std::size_t station) {
     return curvature_at_bound(problem, *found.rows, state, held.limit, station);
   };

@@ -303,7 +303,9 @@ class Searcher {
       }
       if (round >= kPatientRounds && !found.feasible(kNearlyFeasible)) break;
       const double core_length = found.z[found.track->layout().length()];
-      const auto share_of = [&](double place) { return (place / problem.chord - problem.lead_in) / core_length; };
+      const auto share_of = [&](double place) {
+        return (place / problem.chord - problem.lead_in) / core_length;
+      };
       // A curvature that follows the load more closely, rather than a load that keeps its distance everywhere.
       if (verdict.lift_off && round < kHoldingRounds && !found.stopped) {
         const std::optional<Mesh> closer = following_loads(problem, found, {share_of(*verdict.lift_off)});
@@ -347,7 +349,8 @@ class Searcher {
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 3;
       Found next = minimise(problem, *mesh, found.z, margins_, control_);
-      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
+      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
+        break;
       const double won = found.objective - next.objective;
       found = std::move(next);
       if (std::fabs(won) < kPays * std::fabs(found.objective)) break;
@@ -368,7 +371,8 @@ class Searcher {
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 3;
       Found next = minimise(problem, finer.mesh, finer.z, margins_, control_);
-      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
+      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
+        break;
       found = followed(problem, std::move(next));
     }
     return found;

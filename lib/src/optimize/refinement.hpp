@@ -23,7 +23,8 @@ struct Remainder {
   double objective = 0.0;  ///< by which that step lowers the objective; >= 0
   Vector by_piece;         ///< where: the part of it that is due to the knot in the middle of each piece
 };
-[[nodiscard]] Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchControl& control);
+[[nodiscard]] Remainder remainder_of(const ScaledProblem& problem, const Found& found,
+                                     SearchControl& control);
 
 /// The fewest pieces to halve for most of what is left.
 [[nodiscard]] std::vector<bool> worth_halving(const Remainder& remainder);

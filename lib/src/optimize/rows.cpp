@@ -618,10 +618,10 @@ void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Ro
       for (double& entry : across) entry *= -side;
       double curvature = 0.0;
       if (foot.at.part == Part::core) {
-        curvature = ((1.0 - foot.at.share) * state.z[layout.turn(foot.at.piece)] +
-                     foot.at.share * state.z[layout.turn(foot.at.piece + 1)] +
-                     track_.own_turn(foot.at.sigma)) /
-                    length;
+        curvature =
+            ((1.0 - foot.at.share) * state.z[layout.turn(foot.at.piece)] +
+             foot.at.share * state.z[layout.turn(foot.at.piece + 1)] + track_.own_turn(foot.at.sigma)) /
+            length;
       }
       const double bend = side * curvature;
       const double share = factor / (1.0 + bend * distance);

@@ -24,8 +24,8 @@ struct Layout {
 
 /// Where the curvature's knots lie and how the track is cut for quadrature.
 struct Mesh {
-  Vector knots;              ///< sigma, ascending from 0 to 1: shares of the core length
-  Vector extra_breaks;       ///< further sigma at which limits are to be held exactly
+  Vector knots;         ///< sigma, ascending from 0 to 1: shares of the core length
+  Vector extra_breaks;  ///< further sigma at which limits are to be held exactly
   /// Sigma, ascending, none of them a knot: here the curvature has further knots, which go along with those
   /// around them, ...
   Vector fine;
