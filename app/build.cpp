@@ -1,9 +1,9 @@
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
-#include "app/json.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
@@ -14,7 +14,6 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace glissade::app {
 namespace {
@@ -56,7 +55,7 @@ ExitCode build_design(const Options& options) {
                  {.report = !options.no_report});
   }();
   if (options.json) {
-    print(document(build_json(design, built)));
+    print(build_json(design, built));
   } else if (!options.verbosity.quiet()) {
     print(build_summary(design, built));
   }

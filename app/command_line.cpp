@@ -45,6 +45,7 @@ ExitCode run(int argc, const char* const* argv) {
   Action action;
   add_build(program, action);
   add_solve(program, action);
+  add_ride(program, action);
   add_compare(program, action);
   add_plot(program, action);
   add_inspect(program, action);

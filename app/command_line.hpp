@@ -16,6 +16,7 @@ using Action = std::function<ExitCode()>;
 /// Each adds one subcommand, which sets the action when it is given.
 void add_build(CLI::App& program, Action& action);
 void add_solve(CLI::App& program, Action& action);
+void add_ride(CLI::App& program, Action& action);
 void add_compare(CLI::App& program, Action& action);
 void add_plot(CLI::App& program, Action& action);
 void add_inspect(CLI::App& program, Action& action);

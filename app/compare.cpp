@@ -3,13 +3,13 @@
 #include "glissade/core/version.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
 #include "glissade/report/figure_page.hpp"
 
 #include "app/command_line.hpp"
 #include "app/comparison.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
-#include "app/json.hpp"
 #include "app/limits_text.hpp"
 #include "app/option_value.hpp"
 #include "app/progress_line.hpp"
@@ -28,12 +28,9 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace glissade::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kDescription =
     "Put every kind of centerline between the same two points side by side, or several designs.\n"
@@ -173,21 +170,12 @@ std::string curves_csv(const std::vector<Entry>& entries) {
   return table.csv();
 }
 
-Json comparison_json(const Options& options, const Design& design, const std::vector<Entry>& entries) {
-  Json json = options.others.empty() ? input_json(design) : Json{{"glissade", version()}};
-  json["tracks"] = Json::array();
+std::string json_of(const Options& options, const Design& design, const std::vector<Entry>& entries) {
+  std::vector<ComparedTrack> tracks;
   for (const Entry& entry : entries) {
-    if (entry.track) {
-      Json track = track_json(entry.design, *entry.track);
-      track["problem"] = nullptr;
-      json["tracks"].push_back(std::move(track));
-    } else {
-      json["tracks"].push_back({{"centerline", word(entry.design.centerline.kind)},
-                                {"friction_angle_deg", entry.design.body.friction.angle().degrees()},
-                                {"problem", entry.problem}});
-    }
+    tracks.push_back({entry.design, entry.track ? &*entry.track : nullptr, entry.problem});
   }
-  return json;
+  return comparison_json(options.others.empty() ? &design : nullptr, tracks);
 }
 
 std::vector<Friction> frictions_of(const std::vector<std::string>& texts) {
@@ -279,7 +267,7 @@ ExitCode compare(const Options& options) {
   }();
   if (!options.csv.empty()) write_text(options.csv, curves_csv(comparison.entries));
   if (options.json) {
-    print(document(comparison_json(options, design, comparison.entries)));
+    print(json_of(options, design, comparison.entries));
     return ExitCode::done;
   }
   print(emphasised(comparison.heading, Emphasis::heading) + "\n  " + comparison.task + "\n\n" +

@@ -1,11 +1,11 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/mesh_file.hpp"
+#include "glissade/pipeline/json.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
-#include "app/json.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
 
@@ -13,7 +13,6 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace glissade::app {
 namespace {
@@ -66,7 +65,7 @@ std::string facts_summary(const std::string& file, const MeshFacts& facts) {
 
 ExitCode inspect_mesh(const Options& options) {
   const MeshFacts facts = measure(read_mesh(options.file, unit_named(options.unit)));
-  print(options.json ? document(facts_json(facts)) : facts_summary(options.file, facts));
+  print(options.json ? mesh_json(facts) : facts_summary(options.file, facts));
   return facts.valid() ? ExitCode::done : ExitCode::faulty;
 }
 

@@ -72,7 +72,9 @@ const ActiveLimit* active_of(const Track& track, const std::string& limit) {
 }
 
 std::vector<std::string> row_of(const Design& design, const Track& track, const LimitCheck& check) {
-  std::string place = length_text(check.where, 3);
+  const std::string friction =
+      check.friction ? ", " + std::string(to_text(*check.friction)) + " friction" : std::string();
+  std::string place = length_text(check.where, 3) + friction;
   if (!check.kept()) {
     std::string broken = "broken";
     if (std::isfinite(check.violation)) broken += " by " + value_text(check.violation, check.unit);
@@ -80,7 +82,7 @@ std::vector<std::string> row_of(const Design& design, const Track& track, const 
   }
   const ActiveLimit* const active = active_of(track, check.limit);
   if (active == nullptr) return {check.limit, bound_text(check), reached_text(check), place, "kept"};
-  if (!active->where.empty()) place = places_text(active->where);
+  if (!active->where.empty()) place = places_text(active->where) + friction;
   return {check.limit, bound_text(check), reached_text(check), place, price_text(*active, design)};
 }
 

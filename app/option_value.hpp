@@ -1,8 +1,10 @@
 #pragma once
 
+#include "glissade/core/error.hpp"
 #include "glissade/core/quantity.hpp"
 
 #include <string>
+#include <utility>
 
 namespace glissade::app {
 
@@ -12,5 +14,17 @@ namespace glissade::app {
 /// @return SI, radians
 /// @throws InputError if it is neither
 [[nodiscard]] double option_value(const std::string& text, Dimension dimension, const std::string& name);
+
+/// Calls `make`; what it throws names the option.
+template <typename Make>
+auto at_option(const std::string& option, Make&& make) {
+  try {
+    return std::forward<Make>(make)();
+  } catch (const InputError& error) {
+    Issue issue = error.issues().front();
+    if (issue.where.empty() && !issue.what.starts_with(option)) issue.where = option;
+    throw InputError(issue);
+  }
+}
 
 }  // namespace glissade::app

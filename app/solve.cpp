@@ -1,9 +1,9 @@
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
-#include "app/json.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
@@ -12,7 +12,6 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace glissade::app {
 namespace {
@@ -54,10 +53,10 @@ ExitCode solve_track(const Options& options) {
   const Design design = options.input.design();
   try {
     const Track track = solved(design, options);
-    print(options.json ? document(track_json(design, track)) : track_summary(design, track));
+    print(options.json ? track_json(design, track) : track_summary(design, track));
     require_sound(design, track);
   } catch (const LimitsConflict& conflict) {
-    if (options.json) print(document(conflict_json(design, conflict.report())));
+    if (options.json) print(conflict_json(design, conflict.report()));
     throw;
   }
   return ExitCode::done;

@@ -120,20 +120,16 @@ Friction TrackInput::friction(const std::optional<Friction>& default_friction) c
                       "Friction decides which track is the fastest.",
                       "--friction-angle 11deg, or --friction-coefficient 0 for none"});
   }
-  const bool as_angle = !friction_angle_.empty();
-  try {
-    if (as_angle) {
+  if (!friction_angle_.empty()) {
+    return at_option("--friction-angle", [&] {
       return Friction::from_angle(
           Angle::from_radians(option_value(friction_angle_, Dimension::angle, "--friction-angle")));
-    }
+    });
+  }
+  return at_option("--friction-coefficient", [&] {
     return Friction::from_coefficient(
         option_value(friction_coefficient_, Dimension::number, "--friction-coefficient"));
-  } catch (const InputError& error) {
-    Issue issue = error.issues().front();
-    const std::string option = as_angle ? "--friction-angle" : "--friction-coefficient";
-    if (issue.where.empty() && !issue.what.starts_with(option)) issue.where = option;
-    throw InputError(issue);
-  }
+  });
 }
 
 Design TrackInput::from_options(const std::optional<Friction>& default_friction) const {

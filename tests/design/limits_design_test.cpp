@@ -123,8 +123,7 @@ TEST_CASE("a point of the limits has its run and drop in the plane of the track"
 
 TEST_CASE("friction as a range has a low, a nominal and a high value, for limits to hold at") {
   std::string text = sound_design_with("17 deg", "{low: 14 deg, nominal: 17 deg, high: 20 deg}");
-  CHECK_THAT(problems_of(text),
-             StartsWith("d.yaml:7:3: friction_angle: a range without limits to keep over it"));
+  CHECK(problems_of(text).empty());
   text.insert(text.find("mesh:"),
               "limits: {speed: {highest: 4 m/s}, objective: {kind: travel_time, worst_case: true}}\n");
   const Design design = parse_design(text, "d.yaml");

@@ -35,7 +35,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 const std::map<std::string, std::set<std::string>> kThirdParties = {
     {"CGAL/", {"solid"}},      {"nlopt", {"centerline", "optimize"}},
     {"yaml-cpp/", {"design"}}, {"boost/", {"centerline", "motion", "solid", "pipeline"}},
-    {"fmt/", {"report"}},      {"nlohmann/", {"report"}},
+    {"fmt/", {"report"}},      {"nlohmann/", {"report", "pipeline"}},
     {"openssl/", {"report"}},  {"librsvg/", {"report"}},
     {"cairo", {"report"}},
 };

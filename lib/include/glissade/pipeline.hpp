@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/core/friction_level.hpp"
 #include "glissade/core/progress.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
@@ -29,12 +30,24 @@ struct RunContext {
   double time_budget = OptimizeOptions{}.time_budget;  ///< of a search within limits [s]; > 0
 };
 
+/// The ride at one end of a friction range.
+struct RangeRide {
+  FrictionLevel level = FrictionLevel::low;
+  Motion motion;  ///< its body has that friction
+};
+
+/// One of a track's rides by its friction.
+struct LevelRide {
+  FrictionLevel level = FrictionLevel::nominal;
+  const Motion* motion = nullptr;
+};
+
 /// A centerline with the ride down it and the two rides that it is measured by.
 struct Track {
   Endpoints endpoints;
   Placement placement;
   CenterlinePtr centerline;
-  Motion motion;
+  Motion motion;  ///< at the nominal friction
   /// The same body on the straight line between the endpoints; none if it does not arrive there.
   std::optional<Motion> straight;
   /// The ride on the fastest track there is, which the theory gives from rest and without drag
@@ -52,7 +65,12 @@ struct Track {
   /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without
   /// limits.
   std::vector<LimitCheck> limit_checks;
+  /// The same body at the ends of the design's friction range; empty where it has none.
+  std::vector<RangeRide> range;
 
+  /// @return the rides at every friction that the design names, from low to high; the nominal one is always
+  ///         among them. They live as long as the track.
+  [[nodiscard]] std::vector<LevelRide> rides() const;
   /// @return travel time on the straight line [s]; none if the body does not arrive there
   [[nodiscard]] std::optional<double> straight_travel_time() const;
 };
@@ -87,6 +105,15 @@ class LimitsConflict : public InfeasibleError {
 
 /// The ride of the design's body down a given centerline, what it is measured by, and its limits checked.
 [[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline);
+
+/// A track that stays as it is, ridden at another friction: nothing is searched or chosen anew. Its limits are
+/// held against that friction alone.
+/// @param design      where the track and the rest of the body come from
+/// @param centerline  a track of that design
+[[nodiscard]] Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction);
+
+/// The friction angle from which on a track's body stalls on it: stall_friction_angle() of the nominal ride.
+[[nodiscard]] std::optional<Angle> stall_angle_of(const Track& track);
 
 /// Design to centerline and motion. With limits, the kind fastest is searched for within them; on other kinds
 /// they are checked. A body that stalls or leaves the track is a result, not an error, and so is a broken

@@ -24,12 +24,6 @@ void check_friction_range(const Design& design, Collected& findings) {
                 angle_text(math::atan(high)) + ".",
             ""});
   }
-  if ((body.low_friction || body.high_friction) && !design.limits) {
-    report(findings, {"body." + key, "limits"},
-           {"", key + ": a range without limits to keep over it",
-            "The low and the high value count for limits only.",
-            "the nominal value alone, or limits: with what is to hold at every friction"});
-  }
 }
 
 }  // namespace

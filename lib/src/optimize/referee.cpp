@@ -77,17 +77,21 @@ double distance_to_keep_out(Vec2 point, const KeepOut& keep_out) {
 class Watch {
  public:
   Watch(std::string limit, const char* unit, int side, double bound, double scale)
-      : check_{std::move(limit), bound, 0.0, 0.0, scale, 0.0, unit, side} {}
+      : check_{std::move(limit), bound, 0.0, 0.0, scale, 0.0, unit, side, {}} {}
 
-  void see(double value, double where) {
+  void see(double value, double where, std::optional<FrictionLevel> friction = {}) {
     const double excess =
         check_.side == 0 ? std::fabs(value - check_.value) : check_.side * (value - check_.value);
     see_broken(excess / check_.scale, where);
-    if (seen_ && excess <= worst_) return;
+    // A friction that changes nothing but the last digits is not the one at which a limit binds.
+    constexpr double kSameDigits = 1e-12;
+    const double least = friction == check_.friction ? worst_ : worst_ + kSameDigits * check_.scale;
+    if (seen_ && excess <= least) return;
     seen_ = true;
     worst_ = excess;
     check_.reached = value;
     check_.where = where;
+    check_.friction = friction;
     check_.violation = std::max(0.0, excess);
   }
   [[nodiscard]] bool seen() const { return seen_; }
@@ -185,6 +189,9 @@ class Watches {
     if (bound) watch("highest_curvature_rate", "1/m^2", +1, *bound, *bound).see(std::fabs(rate), s);
   }
 
+  /// What is seen from here on is of the ride at this friction, or of none.
+  void ride_at(std::optional<FrictionLevel> friction) { friction_ = friction; }
+
   void at_state(const MotionState& state, const CenterlinePoint& point) {
     const Limits& limits = problem_.limits;
     const double s = state.arc_length;
@@ -196,22 +203,22 @@ class Watches {
     if (limits.highest_normal_load) {
       watch("highest_normal_load", "m/s^2", +1, *limits.highest_normal_load,
             load_scale(*limits.highest_normal_load))
-          .see(state.normal_load, s);
+          .see(state.normal_load, s, friction_);
     }
     if (limits.lowest_normal_load) {
       watch("lowest_normal_load", "m/s^2", -1, *limits.lowest_normal_load,
             load_scale(*limits.lowest_normal_load))
-          .see(state.normal_load, s);
+          .see(state.normal_load, s, friction_);
     }
     if (limits.highest_curvature_load) {
       watch("highest_curvature_load", "m/s^2", +1, *limits.highest_curvature_load,
             load_scale(*limits.highest_curvature_load))
-          .see(curvature_load, s);
+          .see(curvature_load, s, friction_);
     }
     if (limits.speed.highest)
-      watch("speed.highest", "m/s", +1, *limits.speed.highest, speed_scale).see(state.speed, s);
+      watch("speed.highest", "m/s", +1, *limits.speed.highest, speed_scale).see(state.speed, s, friction_);
     if (limits.speed.lowest && s >= limits.lowest_speed_from) {
-      watch("speed.lowest", "m/s", -1, *limits.speed.lowest, speed_scale).see(state.speed, s);
+      watch("speed.lowest", "m/s", -1, *limits.speed.lowest, speed_scale).see(state.speed, s, friction_);
     }
   }
 
@@ -255,7 +262,7 @@ class Watches {
 
   /// How far the body comes at a friction that is not the nominal one.
   void at_arrival(const std::string& limit, double distance, double length) {
-    watch(limit, "m", -1, length, chord_).see(distance, distance);
+    watch(limit, "m", -1, length, chord_).see(distance, distance, friction_);
   }
 
   void near(std::size_t waypoint, double distance, double s) {
@@ -291,11 +298,11 @@ class Watches {
   void range(const std::string& limit, const char* unit, const Range& range, double scale, double value,
              double s) {
     if (range.lowest && range.highest && *range.lowest == *range.highest) {
-      watch(limit, unit, 0, *range.lowest, scale).see(value, s);
+      watch(limit, unit, 0, *range.lowest, scale).see(value, s, friction_);
       return;
     }
-    if (range.lowest) watch(limit + ".lowest", unit, -1, *range.lowest, scale).see(value, s);
-    if (range.highest) watch(limit + ".highest", unit, +1, *range.highest, scale).see(value, s);
+    if (range.lowest) watch(limit + ".lowest", unit, -1, *range.lowest, scale).see(value, s, friction_);
+    if (range.highest) watch(limit + ".highest", unit, +1, *range.highest, scale).see(value, s, friction_);
   }
   void least(const std::string& limit, double bound, double value, double s) {
     watch(limit, "m", -1, bound, chord_).see(value, s);
@@ -306,6 +313,7 @@ class Watches {
 
   const Problem& problem_;
   double chord_;
+  std::optional<FrictionLevel> friction_;
   std::vector<std::pair<std::string, Watch>> watches_;
 };
 
@@ -401,13 +409,17 @@ std::pair<double, double> straight_ends(const std::vector<CenterlinePoint>& poin
 /// A friction that limits hold at, and what the check of arriving there is called; empty: the nominal one.
 struct NamedFriction {
   Friction friction;
+  std::optional<FrictionLevel> level;  ///< none where there is no range
   std::string arrival;
 };
 
 std::vector<NamedFriction> frictions_of(const Problem& problem) {
-  std::vector<NamedFriction> frictions{{problem.body.friction, ""}};
-  if (problem.low_friction) frictions.push_back({*problem.low_friction, "arrival_at_low_friction"});
-  if (problem.high_friction) frictions.push_back({*problem.high_friction, "arrival_at_high_friction"});
+  using enum FrictionLevel;
+  const bool ranges = problem.low_friction || problem.high_friction;
+  std::vector<NamedFriction> frictions{
+      {problem.body.friction, ranges ? std::optional(nominal) : std::nullopt, ""}};
+  if (problem.low_friction) frictions.push_back({*problem.low_friction, low, "arrival_at_low_friction"});
+  if (problem.high_friction) frictions.push_back({*problem.high_friction, high, "arrival_at_high_friction"});
   return frictions;
 }
 
@@ -441,7 +453,8 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
 
   Verdict verdict;
   verdict.arrived = true;
-  for (const auto& [friction, arrival] : frictions_of(problem)) {
+  for (const auto& [friction, level, arrival] : frictions_of(problem)) {
+    watches.ride_at(level);
     Body body = problem.body;
     body.friction = friction;
     const Motion motion(track, body, problem.gravity);
@@ -461,6 +474,7 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
     for (std::size_t i = 0; i < states.size(); ++i) watches.at_state(states[i], points[i]);
     if (motion.arrived()) watches.at_exit_speed(motion.exit_speed(), track->length());
   }
+  watches.ride_at({});
   watches.at_end(*track);
   verdict.checks = watches.checks();
   verdict.broken = watches.broken();

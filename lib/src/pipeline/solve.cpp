@@ -11,6 +11,7 @@
 #include "glissade/pipeline.hpp"
 
 #include "pipeline/extremes.hpp"
+#include "pipeline/friction_range.hpp"
 #include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
 
@@ -158,6 +159,7 @@ Track ride(const Design& design, CenterlinePtr centerline) {
   const double steepest = steepest_slope_angle(*centerline);
   Motion motion(centerline, body, design.gravity);
   std::vector<LimitCheck> limit_checks = checked_limits(design, endpoints, centerline);
+  std::vector<RangeRide> range = rides_of_range(design, centerline);
   return {endpoints,
           Placement::through(design.track.start, design.track.finish),
           std::move(centerline),
@@ -168,7 +170,8 @@ Track ride(const Design& design, CenterlinePtr centerline) {
           radius,
           steepest,
           {},
-          std::move(limit_checks)};
+          std::move(limit_checks),
+          std::move(range)};
 }
 
 Track solve(const Design& design, const RunContext& context) {
@@ -185,27 +188,48 @@ Track solve(const Design& design, const RunContext& context) {
   return track;
 }
 
-std::optional<Issue> ride_problem(const Design& design, const Track& track) {
+namespace {
+
+/// What keeps one ride from the finish. Of a ride at the nominal friction the friction needs no name.
+std::optional<Issue> problem_of_ride(const Design& design, const Track& track, const LevelRide& ride) {
+  const Motion& motion = *ride.motion;
   const double length = track.centerline->length();
-  if (const auto& stall = track.motion.stall()) {
+  const std::string when = ride.level == FrictionLevel::nominal ? "" : at_friction_text(ride) + ", ";
+  if (const auto& stall = motion.stall()) {
     const std::string place = stall->arc_length == 0.0
                                   ? "the body does not start to slide"
                                   : "the body stalls after " + length_text(stall->arc_length);
-    return Issue{design.where("centerline"), place + ", before the finish at " + length_text(length),
+    return Issue{design.where("centerline"), when + place + ", before the finish at " + length_text(length),
                  "The slope angle there is " + angle_text(track.centerline->slope_angle(stall->arc_length)) +
                      ", " + angle_text(stall->missing_slope) + " less than the friction angle, " +
-                     angle_text(design.body.friction.angle().radians()) + ".",
+                     angle_text(motion.body().friction.angle().radians()) + ".",
                  std::string("a steeper track, less friction, or ") +
                      (design.body.entry_speed > 0.0 ? "a higher entry_speed" : "an entry_speed")};
   }
-  if (const auto& lift_off = track.motion.lift_off()) {
+  if (const auto& lift_off = motion.lift_off()) {
     return Issue{design.where("centerline"),
-                 "the body leaves the track after " + length_text(lift_off->arc_length) + ", at " +
+                 when + "the body leaves the track after " + length_text(lift_off->arc_length) + ", at " +
                      rounded_text(lift_off->speed, 4) + " m/s",
                  "The track bends away below it there with a radius of " +
                      length_text(1.0 / std::fabs(lift_off->curvature)) +
                      ", tighter than gravity can make it follow.",
                  "a larger radius at that crest, or less speed"};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Issue> ride_problem(const Design& design, const Track& track) {
+  if (auto problem = problem_of_ride(design, track, {FrictionLevel::nominal, &track.motion})) return problem;
+  for (const RangeRide& ride : track.range) {
+    auto problem = problem_of_ride(design, track, {ride.level, &ride.motion});
+    if (!problem) continue;
+    const bool searched = design.limits && design.centerline.kind == CenterlineKind::fastest;
+    if (design.centerline.kind == CenterlineKind::fastest && !searched) {
+      problem->hint = "limits: {}, which finds the fastest track that holds over the whole range of friction";
+    }
+    return problem;
   }
   return {};
 }

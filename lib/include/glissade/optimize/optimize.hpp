@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/core/friction_level.hpp"
 #include "glissade/core/progress.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/motion/motion.hpp"
@@ -97,6 +98,9 @@ struct LimitCheck {
   double where = 0.0;      ///< arc length of the worst value [m]
   std::string unit;
   int side = 0;  ///< +1: at most `value`, -1: at least, 0: exactly
+  /// Of a problem with a friction range: at which of its frictions the worst value was reached; none where
+  /// friction has no part in it.
+  std::optional<FrictionLevel> friction = {};
 
   /// @return violation <= kLimitAccuracy * scale
   [[nodiscard]] bool kept() const { return violation <= kLimitAccuracy * scale; }

@@ -1,0 +1,129 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/interrupt.hpp"
+#include "app/limits_text.hpp"
+#include "app/option_value.hpp"
+#include "app/progress_line.hpp"
+#include "app/rides_text.hpp"
+#include "app/summary.hpp"
+#include "app/time_budget.hpp"
+#include "app/track_input.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Ride the track of a design at other frictions; the track stays as it is.\n"
+    "\n"
+    "The track is found once, at the design's own friction, as 'glissade solve' finds it. Each friction "
+    "given\n"
+    "here then rides that same track: time, speeds, loads, how far it is from a stall, and the limits held\n"
+    "against that friction alone. A ride that ends early or breaks a limit is a result: the exit code is 0.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade ride designs/grain_chute.yaml --friction-angle 14deg,16deg,18deg\n"
+    "  glissade ride designs/grain_chute.yaml --friction-coefficient 0.2,0.3,0.4 --json";
+
+struct Options {
+  std::string design;
+  Overrides overrides;
+  std::vector<std::string> angles;
+  std::vector<std::string> coefficients;
+  TimeBudget time_budget;
+  Verbosity verbosity;
+  bool json = false;
+};
+
+std::vector<Friction> frictions_of(const Options& options) {
+  std::vector<Friction> frictions;
+  for (const std::string& text : options.angles) {
+    frictions.push_back(at_option("--friction-angle", [&] {
+      return Friction::from_angle(
+          Angle::from_radians(option_value(text, Dimension::angle, "--friction-angle")));
+    }));
+  }
+  for (const std::string& text : options.coefficients) {
+    frictions.push_back(at_option("--friction-coefficient", [&] {
+      return Friction::from_coefficient(option_value(text, Dimension::number, "--friction-coefficient"));
+    }));
+  }
+  if (!frictions.empty()) return frictions;
+  throw InputError({"", "no friction is given to ride at",
+                    "The design's own friction finds the track; these ride it.",
+                    "--friction-angle 14deg,16deg,18deg"});
+}
+
+std::string limits_at(const Track& ride) {
+  return ride.motion.arrived() ? "limits " + limits_verdict(ride) : "-";
+}
+
+std::string rides_summary(const Design& design, const Track& track, const std::vector<Track>& rides) {
+  const std::optional<Angle> stall_angle = stall_angle_of(track);
+  Table table = rides_table("Friction");
+  const auto add = [&](const std::string& name, const Motion& motion, const Track& checked) {
+    add_ride(table, name, motion, stall_angle, design.limits ? limits_at(checked) : "");
+  };
+  const auto angle_of = [](const Motion& motion) {
+    return angle_text(motion.body().friction.angle().radians());
+  };
+  add("found at " + angle_of(track.motion), track.motion, track);
+  for (const Track& ride : rides) add(angle_of(ride.motion), ride.motion, ride);
+  const std::string heading = design.name.empty() ? std::string("Track") : design.name;
+  return emphasised(heading, Emphasis::heading) + "\n  " + task_line(design, track.endpoints) + "\n\n" +
+         table.text();
+}
+
+ExitCode ride_track(const Options& options) {
+  const std::vector<Friction> frictions = frictions_of(options);
+  const Design design = read_design(options.design, options.overrides.values());
+  const Track track = [&] {
+    const Interrupt interrupt;
+    ProgressLine progress(options.verbosity);
+    return solve(design, {progress.callback(), interrupt.token(), options.time_budget.seconds()});
+  }();
+  std::vector<Track> rides;
+  rides.reserve(frictions.size());
+  for (const Friction friction : frictions) rides.push_back(ride_at(design, track.centerline, friction));
+  print(options.json ? rides_json(design, track, rides) : rides_summary(design, track, rides));
+  if (const auto problem = search_problem(design, track)) throw ConvergenceError(*problem);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_ride(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("ride", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
+  command
+      .add_option("--friction-angle", options->angles,
+                  "Friction angles with their unit, separated by commas: 14deg,16deg")
+      ->type_name("ANGLES")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      .add_option("--friction-coefficient", options->coefficients,
+                  "The same as their tangents, separated by commas: 0.25,0.3")
+      ->type_name("NUMBERS")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  options->overrides.add_to(command);
+  options->time_budget.add_to(command);
+  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  options->verbosity.add_to(command, "Show no progress");
+  command.callback([options, &action] { action = [options] { return ride_track(*options); }; });
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,66 @@
+#include "app/rides_text.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include "app/summary.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace glissade::app {
+namespace {
+
+constexpr int kDigits = 4;
+
+std::string time_of(const Motion& motion) {
+  if (motion.arrived()) return time_text(motion.travel_time());
+  if (motion.stall()) return "stalls after " + length_text(motion.stall()->arc_length, kDigits);
+  return "leaves after " + length_text(motion.lift_off()->arc_length, kDigits);
+}
+
+std::string margin_text(const Motion& motion, const std::optional<Angle>& stall_angle) {
+  if (!stall_angle) return "never stalls";
+  return angle_text(stall_angle->radians() - motion.body().friction.angle().radians(), 3);
+}
+
+std::string stall_text(const Track& track, const std::optional<Angle>& stall_angle) {
+  if (!stall_angle) return "at no friction angle below 89.9 deg";
+  if (stall_angle->radians() == 0.0) return "even without friction";
+  const double margin = stall_angle->radians() - track.motion.body().friction.angle().radians();
+  return "a friction angle of " + angle_text(stall_angle->radians()) + " (margin " + angle_text(margin, 3) +
+         ")";
+}
+
+}  // namespace
+
+Table rides_table(const std::string& heading) {
+  return Table(
+      {heading, "travel time", "exit speed", "highest speed", "highest load", "lowest load", "stall margin"});
+}
+
+void add_ride(Table& table, const std::string& name, const Motion& motion,
+              const std::optional<Angle>& stall_angle, const std::string& limits) {
+  std::vector<std::string> row = {name,
+                                  time_of(motion),
+                                  motion.arrived() ? speed_text(motion.exit_speed()) : "-",
+                                  speed_text(motion.highest_speed().speed),
+                                  acceleration_text(motion.highest_load().normal_load),
+                                  acceleration_text(motion.lowest_load().normal_load),
+                                  margin_text(motion, stall_angle)};
+  if (!limits.empty()) row.push_back(limits);
+  table.add(std::move(row));
+}
+
+std::string friction_lines(const Track& track) {
+  const std::optional<Angle> stall_angle = stall_angle_of(track);
+  std::string text = labelled("Stalls from", stall_text(track, stall_angle));
+  if (track.range.empty()) return text;
+  Table table = rides_table("Friction");
+  for (const LevelRide& ride : track.rides()) {
+    const double angle = ride.motion->body().friction.angle().radians();
+    add_ride(table, std::string(to_text(ride.level)) + ", " + angle_text(angle), *ride.motion, stall_angle);
+  }
+  return text + "\n" + table.text();
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "glissade/core/units.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include <optional>
+
+namespace glissade {
+
+/// Stated bound of the error of stall_friction_angle() [rad].
+inline constexpr double kStallFrictionAccuracy = 1e-6;
+
+/// How far a ride is from getting stuck: the friction angle from which on the same body stalls on the same
+/// track.
+///
+/// More friction is a slower body at every place as long as the track carries it (docs/theory.md, energy
+/// equation), so that there is one such angle: below it the body does not stall, above it it does. A body that
+/// leaves the track has not stalled.
+/// Where friction changes along the track, every change is shifted by the same angle as the body's own.
+/// Accuracy: kStallFrictionAccuracy; never above the true angle by more than that.
+/// @return 0 if the body stalls without any friction; none if it does not stall below 89.9 deg
+/// @throws as Motion
+[[nodiscard]] std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const Body& body,
+                                                        double gravity = kDefaultGravity);
+
+}  // namespace glissade

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "glissade/pipeline.hpp"
+
+#include <string>
+#include <vector>
+
+namespace glissade {
+
+/// Results as JSON documents, the ones that `--json` prints: docs/json.md describes every key. Each ends with a
+/// newline; bytes depend on the arguments alone.
+
+/// A track and the ride down it.
+[[nodiscard]] std::string track_json(const Design& design, const Track& track);
+
+/// A design whose limits no track keeps: every key of track_json(), null where there is no track; what
+/// contradicts each other, and what would do.
+[[nodiscard]] std::string conflict_json(const Design& design, const OptimizeReport& report);
+
+/// A track with its solid and the files.
+[[nodiscard]] std::string build_json(const Design& design, const Build& build);
+
+/// What was measured on a mesh.
+[[nodiscard]] std::string mesh_json(const MeshFacts& facts);
+
+/// One line of a comparison: a track, or why there is none.
+struct ComparedTrack {
+  const Design& design;
+  const Track* track = nullptr;  ///< null: see `problem`
+  std::string problem;
+};
+
+/// Several tracks.
+/// @param common  what all of them have in common; null where each is a design of its own
+[[nodiscard]] std::string comparison_json(const Design* common, const std::vector<ComparedTrack>& tracks);
+
+/// A track that stays as it is, ridden at several frictions.
+/// @param rides  as ride_at() gives them
+[[nodiscard]] std::string rides_json(const Design& design, const Track& track,
+                                     const std::vector<Track>& rides);
+
+}  // namespace glissade

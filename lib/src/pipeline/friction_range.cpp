@@ -1,0 +1,59 @@
+// One track under the frictions of a range, or under any other.
+
+#include "pipeline/friction_range.hpp"
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/motion/stall_friction.hpp"
+#include "glissade/pipeline.hpp"
+
+#include <utility>
+
+namespace glissade {
+
+std::vector<LevelRide> Track::rides() const {
+  std::vector<LevelRide> rides;
+  for (const FrictionLevel level : kFrictionLevels) {
+    if (level == FrictionLevel::nominal) rides.push_back({level, &motion});
+    for (const RangeRide& ride : range) {
+      if (ride.level == level) rides.push_back({level, &ride.motion});
+    }
+  }
+  return rides;
+}
+
+Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction) {
+  design.body.friction = friction;
+  design.body.low_friction.reset();
+  design.body.high_friction.reset();
+  // Not searched: where the objective would count the highest friction does not matter.
+  if (design.limits) design.limits->objective.worst_case = false;
+  return ride(design, centerline);
+}
+
+std::optional<Angle> stall_angle_of(const Track& track) {
+  return stall_friction_angle(track.centerline, track.motion.body(), track.motion.gravity());
+}
+
+namespace pipeline {
+
+std::vector<RangeRide> rides_of_range(const Design& design, const CenterlinePtr& centerline) {
+  std::vector<RangeRide> rides;
+  const auto add = [&](FrictionLevel level, const std::optional<Friction>& friction) {
+    if (!friction) return;
+    const Body body{.friction = *friction,
+                    .entry_speed = design.body.entry_speed,
+                    .drag_per_metre = design.body.drag_per_metre};
+    rides.push_back({level, Motion(centerline, body, design.gravity)});
+  };
+  add(FrictionLevel::low, design.body.low_friction);
+  add(FrictionLevel::high, design.body.high_friction);
+  return rides;
+}
+
+std::string at_friction_text(const LevelRide& ride) {
+  return "at " + std::string(to_text(ride.level)) + " friction, " +
+         angle_text(ride.motion->body().friction.angle().radians());
+}
+
+}  // namespace pipeline
+}  // namespace glissade

@@ -1,0 +1,166 @@
+#include "glissade/pipeline/json.hpp"
+
+#include "glissade/centerline/constant_speed_curve.hpp"
+#include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/core/version.hpp"
+
+#include "report/serial/vocabulary.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace glissade {
+
+using namespace report;
+
+namespace {
+
+std::string objective_unit(const Design& design) {
+  const bool speed_counts = design.limits && design.limits->objective.kind == ObjectiveDesignKind::exit_speed;
+  return speed_counts ? "m/s" : "s";
+}
+
+Json task_document(const Design& design, const Endpoints& endpoints) {
+  Json json;
+  json["glissade"] = version();
+  if (!design.name.empty()) json["name"] = design.name;
+  json["run_m"] = endpoints.run;
+  json["drop_m"] = endpoints.drop;
+  add_body(json, design);
+  return json;
+}
+
+Json profile_json(const FittedProfile& profile) {
+  return {{"points", profile.points().size()},
+          {"max_deviation_m", profile.max_deviation()},
+          {"max_deviation_at_point", profile.farthest_point() + 1},
+          {"rms_deviation_m", profile.rms_deviation()}};
+}
+
+Json constant_speed_json(const ConstantSpeedCurve& curve) {
+  return {{"p_m2_per_s2", curve.p()},
+          {"speed_m_per_s", std::sqrt(curve.p())},
+          {"travel_time_at_that_speed_s", curve.travel_time_at_constant_speed()}};
+}
+
+void add_curve(Json& json, const Track& track) {
+  const Centerline& centerline = *track.centerline;
+  json["entry_slope_angle_deg"] = degrees(centerline.slope_angle(0.0));
+  json["exit_slope_angle_deg"] = degrees(centerline.slope_angle(centerline.length()));
+  json["steepest_slope_angle_deg"] = degrees(track.steepest_slope_angle);
+  json["arc_length_m"] = centerline.length();
+  json["min_radius_m"] = number(track.min_radius);
+  if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline)) {
+    json["profile"] = profile_json(*profile);
+  }
+  if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
+    json["constant_speed"] = constant_speed_json(*curve);
+  }
+}
+
+Json limits_json(const std::vector<LimitCheck>& checks) {
+  Json limits = Json::array();
+  for (const LimitCheck& check : checks) limits.push_back(check_json(check));
+  return limits;
+}
+
+Json rides_of(const Track& track) {
+  const std::optional<Angle> stall_angle = stall_angle_of(track);
+  Json rides = Json::array();
+  for (const LevelRide& ride : track.rides())
+    rides.push_back(ride_json(ride.level, *ride.motion, stall_angle));
+  return rides;
+}
+
+Json track_document(const Design& design, const Track& track) {
+  Json json = task_document(design, track.endpoints);
+  json["centerline"] = word(design.centerline.kind);
+  add_ride(json, track.motion);
+  json["straight_travel_time_s"] = number(track.straight_travel_time());
+  json["optimum_travel_time_s"] = number(track.optimum_travel_time);
+  add_curve(json, track);
+  json["rides"] = rides_of(track);
+  json["limits"] = limits_json(track.limit_checks);
+  json["search"] = track.search ? search_json(*track.search, objective_unit(design)) : Json(nullptr);
+  return json;
+}
+
+Json conflict_document(const Design& design, const OptimizeReport& report) {
+  Json json = task_document(design, endpoints_of(design));
+  json["centerline"] = word(design.centerline.kind);
+  json["status"] = to_text(report.status);
+  // The keys of a track, so that a reader needs to ask only for their values.
+  for (const char* key : {"travel_time_s", "exit_speed_m_per_s", "highest_speed_m_per_s",
+                          "highest_speed_at_m", "max_normal_load_m_per_s2", "max_normal_load_at_m",
+                          "min_normal_load_m_per_s2", "min_normal_load_at_m", "friction_loss_j_per_kg",
+                          "drag_loss_j_per_kg", "stall", "lift_off", "straight_travel_time_s"}) {
+    json[key] = nullptr;
+  }
+  json["optimum_travel_time_s"] = number(report.unlimited_travel_time);
+  for (const char* key : {"entry_slope_angle_deg", "exit_slope_angle_deg", "steepest_slope_angle_deg",
+                          "arc_length_m", "min_radius_m"}) {
+    json[key] = nullptr;
+  }
+  json["rides"] = Json::array();
+  json["limits"] = limits_json(report.checks);
+  json["search"] = search_json(report, objective_unit(design));
+  return json;
+}
+
+}  // namespace
+
+std::string track_json(const Design& design, const Track& track) {
+  return document_text(track_document(design, track));
+}
+
+std::string conflict_json(const Design& design, const OptimizeReport& report) {
+  return document_text(conflict_document(design, report));
+}
+
+std::string build_json(const Design& design, const Build& build) {
+  Json json = track_document(design, build.track);
+  json["mesh"] = report::mesh_json(build.facts);
+  json["mesh"]["max_deviation_m"] = build.solid.max_deviation;
+  json["mesh"]["trimmed"] = build.solid.trimmed;
+  json["files"] = Json::array();
+  for (const WrittenFile& file : build.files) {
+    json["files"].push_back({{"path", file.path.generic_string()}, {"bytes", file.bytes}});
+  }
+  return document_text(json);
+}
+
+std::string mesh_json(const MeshFacts& facts) {
+  return document_text(report::mesh_json(facts));
+}
+
+std::string comparison_json(const Design* common, const std::vector<ComparedTrack>& tracks) {
+  Json json =
+      common != nullptr ? task_document(*common, endpoints_of(*common)) : Json{{"glissade", version()}};
+  json["tracks"] = Json::array();
+  for (const ComparedTrack& entry : tracks) {
+    if (entry.track != nullptr) {
+      json["tracks"].push_back(track_document(entry.design, *entry.track));
+      json["tracks"].back()["problem"] = nullptr;
+      continue;
+    }
+    json["tracks"].push_back({{"centerline", word(entry.design.centerline.kind)},
+                              {"friction_angle_deg", entry.design.body.friction.angle().degrees()},
+                              {"problem", entry.problem}});
+  }
+  return document_text(json);
+}
+
+std::string rides_json(const Design& design, const Track& track, const std::vector<Track>& rides) {
+  const std::optional<Angle> stall_angle = stall_angle_of(track);
+  Json json = track_document(design, track);
+  json["at_frictions"] = Json::array();
+  for (const Track& ride : rides) {
+    Json entry = ride_json(FrictionLevel::nominal, ride.motion, stall_angle);
+    entry.erase("friction");
+    entry["limits"] = limits_json(ride.limit_checks);
+    json["at_frictions"].push_back(std::move(entry));
+  }
+  return document_text(json);
+}
+
+}  // namespace glissade

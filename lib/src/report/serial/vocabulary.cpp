@@ -1,0 +1,201 @@
+#include "report/serial/vocabulary.hpp"
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace glissade::report {
+namespace {
+
+std::string_view status_of(const Motion& motion) {
+  if (motion.arrived()) return "arrived";
+  return motion.stall() ? "stalled" : "lifted off";
+}
+
+Json stall_json(const std::optional<Stall>& stall) {
+  if (!stall) return nullptr;
+  return {{"arc_length_m", stall->arc_length}, {"missing_slope_deg", degrees(stall->missing_slope)}};
+}
+
+Json lift_off_json(const std::optional<LiftOff>& lift_off) {
+  if (!lift_off) return nullptr;
+  return {{"arc_length_m", lift_off->arc_length},
+          {"speed_m_per_s", lift_off->speed},
+          {"curvature_per_m", number(lift_off->curvature)}};
+}
+
+const char* side_name(int side) {
+  if (side == 0) return "exactly";
+  return side > 0 ? "at most" : "at least";
+}
+
+Json level_json(const std::optional<FrictionLevel>& level) {
+  return level ? Json(to_text(*level)) : Json(nullptr);
+}
+
+Json conflict_json(const Conflict& conflict) {
+  Json limits = Json::array();
+  for (const StatedLimit& stated : conflict.limits) limits.push_back(stated.limit);
+  return limits;
+}
+
+Json relaxations_json(const Conflict& conflict) {
+  Json relaxations = Json::array();
+  for (const Relaxation& relaxation : conflict.relaxations) {
+    relaxations.push_back({{"limit", relaxation.limit},
+                           {"bound", in_unit(relaxation.value, relaxation.unit)},
+                           {"needed", in_unit(relaxation.needed, relaxation.unit)},
+                           {"unit", unit_name(relaxation.unit)}});
+  }
+  return relaxations;
+}
+
+}  // namespace
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+double degrees(double radians) {
+  return Angle::from_radians(radians).degrees();
+}
+
+Json position_json(Vec3 position) {
+  return Json::array({position.x, position.y, position.z});
+}
+
+std::string unit_name(const std::string& unit) {
+  return unit == "rad" ? "deg" : unit;
+}
+
+Json in_unit(double value, const std::string& unit) {
+  return number(unit == "rad" ? degrees(value) : value);
+}
+
+void add_friction(Json& json, const Friction& friction) {
+  json["friction_coefficient"] = friction.coefficient();
+  json["friction_angle_deg"] = friction.angle().degrees();
+}
+
+void add_body(Json& json, const Design& design) {
+  add_friction(json, design.body.friction);
+  json["entry_speed_m_per_s"] = design.body.entry_speed;
+  json["drag_per_m"] = design.body.drag_per_metre;
+  json["gravity_m_per_s2"] = design.gravity;
+}
+
+void add_ride(Json& json, const Motion& motion) {
+  const auto at_finish = [&](double value) { return motion.arrived() ? number(value) : Json(nullptr); };
+  const MotionState fastest = motion.highest_speed();
+  const MotionState heaviest = motion.highest_load();
+  const MotionState lightest = motion.lowest_load();
+  const MotionState end = motion.at(motion.distance());
+  json["status"] = status_of(motion);
+  json["travel_time_s"] = at_finish(motion.travel_time());
+  json["exit_speed_m_per_s"] = at_finish(motion.exit_speed());
+  json["highest_speed_m_per_s"] = fastest.speed;
+  json["highest_speed_at_m"] = fastest.arc_length;
+  json["max_normal_load_m_per_s2"] = number(heaviest.normal_load);
+  json["max_normal_load_at_m"] = heaviest.arc_length;
+  json["min_normal_load_m_per_s2"] = number(lightest.normal_load);
+  json["min_normal_load_at_m"] = lightest.arc_length;
+  json["friction_loss_j_per_kg"] = end.friction_loss;
+  json["drag_loss_j_per_kg"] = end.drag_loss;
+  json["stall"] = stall_json(motion.stall());
+  json["lift_off"] = lift_off_json(motion.lift_off());
+}
+
+Json ride_json(FrictionLevel level, const Motion& motion, const std::optional<Angle>& stall_angle) {
+  const Friction friction = motion.body().friction;
+  Json json;
+  json["friction"] = to_text(level);
+  add_friction(json, friction);
+  add_ride(json, motion);
+  json["stall_friction_angle_deg"] = stall_angle ? Json(stall_angle->degrees()) : Json(nullptr);
+  json["stall_margin_deg"] =
+      stall_angle ? Json(stall_angle->degrees() - friction.angle().degrees()) : Json(nullptr);
+  return json;
+}
+
+Json check_json(const LimitCheck& check) {
+  return {{"limit", check.limit},
+          {"side", side_name(check.side)},
+          {"bound", in_unit(check.value, check.unit)},
+          {"reached", in_unit(check.reached, check.unit)},
+          {"unit", unit_name(check.unit)},
+          {"at_m", check.where},
+          {"friction", level_json(check.friction)},
+          {"kept", check.kept()},
+          {"violation", in_unit(check.violation, check.unit)},
+          {"violation_of_scale", number(check.violation / check.scale)}};
+}
+
+Json active_json(const ActiveLimit& active, const std::string& objective_unit) {
+  Json where = Json::array();
+  for (const Stretch& stretch : active.where)
+    where.push_back({{"from_m", stretch.from}, {"to_m", stretch.to}});
+  // A price is per unit: what is a value of one radian is a price of 57.3 times as much as one per degree.
+  const double price = active.unit == "rad" ? active.price / degrees(1.0) : active.price;
+  return {
+      {"limit", active.limit},          {"bound", in_unit(active.value, active.unit)},
+      {"unit", unit_name(active.unit)}, {"where", std::move(where)},
+      {"price", number(price)},         {"price_unit", objective_unit + " per " + unit_name(active.unit)}};
+}
+
+Json search_json(const OptimizeReport& report, const std::string& objective_unit) {
+  const bool found = report.travel_time > 0.0;
+  const bool contradictory = report.status == OptimizeStatus::infeasible;
+  Json json;
+  json["status"] = to_text(report.status);
+  json["message"] = report.message;
+  json["unlimited_travel_time_s"] = number(report.unlimited_travel_time);
+  json["excess_over_unlimited"] = found && report.unlimited_travel_time
+                                      ? number(report.travel_time / *report.unlimited_travel_time - 1.0)
+                                      : Json(nullptr);
+  json["first_order_residual"] = found ? number(report.first_order_residual) : Json(nullptr);
+  json["active"] = Json::array();
+  for (const ActiveLimit& active : report.active)
+    json["active"].push_back(active_json(active, objective_unit));
+  json["rounds"] = report.iterations;
+  json["evaluations"] = report.evaluations;
+  json["seconds"] = report.seconds;
+  json["conflict"] = contradictory ? conflict_json(report.conflict) : Json(nullptr);
+  json["relaxations"] = contradictory ? relaxations_json(report.conflict) : Json(nullptr);
+  return json;
+}
+
+Json mesh_json(const MeshFacts& facts) {
+  Json json;
+  json["valid"] = facts.valid();
+  json["watertight"] = facts.watertight();
+  json["oriented_outward"] = facts.oriented_outward;
+  json["triangles"] = facts.triangles;
+  json["vertices"] = facts.vertices;
+  json["components"] = facts.components;
+  json["self_intersections"] = facts.self_intersections;
+  json["boundary_edges"] = facts.boundary_edges;
+  json["non_manifold_edges"] = facts.non_manifold_edges;
+  json["non_manifold_vertices"] = facts.non_manifold_vertices;
+  json["degenerate_facets"] = facts.degenerate_facets;
+  json["duplicate_vertices"] = facts.duplicate_vertices;
+  json["unused_vertices"] = facts.unused_vertices;
+  json["euler_characteristic"] = facts.euler_characteristic;
+  json["volume_m3"] = facts.volume;
+  json["area_m2"] = facts.area;
+  json["smallest_angle_deg"] = degrees(facts.smallest_angle);
+  json["shortest_edge_m"] = facts.shortest_edge;
+  json["lower_m"] = position_json(facts.lower);
+  json["upper_m"] = position_json(facts.upper);
+  json["faults"] = facts.faults();
+  return json;
+}
+
+std::string document_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace glissade::report

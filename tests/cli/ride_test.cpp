@@ -1,0 +1,72 @@
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+TEST_CASE("the summary of a design with a friction range shows every friction, and limits where they bind") {
+  const Outcome outcome = glissade_run({"solve", shipped("grain_chute_with_limits")});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output,
+             Contains("low, 14 deg") && Contains("nominal, 17 deg") && Contains("high, 20 deg"));
+  CHECK_THAT(outcome.output, Contains("low friction") && Contains("Stalls from       a friction angle of"));
+}
+
+TEST_CASE("ride keeps the track and changes the friction alone") {
+  const Outcome outcome =
+      glissade_run({"ride", shipped("grain_chute_with_limits"), "--friction-angle", "14deg,17deg,20deg,26deg",
+                    "--friction-coefficient", "0.2", "--json"});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  const json track = json::parse(outcome.output);
+  REQUIRE(track["at_frictions"].size() == 5);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(track["at_frictions"][i]["travel_time_s"].get<double>() ==
+          Approx(track["rides"][i]["travel_time_s"].get<double>()).epsilon(1e-12));
+  }
+  CHECK(track["at_frictions"][3]["status"] == "stalled");
+  CHECK(track["at_frictions"][3]["travel_time_s"] == nullptr);
+  CHECK(track["at_frictions"][3]["stall_margin_deg"].get<double>() < 0.0);
+  CHECK(track["at_frictions"][4]["friction_coefficient"] == 0.2);
+  // One friction at a time: a limit needs no word on where it binds.
+  for (const json& check : track["at_frictions"][0]["limits"]) CHECK(check["friction"] == nullptr);
+  CHECK_THAT(
+      glissade_run({"ride", shipped("grain_chute_with_limits"), "--friction-angle", "14deg,26deg"}).output,
+      Contains("found at 17 deg") && Contains("stalls after") && Contains("limits kept"));
+}
+
+TEST_CASE("ride asks for a friction, and names the option that is wrong") {
+  const Outcome none = glissade_run({"ride", shipped("grain_chute")});
+  CHECK(none.exit_code == 2);
+  CHECK_THAT(none.errors, Contains("no friction is given") && Contains("--friction-angle 14deg"));
+  CHECK_THAT(glissade_run({"ride", shipped("grain_chute"), "--friction-angle", "14"}).errors,
+             Contains("--friction-angle: 14 has no unit"));
+  CHECK_THAT(glissade_run({"ride", shipped("grain_chute"), "--friction-coefficient", "-1"}).errors,
+             Contains("--friction-coefficient: friction coefficient -1 is out of range"));
+}
+
+TEST_CASE("the JSON of limits that no track keeps has every key of a track") {
+  const std::vector<std::string> impossible = {"--set", "limits.speed.highest=1m/s", "--json"};
+  const std::string design = shipped("grain_chute_with_limits");
+  const Outcome found = glissade_run({"solve", design, "--json"});
+  std::vector<std::string> arguments = {"solve", design};
+  arguments.insert(arguments.end(), impossible.begin(), impossible.end());
+  const Outcome none = glissade_run(arguments);
+  REQUIRE(none.exit_code == 3);
+  const json with = json::parse(found.output);
+  const json without = json::parse(none.output);
+  for (const auto& [key, value] : with.items()) {
+    INFO(key);
+    CHECK(without.contains(key));
+  }
+  for (const auto& [key, value] : with["search"].items()) {
+    INFO(key);
+    CHECK(without["search"].contains(key));
+  }
+  CHECK(without["travel_time_s"] == nullptr);
+  CHECK(with["search"]["conflict"] == nullptr);
+}

@@ -1,0 +1,109 @@
+#include "glissade/motion/stall_friction.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "support/catch.hpp"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+const std::string kRange =
+    "glissade: 1\n"
+    "track: {start: {x: 0 m, z: 5 m}, finish: {x: 8 m, z: 0 m}}\n"
+    "body:\n"
+    "  friction_angle: {low: 9 deg, nominal: 11 deg, high: 14 deg}\n";
+
+Design design_with(const std::string& text) {
+  return parse_design(kRange + text, "d.yaml");
+}
+
+}  // namespace
+
+TEST_CASE("a friction range is ridden at its ends, each like a design of that friction on the same track") {
+  const Design design = design_with("limits: {speed: {highest: 7 m/s}, smallest_radius: 1 m}\n");
+  const Track track = solve(design);
+  const std::vector<LevelRide> rides = track.rides();
+  REQUIRE(rides.size() == 3);
+  CHECK(rides[1].motion == &track.motion);
+  for (const LevelRide& ride : rides) {
+    const Track again = ride_at(design, track.centerline, ride.motion->body().friction);
+    CHECK(again.motion.travel_time() == ride.motion->travel_time());
+    CHECK(again.motion.exit_speed() == ride.motion->exit_speed());
+    CHECK(again.range.empty());
+  }
+  CHECK(rides[0].motion->travel_time() < rides[1].motion->travel_time());
+  CHECK(rides[1].motion->travel_time() < rides[2].motion->travel_time());
+}
+
+TEST_CASE("every limit on motion tells the friction at which it binds, and reaches what that ride reaches") {
+  const Track track = solve(design_with("limits: {speed: {highest: 7 m/s}, exit_speed: {lowest: 1 m/s}}\n"));
+  bool highest = false;
+  bool exit = false;
+  for (const LimitCheck& check : track.limit_checks) {
+    if (check.limit == "speed.highest") {
+      highest = true;
+      CHECK(check.friction == FrictionLevel::low);
+      CHECK(check.reached == Approx(track.rides().front().motion->highest_speed().speed).epsilon(1e-4));
+    }
+    if (check.limit == "exit_speed.lowest") {
+      exit = true;
+      CHECK(check.friction == FrictionLevel::high);
+      CHECK(check.reached == track.rides().back().motion->exit_speed());
+    }
+    if (check.limit == "finish") CHECK_FALSE(check.friction);
+  }
+  CHECK(highest);
+  CHECK(exit);
+  const std::string single =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 8 m, z: 0 m}}\n"
+      "body: {friction_angle: 11 deg}\nlimits: {speed: {highest: 7 m/s}}\n";
+  for (const LimitCheck& check : solve(parse_design(single, "d.yaml")).limit_checks)
+    CHECK_FALSE(check.friction);
+}
+
+TEST_CASE(
+    "a range needs no limits: a drawn track is ridden over it, and a stall at its high end is a problem") {
+  const std::string straight = "centerline: {kind: straight}\n";
+  const Design design = design_with(straight);
+  const Track track = solve(design);
+  CHECK(track.range.size() == 2);
+  CHECK_FALSE(ride_problem(design, track));
+
+  // The fastest track for 11 deg climbs at its end: at 14 deg the body does not come up there.
+  const Design steep = parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 8 m, z: 0 m}}\n"
+      "body: {friction_angle: {nominal: 11 deg, high: 13.9 deg}}\n",
+      "d.yaml");
+  const Track bold = solve(steep);
+  const auto problem = ride_problem(steep, bold);
+  REQUIRE(problem);
+  CHECK_THAT(problem->what, Contains("at high friction, 13.9 deg, the body stalls after"));
+  CHECK_THAT(problem->hint, Contains("limits: {}"));
+}
+
+TEST_CASE("the JSON of rides agrees with the rides") {
+  const Design design = design_with("limits: {}\n");
+  const Track track = solve(design);
+  const json document = json::parse(track_json(design, track));
+  REQUIRE(document["rides"].size() == 3);
+  const std::optional<Angle> stall = stall_angle_of(track);
+  REQUIRE(stall);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const json& entry = document["rides"][i];
+    const Motion& motion = *track.rides()[i].motion;
+    CHECK(entry["friction"] == std::string(to_text(track.rides()[i].level)));
+    CHECK(entry["travel_time_s"] == motion.travel_time());
+    CHECK(entry["highest_speed_m_per_s"] == motion.highest_speed().speed);
+    CHECK(entry["min_normal_load_m_per_s2"] == motion.lowest_load().normal_load);
+    CHECK(entry["stall_margin_deg"].get<double>() ==
+          Approx(stall->degrees() - motion.body().friction.angle().degrees()));
+  }
+  CHECK(document["travel_time_s"] == document["rides"][1]["travel_time_s"]);
+}
