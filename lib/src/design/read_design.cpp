@@ -2,6 +2,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/design/design.hpp"
+#include "glissade/design/design_source.hpp"
 
 #include "design/check.hpp"
 #include "design/findings.hpp"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <memory>
 #include <numbers>
 #include <system_error>
 #include <utility>
@@ -479,27 +481,58 @@ std::string read_text(const std::filesystem::path& file) {
 
 }  // namespace
 
-Design parse_design(std::string_view text, const std::filesystem::path& file,
-                    const std::vector<Override>& overrides) {
-  Findings findings(file, overrides);
-  Node root = parse_root(text, findings);
+struct DesignSource::Parsed {
+  std::string text;
+  std::filesystem::path file;
+  Node root;
+};
+
+DesignSource DesignSource::parse(std::string text, std::filesystem::path file) {
+  const std::vector<Override> none;
+  Node root = parse_root(text, Findings(file, none));
   if (root.kind == Node::Kind::null) {
     throw InputError(
         {file.string(), "the design file is empty", "", "glissade init, which makes one to start from"});
   }
+  return DesignSource(
+      std::make_shared<const Parsed>(Parsed{std::move(text), std::move(file), std::move(root)}));
+}
+
+DesignSource DesignSource::read(const std::filesystem::path& file) {
+  return parse(read_text(file), file);
+}
+
+const std::string& DesignSource::text() const noexcept {
+  return parsed_->text;
+}
+
+const std::filesystem::path& DesignSource::file() const noexcept {
+  return parsed_->file;
+}
+
+Design DesignSource::with(const std::vector<Override>& overrides, ReachCheck reach) const {
+  Findings findings(parsed_->file, overrides);
+  Node root = parsed_->root;
   apply_overrides(root, overrides, findings);
-  Design design = read_tree(root, file, findings);
+  Design design = read_tree(root, parsed_->file, findings);
   for (Finding& finding : check_values(design)) findings.add_unless_spoiled(std::move(finding));
   complete_finish(design, findings);
   const bool well_formed = findings.empty();
-  if (auto unreachable = find_unreachable(design)) findings.add_unless_spoiled(*std::move(unreachable));
+  if (reach == ReachCheck::yes) {
+    if (auto unreachable = find_unreachable(design)) findings.add_unless_spoiled(*std::move(unreachable));
+  }
   if (findings.empty()) return design;
   if (well_formed) throw InfeasibleError(findings.issues());
   throw InputError(findings.issues());
 }
 
+Design parse_design(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<Override>& overrides) {
+  return DesignSource::parse(std::string(text), file).with(overrides);
+}
+
 Design read_design(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return parse_design(read_text(file), file, overrides);
+  return DesignSource::read(file).with(overrides);
 }
 
 }  // namespace glissade

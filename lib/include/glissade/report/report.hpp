@@ -103,5 +103,7 @@ inline constexpr std::size_t kViewTriangles = 150'000;
 /// @return SHA-256 of a file's bytes as 64 hexadecimal digits
 /// @throws FileError if the file cannot be read
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
+/// @return SHA-256 of the bytes, as 64 hexadecimal digits
+[[nodiscard]] std::string sha256_of_text(std::string_view text);
 
 }  // namespace glissade

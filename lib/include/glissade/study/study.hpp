@@ -1,0 +1,156 @@
+#pragma once
+
+#include "glissade/core/progress.hpp"
+#include "glissade/design/design_source.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/study/plan.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace glissade::study {
+
+/// How a point of a study ended.
+enum class Status {
+  arrived,        ///< the body arrives, every limit is kept
+  stalled,        ///< it stops before the finish
+  left_track,     ///< it lifts off
+  limits_broken,  ///< it arrives, but a limit of the design does not hold on this track
+  infeasible,     ///< no track reaches the finish, or keeps the limits
+  none_found,     ///< the search ended without a track
+  invalid         ///< the values do not make a design
+};
+
+inline constexpr std::array<Status, 7> kStatuses = {Status::arrived,       Status::stalled,    Status::left_track,
+                                                    Status::limits_broken, Status::infeasible, Status::none_found,
+                                                    Status::invalid};
+
+/// @return the word of a row: "arrived", "stalled", "left the track", "limits broken", "infeasible", "none found",
+///         "invalid"
+[[nodiscard]] std::string_view word(Status status);
+/// @return none if the word names no status
+[[nodiscard]] std::optional<Status> status_named(std::string_view word);
+
+/// A figure of a track under the name that --json gives it, e.g. {"travel_time_s", 2.15}; names within groups joined by
+/// dots. No value where the figure does not exist for this track.
+using Quantity = std::pair<std::string, std::optional<double>>;
+/// Every figure of a track. Must depend on its arguments alone; called from several threads at once.
+using Quantities = std::function<std::vector<Quantity>(const Design& design, const Track& track)>;
+
+/// A part of the work, for engines that run many processes: the chunks whose number leaves `index` when divided by `count`.
+struct Shard {
+  std::uint64_t index = 0;
+  std::uint64_t count = 1;  ///< >= 1, > index
+
+  /// @param text  "i/n" with 0 <= i < n
+  /// @throws InputError if it is not that
+  [[nodiscard]] static Shard parse(std::string_view text);
+};
+
+/// What is studied: the points of a plan, each a design, each designed anew or ridden on one frozen track.
+struct Study {
+  DesignSource source;
+  std::vector<Override> base;  ///< of every point, before its own values
+  Plan plan;
+  bool frozen = false;               ///< the track of the base design is found once, and every point rides it
+  std::vector<std::string> columns;  ///< quantities of a row; empty: all of them
+  Quantities quantities;
+};
+
+struct RunOptions {
+  std::filesystem::path directory;
+  Shard shard;
+  unsigned jobs = 0;  ///< threads; 0: one a processor
+  Progress progress;
+  std::stop_token stop;
+};
+
+/// What a run did, and what is there now.
+struct RunReport {
+  std::uint64_t points = 0;           ///< of the whole study
+  std::uint64_t chunks = 0;           ///< of the whole study
+  std::uint64_t chunks_of_shard = 0;
+  std::uint64_t chunks_found = 0;     ///< of this shard, there before
+  std::uint64_t chunks_computed = 0;  ///< of this shard, by this run
+  bool complete = false;              ///< every chunk of the study is there
+};
+
+/// Rows a chunk; a chunk is a file of its own, written whole or not at all: that it exists means that it is done.
+inline constexpr std::uint64_t kChunkRows = 1000;
+/// Rounds of a search, by which it is bounded instead of by the clock: a row is the same on every machine.
+inline constexpr const char* kManifestName = "manifest.json";
+
+/// Computes the chunks of a shard that are not there yet, in `directory` (made if missing), beside a manifest of what is
+/// studied. Any number of processes may work in one directory, on one shard too: they write the same bytes.
+/// A point that fails is a row, never an end.
+/// @throws InputError if the directory holds another study, which differs in ... ; a column is unknown; every value tried of
+///         a key is refused (then with the reader's own problem); `frozen` and a key that shapes the track
+/// @throws FileError if a file cannot be written; Interrupted if the stop token asks for it: what is written stays valid
+/// @throws as solve() if the track to be frozen cannot be found
+RunReport run(const Study& study, const RunOptions& options);
+
+/// One row of a study.
+struct Row {
+  std::uint64_t index = 0;
+  std::vector<std::string> inputs;  ///< texts, without their units
+  Status status = Status::invalid;
+  std::string reason;                             ///< one line; empty of a point that arrived
+  std::vector<std::optional<double>> quantities;  ///< in the order of the columns
+};
+
+/// A directory of results, to read.
+class Results {
+ public:
+  /// @throws FileError if there is no manifest or it cannot be read
+  [[nodiscard]] static Results open(const std::filesystem::path& directory);
+
+  [[nodiscard]] std::uint64_t points() const noexcept { return points_; }
+  [[nodiscard]] std::uint64_t chunks() const noexcept { return (points_ + kChunkRows - 1) / kChunkRows; }
+  [[nodiscard]] const std::vector<std::string>& inputs() const noexcept { return inputs_; }  ///< columns of inputs
+  [[nodiscard]] const std::vector<std::string>& keys() const noexcept { return keys_; }      ///< their keys
+  [[nodiscard]] const std::vector<std::string>& units() const noexcept { return units_; }    ///< and units
+  [[nodiscard]] const std::vector<bool>& numeric() const noexcept { return numeric_; }  ///< whether an input is a number
+  [[nodiscard]] const std::vector<std::string>& quantities() const noexcept { return quantities_; }
+  [[nodiscard]] const std::string& design() const noexcept { return design_; }  ///< name of its file
+  [[nodiscard]] const std::vector<std::string>& base() const noexcept { return base_; }  ///< KEY=VALUE of every point
+  [[nodiscard]] bool sampled() const noexcept { return sampled_; }  ///< inputs scatter independently of each other
+  [[nodiscard]] bool frozen() const noexcept { return frozen_; }
+  [[nodiscard]] const std::filesystem::path& directory() const noexcept { return directory_; }
+
+  /// @return numbers of the chunks that are not there
+  [[nodiscard]] std::vector<std::uint64_t> missing() const;
+  /// Every row in the order of their numbers, each checked.
+  /// @throws FileError if a chunk is missing, cannot be read, or is not what the manifest says, with the place
+  void for_each(const std::function<void(const Row&)>& visit, const Progress& progress = {},
+                const std::stop_token& stop = {}) const;
+
+ private:
+  std::filesystem::path directory_;
+  std::uint64_t points_ = 0;
+  std::vector<std::string> inputs_;
+  std::vector<std::string> keys_;
+  std::vector<std::string> units_;
+  std::vector<bool> numeric_;
+  std::vector<std::string> quantities_;
+  std::string design_;
+  std::vector<std::string> base_;
+  bool sampled_ = false;
+  bool frozen_ = false;
+};
+
+/// All rows in one table, each number once.
+/// @return how many points ended how
+/// @throws FileError as Results::for_each(), or if `file` cannot be written
+std::map<Status, std::uint64_t> merge(const Results& results, const std::filesystem::path& file,
+                                      const Progress& progress = {}, const std::stop_token& stop = {});
+
+}  // namespace glissade::study

@@ -1,0 +1,160 @@
+#include "study/manifest.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/version.hpp"
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/report/report.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+namespace glissade::study {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::optional<std::string> text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return {};
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw FileError({file.string(), "cannot be read", "", "its permissions"});
+  return text;
+}
+
+/// What a design takes from other files; their contents are part of what is studied.
+Json profiles_of(const Study& study) {
+  Json profiles = Json::array();
+  Design design;
+  try {
+    design = study.source.with(study.base, ReachCheck::no);
+  } catch (const Error&) {
+    return profiles;  // each point will say why
+  }
+  if (!design.centerline.points_file.empty()) {
+    profiles.push_back({{"file", design.centerline.points_file.filename().string()},
+                        {"sha256", sha256_of_file(design.centerline.points_file)}});
+  }
+  return profiles;
+}
+
+/// The keys of two manifests whose values differ, for people.
+std::string differences(const std::string& there, const std::string& here) {
+  const Json old = Json::parse(there, nullptr, false);
+  const Json now = Json::parse(here);
+  if (!old.is_object()) return "it is no manifest of a sweep";
+  std::string keys;
+  for (const auto& [key, value] : now.items()) {
+    if (old.contains(key) && old[key] == value) continue;
+    keys += (keys.empty() ? "" : ", ") + key;
+  }
+  return keys.empty() ? "other keys" : keys;
+}
+
+/// A file that appears whole and only where there is none: a hard link is refused where a name is taken.
+/// @return false if there was one
+bool create_exclusively(const fs::path& target, const std::string& text) {
+  const fs::path written = target.parent_path() / (".manifest-" + std::to_string(std::random_device{}()) + ".part");
+  AtomicFile file(written);
+  file.write(text);
+  file.commit();
+  std::error_code error;
+  fs::create_hard_link(written, target, error);
+  std::error_code ignored;
+  fs::remove(written, ignored);
+  if (!error) return true;
+  if (fs::exists(target)) return false;
+  // A file system without links: the last resort is to rename.
+  AtomicFile renamed(target);
+  renamed.write(text);
+  renamed.commit();
+  return true;
+}
+
+}  // namespace
+
+fs::path chunk_path(const fs::path& directory, std::uint64_t chunk) {
+  std::string name = std::to_string(chunk);
+  constexpr std::size_t kDigits = 6;
+  if (name.size() < kDigits) name.insert(0, kDigits - name.size(), '0');
+  return directory / "chunks" / (name + ".csv");
+}
+
+std::string manifest_text(const Study& study, const std::vector<std::string>& columns) {
+  Json json;
+  json["glissade_sweep"] = 1;
+  json["program"] = "glissade " + std::string(version());
+  json["design"] = study.source.file().filename().string();
+  json["design_sha256"] = sha256_of_text(study.source.text());
+  json["profiles"] = profiles_of(study);
+  json["set"] = Json::array();
+  for (const Override& change : study.base) json["set"].push_back(change.key_path + "=" + change.value);
+  json["variations"] = Json::array();
+  bool sampled = false;
+  for (const Factor& factor : study.plan.factors()) {
+    json["variations"].push_back(factor.text);
+    sampled = sampled || !factor.distributions.empty();
+  }
+  json["sampled"] = sampled;
+  json["frozen"] = study.frozen;
+  json["points"] = study.plan.count();
+  json["rows_per_chunk"] = kChunkRows;
+  json["inputs"] = Json::array();
+  for (const Input& input : study.plan.inputs()) {
+    json["inputs"].push_back(
+        {{"key", input.key}, {"unit", input.unit}, {"column", input.column()}, {"numeric", input.numeric}});
+  }
+  json["quantities"] = columns;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void place_manifest(const fs::path& directory, const std::string& text) {
+  const fs::path file = directory / kManifestName;
+  std::optional<std::string> there = text_of(file);
+  if (!there && create_exclusively(file, text)) return;
+  if (!there) there = text_of(file);
+  if (there == text) return;
+  throw InputError({file.string(), "the directory holds another sweep; these differ: " + differences(there.value_or(""), text),
+                    "Rows of different sweeps are not mixed, and none that are there are overwritten.",
+                    "another directory with -o, or remove this one"});
+}
+
+Results Results::open(const fs::path& directory) {
+  const fs::path file = directory / kManifestName;
+  const auto text = text_of(file);
+  if (!text) {
+    throw FileError({file.string(), "there is no manifest of a sweep here", "",
+                     "the directory that was given to 'glissade sweep' with -o"});
+  }
+  try {
+    const Json json = Json::parse(*text);
+    if (json.at("glissade_sweep") != 1 || json.at("rows_per_chunk") != kChunkRows) {
+      throw FileError({file.string(), "this is the manifest of another version of sweeps", "", "the program that wrote it"});
+    }
+    Results results;
+    results.directory_ = directory;
+    results.points_ = json.at("points").get<std::uint64_t>();
+    for (const Json& input : json.at("inputs")) {
+      results.inputs_.push_back(input.at("column"));
+      results.keys_.push_back(input.at("key"));
+      results.units_.push_back(input.at("unit"));
+      results.numeric_.push_back(input.at("numeric"));
+    }
+    results.quantities_ = json.at("quantities").get<std::vector<std::string>>();
+    results.design_ = json.at("design");
+    results.base_ = json.at("set").get<std::vector<std::string>>();
+    results.sampled_ = json.at("sampled");
+    results.frozen_ = json.at("frozen");
+    return results;
+  } catch (const nlohmann::json::exception&) {
+    throw FileError({file.string(), "this is no manifest of a sweep", "It is no JSON, or keys are missing.",
+                     "the directory that was given to 'glissade sweep' with -o"});
+  }
+}
+
+}  // namespace glissade::study

@@ -1,0 +1,152 @@
+#include "glissade/core/error.hpp"
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/study/study.hpp"
+
+#include "study/evaluation.hpp"
+#include "study/manifest.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace glissade::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint64_t chunks_of(std::uint64_t points) {
+  return (points + kChunkRows - 1) / kChunkRows;
+}
+
+void make_directory(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (!error && fs::is_directory(directory)) return;
+  throw FileError({directory.string(), "cannot be made: " + (error ? error.message() : "there is a file of this name"), "",
+                   "another directory with -o"});
+}
+
+/// The rows of one chunk, computed on every thread of the arena.
+std::string chunk_text(const Evaluation& evaluation, const Plan& plan, std::uint64_t chunk,
+                       const std::stop_token& stop, const std::function<void()>& row_done) {
+  const std::uint64_t first = chunk * kChunkRows;
+  const std::uint64_t last = std::min(first + kChunkRows, plan.count());
+  std::vector<std::string> rows(last - first);
+  tbb::parallel_for(
+      tbb::blocked_range<std::uint64_t>(first, last, 1),
+      [&](const tbb::blocked_range<std::uint64_t>& range) {
+        for (std::uint64_t index = range.begin(); index != range.end(); ++index) {
+          if (stop.stop_requested()) return;
+          rows[index - first] = evaluation.row(index);
+          row_done();
+        }
+      },
+      tbb::simple_partitioner());
+  std::string text = table_heading(plan, evaluation.columns()) + "\n";
+  for (const std::string& row : rows) text += row + "\n";
+  return text;
+}
+
+[[noreturn]] void throw_interrupted(const fs::path& directory) {
+  throw Interrupted({directory.string(), "interrupted; the rows that are written stay",
+                     "The same command goes on where this one ended.", ""});
+}
+
+}  // namespace
+
+std::string_view word(Status status) {
+  switch (status) {
+    case Status::arrived:
+      return "arrived";
+    case Status::stalled:
+      return "stalled";
+    case Status::left_track:
+      return "left the track";
+    case Status::limits_broken:
+      return "limits broken";
+    case Status::infeasible:
+      return "infeasible";
+    case Status::none_found:
+      return "none found";
+    case Status::invalid:
+      return "invalid";
+  }
+  throw InternalError({"", "a status without a word", "", ""});
+}
+
+std::optional<Status> status_named(std::string_view given) {
+  for (const Status status : kStatuses) {
+    if (word(status) == given) return status;
+  }
+  return {};
+}
+
+Shard Shard::parse(std::string_view text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto [slash, first] = std::from_chars(text.data(), end, shard.index);
+  if (first == std::errc() && slash != end && *slash == '/') {
+    const auto [rest, second] = std::from_chars(slash + 1, end, shard.count);
+    if (second == std::errc() && rest == end && shard.index < shard.count) return shard;
+  }
+  throw InputError({"--shard", "'" + std::string(text) + "' is not of the form i/n with 0 <= i < n",
+                    "Shards are counted from 0: of 16, the first is 0/16 and the last 15/16.", "--shard 0/16"});
+}
+
+RunReport run(const Study& study, const RunOptions& options) {
+  if (options.progress) options.progress("preparing the sweep", -1.0);
+  require_settable(study);
+  const Evaluation evaluation(study, options.stop);
+  const std::string manifest = manifest_text(study, evaluation.columns());
+  make_directory(options.directory);
+  make_directory(options.directory / "chunks");
+  place_manifest(options.directory, manifest);
+
+  RunReport report;
+  report.points = study.plan.count();
+  report.chunks = chunks_of(report.points);
+  std::vector<std::uint64_t> wanted;
+  for (std::uint64_t chunk = options.shard.index; chunk < report.chunks; chunk += options.shard.count) {
+    ++report.chunks_of_shard;
+    if (fs::exists(chunk_path(options.directory, chunk))) {
+      ++report.chunks_found;
+    } else {
+      wanted.push_back(chunk);
+    }
+  }
+
+  const int jobs = static_cast<int>(options.jobs != 0 ? options.jobs : std::max(std::thread::hardware_concurrency(), 1U));
+  const tbb::global_control most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
+  tbb::task_arena arena(jobs);
+  std::atomic<std::uint64_t> rows_done{0};
+  std::uint64_t rows_wanted = 0;
+  for (const std::uint64_t chunk : wanted) {
+    rows_wanted += std::min(kChunkRows, study.plan.count() - chunk * kChunkRows);
+  }
+  const auto row_done = [&] { ++rows_done; };
+  for (const std::uint64_t chunk : wanted) {
+    if (options.progress) {
+      options.progress("computing points",
+                       static_cast<double>(rows_done.load()) / static_cast<double>(rows_wanted));
+    }
+    std::string text;
+    arena.execute([&] { text = chunk_text(evaluation, study.plan, chunk, options.stop, row_done); });
+    if (options.stop.stop_requested()) throw_interrupted(options.directory);
+    AtomicFile file(chunk_path(options.directory, chunk));
+    file.write(text);
+    file.commit();
+    ++report.chunks_computed;
+  }
+  report.complete = Results::open(options.directory).missing().empty();
+  return report;
+}
+
+}  // namespace glissade::study
