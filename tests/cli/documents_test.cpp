@@ -51,7 +51,14 @@ std::vector<std::string> examples_of(const std::string& help) {
   std::istringstream lines(help.substr(start + heading.size()));
   for (std::string line; std::getline(lines, line) && !line.empty();) {
     line.erase(0, line.find_first_not_of(' '));
-    examples.push_back(line.substr(0, line.find("   ")));
+    line = line.substr(0, line.find("   "));
+    // A line that ends with a backslash goes on.
+    if (!examples.empty() && examples.back().ends_with("\\")) {
+      examples.back().back() = ' ';
+      examples.back() += line;
+    } else {
+      examples.push_back(line);
+    }
   }
   return examples;
 }
@@ -63,7 +70,7 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
   const std::string path = kProject + "/docs/cli.md";
   std::string text = bytes_of(path);
   const bool update = std::getenv("GLISSADE_UPDATE_GOLDEN") != nullptr;
-  for (const std::string command : {"", "build", "solve", "ride", "compare", "plot", "inspect", "init"}) {
+  for (const std::string command : {"", "build", "solve", "ride", "compare", "plot", "inspect", "init", "sweep"}) {
     const Outcome help = glissade_run(with_help(command));
     REQUIRE(help.exit_code == 0);
     const std::string heading = command.empty() ? "## glissade\n" : "## glissade " + command + "\n";
@@ -92,7 +99,7 @@ TEST_CASE("every example of --help does what it says") {
   const std::string program = glissade_program();
   const std::string find = "PATH=" + program.substr(0, program.rfind('/')) + ":$PATH; ";
   std::size_t tried = 0;
-  for (const std::string command : {"", "init", "build", "solve", "compare", "plot", "inspect"}) {
+  for (const std::string command : {"", "init", "build", "solve", "compare", "plot", "inspect", "sweep"}) {
     if (command == "inspect") {
       std::filesystem::copy_file(place / "out/grain_chute/grain_chute.off", place / "part.off");
     }

@@ -24,40 +24,21 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"optimize", {"core", "centerline", "motion", "clearance"}},
     {"solid", {"core", "centerline"}},
     {"design", {"core"}},
-<<<<<<< HEAD
     {"io", {"core", "centerline", "motion", "solid"}},
     {"report", {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io"}},
     {"pipeline",
      {"core", "centerline", "motion", "clearance", "optimize", "solid", "design", "io", "report"}},
-=======
-    {"io", {"core", "centerline", "motion", "solid", "design"}},
-    {"report", {"core", "centerline", "motion", "optimize", "solid", "design", "io"}},
-    {"pipeline", {"core", "centerline", "motion", "optimize", "solid", "design", "io", "report"}},
     {"study", {"core", "centerline", "motion", "design", "io", "report", "pipeline"}},
->>>>>>> 6480339 (study: points, samples and rows of a sweep, in chunks that many processes share)
 };
 
 /// Third parties by the start of their include path, and the modules whose .cpp files and private headers may
 /// name them.
 const std::map<std::string, std::set<std::string>> kThirdParties = {
-<<<<<<< HEAD
     {"CGAL/", {"solid"}},      {"nlopt", {"centerline", "optimize"}},
-    {"yaml-cpp/", {"design"}}, {"boost/", {"centerline", "motion", "solid", "pipeline"}},
-    {"fmt/", {"report"}},      {"nlohmann/", {"report", "pipeline"}},
+    {"yaml-cpp/", {"design"}}, {"boost/", {"centerline", "motion", "solid", "pipeline", "study"}},
+    {"fmt/", {"report"}},      {"nlohmann/", {"report", "pipeline", "study"}},
     {"openssl/", {"report"}},  {"librsvg/", {"report"}},
-    {"cairo", {"report"}},
-=======
-    {"CGAL/", {"solid"}},
-    {"nlopt", {"centerline", "optimize"}},
-    {"yaml-cpp/", {"design"}},
-    {"boost/", {"core", "centerline", "motion", "optimize", "solid", "pipeline", "study"}},
-    {"fmt/", {"core", "io", "design", "solid", "pipeline", "report"}},
-    {"nlohmann/", {"report", "study"}},
-    {"openssl/", {"report"}},
-    {"librsvg/", {"report"}},
-    {"cairo", {"report"}},
-    {"tbb/", {"solid", "io", "study"}},
->>>>>>> 6480339 (study: points, samples and rows of a sweep, in chunks that many processes share)
+    {"cairo", {"report"}},     {"tbb/", {"study"}},
 };
 
 std::string text_of(const fs::path& file) {

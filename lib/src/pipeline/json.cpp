@@ -4,6 +4,7 @@
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/version.hpp"
 
+#include "pipeline/track_document.hpp"
 #include "report/serial/vocabulary.hpp"
 
 #include <cmath>
@@ -72,19 +73,6 @@ Json rides_of(const Track& track) {
   return rides;
 }
 
-Json track_document(const Design& design, const Track& track) {
-  Json json = task_document(design, track.endpoints);
-  json["centerline"] = word(design.centerline.kind);
-  add_ride(json, track.motion);
-  json["straight_travel_time_s"] = number(track.straight_travel_time());
-  json["optimum_travel_time_s"] = number(track.optimum_travel_time);
-  add_curve(json, track);
-  json["rides"] = rides_of(track);
-  json["limits"] = limits_json(track.limit_checks);
-  json["search"] = track.search ? search_json(*track.search, objective_unit(design)) : Json(nullptr);
-  return json;
-}
-
 Json conflict_document(const Design& design, const OptimizeReport& report) {
   Json json = task_document(design, endpoints_of(design));
   json["centerline"] = word(design.centerline.kind);
@@ -109,8 +97,21 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
 
 }  // namespace
 
+Json pipeline::track_document(const Design& design, const Track& track) {
+  Json json = task_document(design, track.endpoints);
+  json["centerline"] = word(design.centerline.kind);
+  add_ride(json, track.motion);
+  json["straight_travel_time_s"] = number(track.straight_travel_time());
+  json["optimum_travel_time_s"] = number(track.optimum_travel_time);
+  add_curve(json, track);
+  json["rides"] = rides_of(track);
+  json["limits"] = limits_json(track.limit_checks);
+  json["search"] = track.search ? search_json(*track.search, objective_unit(design)) : Json(nullptr);
+  return json;
+}
+
 std::string track_json(const Design& design, const Track& track) {
-  return document_text(track_document(design, track));
+  return document_text(pipeline::track_document(design, track));
 }
 
 std::string conflict_json(const Design& design, const OptimizeReport& report) {
@@ -118,7 +119,7 @@ std::string conflict_json(const Design& design, const OptimizeReport& report) {
 }
 
 std::string build_json(const Design& design, const Build& build) {
-  Json json = track_document(design, build.track);
+  Json json = pipeline::track_document(design, build.track);
   json["mesh"] = report::mesh_json(build.facts);
   json["mesh"]["max_deviation_m"] = build.solid.max_deviation;
   json["mesh"]["trimmed"] = build.solid.trimmed;
@@ -139,7 +140,7 @@ std::string comparison_json(const Design* common, const std::vector<ComparedTrac
   json["tracks"] = Json::array();
   for (const ComparedTrack& entry : tracks) {
     if (entry.track != nullptr) {
-      json["tracks"].push_back(track_document(entry.design, *entry.track));
+      json["tracks"].push_back(pipeline::track_document(entry.design, *entry.track));
       json["tracks"].back()["problem"] = nullptr;
       continue;
     }
@@ -152,7 +153,7 @@ std::string comparison_json(const Design* common, const std::vector<ComparedTrac
 
 std::string rides_json(const Design& design, const Track& track, const std::vector<Track>& rides) {
   const std::optional<Angle> stall_angle = stall_angle_of(track);
-  Json json = track_document(design, track);
+  Json json = pipeline::track_document(design, track);
   json["at_frictions"] = Json::array();
   for (const Track& ride : rides) {
     Json entry = ride_json(FrictionLevel::nominal, ride.motion, stall_angle);

@@ -36,7 +36,8 @@ constexpr std::array<KindWords, 5> kKinds = {{
 }};
 
 const KindWords& words_of(DistributionKind kind) {
-  return *std::find_if(kKinds.begin(), kKinds.end(), [&](const KindWords& words) { return words.kind == kind; });
+  return *std::find_if(kKinds.begin(), kKinds.end(),
+                       [&](const KindWords& words) { return words.kind == kind; });
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -65,8 +66,8 @@ using Precision = long double;
 double normal_quantile(double mean, double deviation, Precision probability) {
   const boost::math::normal_distribution<Precision> unit(0.0L, 1.0L);
   // From the nearer tail, where a probability keeps its digits.
-  const Precision z = probability <= 0.5L ? quantile(unit, probability)
-                                          : quantile(complement(unit, 1.0L - probability));
+  const Precision z =
+      probability <= 0.5L ? quantile(unit, probability) : quantile(complement(unit, 1.0L - probability));
   return static_cast<double>(mean + deviation * z);
 }
 
@@ -80,7 +81,8 @@ double truncated_quantile(const std::vector<double>& parameters, double probabil
   const bool mirrored = low > 0.0L;
   const Precision from = mirrored ? cdf(unit, -high) : cdf(unit, low);
   const Precision to = mirrored ? cdf(unit, -low) : cdf(unit, high);
-  const Precision share = mirrored ? 1.0L - static_cast<Precision>(probability) : static_cast<Precision>(probability);
+  const Precision share =
+      mirrored ? 1.0L - static_cast<Precision>(probability) : static_cast<Precision>(probability);
   const Precision z = quantile(unit, from + share * (to - from));
   const double value = static_cast<double>(mean + deviation * (mirrored ? -z : z));
   return std::clamp(value, parameters[2], parameters[3]);
@@ -88,8 +90,8 @@ double truncated_quantile(const std::vector<double>& parameters, double probabil
 
 void require_width(std::string_view name, const std::string& what, double width) {
   if (width > 0.0) return;
-  refuse(name, what + " " + exact_text(width) + " is not positive", "A value that does not scatter has no distribution.",
-         "--vary or --set for a value that is fixed");
+  refuse(name, what + " " + exact_text(width) + " is not positive",
+         "A value that does not scatter has no distribution.", "--vary or --set for a value that is fixed");
 }
 
 void require_sound(DistributionKind kind, const std::vector<double>& p, std::string_view name) {
@@ -110,14 +112,14 @@ void require_sound(DistributionKind kind, const std::vector<double>& p, std::str
     case DistributionKind::lognormal:
       require_width(name, "lognormal: the standard deviation of the logarithm", p[1]);
       if (p[0] > 0.0) return;
-      refuse(name, "lognormal: the median " + exact_text(p[0]) + " is not positive", "Its values are all positive.",
-             "normal(...)");
+      refuse(name, "lognormal: the median " + exact_text(p[0]) + " is not positive",
+             "Its values are all positive.", "normal(...)");
     case DistributionKind::triangular:
       require_width(name, "triangular: the width", p[2] - p[0]);
       if (p[0] <= p[1] && p[1] <= p[2]) return;
       refuse(name,
-             "triangular: the mode " + exact_text(p[1]) + " does not lie between " + exact_text(p[0]) + " and " +
-                 exact_text(p[2]),
+             "triangular: the mode " + exact_text(p[1]) + " does not lie between " + exact_text(p[0]) +
+                 " and " + exact_text(p[2]),
              "The parameters are LOWEST, MODE, HIGHEST.", "triangular(14deg,17deg,21deg)");
   }
 }
@@ -169,7 +171,8 @@ Distribution Distribution::parse(std::string_view text, std::string_view name) {
       std::find_if(kKinds.begin(), kKinds.end(), [&](const KindWords& known) { return known.word == given; });
   if (words == kKinds.end() || open == std::string_view::npos || text.back() != ')') {
     refuse(name, "'" + std::string(text) + "' is no distribution",
-           "There are uniform, normal, truncated-normal, lognormal and triangular, each with its parameters in round "
+           "There are uniform, normal, truncated-normal, lognormal and triangular, each with its parameters "
+           "in round "
            "brackets.",
            "normal(17deg,1.5deg)");
   }

@@ -32,8 +32,8 @@ void require_known(const std::vector<std::string>& wanted, const std::vector<std
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    throw InputError({"--columns", "'" + column + "' is no quantity of this design", "There are " + list + ".",
-                      "names of that list, separated by commas"});
+    throw InputError({"--columns", "'" + column + "' is no quantity of this design",
+                      "There are " + list + ".", "names of that list, separated by commas"});
   }
 }
 
@@ -63,6 +63,9 @@ std::string table_heading(const Plan& plan, const std::vector<std::string>& colu
   return line;
 }
 
+namespace {
+
+/// A key of which every value tried is refused: one error at once instead of a million rows.
 void require_settable(const Study& study) {
   for (const Factor& factor : study.plan.factors()) {
     std::set<std::uint64_t> tried = {0, factor.size / 2, factor.size - 1};
@@ -71,8 +74,8 @@ void require_settable(const Study& study) {
       bool accepted = false;
       for (const std::uint64_t setting : tried) {
         try {
-          (void)study.source.with(joined(study.base, {{factor.inputs[column].key, factor.at(setting)[column]}}),
-                                  ReachCheck::no);
+          (void)study.source.with(
+              joined(study.base, {{factor.inputs[column].key, factor.at(setting)[column]}}), ReachCheck::no);
           accepted = true;
         } catch (const InputError& error) {
           if (!refusal) refusal = error;
@@ -83,9 +86,15 @@ void require_settable(const Study& study) {
   }
 }
 
+}  // namespace
+
+void check(const Study& study) {
+  if (study.frozen) require_rideable(study.plan);
+  require_settable(study);
+}
+
 Evaluation::Evaluation(const Study& study, const std::stop_token& stop) : study_(study) {
   if (study.frozen) {
-    require_rideable(study.plan);
     const Design design = study.source.with(study.base);
     RunContext context;
     context.stop = stop;

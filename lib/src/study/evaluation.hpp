@@ -41,8 +41,4 @@ class Evaluation {
 /// @return the first line of every table of a study
 [[nodiscard]] std::string table_heading(const Plan& plan, const std::vector<std::string>& columns);
 
-/// Refuses a key of which every value tried is refused by the reader: one error at once instead of a million rows.
-/// @throws InputError with the reader's own problem
-void require_settable(const Study& study);
-
 }  // namespace glissade::study

@@ -59,7 +59,8 @@ std::string differences(const std::string& there, const std::string& here) {
 /// A file that appears whole and only where there is none: a hard link is refused where a name is taken.
 /// @return false if there was one
 bool create_exclusively(const fs::path& target, const std::string& text) {
-  const fs::path written = target.parent_path() / (".manifest-" + std::to_string(std::random_device{}()) + ".part");
+  const fs::path written =
+      target.parent_path() / (".manifest-" + std::to_string(std::random_device{}()) + ".part");
   AtomicFile file(written);
   file.write(text);
   file.commit();
@@ -95,19 +96,20 @@ std::string manifest_text(const Study& study, const std::vector<std::string>& co
   json["set"] = Json::array();
   for (const Override& change : study.base) json["set"].push_back(change.key_path + "=" + change.value);
   json["variations"] = Json::array();
-  bool sampled = false;
-  for (const Factor& factor : study.plan.factors()) {
-    json["variations"].push_back(factor.text);
-    sampled = sampled || !factor.distributions.empty();
-  }
-  json["sampled"] = sampled;
+  for (const Factor& factor : study.plan.factors()) json["variations"].push_back(factor.text);
   json["frozen"] = study.frozen;
   json["points"] = study.plan.count();
   json["rows_per_chunk"] = kChunkRows;
   json["inputs"] = Json::array();
-  for (const Input& input : study.plan.inputs()) {
-    json["inputs"].push_back(
-        {{"key", input.key}, {"unit", input.unit}, {"column", input.column()}, {"numeric", input.numeric}});
+  for (const Factor& factor : study.plan.factors()) {
+    const bool independent = !factor.distributions.empty() || factor.inputs.size() == 1;
+    for (const Input& input : factor.inputs) {
+      json["inputs"].push_back({{"key", input.key},
+                                {"unit", input.unit},
+                                {"column", input.column()},
+                                {"numeric", input.numeric},
+                                {"independent", independent}});
+    }
   }
   json["quantities"] = columns;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -119,9 +121,11 @@ void place_manifest(const fs::path& directory, const std::string& text) {
   if (!there && create_exclusively(file, text)) return;
   if (!there) there = text_of(file);
   if (there == text) return;
-  throw InputError({file.string(), "the directory holds another sweep; these differ: " + differences(there.value_or(""), text),
-                    "Rows of different sweeps are not mixed, and none that are there are overwritten.",
-                    "another directory with -o, or remove this one"});
+  throw InputError(
+      {file.string(),
+       "the directory holds another sweep; these differ: " + differences(there.value_or(""), text),
+       "Rows of different sweeps are not mixed, and none that are there are overwritten.",
+       "another directory with -o, or remove this one"});
 }
 
 Results Results::open(const fs::path& directory) {
@@ -134,7 +138,8 @@ Results Results::open(const fs::path& directory) {
   try {
     const Json json = Json::parse(*text);
     if (json.at("glissade_sweep") != 1 || json.at("rows_per_chunk") != kChunkRows) {
-      throw FileError({file.string(), "this is the manifest of another version of sweeps", "", "the program that wrote it"});
+      throw FileError({file.string(), "this is the manifest of another version of sweeps", "",
+                       "the program that wrote it"});
     }
     Results results;
     results.directory_ = directory;
@@ -144,11 +149,11 @@ Results Results::open(const fs::path& directory) {
       results.keys_.push_back(input.at("key"));
       results.units_.push_back(input.at("unit"));
       results.numeric_.push_back(input.at("numeric"));
+      results.independent_.push_back(input.at("independent"));
     }
     results.quantities_ = json.at("quantities").get<std::vector<std::string>>();
     results.design_ = json.at("design");
     results.base_ = json.at("set").get<std::vector<std::string>>();
-    results.sampled_ = json.at("sampled");
     results.frozen_ = json.at("frozen");
     return results;
   } catch (const nlohmann::json::exception&) {

@@ -30,7 +30,8 @@ struct KeyAndRest {
 KeyAndRest split_key(std::string_view text, const std::string& option, const std::string& example) {
   const std::size_t sign = text.find('=');
   const std::string_view key = trimmed(text.substr(0, sign));
-  const std::string_view rest = sign == std::string_view::npos ? std::string_view{} : trimmed(text.substr(sign + 1));
+  const std::string_view rest =
+      sign == std::string_view::npos ? std::string_view{} : trimmed(text.substr(sign + 1));
   if (!key.empty() && !rest.empty()) return {std::string(key), rest};
   throw InputError({option, "'" + std::string(text) + "' is not of the form KEY=...",
                     "A key is the path to a value in the design file, its names joined by dots.", example});
@@ -78,17 +79,20 @@ std::optional<std::vector<std::string_view>> grid_parts(std::string_view text) {
   const std::size_t last = text.rfind(':');
   if (first == std::string_view::npos || first == last) return {};
   const std::string_view middle = text.substr(first + 1, last - first - 1);
-  if (middle.find(':') != std::string_view::npos || text.find_first_of("[{\"'") != std::string_view::npos) return {};
+  if (middle.find(':') != std::string_view::npos || text.find_first_of("[{\"'") != std::string_view::npos)
+    return {};
   return std::vector{trimmed(text.substr(0, first)), trimmed(middle), trimmed(text.substr(last + 1))};
 }
 
 std::uint64_t grid_count(std::string_view text, const std::string& key) {
   std::uint64_t count = 0;
   const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (status == std::errc() && rest == text.data() + text.size() && count >= 1 && count <= Plan::kMostPoints) {
+  if (status == std::errc() && rest == text.data() + text.size() && count >= 1 &&
+      count <= Plan::kMostPoints) {
     return count;
   }
-  throw InputError({"--vary " + key, "'" + std::string(text) + "' is no number of values from 1 to 1000000000",
+  throw InputError({"--vary " + key,
+                    "'" + std::string(text) + "' is no number of values from 1 to 1000000000",
                     "A grid is FROM:TO:NUMBER.", kGridExample});
 }
 
@@ -97,12 +101,13 @@ Factor grid(const std::string& key, const std::vector<std::string_view>& parts) 
   const auto to = split_quantity(parts[1]);
   const std::string place = "--vary " + key;
   if (!from || !to) {
-    throw InputError({place, "'" + std::string(from ? parts[1] : parts[0]) + "' is no number", "A grid is FROM:TO:NUMBER.",
-                      kGridExample});
+    throw InputError({place, "'" + std::string(from ? parts[1] : parts[0]) + "' is no number",
+                      "A grid is FROM:TO:NUMBER.", kGridExample});
   }
   if (from->unit != to->unit) {
-    throw InputError({place, "the ends " + std::string(parts[0]) + " and " + std::string(parts[1]) + " differ in unit",
-                      "The steps between them are counted in one unit.", kGridExample});
+    throw InputError(
+        {place, "the ends " + std::string(parts[0]) + " and " + std::string(parts[1]) + " differ in unit",
+         "The steps between them are counted in one unit.", kGridExample});
   }
   const std::uint64_t count = grid_count(parts[2], key);
   Factor factor;
@@ -110,9 +115,12 @@ Factor grid(const std::string& key, const std::vector<std::string_view>& parts) 
   factor.size = count;
   factor.values.reserve(count);
   for (std::uint64_t index = 0; index < count; ++index) {
-    // From both ends, so that the last value is exactly the one that was given.
-    const double share = count == 1 ? 0.0 : static_cast<double>(index) / static_cast<double>(count - 1);
-    const double value = from->number * (1.0 - share) + to->number * share;
+    // The last value is exactly the one that was given; between them the product first, which keeps round steps round.
+    const double steps = static_cast<double>(std::max<std::uint64_t>(count - 1, 1));
+    const double value =
+        index + 1 == count && count > 1
+            ? to->number
+            : from->number + (to->number - from->number) * static_cast<double>(index) / steps;
     factor.values.push_back({exact_text(value) + from->unit});
   }
   return factor;
@@ -165,8 +173,8 @@ Factor vary(std::string_view text) {
   } else {
     const std::vector<std::string> values = list_of(rest);
     if (std::find(values.begin(), values.end(), "") != values.end()) {
-      throw InputError({"--vary " + key, "'" + std::string(rest) + "' has an empty value", "Values are separated by commas.",
-                        "--vary " + key + "=30deg,33deg"});
+      throw InputError({"--vary " + key, "'" + std::string(rest) + "' has an empty value",
+                        "Values are separated by commas.", "--vary " + key + "=30deg,33deg"});
     }
     factor.inputs = {input_of(key, values)};
     factor.size = values.size();
@@ -183,8 +191,10 @@ Factor read_points(const std::filesystem::path& file) {
   for (const std::string& heading : table.headings) {
     const std::size_t open = heading.find('[');
     const bool with_unit = open != std::string::npos && heading.back() == ']';
-    const std::string_view key = trimmed(std::string_view(heading).substr(0, with_unit ? open : heading.size()));
-    units.emplace_back(with_unit ? trimmed(std::string_view(heading).substr(open + 1, heading.size() - open - 2)) : "");
+    const std::string_view key =
+        trimmed(std::string_view(heading).substr(0, with_unit ? open : heading.size()));
+    units.emplace_back(
+        with_unit ? trimmed(std::string_view(heading).substr(open + 1, heading.size() - open - 2)) : "");
     factor.inputs.push_back({std::string(key), "", true});
   }
   require_distinct(factor.inputs, table.place(0));
@@ -210,11 +220,13 @@ Factor read_points(const std::filesystem::path& file) {
   return factor;
 }
 
-Factor scatter(const std::vector<std::string>& texts, Sampling sampling, std::uint64_t samples, std::uint64_t seed) {
+Factor scatter(const std::vector<std::string>& texts, Sampling sampling, std::uint64_t samples,
+               std::uint64_t seed) {
   constexpr const char* kExample = "--scatter body.friction_angle=normal(17deg,1.5deg)";
   Factor factor;
   factor.size = samples;
-  factor.text = "samples " + std::to_string(samples) + " " + std::string(word(sampling)) + " seed " + std::to_string(seed);
+  factor.text = "samples " + std::to_string(samples) + " " + std::string(word(sampling)) + " seed " +
+                std::to_string(seed);
   for (const std::string& text : texts) {
     const auto [key, rest] = split_key(text, "--scatter", kExample);
     factor.distributions.push_back(Distribution::parse(rest, "--scatter " + key));
@@ -223,11 +235,13 @@ Factor scatter(const std::vector<std::string>& texts, Sampling sampling, std::ui
   }
   require_distinct(factor.inputs, "--scatter");
   if (samples < 1 || samples > Plan::kMostPoints) {
-    throw InputError({"--samples", std::to_string(samples) + " is not within 1 to 1000000000", "", "--samples 1000"});
+    throw InputError(
+        {"--samples", std::to_string(samples) + " is not within 1 to 1000000000", "", "--samples 1000"});
   }
   if (texts.size() > UnitCube::kMostDimensions) {
-    throw InputError({"--scatter", std::to_string(texts.size()) + " values scatter, more than " +
-                                       std::to_string(UnitCube::kMostDimensions),
+    throw InputError({"--scatter",
+                      std::to_string(texts.size()) + " values scatter, more than " +
+                          std::to_string(UnitCube::kMostDimensions),
                       "", "fewer of them"});
   }
   factor.cube = {sampling, samples, texts.size(), seed};

@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void throw_broken(const fs::path& file, std::size_t line, const std::string& what) {
-  throw FileError({file.string() + ":" + std::to_string(line), what, "A chunk is written whole or not at all.",
+  throw FileError({file.string() + ":" + std::to_string(line), what,
+                   "A chunk is written whole or not at all.",
                    "remove this file and run the sweep again, which computes it anew"});
 }
 
@@ -33,18 +34,22 @@ void for_each_line(const Results& results, const Progress& progress, const std::
   const std::string heading = heading_of(results);
   for (std::uint64_t chunk = 0; chunk < results.chunks(); ++chunk) {
     if (stop.stop_requested()) throw Interrupted({results.directory().string(), "interrupted", "", ""});
-    if (progress) progress("reading rows", static_cast<double>(chunk) / static_cast<double>(results.chunks()));
+    if (progress)
+      progress("reading rows", static_cast<double>(chunk) / static_cast<double>(results.chunks()));
     const fs::path file = chunk_path(results.directory(), chunk);
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
       const std::uint64_t missing = results.missing().size();
-      throw FileError({file.string(), "is missing, with " + std::to_string(missing) + " of " + std::to_string(results.chunks()) +
-                                          " chunks in all",
-                       "The sweep has not come to its end.", "the command of the sweep again, which goes on where it ended"});
+      throw FileError({file.string(),
+                       "is missing, with " + std::to_string(missing) + " of " +
+                           std::to_string(results.chunks()) + " chunks in all",
+                       "The sweep has not come to its end.",
+                       "the command of the sweep again, which goes on where it ended"});
     }
     std::string line;
     std::size_t number = 1;
-    if (!std::getline(stream, line) || line != heading) throw_broken(file, 1, "the heading is not that of the manifest");
+    if (!std::getline(stream, line) || line != heading)
+      throw_broken(file, 1, "the heading is not that of the manifest");
     while (std::getline(stream, line)) visit(line, file, ++number);
     const std::uint64_t first = chunk * kChunkRows;
     const std::uint64_t rows = std::min(kChunkRows, results.points() - first);
@@ -65,11 +70,13 @@ Row row_of(const Results& results, const std::string& line, std::uint64_t expect
            std::size_t number) {
   const std::vector<std::string> cells = cells_of(line);
   const std::size_t inputs = results.inputs().size();
-  if (cells.size() != 3 + inputs + results.quantities().size()) throw_broken(file, number, "the row is not complete");
+  if (cells.size() != 3 + inputs + results.quantities().size())
+    throw_broken(file, number, "the row is not complete");
   Row row;
   row.index = expected;
   if (cells[0] != std::to_string(expected)) {
-    throw_broken(file, number, "row " + cells[0] + " stands where row " + std::to_string(expected) + " belongs");
+    throw_broken(file, number,
+                 "row " + cells[0] + " stands where row " + std::to_string(expected) + " belongs");
   }
   row.inputs.assign(cells.begin() + 1, cells.begin() + 1 + static_cast<std::ptrdiff_t>(inputs));
   const auto status = status_named(cells[1 + inputs]);
@@ -99,9 +106,10 @@ std::vector<std::uint64_t> Results::missing() const {
 void Results::for_each(const std::function<void(const Row&)>& visit, const Progress& progress,
                        const std::stop_token& stop) const {
   std::uint64_t next = 0;
-  for_each_line(*this, progress, stop, [&](const std::string& line, const fs::path& file, std::size_t number) {
-    visit(row_of(*this, line, next++, file, number));
-  });
+  for_each_line(*this, progress, stop,
+                [&](const std::string& line, const fs::path& file, std::size_t number) {
+                  visit(row_of(*this, line, next++, file, number));
+                });
 }
 
 std::map<Status, std::uint64_t> merge(const Results& results, const fs::path& file, const Progress& progress,
@@ -110,10 +118,11 @@ std::map<Status, std::uint64_t> merge(const Results& results, const fs::path& fi
   table.write(heading_of(results) + "\n");
   std::map<Status, std::uint64_t> counts;
   std::uint64_t next = 0;
-  for_each_line(results, progress, stop, [&](const std::string& line, const fs::path& place, std::size_t number) {
-    ++counts[row_of(results, line, next++, place, number).status];
-    table.write(line + "\n");
-  });
+  for_each_line(results, progress, stop,
+                [&](const std::string& line, const fs::path& place, std::size_t number) {
+                  ++counts[row_of(results, line, next++, place, number).status];
+                  table.write(line + "\n");
+                });
   table.commit();
   return counts;
 }

@@ -22,15 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::uint64_t chunks_of(std::uint64_t points) {
-  return (points + kChunkRows - 1) / kChunkRows;
-}
-
 void make_directory(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (!error && fs::is_directory(directory)) return;
-  throw FileError({directory.string(), "cannot be made: " + (error ? error.message() : "there is a file of this name"), "",
+  throw FileError({directory.string(),
+                   "cannot be made: " + (error ? error.message() : "there is a file of this name"), "",
                    "another directory with -o"});
 }
 
@@ -98,12 +95,13 @@ Shard Shard::parse(std::string_view text) {
     if (second == std::errc() && rest == end && shard.index < shard.count) return shard;
   }
   throw InputError({"--shard", "'" + std::string(text) + "' is not of the form i/n with 0 <= i < n",
-                    "Shards are counted from 0: of 16, the first is 0/16 and the last 15/16.", "--shard 0/16"});
+                    "Shards are counted from 0: of 16, the first is 0/16 and the last 15/16.",
+                    "--shard 0/16"});
 }
 
 RunReport run(const Study& study, const RunOptions& options) {
   if (options.progress) options.progress("preparing the sweep", -1.0);
-  require_settable(study);
+  check(study);
   const Evaluation evaluation(study, options.stop);
   const std::string manifest = manifest_text(study, evaluation.columns());
   make_directory(options.directory);
@@ -123,8 +121,10 @@ RunReport run(const Study& study, const RunOptions& options) {
     }
   }
 
-  const int jobs = static_cast<int>(options.jobs != 0 ? options.jobs : std::max(std::thread::hardware_concurrency(), 1U));
-  const tbb::global_control most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
+  const int jobs =
+      static_cast<int>(options.jobs != 0 ? options.jobs : std::max(std::thread::hardware_concurrency(), 1U));
+  const tbb::global_control most(tbb::global_control::max_allowed_parallelism,
+                                 static_cast<std::size_t>(jobs));
   tbb::task_arena arena(jobs);
   std::atomic<std::uint64_t> rows_done{0};
   std::uint64_t rows_wanted = 0;

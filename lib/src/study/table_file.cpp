@@ -26,9 +26,11 @@ std::string trimmed(const std::string& text) {
 void require_readable(const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
-  if (error) throw FileError({file.string(), "cannot be read: " + error.message(), "", "the path of a CSV file"});
+  if (error)
+    throw FileError({file.string(), "cannot be read: " + error.message(), "", "the path of a CSV file"});
   if (size <= kLargestTable) return;
-  throw FileError({file.string(), "larger than 256 MiB", "A table of points has a line a point.", "several smaller ones"});
+  throw FileError({file.string(), "larger than 256 MiB", "A table of points has a line a point.",
+                   "several smaller ones"});
 }
 
 }  // namespace
@@ -108,7 +110,8 @@ TableFile read_table(const std::filesystem::path& file) {
   }
   if (stream.bad()) throw FileError({file.string(), "cannot be read", "", ""});
   if (table.rows.empty()) {
-    throw InputError({file.string(), "there are no points in it", "The first line names keys, each other one is a point.",
+    throw InputError({file.string(), "there are no points in it",
+                      "The first line names keys, each other one is a point.",
                       "a line such as: body.friction_angle [deg], body.entry_speed [m/s]"});
   }
   return table;

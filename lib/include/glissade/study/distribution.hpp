@@ -11,8 +11,8 @@ enum class DistributionKind {
   uniform,           ///< uniform(LOWEST, HIGHEST)
   normal,            ///< normal(MEAN, STANDARD-DEVIATION)
   truncated_normal,  ///< truncated-normal(MEAN, STANDARD-DEVIATION, LOWEST, HIGHEST): a normal one cut at both ends
-  lognormal,         ///< lognormal(MEDIAN, SIGMA): SIGMA is the standard deviation of the logarithm, without a unit
-  triangular         ///< triangular(LOWEST, MODE, HIGHEST)
+  lognormal,  ///< lognormal(MEDIAN, SIGMA): SIGMA is the standard deviation of the logarithm, without a unit
+  triangular  ///< triangular(LOWEST, MODE, HIGHEST)
 };
 
 /// How a value scatters, in a unit of its own.
@@ -60,7 +60,7 @@ enum class Sampling {
 /// Identity: of `latin_hypercube`, every interval [k/count, (k+1)/count) holds one sample in each dimension.
 struct UnitCube {
   Sampling sampling = Sampling::sobol;
-  std::uint64_t count = 1;   ///< samples; >= 1
+  std::uint64_t count = 1;     ///< samples; >= 1
   std::size_t dimensions = 1;  ///< 1 <= dimensions <= kMostDimensions
   std::uint64_t seed = 1;
 

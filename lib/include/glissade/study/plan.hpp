@@ -26,11 +26,11 @@ struct Input {
 /// Shape: `size` settings of `inputs.size()` values each.
 struct Factor {
   std::vector<Input> inputs;
-  std::uint64_t size = 0;                       ///< >= 1
+  std::uint64_t size = 0;                        ///< >= 1
   std::vector<std::vector<std::string>> values;  ///< one row a setting: texts as for --set; empty for samples
-  std::vector<Distribution> distributions;      ///< of samples, one an input
-  UnitCube cube;                                ///< of samples
-  std::string text;                             ///< that says all of this again, for the manifest
+  std::vector<Distribution> distributions;       ///< of samples, one an input
+  UnitCube cube;                                 ///< of samples
+  std::string text;                              ///< that says all of this again, for the manifest
 
   /// @param setting  0 <= setting < size
   /// @return the texts of its values, one an input

@@ -30,9 +30,9 @@ enum class Status {
   invalid         ///< the values do not make a design
 };
 
-inline constexpr std::array<Status, 7> kStatuses = {Status::arrived,       Status::stalled,    Status::left_track,
-                                                    Status::limits_broken, Status::infeasible, Status::none_found,
-                                                    Status::invalid};
+inline constexpr std::array<Status, 7> kStatuses = {
+    Status::arrived,    Status::stalled,    Status::left_track, Status::limits_broken,
+    Status::infeasible, Status::none_found, Status::invalid};
 
 /// @return the word of a row: "arrived", "stalled", "left the track", "limits broken", "infeasible", "none found",
 ///         "invalid"
@@ -45,6 +45,10 @@ inline constexpr std::array<Status, 7> kStatuses = {Status::arrived,       Statu
 using Quantity = std::pair<std::string, std::optional<double>>;
 /// Every figure of a track. Must depend on its arguments alone; called from several threads at once.
 using Quantities = std::function<std::vector<Quantity>(const Design& design, const Track& track)>;
+
+/// The usual ones: every figure of --json that a table can hold. Of each limit what was reached and by how much it is
+/// broken; of a friction range the rides at its ends (`rides.low.travel_time_s`). What the clock had a part in is left out.
+[[nodiscard]] std::vector<Quantity> quantities_of(const Design& design, const Track& track);
 
 /// A part of the work, for engines that run many processes: the chunks whose number leaves `index` when divided by `count`.
 struct Shard {
@@ -63,21 +67,21 @@ struct Study {
   Plan plan;
   bool frozen = false;               ///< the track of the base design is found once, and every point rides it
   std::vector<std::string> columns;  ///< quantities of a row; empty: all of them
-  Quantities quantities;
+  Quantities quantities = quantities_of;
 };
 
 struct RunOptions {
-  std::filesystem::path directory;
-  Shard shard;
+  std::filesystem::path directory = {};
+  Shard shard = {};
   unsigned jobs = 0;  ///< threads; 0: one a processor
-  Progress progress;
-  std::stop_token stop;
+  Progress progress = {};
+  std::stop_token stop = {};
 };
 
 /// What a run did, and what is there now.
 struct RunReport {
-  std::uint64_t points = 0;           ///< of the whole study
-  std::uint64_t chunks = 0;           ///< of the whole study
+  std::uint64_t points = 0;  ///< of the whole study
+  std::uint64_t chunks = 0;  ///< of the whole study
   std::uint64_t chunks_of_shard = 0;
   std::uint64_t chunks_found = 0;     ///< of this shard, there before
   std::uint64_t chunks_computed = 0;  ///< of this shard, by this run
@@ -86,7 +90,11 @@ struct RunReport {
 
 /// Rows a chunk; a chunk is a file of its own, written whole or not at all: that it exists means that it is done.
 inline constexpr std::uint64_t kChunkRows = 1000;
-/// Rounds of a search, by which it is bounded instead of by the clock: a row is the same on every machine.
+/// @return chunks of that many points
+[[nodiscard]] constexpr std::uint64_t chunks_of(std::uint64_t points) {
+  return (points + kChunkRows - 1) / kChunkRows;
+}
+
 inline constexpr const char* kManifestName = "manifest.json";
 
 /// Computes the chunks of a shard that are not there yet, in `directory` (made if missing), beside a manifest of what is
@@ -97,6 +105,10 @@ inline constexpr const char* kManifestName = "manifest.json";
 /// @throws FileError if a file cannot be written; Interrupted if the stop token asks for it: what is written stays valid
 /// @throws as solve() if the track to be frozen cannot be found
 RunReport run(const Study& study, const RunOptions& options);
+
+/// What run() refuses before it computes a point, apart from columns.
+/// @throws InputError as run()
+void check(const Study& study);
 
 /// One row of a study.
 struct Row {
@@ -114,15 +126,22 @@ class Results {
   [[nodiscard]] static Results open(const std::filesystem::path& directory);
 
   [[nodiscard]] std::uint64_t points() const noexcept { return points_; }
-  [[nodiscard]] std::uint64_t chunks() const noexcept { return (points_ + kChunkRows - 1) / kChunkRows; }
-  [[nodiscard]] const std::vector<std::string>& inputs() const noexcept { return inputs_; }  ///< columns of inputs
-  [[nodiscard]] const std::vector<std::string>& keys() const noexcept { return keys_; }      ///< their keys
-  [[nodiscard]] const std::vector<std::string>& units() const noexcept { return units_; }    ///< and units
-  [[nodiscard]] const std::vector<bool>& numeric() const noexcept { return numeric_; }  ///< whether an input is a number
+  [[nodiscard]] std::uint64_t chunks() const noexcept { return chunks_of(points_); }
+  [[nodiscard]] const std::vector<std::string>& inputs() const noexcept {
+    return inputs_;
+  }  ///< columns of inputs
+  [[nodiscard]] const std::vector<std::string>& keys() const noexcept { return keys_; }    ///< their keys
+  [[nodiscard]] const std::vector<std::string>& units() const noexcept { return units_; }  ///< and units
+  [[nodiscard]] const std::vector<bool>& numeric() const noexcept {
+    return numeric_;
+  }  ///< whether an input is a number
   [[nodiscard]] const std::vector<std::string>& quantities() const noexcept { return quantities_; }
   [[nodiscard]] const std::string& design() const noexcept { return design_; }  ///< name of its file
-  [[nodiscard]] const std::vector<std::string>& base() const noexcept { return base_; }  ///< KEY=VALUE of every point
-  [[nodiscard]] bool sampled() const noexcept { return sampled_; }  ///< inputs scatter independently of each other
+  [[nodiscard]] const std::vector<std::string>& base() const noexcept {
+    return base_;
+  }  ///< KEY=VALUE of every point
+  /// Whether an input is independent of all others: not one of several in a table of points.
+  [[nodiscard]] const std::vector<bool>& independent() const noexcept { return independent_; }
   [[nodiscard]] bool frozen() const noexcept { return frozen_; }
   [[nodiscard]] const std::filesystem::path& directory() const noexcept { return directory_; }
 
@@ -143,7 +162,7 @@ class Results {
   std::vector<std::string> quantities_;
   std::string design_;
   std::vector<std::string> base_;
-  bool sampled_ = false;
+  std::vector<bool> independent_;
   bool frozen_ = false;
 };
 

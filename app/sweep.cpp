@@ -1,0 +1,251 @@
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/study/study.hpp"
+#include "glissade/study/summary.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress_line.hpp"
+#include "app/sweep_text.hpp"
+#include "app/table.hpp"
+#include "app/track_input.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDescription =
+    "Compute many variants of a design: one row a point, in chunks that any number of processes share.\n"
+    "\n"
+    "Every combination of --vary, --points and --scatter is a point. It is designed anew, or, with "
+    "--frozen,\n"
+    "rides the track that was found for the design as it stands. A point that fails is a row that says why.\n"
+    "The same command again computes what is missing, whatever ended the last one; nothing is computed "
+    "twice.\n"
+    "Once all is there, sweep.html beside the rows shows what it says.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade sweep designs/grain_chute.yaml --vary body.friction_angle=10deg:25deg:151 -o sweep\n"
+    "  glissade sweep --merge sweep -o sweep.csv\n"
+    "  glissade sweep designs/grain_chute.yaml --vary track.finish.z=0m:1m:2001 -o high --shard 0/5\n"
+    "  glissade sweep designs/grain_chute.yaml --frozen --samples 512 \\\n"
+    "      --scatter 'body.friction_angle=normal(17deg,1.5deg)'\n"
+    "\n"
+    "docs/sweeps.md tells more: the laws, the columns, GNU parallel, Slurm, several machines.";
+
+struct Options {
+  std::string design;
+  Overrides overrides;
+  std::vector<std::string> vary;
+  std::string points;
+  std::vector<std::string> scatter;
+  std::uint64_t samples = 0;
+  std::string sampling = "sobol";
+  std::uint64_t seed = 1;
+  bool frozen = false;
+  std::vector<std::string> columns;
+  std::string output;
+  unsigned jobs = 0;
+  std::string shard;
+  bool slurm = false;
+  std::uint64_t tasks = 0;
+  std::string merge;
+  Verbosity verbosity;
+};
+
+void require(bool holds, Issue issue) {
+  if (!holds) throw InputError(std::move(issue));
+}
+
+study::Plan plan_of(const Options& options) {
+  std::vector<study::Factor> factors;
+  for (const std::string& text : options.vary) factors.push_back(study::vary(text));
+  if (!options.points.empty()) factors.push_back(study::read_points(options.points));
+  constexpr const char* kExample = "--scatter \"body.friction_angle=normal(17deg,1.5deg)\" --samples 1000";
+  require(options.scatter.empty() || options.samples != 0,
+          {"--scatter", "--samples is missing", "It is how many values are drawn.", kExample});
+  require(
+      !options.scatter.empty() || options.samples == 0,
+      {"--samples", "nothing scatters", "--samples is how many values are drawn for --scatter.", kExample});
+  if (!options.scatter.empty()) {
+    factors.push_back(study::scatter(options.scatter, study::sampling_named(options.sampling),
+                                     options.samples, options.seed));
+  }
+  return study::Plan(std::move(factors));
+}
+
+study::Study study_of(const Options& options) {
+  return {study::Study{DesignSource::read(options.design), options.overrides.values(), plan_of(options),
+                       options.frozen, options.columns}};
+}
+
+/// The command that a worker runs, without the shard.
+std::vector<std::string> sweep_arguments(const Options& options, const fs::path& directory) {
+  std::vector<std::string> words = {"sweep", options.design};
+  const auto add = [&](const std::string& name, const std::string& value) {
+    words.push_back(name);
+    words.push_back(value);
+  };
+  for (const Override& change : options.overrides.values())
+    add("--set", change.key_path + "=" + change.value);
+  for (const std::string& text : options.vary) add("--vary", text);
+  if (!options.points.empty()) add("--points", options.points);
+  for (const std::string& text : options.scatter) add("--scatter", text);
+  if (options.samples != 0) {
+    add("--samples", std::to_string(options.samples));
+    add("--sampling", options.sampling);
+    add("--seed", std::to_string(options.seed));
+  }
+  if (options.frozen) words.emplace_back("--frozen");
+  if (!options.columns.empty()) {
+    std::string names;
+    for (const std::string& name : options.columns) names += (names.empty() ? "" : ",") + name;
+    add("--columns", names);
+  }
+  add("-o", directory.string());
+  return words;
+}
+
+fs::path directory_of(const Options& options) {
+  if (!options.output.empty()) return options.output;
+  return fs::path("out") / (fs::path(options.design).stem().string() + "_sweep");
+}
+
+ExitCode merge_chunks(const Options& options) {
+  require(options.design.empty(),
+          {"--merge", "a design is given as well", "The directory knows what was studied.",
+           "glissade sweep --merge sweep -o sweep.csv"});
+  require(!options.output.empty(), {"--merge", "-o is missing", "It names the table to write.",
+                                    "glissade sweep --merge sweep -o sweep.csv"});
+  const Interrupt interrupt;
+  const study::Results results = study::Results::open(options.merge);
+  const auto counts = [&] {
+    ProgressLine progress(options.verbosity);
+    return study::merge(results, options.output, progress.callback(), interrupt.token());
+  }();
+  if (!options.verbosity.quiet()) print(counts_text(counts) + "\n  " + options.output + "\n");
+  return ExitCode::done;
+}
+
+void write_whole(const fs::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+/// The batch file for Slurm beside the rows that its tasks will write.
+ExitCode write_batch(const Options& options, const study::Study& study, const fs::path& directory) {
+  constexpr std::uint64_t kUsualTasks = 16;
+  const std::uint64_t chunks = study::chunks_of(study.plan.count());
+  const std::uint64_t tasks = options.tasks != 0 ? options.tasks : std::min(kUsualTasks, chunks);
+  study::check(study);
+  fs::create_directories(directory);
+  const fs::path file = directory / "sweep.sbatch";
+  write_whole(file, batch_text(sweep_arguments(options, directory), directory.string(), tasks));
+  if (!options.verbosity.quiet()) {
+    print(labelled("Batch file", file.string() + ", " + std::to_string(tasks) + " tasks") +
+          labelled("Submit it", "sbatch " + file.string() + ", where this command was given"));
+  }
+  return ExitCode::done;
+}
+
+/// What the rows say, on a page beside them and in a few lines.
+void show_summary(const Options& options, const fs::path& directory, const std::stop_token& stop) {
+  const study::Results results = study::Results::open(directory);
+  const study::Summary summary = [&] {
+    ProgressLine progress(options.verbosity);
+    return study::summarise(results, progress.callback(), stop);
+  }();
+  const fs::path page = directory / "sweep.html";
+  write_whole(page, study::summary_page(results, summary));
+  if (!options.verbosity.quiet()) print(summary_text(summary) + "\n" + labelled("Page", page.string()));
+}
+
+ExitCode sweep_design(const Options& options) {
+  if (!options.merge.empty()) return merge_chunks(options);
+  require(!options.design.empty(), {"", "a design file is missing", "", "glissade sweep --help"});
+  const study::Study study = study_of(options);
+  const fs::path directory = directory_of(options);
+  if (options.slurm) return write_batch(options, study, directory);
+  study::RunOptions run_options;
+  run_options.directory = directory;
+  if (!options.shard.empty()) run_options.shard = study::Shard::parse(options.shard);
+  run_options.jobs = options.jobs;
+  const Interrupt interrupt;
+  run_options.stop = interrupt.token();
+  const study::RunReport report = [&] {
+    ProgressLine progress(options.verbosity);
+    run_options.progress = progress.callback();
+    return study::run(study, run_options);
+  }();
+  if (!options.verbosity.quiet()) print(run_text(report, directory.string()));
+  if (report.complete) show_summary(options, directory, interrupt.token());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("sweep", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  const auto several = [&](const std::string& name, std::vector<std::string>& values, const std::string& type,
+                           const std::string& description) {
+    command.add_option(name, values, description)->type_name(type)->take_all()->allow_extra_args(false);
+  };
+  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml");
+  options->overrides.add_to(command);
+  several("--vary", options->vary, "KEY=VALUES",
+          "FROM:TO:NUMBER, a grid, or a list A,B,C; may be repeated, the last one varies fastest");
+  command.add_option("--points", options->points, "Table of points: a line of keys, then a line a point")
+      ->type_name("FILE.csv");
+  several("--scatter", options->scatter, "KEY=LAW",
+          "uniform(LOW,HIGH), normal(MEAN,DEVIATION), truncated-normal(MEAN,DEVIATION,LOW,HIGH), "
+          "lognormal(MEDIAN,SIGMA) or triangular(LOW,MODE,HIGH); may be repeated");
+  command.add_option("--samples", options->samples, "How many values are drawn for --scatter")
+      ->type_name("NUMBER");
+  command
+      .add_option("--sampling", options->sampling,
+                  "sobol, latin-hypercube or random [default: sobol, the evenest; best with a power of 2]")
+      ->type_name("WAY");
+  command.add_option("--seed", options->seed, "Another seed draws other samples [default: 1]")
+      ->type_name("NUMBER");
+  command.add_flag("--frozen", options->frozen, "Find the track of the design once; every point rides it");
+  command
+      .add_option("--columns", options->columns,
+                  "Quantities of a row, by their names in --json, separated by commas [default: all]")
+      ->type_name("NAMES")
+      ->delimiter(',');
+  command
+      .add_option(
+          "-o,--output", options->output,
+          "Directory for the rows, made if missing [default: out/NAME-OF-THE-DESIGN_sweep]; with --merge "
+          "the table to write")
+      ->type_name("PATH");
+  command.add_option("--jobs", options->jobs, "Threads [default: one a processor]")->type_name("NUMBER");
+  command
+      .add_option("--shard", options->shard, "Compute only part i of n, counted from 0; for engines outside")
+      ->type_name("i/n");
+  command.add_flag("--slurm", options->slurm,
+                   "Compute nothing; write a batch file for Slurm, an array of shards");
+  command
+      .add_option("--tasks", options->tasks, "Of --slurm: tasks of the array [default: 16, or one a chunk]")
+      ->type_name("NUMBER");
+  command.add_option("--merge", options->merge, "Write all rows of a directory as one table instead")
+      ->type_name("DIR");
+  options->verbosity.add_to(command, "Print nothing but errors");
+  command.callback([options, &action] { action = [options] { return sweep_design(*options); }; });
+}
+
+}  // namespace glissade::app

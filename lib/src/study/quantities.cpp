@@ -1,0 +1,81 @@
+#include "glissade/study/study.hpp"
+
+#include "pipeline/track_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace glissade::study {
+namespace {
+
+using report::Json;
+
+/// How far a search came says something of the search, and its seconds differ from run to run.
+constexpr std::array<std::string_view, 4> kNoFigures = {"search.rounds", "search.evaluations",
+                                                        "search.seconds", "gravity_m_per_s2"};
+
+/// Groups that are there only when something went wrong, with their names, so that every row has the same columns.
+struct Group {
+  std::string_view name;
+  std::array<std::string_view, 3> members;
+};
+constexpr std::array<Group, 2> kGroups = {{
+    {"stall", {"arc_length_m", "missing_slope_deg", ""}},
+    {"lift_off", {"arc_length_m", "speed_m_per_s", "curvature_per_m"}},
+}};
+
+void add(const std::string& name, const Json& value, std::vector<Quantity>& quantities) {
+  if (std::find(kNoFigures.begin(), kNoFigures.end(), name) != kNoFigures.end()) return;
+  const auto group =
+      std::find_if(kGroups.begin(), kGroups.end(), [&](const Group& known) { return known.name == name; });
+  if (group != kGroups.end()) {
+    for (const std::string_view member : group->members) {
+      if (member.empty()) continue;
+      const bool there = value.is_object() && value.contains(std::string(member));
+      add(name + "." + std::string(member), there ? value[std::string(member)] : Json(nullptr), quantities);
+    }
+  } else if (value.is_number()) {
+    quantities.emplace_back(name, value.get<double>());
+  } else if (value.is_null() && name != "search") {
+    quantities.emplace_back(name, std::nullopt);
+  } else if (value.is_object()) {
+    for (const auto& [member, inner] : value.items()) add(name + "." + member, inner, quantities);
+  }
+}
+
+void add_limit(const Json& limit, std::vector<Quantity>& quantities) {
+  const std::string prefix = "limits." + limit["limit"].get<std::string>();
+  add(prefix + ".reached", limit["reached"], quantities);
+  add(prefix + ".violation", limit["violation"], quantities);
+}
+
+/// The ends of a friction range; the nominal ride is the track's own.
+void add_ride(const Json& ride, std::vector<Quantity>& quantities) {
+  const auto level = ride["friction"].get<std::string>();
+  if (level == to_text(FrictionLevel::nominal)) return;
+  for (const auto& [name, value] : ride.items()) {
+    // Where such a ride ends early is said by its status in --json; here its time is empty.
+    if (name != "stall" && name != "lift_off") add("rides." + level + "." + name, value, quantities);
+  }
+}
+
+}  // namespace
+
+std::vector<Quantity> quantities_of(const Design& design, const Track& track) {
+  const Json json = pipeline::track_document(design, track);
+  std::vector<Quantity> quantities;
+  for (const auto& [name, value] : json.items()) {
+    if (name == "limits") {
+      for (const Json& limit : value) add_limit(limit, quantities);
+    } else if (name == "rides") {
+      for (const Json& ride : value) add_ride(ride, quantities);
+    } else {
+      add(name, value, quantities);
+    }
+  }
+  return quantities;
+}
+
+}  // namespace glissade::study

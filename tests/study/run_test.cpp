@@ -1,0 +1,225 @@
+#include "glissade/core/error.hpp"
+#include "glissade/study/study.hpp"
+
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+using namespace glissade::study;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<Quantity> time_and_speed(const Design& design, const Track& track) {
+  const bool arrived = track.motion.arrived();
+  return {{"travel_time_s", arrived ? std::optional(track.motion.travel_time()) : std::nullopt},
+          {"exit_speed_m_per_s", arrived ? std::optional(track.motion.exit_speed()) : std::nullopt},
+          {"friction_coefficient", design.body.friction.coefficient()}};
+}
+
+constexpr const char* kDesign = R"(glissade: 1
+track: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}
+body: {friction_angle: 11 deg}
+centerline: {kind: fastest}
+)";
+
+Study study_of(std::vector<Factor> factors, const std::string& design = kDesign) {
+  return {DesignSource::parse(design, "slide.yaml"), {}, Plan(std::move(factors)), false, {}, time_and_speed};
+}
+
+std::string merged(const std::filesystem::path& directory) {
+  const TempDir place;
+  merge(Results::open(directory), place.path() / "all.csv");
+  return bytes_of(place.path() / "all.csv");
+}
+
+std::vector<Row> rows_of(const std::filesystem::path& directory) {
+  std::vector<Row> rows;
+  Results::open(directory).for_each([&](const Row& row) { rows.push_back(row); });
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("a row holds what solve() gives, to the last digit") {
+  const TempDir place;
+  const Study study = study_of({vary("body.friction_angle=5deg:25deg:21")});
+  const RunReport report = run(study, {.directory = place.path()});
+  CHECK(report.complete);
+  CHECK(report.points == 21);
+  const std::vector<Row> rows = rows_of(place.path());
+  REQUIRE(rows.size() == 21);
+  for (const Row& row : rows) {
+    const std::string angle = std::to_string(5 + row.index) + " deg";
+    const Design design = parse_design(kDesign, "slide.yaml", {{"body.friction_angle", angle}});
+    const Track track = solve(design);
+    CHECK(row.status == Status::arrived);
+    CHECK(row.reason.empty());
+    CHECK(row.inputs == std::vector{std::to_string(5 + row.index)});
+    CHECK(row.quantities[0] == track.motion.travel_time());
+    CHECK(row.quantities[1] == track.motion.exit_speed());
+  }
+}
+
+TEST_CASE("a point that fails is a row that says why") {
+  const TempDir place;
+  // Steeper than the chord, no number of friction, and a word that is no angle.
+  (void)run(study_of({vary("body.friction_angle=20deg,30deg,95deg,17,20deg")}), {.directory = place.path()});
+  const std::vector<Row> rows = rows_of(place.path());
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[0].status == Status::arrived);
+  CHECK(rows[1].status == Status::infeasible);
+  CHECK_THAT(rows[1].reason, Contains("steeper than the mean slope"));
+  CHECK_FALSE(rows[1].quantities[0].has_value());
+  CHECK(rows[2].status == Status::invalid);
+  CHECK(rows[3].status == Status::invalid);
+  CHECK_THAT(rows[3].reason, Contains("17"));
+  CHECK(rows[4].quantities == rows[0].quantities);
+}
+
+TEST_CASE("a frozen track stalls where a track of its own would arrive") {
+  const TempDir place;
+  Study study = study_of({vary("body.friction_angle=11deg,26deg,30deg")});
+  study.frozen = true;
+  (void)run(study, {.directory = place.path()});
+  const std::vector<Row> rows = rows_of(place.path());
+  CHECK(rows[0].quantities[0] == solve(parse_design(kDesign, "slide.yaml")).motion.travel_time());
+  CHECK(rows[1].status == Status::stalled);
+  CHECK_THAT(rows[1].reason, Contains("stalls after"));
+  CHECK(rows[2].status ==
+        Status::stalled);  // 26 deg rubs more than the chord falls, but this track begins steeply
+}
+
+TEST_CASE("what shapes a frozen track cannot vary") {
+  const TempDir place;
+  Study study = study_of({vary("track.finish.z=0m,1m")});
+  study.frozen = true;
+  CHECK_THROWS_WITH(run(study, {.directory = place.path()}),
+                    Contains("track.finish.z shapes the track, which is frozen"));
+}
+
+TEST_CASE("shards of any number, in any order, on any number of threads give the same bytes") {
+  const std::vector<std::string> texts = {"body.friction_angle=5deg:25deg:1400",
+                                          "body.entry_speed=0m/s,1m/s"};
+  const auto study = [&] { return study_of({vary(texts[0]), vary(texts[1])}); };
+  const TempDir whole;
+  CHECK(run(study(), {.directory = whole.path(), .jobs = 1}).chunks == 3);
+  const TempDir parts;
+  for (const std::uint64_t shard : {4U, 0U, 2U, 1U, 3U}) {
+    const RunReport report = run(study(), {.directory = parts.path(), .shard = {shard, 5}, .jobs = 2});
+    CHECK(report.chunks_of_shard == (shard < 3 ? 1 : 0));
+    CHECK(report.complete == (shard == 1 || shard == 3));  // the three chunks are those of 0, 1 and 2
+  }
+  CHECK(merged(whole.path()) == merged(parts.path()));
+  CHECK(bytes_of(whole.path() / kManifestName) == bytes_of(parts.path() / kManifestName));
+}
+
+TEST_CASE("what is there is not computed again, what is missing is") {
+  const TempDir place;
+  const auto study = [] { return study_of({vary("body.friction_angle=5deg:25deg:2500")}); };
+  CHECK(run(study(), {.directory = place.path()}).chunks_computed == 3);
+  const std::string before = merged(place.path());
+  std::filesystem::remove(place.path() / "chunks" / "000001.csv");
+  CHECK_THROWS_WITH(merged(place.path()), Contains("000001.csv: is missing, with 1 of 3 chunks in all"));
+  const RunReport report = run(study(), {.directory = place.path()});
+  CHECK(report.chunks_found == 2);
+  CHECK(report.chunks_computed == 1);
+  CHECK(merged(place.path()) == before);
+}
+
+TEST_CASE("another sweep's directory is refused with what differs, and keeps its rows") {
+  const TempDir place;
+  (void)run(study_of({vary("body.friction_angle=5deg:25deg:3")}), {.directory = place.path()});
+  const std::string before = merged(place.path());
+  const auto refused = [&](const Study& study, const std::string& difference) {
+    CHECK_THROWS_AS(run(study, {.directory = place.path()}), InputError);
+    CHECK_THROWS_WITH(run(study, {.directory = place.path()}),
+                      Contains("the directory holds another sweep; these differ: " + difference));
+  };
+  refused(study_of({vary("body.friction_angle=5deg:25deg:4")}), "variations, points");
+  const std::string edited = std::string(kDesign) + "gravity: 9.8 m/s^2\n";
+  refused(study_of({vary("body.friction_angle=5deg:25deg:3")}, edited), "design_sha256");
+  Study frozen = study_of({vary("body.friction_angle=5deg:25deg:3")});
+  frozen.frozen = true;
+  refused(frozen, "frozen");
+  Study fewer = study_of({vary("body.friction_angle=5deg:25deg:3")});
+  fewer.columns = {"travel_time_s"};
+  refused(fewer, "quantities");
+  CHECK(merged(place.path()) == before);
+}
+
+TEST_CASE("a key that the design does not know ends the sweep before it begins") {
+  const TempDir place;
+  CHECK_THROWS_WITH(
+      run(study_of({vary("body.frction_angle=5deg:25deg:3")}), {.directory = place.path() / "new"}),
+      Contains("frction_angle"));
+  CHECK_THROWS_WITH(
+      run(study_of({vary("body.friction_angle=5kg:25kg:3")}), {.directory = place.path() / "new"}),
+      Contains("kg"));
+  CHECK_FALSE(std::filesystem::exists(place.path() / "new"));
+}
+
+TEST_CASE("columns are chosen by name, and an unknown one is refused with those that there are") {
+  const TempDir place;
+  Study study = study_of({vary("body.friction_angle=5deg:25deg:3")});
+  study.columns = {"exit_speed_m_per_s"};
+  (void)run(study, {.directory = place.path() / "one"});
+  CHECK(Results::open(place.path() / "one").quantities() == study.columns);
+  study.columns = {"exit_sped"};
+  CHECK_THROWS_WITH(
+      run(study, {.directory = place.path() / "two"}),
+      Contains("'exit_sped' is no quantity of this design") && Contains("travel_time_s, exit_speed_m_per_s"));
+}
+
+TEST_CASE("a chunk that is broken is found with the file and the line") {
+  const TempDir place;
+  (void)run(study_of({vary("body.friction_angle=5deg:25deg:5")}), {.directory = place.path()});
+  const std::filesystem::path chunk = place.path() / "chunks" / "000000.csv";
+  const std::string good = bytes_of(chunk);
+  const auto broken = [&](const std::string& text, const std::string& message) {
+    std::ofstream(chunk, std::ios::binary) << text;
+    CHECK_THROWS_AS(merged(place.path()), FileError);
+    CHECK_THROWS_WITH(merged(place.path()), Contains("000000.csv") && Contains(message));
+  };
+  const std::size_t second = good.find('\n', good.find('\n') + 1) + 1;
+  broken(good.substr(0, good.size() / 2), "");
+  broken(good.substr(0, second), "1 rows instead of 5");
+  broken("index,status\n" + good, "the heading is not that of the manifest");
+  std::string swapped = good;
+  swapped.replace(second, 1, "3");
+  broken(swapped, "row 3 stands where row 1 belongs");
+  std::string renamed = good;
+  renamed.replace(renamed.find("arrived"), 7, "arrivde");
+  broken(renamed, "'arrivde' is no status");
+}
+
+TEST_CASE("an interrupted run says that it can go on") {
+  const TempDir place;
+  std::stop_source stop;
+  stop.request_stop();
+  RunOptions options;
+  options.directory = place.path();
+  options.stop = stop.get_token();
+  CHECK_THROWS_AS(run(study_of({vary("body.friction_angle=5deg:25deg:3")}), options), Interrupted);
+}
+
+TEST_CASE("a shard is i/n") {
+  CHECK(Shard::parse("3/16").index == 3);
+  CHECK(Shard::parse("3/16").count == 16);
+  for (const char* text : {"", "3", "16/16", "-1/4", "1/0", "1/2/3", "a/b", "1/4 "}) {
+    CHECK_THROWS_WITH(Shard::parse(text), Contains("is not of the form i/n with 0 <= i < n"));
+  }
+}
+
+TEST_CASE("a directory without a manifest is no sweep") {
+  const TempDir place;
+  CHECK_THROWS_WITH(Results::open(place.path()), Contains("there is no manifest of a sweep here"));
+  std::ofstream(place.path() / kManifestName) << "{}";
+  CHECK_THROWS_WITH(Results::open(place.path()), Contains("this is no manifest of a sweep"));
+  std::ofstream(place.path() / kManifestName) << "{\"glissade_sweep\": 2, \"rows_per_chunk\": 10}";
+  CHECK_THROWS_WITH(Results::open(place.path()), Contains("another version"));
+}
