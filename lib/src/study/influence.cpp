@@ -1,5 +1,7 @@
 #include "study/influence.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -73,7 +75,7 @@ std::vector<std::size_t> classes_of(const std::vector<Pair>& sorted) {
   if (ends.size() <= kMostSingleValues && 2 * ends.size() <= sorted.size()) return ends;
   // As many classes as the cube root of the rows, which balances what a class hides against its noise.
   const auto wanted = static_cast<std::size_t>(
-      std::max(2.0, std::round(2.0 * std::cbrt(static_cast<double>(sorted.size())))));
+      std::max(2.0, std::round(2.0 * math::cbrt(static_cast<double>(sorted.size())))));
   std::vector<std::size_t> merged;
   for (const std::size_t end : ends) {
     const std::size_t due = (merged.size() + 1) * sorted.size() / wanted;
