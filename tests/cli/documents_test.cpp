@@ -70,7 +70,8 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
   const std::string path = kProject + "/docs/cli.md";
   std::string text = bytes_of(path);
   const bool update = std::getenv("GLISSADE_UPDATE_GOLDEN") != nullptr;
-  for (const std::string command : {"", "build", "solve", "ride", "compare", "plot", "inspect", "init", "sweep"}) {
+  for (const std::string command :
+       {"", "build", "solve", "ride", "compare", "plot", "inspect", "init", "sweep"}) {
     const Outcome help = glissade_run(with_help(command));
     REQUIRE(help.exit_code == 0);
     const std::string heading = command.empty() ? "## glissade\n" : "## glissade " + command + "\n";
