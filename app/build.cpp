@@ -22,7 +22,11 @@ constexpr const char* kDescription =
     "Build a design: centerline, motion, solid, files, and a summary.\n"
     "\n"
     "Either every file appears or none: a build that fails leaves the directory as it was. A search within\n"
-    "limits that ends early (--time-budget, Ctrl-C) still builds the best track so far; the exit code is 4.";
+    "limits that ends early (--time-budget, Ctrl-C) still builds the best track so far; the exit code is 4.\n"
+    "\n"
+    "Files of an earlier build that this one does not make are removed, unless they were changed since; a "
+    "file\n"
+    "in the way that no build wrote is kept as FILE.kept. Other designs may share the directory.";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -75,7 +79,7 @@ void add_build(CLI::App& program, Action& action) {
       ->type_name("DIR");
   options->overrides.add_to(command);
   options->time_budget.add_to(command);
-  command.add_flag("--no-report", options->no_report, "Write no report.html");
+  command.add_flag("--no-report", options->no_report, "Write no report page");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
   options->verbosity.add_to(command, "Print nothing but errors (and what --json asks for)");
   command.callback([options, &action] { action = [options] { return build_design(*options); }; });

@@ -154,7 +154,8 @@ Table sweep_table(const std::vector<Entry>& entries) {
 /// Every curve as points, for a plotting program.
 std::string curves_csv(const std::vector<Entry>& entries) {
   constexpr int kPoints = 200;
-  Table table({"centerline", "friction_angle_deg", "arc_length_m", "run_m", "drop_m", "slope_angle_deg"});
+  Table table(
+      {"design", "centerline", "friction_angle_deg", "arc_length_m", "run_m", "drop_m", "slope_angle_deg"});
   for (const Entry& entry : entries) {
     if (!entry.track) continue;
     const Centerline& centerline = *entry.track->centerline;
@@ -162,8 +163,9 @@ std::string curves_csv(const std::vector<Entry>& entries) {
       // Crowded towards the start, where the curves bend most.
       const double part = static_cast<double>(index) / kPoints;
       const CenterlinePoint point = centerline.at(centerline.length() * part * part);
-      table.add({entry_name(entry), exact_text(entry.design.body.friction.angle().degrees()),
-                 exact_text(point.arc_length), exact_text(point.x), exact_text(point.drop),
+      table.add({entry.design.file.string(), entry_name(entry),
+                 exact_text(entry.design.body.friction.angle().degrees()), exact_text(point.arc_length),
+                 exact_text(point.x), exact_text(point.drop),
                  exact_text(Angle::from_radians(point.slope_angle).degrees())});
     }
   }

@@ -126,6 +126,20 @@ std::string solid_lines(const Design& design, const Build& build) {
   return text;
 }
 
+/// What a build did to files that were there before it; empty if nothing.
+std::string earlier_file_lines(const Build& build) {
+  std::string text;
+  for (const std::filesystem::path& file : build.removed) {
+    text += file.string() + "  removed: an earlier build wrote it, this one does not\n";
+  }
+  for (const std::filesystem::path& file : build.set_aside) {
+    text += file.string() + "  set aside: it was in the way and not as a build wrote it\n";
+  }
+  if (text.empty()) return "";
+  text.pop_back();
+  return labelled("Before", text);
+}
+
 std::string file_lines(const std::vector<WrittenFile>& files) {
   std::string text;
   for (const WrittenFile& file : files) {
@@ -204,7 +218,8 @@ std::string build_summary(const Design& design, const Build& build) {
                               ": watertight, one piece, facing outward, no self-intersection,\n"
                               "no degenerate facet; measured at the precision of each file, each read back";
   return track_summary(design, build.track) + "\n" + labelled("Solid", solid_lines(design, build)) +
-         labelled("Mesh", verdict) + "\n" + labelled("Files", file_lines(build.files));
+         labelled("Mesh", verdict) + "\n" + labelled("Files", file_lines(build.files)) +
+         earlier_file_lines(build);
 }
 
 }  // namespace glissade::app

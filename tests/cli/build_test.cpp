@@ -60,8 +60,9 @@ TEST_CASE("build writes the files that the design names, proves the mesh and say
   CHECK_THAT(outcome.output, StartsWith("Test chute\n") && Contains("Travel time") &&
                                  Contains("watertight") && Contains("chute.stl"));
   CHECK_THAT(outcome.output, !Contains("\033"));
-  CHECK(names_in(place / "out/chute") ==
-        std::vector<std::string>{"chute.off", "chute.scad", "chute.stl", "report.html"});
+  CHECK(names_in(place / "out/chute") == std::vector<std::string>{".chute.sha256", "chute.off",
+                                                                  "chute.report.html", "chute.scad",
+                                                                  "chute.stl"});
 }
 
 TEST_CASE("build --json tells of the track, the mesh and the files") {
@@ -101,7 +102,7 @@ TEST_CASE("the same design gives the same bytes") {
   REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "one"}, {place.path(), {}, {}}).exit_code == 0);
   REQUIRE(glissade_run({"build", "chute.yaml", "-q", "-o", "two"}, {place.path(), {}, {}}).exit_code == 0);
   const std::vector<std::string> names = names_in(place / "one");
-  CHECK(names.size() == 6);  // the report counts
+  CHECK(names.size() == 7);  // the report counts, and the list of files
   CHECK(names == names_in(place / "two"));
   for (const std::string& name : names) {
     INFO(name);
@@ -250,8 +251,8 @@ TEST_CASE("a full disk leaves nothing behind, and files of an earlier build as t
   const Outcome second =
       glissade_run({"build", "chute.yaml", "-o", "out", "--set", "mesh.tolerance=1mm"}, limits);
   CHECK(second.exit_code == 5);
-  CHECK(names_in(place / "out") ==
-        std::vector<std::string>{"chute.off", "chute.scad", "chute.stl", "report.html"});
+  CHECK(names_in(place / "out") == std::vector<std::string>{".chute.sha256", "chute.off", "chute.report.html",
+                                                            "chute.scad", "chute.stl"});
   CHECK(bytes_of(place / "out/chute.stl") == before);
 }
 

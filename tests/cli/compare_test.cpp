@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -78,10 +79,23 @@ TEST_CASE("compare --csv writes every curve from the start to the finish") {
   std::istringstream lines(bytes_of(file));
   std::string line;
   std::getline(lines, line);
-  CHECK(line == "centerline,friction_angle_deg,arc_length_m,run_m,drop_m,slope_angle_deg");
+  CHECK(line == "design,centerline,friction_angle_deg,arc_length_m,run_m,drop_m,slope_angle_deg");
   std::size_t count = 0;
   while (std::getline(lines, line)) ++count;
   CHECK(count == 5 * 201);
+}
+
+TEST_CASE("compare --csv of two designs tells which design a curve belongs to") {
+  const TempDir place;
+  const std::string file = (place / "curves.csv").string();
+  const std::vector<std::string> designs = {shipped("grain_chute"), shipped("powder_chute")};
+  REQUIRE(glissade_run({"compare", designs[0], designs[1], "--csv", file}).exit_code == 0);
+  std::istringstream lines(bytes_of(file));
+  std::set<std::string> found;
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) found.insert(line.substr(0, line.find(',')));
+  CHECK(found == std::set<std::string>(designs.begin(), designs.end()));
 }
 
 TEST_CASE("compare shows the fastest track within limits beside the others, each held against the limits") {

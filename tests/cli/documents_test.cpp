@@ -102,6 +102,7 @@ TEST_CASE("every example of --help does what it says") {
   std::size_t tried = 0;
   for (const std::string command : {"", "init", "build", "solve", "compare", "plot", "inspect", "sweep"}) {
     if (command == "inspect") {
+      REQUIRE(run_program(program, {"build", "designs/grain_chute.yaml", "-q"}, here).exit_code == 0);
       std::filesystem::copy_file(place / "out/grain_chute/grain_chute.off", place / "part.off");
     }
     for (const std::string& example : examples_of(glissade_run(with_help(command)).output)) {

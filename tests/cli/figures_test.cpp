@@ -124,7 +124,8 @@ TEST_CASE(
   CHECK(glissade_run(build, {place.path(), {}, {}}).errors.empty());
   const Outcome verbose = glissade_run(with(build, {"--verbose"}), {place.path(), {}, {}});
   CHECK_THAT(verbose.errors, Contains("finding the track") && Contains("making the mesh") &&
-                                 Contains("writing grain_chute.stl") && Contains("writing report.html"));
+                                 Contains("writing grain_chute.stl") &&
+                                 Contains("writing grain_chute.report.html"));
   const Outcome quiet = glissade_run(with(build, {"--quiet"}), {place.path(), {}, {}});
   CHECK(quiet.output.empty());
   CHECK(quiet.errors.empty());

@@ -22,14 +22,14 @@ json data_of(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("report.html tells what --json tells, and lists the files as they are") {
+TEST_CASE("the report page tells what --json tells, and lists the files as they are") {
   const TempDir place;
   const Outcome outcome =
       glissade_run({"build", shipped("grain_chute"), "-o", "out", "--json"}, {place.path(), {}, {}});
   INFO(outcome.errors);
   REQUIRE(outcome.exit_code == 0);
   const json built = json::parse(outcome.output);
-  const json report = data_of(bytes_of(place / "out/report.html"));
+  const json report = data_of(bytes_of(place / "out/grain_chute.report.html"));
   CHECK(report["schema"] == "glissade-report/1");
   // Whatever both of them tell is the same, to the last digit.
   const auto compare = [](const json& page, const json& printed) {
@@ -46,7 +46,7 @@ TEST_CASE("report.html tells what --json tells, and lists the files as they are"
   CHECK(compare(report["mesh"], built["mesh"]) >= 8);
   CHECK(compare(report["body"], built) >= 5);
   // Every file but the report itself, which stands last.
-  CHECK_THAT(built["files"].back()["path"].get<std::string>(), Contains("report.html"));
+  CHECK_THAT(built["files"].back()["path"].get<std::string>(), Contains("grain_chute.report.html"));
   REQUIRE(report["files"].size() + 1 == built["files"].size());
   for (const json& file : report["files"]) {
     const std::filesystem::path path = place / "out" / file["name"].get<std::string>();
@@ -62,7 +62,7 @@ TEST_CASE("the report's verdicts pass for what the build checked, and say what i
   REQUIRE(glissade_run({"build", shipped("grain_chute"), "-o", "out"}, {place.path(), {}, {}}).exit_code ==
           0);
   std::map<std::string, std::string> verdicts;
-  const json report = data_of(bytes_of(place / "out/report.html"));
+  const json report = data_of(bytes_of(place / "out/grain_chute.report.html"));
   for (const json& check : report["checks"]) {
     verdicts[check["name"]] = check["verdict"];
     CHECK(check["detail"].get<std::string>().size() > 5);
@@ -80,7 +80,7 @@ TEST_CASE("with only a table to write, the report does not claim that files were
   REQUIRE(glissade_run({"build", shipped("grain_chute"), "-o", "out", "--set", "export=[csv]"},
                        {place.path(), {}, {}})
               .exit_code == 0);
-  const json report = data_of(bytes_of(place / "out/report.html"));
+  const json report = data_of(bytes_of(place / "out/grain_chute.report.html"));
   std::string verdict;
   for (const json& check : report["checks"]) {
     if (check["name"] == "Files hold this solid") verdict = check["verdict"];
@@ -93,7 +93,7 @@ TEST_CASE("--no-report leaves the page out") {
   const Outcome outcome =
       glissade_run({"build", shipped("grain_chute"), "-o", "out", "--no-report"}, {place.path(), {}, {}});
   CHECK(outcome.exit_code == 0);
-  CHECK_FALSE(std::filesystem::exists(place / "out/report.html"));
+  CHECK_FALSE(std::filesystem::exists(place / "out/grain_chute.report.html"));
   CHECK(std::filesystem::exists(place / "out/grain_chute.stl"));
 }
 
@@ -103,5 +103,5 @@ TEST_CASE("the same design gives the same report, byte for byte") {
     REQUIRE(glissade_run({"build", shipped("grain_chute"), "-o", folder}, {place.path(), {}, {}}).exit_code ==
             0);
   }
-  CHECK(bytes_of(place / "one/report.html") == bytes_of(place / "two/report.html"));
+  CHECK(bytes_of(place / "one/grain_chute.report.html") == bytes_of(place / "two/grain_chute.report.html"));
 }

@@ -34,5 +34,5 @@ TEST_CASE("a build tells each step and what part of the work is done, from none 
     CHECK(fractions[index] > fractions[index - 1]);
     CHECK(fractions[index] < 1.0);
   }
-  CHECK(stages.back() == "writing report.html");
+  CHECK(stages.back().ends_with(".report.html"));
 }

@@ -151,15 +151,23 @@ struct Build {
   /// Of the mesh as the least precise of the files holds it, confirmed on each file read back.
   MeshFacts facts;
   std::vector<WrittenFile> files;
+  /// Files of an earlier build of this design that this one does not make, unchanged since they were written.
+  std::vector<std::filesystem::path> removed;
+  /// Files in the way that no build of this design wrote, or that were changed since: by their new names.
+  std::vector<std::filesystem::path> set_aside;
 };
 
 struct BuildOptions {
-  bool report = true;  ///< write report.html beside the meshes
+  bool report = true;  ///< write NAME.report.html beside the meshes
 };
 
-/// Design to files in `directory` (made if missing), each named after the design file, and report.html, which
+/// Design to files in `directory` (made if missing), each named after the design file, and NAME.report.html, which
 /// shows all of them to people. Either all of them appear, or the directory stays as it was, files of an
 /// earlier build included.
+///
+/// A hidden list, .NAME.sha256, tells which files are the design's. Those that an earlier build wrote and this one
+/// does not are removed, unless somebody changed them since; what is in the way and is not the design's keeps its
+/// bytes as FILE.kept. Files of other designs are left alone.
 /// @throws as solve(); InputError if the design has no cross_section or the section cannot follow the track;
 ///         InfeasibleError if the body does not arrive or a limit is broken; FileError if a file cannot be
 ///         written; Interrupted if the context's stop token asks for it; InternalError if a mesh turns out

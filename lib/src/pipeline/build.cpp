@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kReportName = "report.html";
+constexpr const char* kReportEnding = ".report.html";
 
 /// A mesh as one or more of the formats hold it, and what was measured on it.
 struct MeasuredMesh {
@@ -340,7 +340,7 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   }
 
   MeshFacts facts = least_precise(meshes).facts;
-  Staging staging(directory);
+  Staging staging(directory, stem_of(design));
   std::vector<fs::path> made;
   std::vector<fs::path> read_back;
   for (const ExportFormat format : design.exports.formats) {
@@ -353,17 +353,25 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   }
   if (options.report) {
     // Last of all: it lists the others.
-    steps.enter(std::string("writing ") + kReportName, kReportCost);
-    const fs::path page = staging.path_for(kReportName);
-    named_as(page, directory / kReportName, [&] {
+    const std::string name = stem_of(design) + kReportEnding;
+    steps.enter("writing " + name, kReportCost);
+    const fs::path page = staging.path_for(name);
+    named_as(page, directory / name, [&] {
       write_report(page, design, {track, section, solid, facts, std::move(made), std::move(read_back)});
     });
   }
   require_going(context);
 
+  Published published = staging.publish();
   std::vector<WrittenFile> files;
-  for (const fs::path& path : staging.publish()) files.push_back({path, fs::file_size(path)});
-  return {std::move(track), std::move(section), std::move(solid), facts, std::move(files)};
+  for (const fs::path& path : published.files) files.push_back({path, fs::file_size(path)});
+  return {std::move(track),
+          std::move(section),
+          std::move(solid),
+          facts,
+          std::move(files),
+          std::move(published.removed),
+          std::move(published.set_aside)};
 }
 
 }  // namespace glissade

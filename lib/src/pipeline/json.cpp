@@ -127,6 +127,10 @@ std::string build_json(const Design& design, const Build& build) {
   for (const WrittenFile& file : build.files) {
     json["files"].push_back({{"path", file.path.generic_string()}, {"bytes", file.bytes}});
   }
+  json["removed_files"] = Json::array();
+  for (const auto& file : build.removed) json["removed_files"].push_back(file.generic_string());
+  json["set_aside_files"] = Json::array();
+  for (const auto& file : build.set_aside) json["set_aside_files"].push_back(file.generic_string());
   return document_text(json);
 }
 

@@ -1,14 +1,22 @@
 #include "pipeline/staging.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/io/atomic_file.hpp"
+
+#include "pipeline/owned_files.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <regex>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace glissade::pipeline {
@@ -39,38 +47,140 @@ fs::path without_trailing_slash(const fs::path& path) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-/// A file on its way to its place, with what is needed to take it back.
-struct Move {
-  fs::path from;
-  fs::path to;
-  fs::path kept;  // the file that was at `to`; empty if none
-};
+/// @return a descriptor that holds the lock on a directory until it is closed; -1 if another holds it, or the
+///         file system has no locks
+int locked(const fs::path& directory) {
+  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor);
+    return -1;
+  }
+  return descriptor;
+}
 
-void undo(const std::vector<Move>& moves) {
-  std::error_code ignored;
-  for (const Move& move : moves) {
-    if (move.kept.empty()) {
-      fs::remove(move.to, ignored);
-    } else {
-      fs::rename(move.kept, move.to, ignored);
-    }
+/// Removes what killed processes left: directories of the name that Staging gives, and of no other, that nobody
+/// has locked.
+void remove_abandoned(const fs::path& target) {
+  static const std::regex kName(R"(\.glissade-[0-9]+-[0-9]+)");
+  std::error_code error;
+  std::vector<fs::path> candidates;
+  for (auto entry = fs::directory_iterator(target, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    if (std::regex_match(entry->path().filename().string(), kName)) candidates.push_back(entry->path());
+  }
+  for (const fs::path& path : candidates) {
+    if (fs::symlink_status(path, error).type() != fs::file_type::directory) continue;
+    const int lock = locked(path);
+    if (lock < 0) continue;
+    fs::remove_all(path, error);
+    ::close(lock);
   }
 }
 
+/// @return `file` with an ending that no file has
+fs::path name_to_keep(const fs::path& file) {
+  fs::path name = file;
+  name += ".kept";
+  for (int count = 2; fs::symlink_status(name).type() != fs::file_type::not_found; ++count) {
+    name = file;
+    name += ".kept-" + std::to_string(count);
+  }
+  return name;
+}
+
+/// Moves that can be taken back.
+class Moves {
+ public:
+  explicit Moves(fs::path attic) : attic_(std::move(attic)) {}
+  Moves(const Moves&) = delete;
+  Moves& operator=(const Moves&) = delete;
+  ~Moves() {
+    std::error_code ignored;
+    std::for_each(done_.rbegin(), done_.rend(), [&](const Move& move) {
+      if (move.is_new) {
+        fs::remove(move.from, ignored);
+      } else {
+        fs::rename(move.to, move.from, ignored);
+      }
+    });
+    std::for_each(made_.rbegin(), made_.rend(), [&](const fs::path& path) { fs::remove(path, ignored); });
+  }
+
+  void commit() {
+    done_.clear();
+    made_.clear();
+  }
+
+  /// Takes a file out of the way, to be gone with the attic.
+  void remove(const fs::path& file) { move(file, attic_ / std::to_string(done_.size())); }
+
+  void move(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (error) throw failure(from, "this file cannot be moved", error);
+    done_.push_back({from, to, false});
+  }
+
+  /// Puts a new file in its place; an old one is replaced without a moment in which there is none.
+  void put(const fs::path& from, const fs::path& place) {
+    std::error_code error;
+    const bool replaces = fs::exists(fs::symlink_status(place));
+    const fs::path old = attic_ / std::to_string(done_.size());
+    if (replaces) {
+      fs::create_hard_link(place, old, error);
+      if (error) fs::copy_file(place, old, error);
+    } else {
+      const std::vector<fs::path> made = make_directories(place.parent_path());
+      made_.insert(made_.end(), made.begin(), made.end());
+    }
+    if (!error) fs::rename(from, place, error);
+    if (error) throw failure(place, "this file cannot be put in its place", error);
+    done_.push_back(replaces ? Move{place, old, false} : Move{place, {}, true});
+  }
+
+ private:
+  struct Move {
+    fs::path from;
+    fs::path to;
+    bool is_new;  // there was nothing at `from`
+  };
+  fs::path attic_;
+  std::vector<Move> done_;
+  std::vector<fs::path> made_;  // directories, outermost first
+};
+
 }  // namespace
 
-Staging::Staging(const fs::path& target)
-    : target_(without_trailing_slash(target)), made_directories_(make_directories(target_)) {
+Staging::Staging(const fs::path& target, std::string owner)
+    : target_(without_trailing_slash(target)),
+      owner_(std::move(owner)),
+      made_directories_(make_directories(target_)) {
+  remove_abandoned(target_);
+  lock_new_directory();
+}
+
+void Staging::lock_new_directory() {
   static std::atomic<unsigned> counter{0};
-  directory_ = target_ / (".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(++counter));
+  constexpr int kMostTries = 100;  // one is lost where another build takes the new directory for abandoned
   std::error_code error;
-  fs::create_directory(directory_, error);
-  if (error) throw failure(target_, "no file can be made in this directory", error);
+  for (int i = 0; i < kMostTries; ++i) {
+    directory_ = target_ / (".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(++counter));
+    const bool made = fs::create_directory(directory_, error);
+    if (error) break;
+    if (!made) continue;
+    lock_ = locked(directory_);
+    // Without locks on this file system nobody takes it for abandoned either.
+    if (fs::exists(directory_, error)) return;
+    if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+  }
+  if (!error) error = std::make_error_code(std::errc::file_exists);
+  throw failure(target_, "no file can be made in this directory", error);
 }
 
 Staging::~Staging() {
   std::error_code ignored;
   fs::remove_all(directory_, ignored);
+  if (lock_ >= 0) ::close(lock_);
   // A directory that holds something by now does not go.
   std::for_each(made_directories_.rbegin(), made_directories_.rend(),
                 [&](const fs::path& path) { fs::remove(path, ignored); });
@@ -78,35 +188,46 @@ Staging::~Staging() {
 
 fs::path Staging::path_for(const std::string& name) {
   names_.push_back(name);
-  return directory_ / name;
+  const fs::path path = directory_ / "new" / name;
+  (void)make_directories(path.parent_path());
+  return path;
 }
 
-std::vector<fs::path> Staging::publish() {
-  std::vector<Move> done;
-  std::vector<fs::path> places;
-  std::error_code error;
+Published Staging::publish() {
+  const fs::path made = directory_ / "new";
+  const fs::path attic = directory_ / "old";
+  (void)make_directories(attic);
+  const std::string list = OwnedFiles::list_name(owner_);
+  AtomicFile list_file(made / list);
+  list_file.write(OwnedFiles::list_of(made, names_));
+  list_file.commit();
+
+  const OwnedFiles owned = OwnedFiles::in(target_, owner_);
+  const std::set<std::string> wanted(names_.begin(), names_.end());
+  Published published;
+  Moves moves(attic);
   for (const std::string& name : names_) {
-    Move move{directory_ / name, target_ / name, {}};
-    if (fs::is_directory(move.to)) {
-      undo(done);
-      throw FileError({move.to.string(), "a directory has the name of a file to be written", "",
+    const fs::path place = target_ / name;
+    if (fs::is_directory(place)) {
+      throw FileError({place.string(), "a directory has the name of a file to be written", "",
                        "another directory with -o"});
     }
-    if (fs::exists(move.to)) {
-      // A second name for the old file, so that there is no moment without one.
-      move.kept = directory_ / (name + ".old");
-      fs::create_hard_link(move.to, move.kept, error);
-      if (error) fs::copy_file(move.to, move.kept, error);
+    if (fs::exists(fs::symlink_status(place)) && !owned.unchanged(name)) {
+      published.set_aside.push_back(name_to_keep(place));
+      moves.move(place, published.set_aside.back());
     }
-    if (!error) fs::rename(move.from, move.to, error);
-    if (error) {
-      undo(done);
-      throw failure(move.to, "this file cannot be put in its place", error);
-    }
-    places.push_back(move.to);
-    done.push_back(std::move(move));
+    moves.put(made / name, place);
+    published.files.push_back(place);
   }
-  return places;
+  for (const std::string& name : owned.names()) {
+    if (wanted.contains(name) || !owned.unchanged(name)) continue;
+    moves.remove(target_ / name);
+    published.removed.push_back(target_ / name);
+  }
+  // Last: where a process is killed on the way, files that the old list does not know count as somebody's own.
+  moves.put(made / list, target_ / list);
+  moves.commit();
+  return published;
 }
 
 }  // namespace glissade::pipeline

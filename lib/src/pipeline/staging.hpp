@@ -6,30 +6,48 @@
 
 namespace glissade::pipeline {
 
-/// A directory inside the target directory in which files are made and checked before all of them move to
-/// their places together. What has not been published is gone when this is destroyed, the target directory
-/// too where it was made for this and stayed empty.
+/// What a set of files changed in its directory.
+struct Published {
+  std::vector<std::filesystem::path> files;    ///< in the order in which they were asked for
+  std::vector<std::filesystem::path> removed;  ///< of an earlier set of the same owner, unchanged since
+  /// Files that stood in the way and were not ours, by the names that they have now.
+  std::vector<std::filesystem::path> set_aside;
+};
+
+/// A directory inside the target directory in which the files of one owner are made and checked before all of
+/// them move to their places together. What has not been published is gone when this is destroyed, the target
+/// directory too where it was made for this and stayed empty.
+///
+/// The directory is locked while it is in use; whoever stages next in the same target removes those that nobody
+/// has locked, which killed processes left behind.
 class Staging {
  public:
+  /// @param target  where the files will be; made if missing
+  /// @param owner   whose files they are, e.g. the stem of a design's file name
   /// @throws FileError if `target` cannot be made or written to
-  explicit Staging(const std::filesystem::path& target);
+  Staging(const std::filesystem::path& target, std::string owner);
   ~Staging();
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
 
+  /// @param name  of a file, relative to the target; folders in it are made
   /// @return where to make the file that will be called `name`
   [[nodiscard]] std::filesystem::path path_for(const std::string& name);
 
-  /// Moves every file to its place; a file that was there is replaced. Should one move fail, those before it
-  /// are undone.
-  /// @return the places
+  /// Moves every file to its place. An earlier file of the same owner is replaced, and removed where the new set
+  /// lacks it; any other file that stands in the way keeps its bytes under a new name, NAME.kept. Should one move
+  /// fail, those before it are undone.
   /// @throws FileError if a place is taken by something that is no file, or a move fails
-  std::vector<std::filesystem::path> publish();
+  Published publish();
 
  private:
+  void lock_new_directory();
+
   std::filesystem::path target_;
-  std::filesystem::path directory_;
+  std::string owner_;
   std::vector<std::filesystem::path> made_directories_;  // outermost first
+  std::filesystem::path directory_;
+  int lock_ = -1;
   std::vector<std::string> names_;
 };
 

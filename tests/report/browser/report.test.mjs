@@ -17,8 +17,8 @@ const shipped = readdirSync(designs).filter((name) => name.endsWith(".yaml")).so
 function build(design, ...options) {
   const folder = path.join(work, path.basename(design, ".yaml") + options.join("").replace(/\W/g, ""));
   const json = execFileSync(program, ["build", design, "-o", folder, "--json", ...options], { encoding: "utf8" });
-  const report = readdirSync(folder).find((name) => name === "report.html");
-  assert.ok(report, `no report.html among ${readdirSync(folder)}`);
+  const report = readdirSync(folder).find((name) => name.endsWith(".report.html"));
+  assert.ok(report, `no report page among ${readdirSync(folder)}`);
   return { file: path.join(folder, report), json: JSON.parse(json) };
 }
 
