@@ -49,13 +49,13 @@ Design without_limits(Design design) {
 Design finishing_like(Design design, const Track& track) {
   const CenterlinePoint end = track.centerline->at(track.centerline->length());
   design.track.finish = track.placement.to_space(end.x, end.drop, 0.0);
-  design.track.free_finish = FreeFinish::none;
+  design.track.free_finish = FinishKind::point;
   return design;
 }
 
 bool is_searched(const Design& design) {
   return design.centerline.kind == CenterlineKind::fastest &&
-         (design.limits || design.track.free_finish != FreeFinish::none);
+         (design.limits || design.track.free_finish != FinishKind::point);
 }
 
 using Naming = std::function<std::string(const Entry&)>;
@@ -165,7 +165,7 @@ std::vector<Entry> every_kind(const Design& design, const RunContext& context) {
   const Design searched = of_kind(design, CenterlineKind::fastest);
   if (is_searched(searched)) {
     entries.push_back(solved(searched, context));
-    const bool free_finish = design.track.free_finish != FreeFinish::none;
+    const bool free_finish = design.track.free_finish != FinishKind::point;
     if (free_finish && !entries.back().track) return entries;
     if (free_finish) others = finishing_like(others, *entries.back().track);
   }

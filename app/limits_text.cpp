@@ -1,53 +1,37 @@
 #include "app/limits_text.hpp"
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/task/limit_catalogue.hpp"
 
 #include "app/console.hpp"
 #include "app/table.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace glissade::app {
 namespace {
 
-std::string value_text(double value, const std::string& unit) {
-  if (!std::isfinite(value)) return "unbounded";
-  if (unit == "rad") return angle_text(value);
-  if (unit == "m") return length_text(value);
-  return rounded_text(value, 4) + " " + unit;
-}
-
 std::string bound_text(const LimitCheck& check) {
-  if (check.limit == "concave") return "no crest";
-  if (check.limit == "finish" || check.limit.starts_with("waypoints")) return "met";
-  if (check.limit.starts_with("arrival")) return "arrives";
-  const char* const sides[] = {">= ", "", "<= "};
-  return sides[check.side + 1] + value_text(check.value, check.unit);
+  if (const std::string_view met = entry_of(check.limit.id).met; !met.empty()) return std::string(met);
+  const Bound bound = check.limit.bound;
+  return (bound == Bound::highest  ? "<= "
+          : bound == Bound::lowest ? ">= "
+                                   : "") +
+         quantity_text(check.value, check.limit.dimension());
 }
 
 /// Rounding of a position that is met is of no interest.
 std::string reached_text(const LimitCheck& check) {
-  const bool position = check.limit == "finish" || check.limit.starts_with("waypoints");
-  if (position && check.kept()) return "met";
-  if (check.limit == "concave" && check.kept()) return "no crest";
-  if (check.limit.starts_with("arrival") && check.kept()) return "arrives";
+  const std::string_view met = entry_of(check.limit.id).met;
+  if (!met.empty() && check.kept()) return std::string(met);
   constexpr double kAlmostStraight = 1e6;
-  if (check.limit.find("radius") != std::string::npos && check.reached > kAlmostStraight * check.scale) {
-    return "straight";
-  }
-  return value_text(check.reached, check.unit);
-}
-
-std::string price_text(const ActiveLimit& active, const Design& design) {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-  const bool angle = active.unit == "rad";
-  const bool speed_counts = design.limits && design.limits->objective.kind == ObjectiveDesignKind::exit_speed;
-  return rounded_text(angle ? active.price * kRadiansPerDegree : active.price, 3) +
-         (speed_counts ? " m/s per " : " s per ") + (angle ? "deg" : active.unit);
+  if (check.limit.is_radius() && check.reached > kAlmostStraight * check.scale) return "straight";
+  return quantity_text(check.reached, check.limit.dimension());
 }
 
 std::string places_text(const std::vector<Stretch>& where) {
@@ -63,7 +47,7 @@ std::string places_text(const std::vector<Stretch>& where) {
   return text;
 }
 
-const ActiveLimit* active_of(const Track& track, const std::string& limit) {
+const ActiveLimit* active_of(const Track& track, const LimitName& limit) {
   if (!track.search) return nullptr;
   const std::vector<ActiveLimit>& active = track.search->active;
   const auto found =
@@ -74,16 +58,19 @@ const ActiveLimit* active_of(const Track& track, const std::string& limit) {
 std::vector<std::string> row_of(const Design& design, const Track& track, const LimitCheck& check) {
   const std::string friction =
       check.friction ? ", " + std::string(to_text(*check.friction)) + " friction" : std::string();
-  std::string place = length_text(check.where, 3) + friction;
+  std::vector<std::string> row = {check.limit.key(), bound_text(check), reached_text(check),
+                                  length_text(check.where, 3) + friction, "kept"};
   if (!check.kept()) {
     std::string broken = "broken";
-    if (std::isfinite(check.violation)) broken += " by " + value_text(check.violation, check.unit);
-    return {check.limit, bound_text(check), reached_text(check), place, emphasised(broken, Emphasis::bad)};
+    if (std::isfinite(check.violation)) {
+      broken += " by " + quantity_text(check.violation, check.limit.dimension());
+    }
+    row[4] = emphasised(broken, Emphasis::bad);
+  } else if (const ActiveLimit* const active = active_of(track, check.limit)) {
+    if (!active->where.empty()) row[3] = places_text(active->where) + friction;
+    row[4] = price_text(active->price, active->limit, design.objective);
   }
-  const ActiveLimit* const active = active_of(track, check.limit);
-  if (active == nullptr) return {check.limit, bound_text(check), reached_text(check), place, "kept"};
-  if (!active->where.empty()) place = places_text(active->where) + friction;
-  return {check.limit, bound_text(check), reached_text(check), place, price_text(*active, design)};
+  return row;
 }
 
 std::string search_text(const Track& track) {

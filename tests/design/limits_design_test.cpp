@@ -44,9 +44,9 @@ limits:
 )",
                                      "inrun.yaml");
   REQUIRE(design.limits);
-  const LimitsDesign& limits = *design.limits;
-  CHECK(limits.slope_angle == LimitRange{{}, 35 * kDegree});
-  CHECK(limits.exit_slope_angle == LimitRange{11 * kDegree, 11 * kDegree});
+  const Limits& limits = *design.limits;
+  CHECK(limits.slope_angle == Range{{}, 35 * kDegree});
+  CHECK(limits.exit_slope_angle == Range{11 * kDegree, 11 * kDegree});
   CHECK_FALSE(limits.entry_slope_angle.limited());
   CHECK(limits.lead_in == 20.0);
   CHECK(limits.lead_out == 6.9);
@@ -57,37 +57,36 @@ limits:
   CHECK(limits.concave);
   CHECK(limits.lowest_normal_load == 0.0);
   CHECK_FALSE(limits.highest_normal_load.has_value());
-  CHECK(limits.objective.kind == ObjectiveDesignKind::travel_time);
+  CHECK(design.objective.kind == ObjectiveKind::travel_time);
   CHECK(design.where("limits.exit_slope_angle") == "inrun.yaml:6:21");
 }
 
 TEST_CASE("loads, speeds, lengths and the objective of limits read in SI units") {
-  const LimitsDesign limits =
-      *limited(
-           "highest_normal_load: 2.5 g, lowest_normal_load: 0.1 g, smallest_valley_radius: 3 m, "
-           "speed: {lowest: 1 m/s, highest: 36 km/h, lowest_from: 50 cm}, exit_speed: {highest: 4 m/s}, "
-           "arc_length: {lowest: 8 m, highest: 9 m}, objective: {kind: blend, exit_speed_weight: 0.1 "
-           "s/(m/s)}")
-           .limits;
+  const Design design = limited(
+      "highest_normal_load: 2.5 g, lowest_normal_load: 0.1 g, smallest_valley_radius: 3 m, "
+      "speed: {lowest: 1 m/s, highest: 36 km/h, lowest_from: 50 cm}, exit_speed: {highest: 4 m/s}, "
+      "arc_length: {lowest: 8 m, highest: 9 m}, objective: {kind: blend, exit_speed_weight: 0.1 "
+      "s/(m/s)}");
+  const Limits& limits = *design.limits;
   CHECK(limits.highest_normal_load == 2.5 * 9.80665);
   CHECK(*limits.lowest_normal_load == Approx(0.980665).epsilon(1e-15));
   CHECK(limits.smallest_valley_radius == 3.0);
   CHECK_FALSE(limits.smallest_crest_radius.has_value());
-  CHECK(limits.speed == LimitRange{1.0, 10.0});
+  CHECK(limits.speed == Range{1.0, 10.0});
   CHECK(limits.lowest_speed_from == 0.5);
-  CHECK(limits.exit_speed == LimitRange{{}, 4.0});
-  CHECK(limits.arc_length == LimitRange{8.0, 9.0});
-  CHECK(limits.objective.kind == ObjectiveDesignKind::blend);
-  CHECK(limits.objective.exit_speed_weight == 0.1);
+  CHECK(limits.exit_speed == Range{{}, 4.0});
+  CHECK(limits.arc_length == Range{8.0, 9.0});
+  CHECK(design.objective.kind == ObjectiveKind::blend);
+  CHECK(design.objective.exit_speed_weight == 0.1);
 }
 
 TEST_CASE("a lowest normal load of none holds the body from both sides") {
   CHECK_FALSE(limited("lowest_normal_load: none").limits->lowest_normal_load.has_value());
-  CHECK(limited("objective: exit_speed").limits->objective.kind == ObjectiveDesignKind::exit_speed);
+  CHECK(limited("objective: exit_speed").objective.kind == ObjectiveKind::exit_speed);
 }
 
 TEST_CASE("clearances read in the coordinates of the design") {
-  const LimitsDesign limits =
+  const Limits limits =
       *limited(
            "half_planes: [{line: [[0 m, 7 m], [1 m, 7 m]], stay: below, clearance: 10 cm}, "
            "{line: [[6 m, 0 m], [6 m, 1 m]], stay: left}], "
@@ -102,7 +101,7 @@ TEST_CASE("clearances read in the coordinates of the design") {
   CHECK(limits.half_planes[1].forbidden == Vec2{1.0, 0.0});
   REQUIRE(limits.keep_outs.size() == 1);
   CHECK(limits.keep_outs[0].outline.size() == 4);
-  CHECK(limits.keep_outs[0].passage == PassageDesign::below);
+  CHECK(limits.keep_outs[0].passage == Passage::below);
   REQUIRE(limits.stay_above.size() == 1);
   CHECK(limits.stay_above[0].clearance == 0.2);
   CHECK(limits.stay_below.at(0).line == std::vector{Vec2{0.0, 8.0}, Vec2{6.0, 6.0}});
@@ -130,7 +129,7 @@ TEST_CASE("friction as a range has a low, a nominal and a high value, for limits
   CHECK(design.body.low_friction == Friction::from_angle(Angle::from_degrees(14)));
   CHECK(design.body.friction == Friction::from_angle(Angle::from_degrees(17)));
   CHECK(design.body.high_friction == Friction::from_angle(Angle::from_degrees(20)));
-  CHECK(design.limits->objective.worst_case);
+  CHECK(design.objective.worst_case);
   // It is the high value that must arrive.
   text.replace(text.find("20 deg"), 6, "48 deg");
   CHECK_THAT(problems_of(text), StartsWith("infeasible: d.yaml:7:3: friction_angle: 48 deg is steeper"));
@@ -143,15 +142,15 @@ TEST_CASE("the finish may lie anywhere on a vertical line or on a level, within 
     return parse_design(sound_design_with("{x: 5.4 m, z: 1.1 m}", text), "d.yaml").track;
   };
   const TrackDesign line = finish("{x: 5.4 m, z: free}");
-  CHECK(line.free_finish == FreeFinish::height);
+  CHECK(line.free_finish == FinishKind::vertical_line);
   CHECK_FALSE(line.free_range.limited());
   CHECK(line.finish.x == 5.4);
   const TrackDesign bounded = finish("{x: 5.4 m, z: {lowest: 1 m, highest: 2 m}}");
-  CHECK(bounded.free_range == LimitRange{1.0, 2.0});
+  CHECK(bounded.free_range == Range{1.0, 2.0});
   CHECK(bounded.finish.z == 1.0);
   const TrackDesign level = finish("{x: {lowest: 4 m, highest: 6 m}, z: 1.1 m}");
-  CHECK(level.free_finish == FreeFinish::run);
-  CHECK(level.free_range == LimitRange{4.0, 6.0});
+  CHECK(level.free_finish == FinishKind::level);
+  CHECK(level.free_range == Range{4.0, 6.0});
   CHECK(finish("{x: free, z: 1.1 m}").finish.x > 0.0);
 
   CHECK_THAT(problems_with("{x: 5.4 m, z: 1.1 m}", "{x: free, z: free}"),
@@ -186,7 +185,14 @@ TEST_CASE("limits that contradict each other or the design are refused where the
 
 TEST_CASE("single limits are refused out of their bounds, with a wrong unit, or ambiguous") {
   CHECK_THAT(problems_of_limits("smallest_radius: 0 m"),
-             Contains("smallest_valley_radius: 0 m is not positive"));
+             StartsWith("d.yaml:10:27: smallest_radius: 0 m is not positive") &&
+                 Contains("Try: no smallest_radius"));
+  CHECK_THAT(problems_of_limits("exit_slope_angle: {highest: 100 deg}"),
+             StartsWith("d.yaml:10:38: exit_slope_angle.highest: 100 deg is out of range") &&
+                 Contains("It lies between -90 deg and 90 deg.") && Contains("Try: at most 90 deg"));
+  CHECK_THAT(problems_of_limits("lowest_normal_load: -1 m/s^2"),
+             Contains("lowest_normal_load: -1 m/s^2 is out of range"));
+  CHECK_THAT(problems_of_limits("speed: {highest: 0 m/s}"), Contains("speed.highest: 0 m/s is not positive"));
   CHECK_THAT(
       problems_of_limits("slope_angle: 35 deg"),
       StartsWith("d.yaml:10:23: slope_angle: 35 deg does not say whether it is the lowest or the highest") &&
@@ -200,7 +206,7 @@ TEST_CASE("single limits are refused out of their bounds, with a wrong unit, or 
   CHECK_THAT(problems_of_limits("objective: {kind: travel_time, worst_case: true}"),
              Contains("worst_case: the friction has no highest value"));
   CHECK_THAT(problems_of_limits("lead_in: -1 m"), Contains("lead_in: -1 m is out of range"));
-  CHECK_THAT(problems_of_limits("exit_speed: -1 m/s"), Contains("exit_speed.lowest: -1 m/s is out of range"));
+  CHECK_THAT(problems_of_limits("exit_speed: -1 m/s"), Contains("exit_speed: -1 m/s is out of range"));
 }
 
 TEST_CASE("a start, finish or waypoint that breaks a clearance is told") {

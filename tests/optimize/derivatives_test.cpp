@@ -218,7 +218,7 @@ TEST_CASE("every row and the objective carry their exact gradient") {
       const auto inequality = [&](const Vector& z) { return rows.value(rows.state(z, false), row); };
       Vector gradient(setup.z.size());
       rows.gradient(state, row, gradient.data());
-      CAPTURE(setup.problem.limits[row.limit].key, row.place, row.ride, row.foot);
+      CAPTURE(setup.problem.limits[row.limit].name.key(), row.place, row.ride, row.foot);
       CHECK(gradient_error(inequality, setup.z, gradient) < kDifferenceError);
     }
   }
@@ -314,7 +314,7 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
       if (known && !last && !row.foot) continue;
       limit = row.limit;
       ride = row.ride;
-      CAPTURE(setup.problem.limits[row.limit].key, row.place, row.ride, row.foot);
+      CAPTURE(setup.problem.limits[row.limit].name.key(), row.place, row.ride, row.foot);
       const double allowed = row.foot ? kFootError : 10.0 * kDifferenceError;
       CHECK(hessian_error(setup, rows, equality, {row}, {0.9}) < allowed);
     }

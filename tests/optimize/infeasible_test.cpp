@@ -5,7 +5,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 
 #include "optimize/random_limits.hpp"
-#include "optimize/referee.hpp"
+#include "referee/judgement.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -44,7 +44,7 @@ double violation(const Problem& problem, const std::vector<double>& z) {
   for (const double s : track->breaks()) {
     if (std::fabs(track->slope_angle(s)) > 1.57) return kNoTrack;
   }
-  const optimizer::Verdict verdict = optimizer::judge_track(problem, track, 6);
+  const referee::Judgement verdict = referee::judge_track(problem, track, 6);
   return verdict.worst + (verdict.arrived ? 0.0 : 1.0);
 }
 

@@ -32,7 +32,7 @@ double solved_time(const Problem& problem, int pieces = OptimizeOptions{}.pieces
   CHECK(optimum.report.status == OptimizeStatus::optimal);
   REQUIRE(optimum.centerline);
   for (const LimitCheck& check : optimum.report.checks) {
-    INFO(check.limit << " reached " << check.reached);
+    INFO(check.limit.key() << " reached " << check.reached);
     CHECK(check.kept());
   }
   return optimum.report.travel_time;

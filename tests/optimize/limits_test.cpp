@@ -26,7 +26,7 @@ Optimum solved(const Problem& problem) {
   INFO(optimum.report.brief());
   REQUIRE(optimum.report.status == OptimizeStatus::optimal);
   for (const LimitCheck& check : optimum.report.checks) {
-    CAPTURE(check.limit, check.value, check.reached, check.where);
+    CAPTURE(check.limit.key(), check.value, check.reached, check.where);
     CHECK(check.violation <= 1e-6 * check.scale);
   }
   return optimum;
@@ -60,7 +60,7 @@ TEST_CASE("a slope of 20 deg cannot lead down a mean slope of 26.6 deg, and the 
   REQUIRE(optimum.report.status == OptimizeStatus::infeasible);
   CHECK(!optimum.centerline);
   REQUIRE(optimum.report.conflict.relaxations.size() == 1);
-  CHECK(optimum.report.conflict.relaxations[0].limit == "slope_angle.highest");
+  CHECK(optimum.report.conflict.relaxations[0].limit.key() == "slope_angle.highest");
   CHECK(optimum.report.conflict.relaxations[0].needed == Approx(std::atan2(5.0, 10.0)).epsilon(1e-4));
 }
 

@@ -5,7 +5,7 @@
 
 #include "glissade/centerline/clothoid_spline.hpp"
 
-#include "optimize/referee.hpp"
+#include "referee/judgement.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ std::optional<std::shared_ptr<ClothoidSpline>> through_finish(double entry,
 }
 
 /// What a problem minimises, of a ride at the nominal friction.
-double objective_of(const Problem& problem, const optimizer::Verdict& verdict) {
+double objective_of(const Problem& problem, const referee::Judgement& verdict) {
   if (problem.objective.kind == ObjectiveKind::exit_speed) return -verdict.exit_speed;
   return verdict.travel_time - problem.objective.exit_speed_weight * verdict.exit_speed;
 }
@@ -82,7 +82,7 @@ double kept_back(const OptimizeReport& report) {
   // where it stalled between stations.
   constexpr double kCreep = 1e-5;
   for (const ActiveLimit& active : report.active) {
-    if (active.limit == "arrival at the finish") cost += active.price * kCreep;
+    if (active.limit.id == LimitId::arrival) cost += active.price * kCreep;
     for (const LimitCheck& check : report.checks) {
       if (check.limit == active.limit) cost += active.price * std::fabs(check.reached - check.value);
     }
@@ -109,7 +109,7 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
     undecided += optimum.report.status == OptimizeStatus::no_track_found ? 1 : 0;
     if (!optimum.centerline) continue;
     ++solved;
-    const optimizer::Verdict verdict = optimizer::judge_track(problem, optimum.centerline, kReferee);
+    const referee::Judgement verdict = referee::judge_track(problem, optimum.centerline, kReferee);
     CHECK(verdict.arrived);
     CHECK(verdict.worst <= kKept);
     CHECK(verdict.travel_time == optimum.report.travel_time);
@@ -152,12 +152,12 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
           spline.entry_slope_angle().radians() + random.between(-1.0, 1.0) * amplitude * spline.length();
       const auto neighbour = through_finish(entry, segments, run, drop);
       if (!neighbour) continue;
-      const optimizer::Verdict other = optimizer::judge_track(problem, *neighbour, 8);
+      const referee::Judgement other = referee::judge_track(problem, *neighbour, 8);
       if (!other.arrived || other.worst > 1e-7) continue;
       ++admissible;
       if (objective_of(problem, other) >= least - 1e-6 * std::fabs(least) - kept) continue;
       // Faster at eight points a piece: look as closely as at the optimum itself.
-      const optimizer::Verdict close = optimizer::judge_track(problem, *neighbour, kReferee);
+      const referee::Judgement close = referee::judge_track(problem, *neighbour, kReferee);
       CAPTURE(k, amplitude * spline.length());
       // A neighbour that breaks a limit by 1e-7 may win that much times the limit's price.
       CHECK((!close.arrived || close.worst > 1e-7));
@@ -185,7 +185,7 @@ TEST_CASE("prices are what a re-solve with the limit relaxed wins") {
     const double won =
         (optimize(tight).report.travel_time - optimize(loose).report.travel_time) / (2.0 * step);
     for (const ActiveLimit& active : now.report.active) {
-      if (active.limit != key) continue;
+      if (active.limit.key() != key) continue;
       CAPTURE(key, active.price, won);
       // Central difference over two meshes that adapt on their own.
       CHECK(active.price == Approx(won).epsilon(0.03));
@@ -232,14 +232,14 @@ TEST_CASE("what the report of a contradiction calls enough is enough, and a litt
   const auto with = [&](const Relaxation& relaxation, double share) {
     Problem changed = problem;
     const double value = relaxation.value + share * (relaxation.needed - relaxation.value);
-    if (relaxation.limit == "slope_angle.highest") changed.limits.slope_angle.highest = value;
-    if (relaxation.limit == "smallest_valley_radius") changed.limits.smallest_valley_radius = value;
-    if (relaxation.limit == "exit_slope_angle") changed.limits.exit_slope_angle = Range::fixed(value);
+    if (relaxation.limit.key() == "slope_angle.highest") changed.limits.slope_angle.highest = value;
+    if (relaxation.limit.key() == "smallest_valley_radius") changed.limits.smallest_valley_radius = value;
+    if (relaxation.limit.key() == "exit_slope_angle") changed.limits.exit_slope_angle = Range::fixed(value);
     return optimize(changed).report.status;
   };
   REQUIRE(optimum.report.conflict.relaxations.size() == 3);
   for (const Relaxation& relaxation : optimum.report.conflict.relaxations) {
-    CAPTURE(relaxation.limit, relaxation.needed);
+    CAPTURE(relaxation.limit.key(), relaxation.needed);
     CHECK(with(relaxation, 1.02) != OptimizeStatus::infeasible);
     CHECK(with(relaxation, 0.9) == OptimizeStatus::infeasible);
   }
@@ -259,7 +259,7 @@ TEST_CASE("a stop or an empty budget ends early and says so") {
   hurried.time_budget = 1e-9;
   const Optimum early = optimize(problem, hurried);
   CHECK(early.report.status != OptimizeStatus::optimal);
-  if (early.centerline) CHECK(optimizer::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+  if (early.centerline) CHECK(referee::judge_track(problem, early.centerline, kReferee).worst <= kKept);
 }
 
 TEST_CASE(
@@ -279,6 +279,6 @@ TEST_CASE(
   CHECK(early.report.status == OptimizeStatus::feasible_not_converged);
   CHECK(early.report.message == "stopped: the best track so far");
   REQUIRE(early.centerline);
-  CHECK(optimizer::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+  CHECK(referee::judge_track(problem, early.centerline, kReferee).worst <= kKept);
   CHECK(early.report.travel_time >= optimize(problem).report.travel_time * (1.0 - 1e-6));
 }

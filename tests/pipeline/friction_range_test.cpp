@@ -47,17 +47,17 @@ TEST_CASE("every limit on motion tells the friction at which it binds, and reach
   bool highest = false;
   bool exit = false;
   for (const LimitCheck& check : track.limit_checks) {
-    if (check.limit == "speed.highest") {
+    if (check.limit.key() == "speed.highest") {
       highest = true;
       CHECK(check.friction == FrictionLevel::low);
       CHECK(check.reached == Approx(track.rides().front().motion->highest_speed().speed).epsilon(1e-4));
     }
-    if (check.limit == "exit_speed.lowest") {
+    if (check.limit.key() == "exit_speed.lowest") {
       exit = true;
       CHECK(check.friction == FrictionLevel::high);
       CHECK(check.reached == track.rides().back().motion->exit_speed());
     }
-    if (check.limit == "finish") CHECK_FALSE(check.friction);
+    if (check.limit.key() == "finish") CHECK_FALSE(check.friction);
   }
   CHECK(highest);
   CHECK(exit);

@@ -13,16 +13,20 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::vector<LimitCheck> checks_with_exit_slope(double violation) {
-  return {{"exit_slope_angle.highest", 11.0 * kDegree, 11.0 * kDegree + violation, violation, 1.0, 91.2,
-           "rad", 1},
-          {"smallest_valley_radius", 3.0, 3.5, 0.0, 1.0, 4.0, "m", -1},
-          {"highest_normal_load", 19.6133, 18.0, 0.0, 9.81, 12.0, "m/s^2", 1},
-          {"keep_outs[1]", 0.2, 0.25, 0.0, 100.0, 12.0, "m", -1},
-          {"concave", 0.0, 1e-9, 0.0, 0.01, 12.0, "1/m", -1}};
+  return {{{LimitId::exit_slope_angle, Bound::highest},
+           11.0 * kDegree,
+           11.0 * kDegree + violation,
+           violation,
+           1.0,
+           91.2},
+          {{LimitId::smallest_valley_radius, Bound::lowest}, 3.0, 3.5, 0.0, 1.0, 4.0},
+          {{LimitId::highest_normal_load, Bound::highest}, 19.6133, 18.0, 0.0, 9.81, 12.0},
+          {{LimitId::keep_outs, Bound::lowest, 1}, 0.2, 0.25, 0.0, 100.0, 12.0},
+          {{LimitId::concave, Bound::lowest}, 0.0, 1e-9, 0.0, 0.01, 12.0}};
 }
 
 const std::vector<ActiveLimit> kActive = {
-    {"exit_slope_angle.highest", 11.0 * kDegree, "rad", {{91.2, 91.2}}, 0.5}};
+    {{LimitId::exit_slope_angle, Bound::highest}, 11.0 * kDegree, {{91.2, 91.2}}, 0.5}};
 
 }  // namespace
 
@@ -42,7 +46,8 @@ TEST_CASE("limits are told in the units that people use, with the price per degr
   CHECK(rows[3].name == "keep-out 2");
   CHECK(rows[4].bound == "no crest");
   CHECK(rows[4].reached == "no crest");
-  CHECK(report_limits(checks_with_exit_slope(0.0), kActive, "m/s")[0].price_unit == "m/s per deg");
+  CHECK(report_limits(checks_with_exit_slope(0.0), kActive, {ObjectiveKind::exit_speed})[0].price_unit ==
+        "m/s per deg");
 }
 
 TEST_CASE("a limit that is broken by more than the tolerance is violated, active or not, and has no price") {
@@ -59,7 +64,7 @@ TEST_CASE("keep-outs are drawn where the design has them, heights as the design 
   design.track.finish = {12.0, 0.0, 4.0};
   CHECK(report_keep_outs(design).empty());
   design.limits.emplace();
-  design.limits->keep_outs = {{{{5.0, 6.0}, {6.0, 6.0}, {6.0, 7.0}}, 0.0, PassageDesign::either}};
+  design.limits->keep_outs = {{{{5.0, 6.0}, {6.0, 6.0}, {6.0, 7.0}}, 0.0, Passage::either}};
   design.limits->stay_above = {{{{2.0, 3.0}, {12.0, 2.0}}, 0.1}};
   const std::vector<ReportKeepOut> areas = report_keep_outs(design);
   REQUIRE(areas.size() == 2);

@@ -1,5 +1,6 @@
 #include "glissade/core/quantity.hpp"
 
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/odd_characters.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
@@ -213,6 +214,44 @@ double parse_quantity(std::string_view text, Dimension dimension, std::string_vi
   const auto reading = read_quantity(text, dimension, name);
   if (const Issue* issue = std::get_if<Issue>(&reading)) throw InputError(*issue);
   return std::get<double>(reading);
+}
+
+std::string_view unit_for_people(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::number:
+      return "";
+    case Dimension::length:
+      return "m";
+    case Dimension::angle:
+      return "deg";
+    case Dimension::speed:
+      return "m/s";
+    case Dimension::acceleration:
+      return "m/s^2";
+    case Dimension::per_length:
+      return "1/m";
+    case Dimension::per_area:
+      return "1/m^2";
+    case Dimension::specific_energy:
+      return "m^2/s^2";
+    case Dimension::time:
+      return "s";
+    case Dimension::time_per_speed:
+      return "s/(m/s)";
+  }
+  throw InternalError({"", "a dimension without a unit", "", ""});
+}
+
+double in_unit_for_people(double value, Dimension dimension) {
+  return dimension == Dimension::angle ? Angle::from_radians(value).degrees() : value;
+}
+
+std::string quantity_text(double value, Dimension dimension, int digits) {
+  if (!std::isfinite(value)) return "unbounded";
+  if (dimension == Dimension::angle) return angle_text(value, digits);
+  if (dimension == Dimension::length) return length_text(value, digits);
+  const std::string_view unit = unit_for_people(dimension);
+  return rounded_text(value, digits) + (unit.empty() ? "" : " ") + std::string(unit);
 }
 
 }  // namespace glissade

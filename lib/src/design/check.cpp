@@ -52,8 +52,8 @@ namespace {
 
 /// Whether a free finish can come as near to the start's vertical, or as deep, as reach may need.
 bool finish_is_unbounded(const TrackDesign& track) {
-  if (track.free_finish == FreeFinish::height) return !track.free_range.lowest;
-  if (track.free_finish != FreeFinish::run) return false;
+  if (track.free_finish == FinishKind::vertical_line) return !track.free_range.lowest;
+  if (track.free_finish != FinishKind::level) return false;
   const bool to_the_right = track.free_range.lowest && *track.free_range.lowest > track.start.x;
   const bool to_the_left = track.free_range.highest && *track.free_range.highest < track.start.x;
   return !to_the_right && !to_the_left;

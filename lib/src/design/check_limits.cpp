@@ -1,5 +1,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/task/limit_catalogue.hpp"
 
 #include "design/checks.hpp"
 #include "design/outline.hpp"
@@ -15,97 +17,56 @@
 namespace glissade::design_file {
 namespace {
 
-using ValueText = std::string (*)(double);
-
-std::string angle_of(double radians) {
-  return angle_text(radians);
-}
-std::string length_of(double metres) {
-  return length_text(metres);
-}
-std::string speed_of(double speed) {
-  return rounded_text(speed, 4) + " m/s";
-}
-std::string acceleration_of(double load) {
-  return rounded_text(load, 4) + " m/s^2";
-}
-std::string rate_of(double rate) {
-  return rounded_text(rate, 4) + " 1/m^2";
-}
-
 std::string path(const std::string& key) {
   return "limits." + key;
 }
 
-/// A range whose ends lie within (least, most) and in order.
-struct RangeBounds {
-  double least;
-  double most;
-  ValueText text;
-};
-
-void check_end(const std::optional<double>& value, const std::string& key, const RangeBounds& bounds,
-               Collected& findings) {
-  if (!value || (*value >= bounds.least && *value <= bounds.most)) return;
-  report(findings, {path(key)},
-         {"", key + ": " + bounds.text(*value) + " is out of range",
-          "It lies between " + bounds.text(bounds.least) + " and " + bounds.text(bounds.most) + ".", ""});
-}
-
-void check_range(const LimitRange& range, const std::string& key, const RangeBounds& bounds,
-                 Collected& findings) {
-  check_end(range.lowest, key + ".lowest", bounds, findings);
-  if (range.highest != range.lowest) check_end(range.highest, key + ".highest", bounds, findings);
-  if (!range.lowest || !range.highest || *range.lowest <= *range.highest) return;
-  report(findings, {path(key)},
-         {"",
-          key + ": lowest " + bounds.text(*range.lowest) + " is above highest " + bounds.text(*range.highest),
-          "Nothing lies between them.", "the two the other way round"});
-}
-
-bool disjoint(const LimitRange& left, const LimitRange& right) {
-  const auto above = [](const LimitRange& high, const LimitRange& low) {
+bool disjoint(const Range& left, const Range& right) {
+  const auto above = [](const Range& high, const Range& low) {
     return high.lowest && low.highest && *high.lowest > *low.highest;
   };
   return above(left, right) || above(right, left);
 }
 
-std::string range_text(const LimitRange& range, ValueText text) {
-  if (range.lowest && range.highest && *range.lowest == *range.highest) return text(*range.lowest);
+std::string range_text(const Range& range, Dimension dimension) {
+  const auto text = [&](double value) { return quantity_text(value, dimension); };
+  if (range.is_fixed()) return text(*range.lowest);
   if (range.lowest && range.highest) return text(*range.lowest) + " to " + text(*range.highest);
   return range.lowest ? "at least " + text(*range.lowest) : "at most " + text(*range.highest);
 }
 
-void check_agreement(const LimitRange& part, const std::string& part_key, const LimitRange& whole,
-                     const std::string& whole_key, ValueText text, Collected& findings) {
-  if (!disjoint(part, whole)) return;
+void check_agreement(const Limits& limits, LimitId part_id, LimitId whole_id, Collected& findings) {
+  const LimitEntry& part = entry_of(part_id);
+  const LimitEntry& whole = entry_of(whole_id);
+  if (!disjoint(limits.*part.range, limits.*whole.range)) return;
+  const std::string part_key(part.key);
+  const std::string whole_key(whole.key);
   report(findings, {path(part_key), path(whole_key)},
          {"",
-          part_key + ": " + range_text(part, text) + " contradicts " + whole_key + ": " +
-              range_text(whole, text),
+          part_key + ": " + range_text(limits.*part.range, part.dimension) + " contradicts " + whole_key +
+              ": " + range_text(limits.*whole.range, whole.dimension),
           "The limit for the whole track holds at its ends too.", "ranges that overlap"});
 }
 
-void check_positive(const std::optional<double>& value, const std::string& key, ValueText text,
-                    Collected& findings) {
-  if (!value || (*value > 0.0 && std::isfinite(*value))) return;
-  report(findings, {path(key)},
-         {"", key + ": " + text(*value) + " is not positive", "", "no " + key + ", if it is not limited"});
-}
-
-void check_slopes(const LimitsDesign& limits, Collected& findings) {
-  constexpr RangeBounds kBounds = {-std::numbers::pi, std::numbers::pi, &angle_of};
-  check_range(limits.entry_slope_angle, "entry_slope_angle", kBounds, findings);
-  check_range(limits.exit_slope_angle, "exit_slope_angle", kBounds, findings);
-  check_range(limits.slope_angle, "slope_angle", kBounds, findings);
-  check_agreement(limits.entry_slope_angle, "entry_slope_angle", limits.slope_angle, "slope_angle", &angle_of,
-                  findings);
-  check_agreement(limits.exit_slope_angle, "exit_slope_angle", limits.slope_angle, "slope_angle", &angle_of,
-                  findings);
+/// Every number of the limits against its bounds in the catalogue.
+void check_bounds(const Design& design, Collected& findings) {
+  const bool one_radius = design.locations.contains("limits.smallest_radius") &&
+                          !design.locations.contains("limits.smallest_valley_radius");
+  for (LimitFault& fault : limit_faults(*design.limits)) {
+    std::string key = fault.key;
+    // Where one key stands for both radii it is the one to be named, once.
+    if (one_radius && key == "smallest_crest_radius") continue;
+    if (one_radius && key == "smallest_valley_radius") {
+      fault.issue.what.replace(0, key.size(), "smallest_radius");
+      fault.issue.hint = "no smallest_radius, if it is not limited";
+      key = "smallest_radius";
+    }
+    report(findings, {path(key)}, std::move(fault.issue));
+  }
 }
 
 /// Along a concave track the slope angle only falls.
-void check_concave(const LimitsDesign& limits, Collected& findings) {
+void check_concave(const Limits& limits, Collected& findings) {
   const std::optional<double>& entry = limits.entry_slope_angle.highest;
   const std::optional<double>& exit = limits.exit_slope_angle.lowest;
   if (!limits.concave || !entry || !exit || *entry >= *exit) return;
@@ -116,53 +77,39 @@ void check_concave(const LimitsDesign& limits, Collected& findings) {
           "Without a crest the slope angle only falls.", "concave: false, or a steeper entry_slope_angle"});
 }
 
-void check_curvature(const LimitsDesign& limits, Collected& findings) {
-  check_positive(limits.smallest_valley_radius, "smallest_valley_radius", &length_of, findings);
-  if (limits.smallest_crest_radius != limits.smallest_valley_radius) {
-    check_positive(limits.smallest_crest_radius, "smallest_crest_radius", &length_of, findings);
-  }
-  check_positive(limits.highest_curvature_rate, "highest_curvature_rate", &rate_of, findings);
-  check_concave(limits, findings);
-}
-
-void check_loads(const LimitsDesign& limits, Collected& findings) {
-  check_positive(limits.highest_normal_load, "highest_normal_load", &acceleration_of, findings);
-  check_positive(limits.highest_curvature_load, "highest_curvature_load", &acceleration_of, findings);
+void check_loads(const Limits& limits, Collected& findings) {
   if (!limits.highest_normal_load || !limits.lowest_normal_load) return;
   if (*limits.lowest_normal_load <= *limits.highest_normal_load) return;
   report(findings, {path("lowest_normal_load"), path("highest_normal_load")},
          {"",
-          "lowest_normal_load: " + acceleration_of(*limits.lowest_normal_load) +
-              " is above highest_normal_load: " + acceleration_of(*limits.highest_normal_load),
+          "lowest_normal_load: " + quantity_text(*limits.lowest_normal_load, Dimension::acceleration) +
+              " is above highest_normal_load: " +
+              quantity_text(*limits.highest_normal_load, Dimension::acceleration),
           "Nothing lies between them.", "the two the other way round"});
 }
 
 void check_entry_speed(const Design& design, Collected& findings) {
-  const LimitsDesign& limits = *design.limits;
+  const Limits& limits = *design.limits;
   const double entry = design.body.entry_speed;
   if (limits.speed.highest && entry > *limits.speed.highest) {
     report(findings, {path("speed.highest"), "body.entry_speed"},
            {"",
-            "speed.highest: " + speed_of(*limits.speed.highest) + " is below the entry speed, " +
-                speed_of(entry),
+            "speed.highest: " + quantity_text(*limits.speed.highest, Dimension::speed) +
+                " is below the entry speed, " + quantity_text(entry, Dimension::speed),
             "The body breaks the limit before the track begins.", "a lower entry_speed"});
   }
   if (limits.speed.lowest && entry < *limits.speed.lowest && limits.lowest_speed_from == 0.0) {
-    report(
-        findings, {path("speed.lowest"), path("speed"), "body.entry_speed"},
-        {"",
-         "speed.lowest: " + speed_of(*limits.speed.lowest) + " is above the entry speed, " + speed_of(entry),
-         "The body is too slow at the start itself.",
-         "lowest_from: 0.5 m beside it, the arc length from which it holds"});
+    report(findings, {path("speed.lowest"), path("speed"), "body.entry_speed"},
+           {"",
+            "speed.lowest: " + quantity_text(*limits.speed.lowest, Dimension::speed) +
+                " is above the entry speed, " + quantity_text(entry, Dimension::speed),
+            "The body is too slow at the start itself.",
+            "lowest_from: 0.5 m beside it, the arc length from which it holds"});
   }
 }
 
 void check_speeds(const Design& design, Collected& findings) {
-  const LimitsDesign& limits = *design.limits;
-  constexpr RangeBounds kBounds = {0.0, 1e4, &speed_of};
-  check_range(limits.speed, "speed", kBounds, findings);
-  check_range(limits.exit_speed, "exit_speed", kBounds, findings);
-  check_agreement(limits.exit_speed, "exit_speed", limits.speed, "speed", &speed_of, findings);
+  const Limits& limits = *design.limits;
   if (!(limits.lowest_speed_from >= 0.0)) {
     report(findings, {path("speed.lowest_from")},
            {"", "speed.lowest_from: " + length_text(limits.lowest_speed_from) + " is negative",
@@ -171,23 +118,12 @@ void check_speeds(const Design& design, Collected& findings) {
   check_entry_speed(design, findings);
 }
 
-void check_lead(double value, const std::string& key, Collected& findings) {
-  if (value >= 0.0 && value <= 1e6) return;
-  report(findings, {path(key)},
-         {"", key + ": " + length_text(value) + " is out of range", "A straight piece is 0 to 1000 km long.",
-          ""});
-}
-
 void check_lengths(const Design& design, Collected& findings) {
-  const LimitsDesign& limits = *design.limits;
-  constexpr RangeBounds kBounds = {0.0, 1e6, &length_of};
-  check_range(limits.arc_length, "arc_length", kBounds, findings);
-  check_lead(limits.lead_in, "lead_in", findings);
-  check_lead(limits.lead_out, "lead_out", findings);
+  const Limits& limits = *design.limits;
   const std::optional<double>& longest = limits.arc_length.highest;
   if (!longest) return;
   const double distance = norm(design.track.finish - design.track.start);
-  if (design.track.free_finish == FreeFinish::none && *longest < distance) {
+  if (design.track.free_finish == FinishKind::point && *longest < distance) {
     report(findings, {path("arc_length"), "track"},
            {"",
             "arc_length: at most " + length_text(*longest) + " is shorter than the straight line, " +
@@ -244,7 +180,7 @@ struct NamedPoint {
 std::vector<NamedPoint> fixed_points(const Design& design) {
   const TrackDesign& track = design.track;
   std::vector<NamedPoint> points = {{"the start", in_limit_plane(track, track.start), "track.start"}};
-  if (track.free_finish == FreeFinish::none) {
+  if (track.free_finish == FinishKind::point) {
     points.push_back({"the finish", in_limit_plane(track, track.finish), "track.finish"});
   }
   const std::vector<Vec2>& waypoints = design.limits->waypoints;
@@ -273,10 +209,10 @@ void report_breach(const NamedPoint& point, const std::string& key, const std::s
           "another position of one of the two"});
 }
 
-void check_fixed_point(const LimitsDesign& limits, const NamedPoint& point, Collected& findings) {
+void check_fixed_point(const Limits& limits, const NamedPoint& point, Collected& findings) {
   constexpr double kRounding = 1e-9;
   for (std::size_t index = 0; index < limits.half_planes.size(); ++index) {
-    const HalfPlaneDesign& plane = limits.half_planes[index];
+    const HalfPlane& plane = limits.half_planes[index];
     const double beyond = dot(point.point - plane.point, plane.forbidden) + plane.clearance;
     if (beyond <= kRounding) continue;
     report_breach(
@@ -290,8 +226,7 @@ void check_fixed_point(const LimitsDesign& limits, const NamedPoint& point, Coll
     report_breach(point, "keep_outs." + std::to_string(index),
                   "lies in keep_outs[" + std::to_string(index) + "]", findings);
   }
-  const auto check_profiles = [&](const std::vector<ProfileDesign>& profiles, const std::string& key,
-                                  double sign) {
+  const auto check_profiles = [&](const std::vector<Profile>& profiles, const std::string& key, double sign) {
     for (std::size_t index = 0; index < profiles.size(); ++index) {
       const auto height = height_at(profiles[index].line, point.point.x);
       const double beyond = height ? sign * (*height - point.point.y) + profiles[index].clearance : 0.0;
@@ -306,7 +241,7 @@ void check_fixed_point(const LimitsDesign& limits, const NamedPoint& point, Coll
   check_profiles(limits.stay_below, "stay_below", -1.0);
 }
 
-void check_shapes(const LimitsDesign& limits, Collected& findings) {
+void check_shapes(const Limits& limits, Collected& findings) {
   for (std::size_t index = 0; index < limits.half_planes.size(); ++index) {
     check_clearance(limits.half_planes[index].clearance, "half_planes." + std::to_string(index), findings);
   }
@@ -317,7 +252,7 @@ void check_shapes(const LimitsDesign& limits, Collected& findings) {
       report(findings, {path(key) + ".outline"}, *std::move(fault));
     }
   }
-  const auto check_profiles = [&](const std::vector<ProfileDesign>& profiles, const std::string& name) {
+  const auto check_profiles = [&](const std::vector<Profile>& profiles, const std::string& name) {
     for (std::size_t index = 0; index < profiles.size(); ++index) {
       const std::string key = name + "." + std::to_string(index);
       check_clearance(profiles[index].clearance, key, findings);
@@ -336,7 +271,7 @@ void check_clearances(const Design& design, Collected& findings) {
 }
 
 void check_objective(const Design& design, Collected& findings) {
-  const ObjectiveDesign& objective = design.limits->objective;
+  const Objective& objective = design.objective;
   if (!(objective.exit_speed_weight >= 0.0 && std::isfinite(objective.exit_speed_weight))) {
     report(findings, {path("objective.exit_speed_weight")},
            {"", "exit_speed_weight: " + rounded_text(objective.exit_speed_weight, 4) + " s/(m/s) is negative",
@@ -354,9 +289,13 @@ void check_objective(const Design& design, Collected& findings) {
 
 void check_limits(const Design& design, Collected& findings) {
   if (!design.limits) return;
-  check_slopes(*design.limits, findings);
-  check_curvature(*design.limits, findings);
-  check_loads(*design.limits, findings);
+  const Limits& limits = *design.limits;
+  check_bounds(design, findings);
+  check_agreement(limits, LimitId::entry_slope_angle, LimitId::slope_angle, findings);
+  check_agreement(limits, LimitId::exit_slope_angle, LimitId::slope_angle, findings);
+  check_agreement(limits, LimitId::exit_speed, LimitId::speed, findings);
+  check_concave(limits, findings);
+  check_loads(limits, findings);
   check_speeds(design, findings);
   check_lengths(design, findings);
   check_clearances(design, findings);

@@ -30,7 +30,7 @@ bool may_climb(const Design& design) {
   if (is_given(design.centerline.kind)) return true;
   // Only a search takes account of the entry speed; the closed form of the fastest track starts from rest.
   const bool searched = design.centerline.kind == CenterlineKind::fastest &&
-                        (design.limits || design.track.free_finish != FreeFinish::none);
+                        (design.limits || design.track.free_finish != FinishKind::point);
   return (searched || design.centerline.kind == CenterlineKind::straight) && design.body.entry_speed > 0.0;
 }
 
@@ -66,8 +66,8 @@ void check_drop(const Design& design, Collected& findings) {
 
 void check_free_finish(const Design& design, Collected& findings) {
   const TrackDesign& track = design.track;
-  const LimitRange& range = track.free_range;
-  const std::string key = track.free_finish == FreeFinish::run ? "x" : "z";
+  const Range& range = track.free_range;
+  const std::string key = track.free_finish == FinishKind::level ? "x" : "z";
   if (design.centerline.kind != CenterlineKind::fastest) {
     report(findings, {"track.finish", "centerline.kind"},
            {"", "a free " + key + " of the finish needs the kind fastest",
@@ -79,11 +79,11 @@ void check_free_finish(const Design& design, Collected& findings) {
             "Nothing lies between them.", "the two the other way round"});
   }
   const bool aside = track.start.y == track.finish.y;
-  if (track.free_finish == FreeFinish::run && !aside) {
+  if (track.free_finish == FinishKind::level && !aside) {
     report(findings, {"track.finish.y", "track.start"},
            {"", "y: a finish with a free x lies straight along x from the start", "", "the y of the start"});
   }
-  if (track.free_finish == FreeFinish::height && track.start.x == track.finish.x && aside) {
+  if (track.free_finish == FinishKind::vertical_line && track.start.x == track.finish.x && aside) {
     report(findings, {"track.finish", "track.start"},
            {"", "the finish lies on the vertical through the start",
             "With a free height the track could end where it begins.", "a finish to the side"});
@@ -99,7 +99,7 @@ void check_track(const Design& design, Collected& findings) {
   check_coordinates(track.start, "track.start", findings);
   check_coordinates(track.finish, "track.finish", findings);
   if (!track.finish_given) return;
-  if (track.free_finish != FreeFinish::none) check_free_finish(design, findings);
+  if (track.free_finish != FinishKind::point) check_free_finish(design, findings);
   const std::vector<std::string> paths = {"track.finish", "track.start"};
   const double distance = norm(track.finish - track.start);
   if (distance == 0.0) {

@@ -66,7 +66,7 @@ bool is_free(const std::optional<Value>& value) {
 }
 
 /// A coordinate that the fastest track may choose: `free`, or a range.
-LimitRange read_free_range(const Value& value, Findings& findings) {
+Range read_free_range(const Value& value, Findings& findings) {
   if (value.node->kind != Node::Kind::map) return {};
   return read_range(value, Dimension::length, findings);
 }
@@ -79,7 +79,7 @@ double easiest_height(const TrackDesign& track) {
 }
 
 double easiest_run(const TrackDesign& track) {
-  const LimitRange& range = track.free_range;
+  const Range& range = track.free_range;
   const double start = track.start.x;
   if (range.lowest && *range.lowest > start) return *range.lowest;
   if (range.highest && *range.highest < start) return *range.highest;
@@ -103,12 +103,12 @@ void read_finish(const Value& value, TrackDesign& track, Findings& findings) {
   if (x && !is_free(x)) track.finish.x = as_quantity(*x, Dimension::length, findings).value_or(0.0);
   if (z && !is_free(z)) track.finish.z = as_quantity(*z, Dimension::length, findings).value_or(0.0);
   if (is_free(x)) {
-    track.free_finish = FreeFinish::run;
+    track.free_finish = FinishKind::level;
     track.free_range = read_free_range(*x, findings);
     track.finish.x = easiest_run(track);
   }
   if (is_free(z)) {
-    track.free_finish = FreeFinish::height;
+    track.free_finish = FinishKind::vertical_line;
     track.free_range = read_free_range(*z, findings);
     track.finish.z = easiest_height(track);
   }
@@ -434,7 +434,7 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   design.track = read_track(top, finish_may_follow, findings);
   design.body = read_body(top, findings);
   design.gravity = top.quantity("gravity", Dimension::acceleration).value_or(kDefaultGravity);
-  design.limits = read_limits(top, findings);
+  read_limits(top, design, findings);
   design.cross_section = read_cross_section(top, findings);
   design.mesh = read_mesh(top, findings);
   design.exports = read_export(top, findings);

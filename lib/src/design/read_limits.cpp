@@ -1,6 +1,7 @@
 #include "design/read_limits.hpp"
 
 #include "glissade/core/words.hpp"
+#include "glissade/task/limit_catalogue.hpp"
 
 #include "design/schema_words.hpp"
 
@@ -12,17 +13,13 @@ namespace {
 
 constexpr std::string_view kLineExample = "[[0 m, 1 m], [5 m, 0.5 m]]";
 
-/// A range; where `single` allows it a single value stands for both ends.
-enum class Single { fixes, refused };
-
-LimitRange read_range(MapReader& map, std::string_view key, Dimension dimension, Single single,
-                      Findings& findings) {
-  const auto value = map.find(key);
+Range read_range(MapReader& map, const LimitEntry& entry, Findings& findings) {
+  const auto value = map.find(entry.key);
   if (!value) return {};
-  if (value->node->kind == Node::Kind::map) return read_range(*value, dimension, findings);
-  const auto number = as_quantity(*value, dimension, findings);
+  if (value->node->kind == Node::Kind::map) return read_range(*value, entry.dimension, findings);
+  const auto number = as_quantity(*value, entry.dimension, findings);
   if (!number) return {};
-  if (single == Single::fixes) return {number, number};
+  if (entry.fixable) return Range::fixed(*number);
   findings.add(value->node->at, value->key_path,
                {"",
                 value->key + ": " + shown(value->node->scalar) +
@@ -31,42 +28,48 @@ LimitRange read_range(MapReader& map, std::string_view key, Dimension dimension,
   return {};
 }
 
-void read_slopes(MapReader& map, LimitsDesign& limits, Findings& findings) {
-  limits.entry_slope_angle = read_range(map, "entry_slope_angle", Dimension::angle, Single::fixes, findings);
-  limits.exit_slope_angle = read_range(map, "exit_slope_angle", Dimension::angle, Single::fixes, findings);
-  limits.slope_angle = read_range(map, "slope_angle", Dimension::angle, Single::refused, findings);
-}
-
-void read_curvature(MapReader& map, LimitsDesign& limits, Findings& findings) {
-  const auto both = map.quantity("smallest_radius", Dimension::length);
-  const auto valley = map.quantity("smallest_valley_radius", Dimension::length);
-  const auto crest = map.quantity("smallest_crest_radius", Dimension::length);
-  limits.smallest_valley_radius = valley ? valley : both;
-  limits.smallest_crest_radius = crest ? crest : both;
-  limits.highest_curvature_rate = map.quantity("highest_curvature_rate", Dimension::per_area);
-  if (const auto value = map.find("concave")) limits.concave = as_flag(*value, findings).value_or(false);
-}
-
-void read_loads(MapReader& map, LimitsDesign& limits, Findings& findings) {
-  limits.highest_normal_load = map.quantity("highest_normal_load", Dimension::acceleration);
-  limits.highest_curvature_load = map.quantity("highest_curvature_load", Dimension::acceleration);
-  const auto lowest = map.find("lowest_normal_load");
-  if (!lowest) return;
-  if (lowest->node->kind == Node::Kind::scalar && lowest->node->scalar == "none") {
-    limits.lowest_normal_load.reset();
-    return;
-  }
-  limits.lowest_normal_load = as_quantity(*lowest, Dimension::acceleration, findings).value_or(0.0);
-}
-
-void read_speed(MapReader& limits_map, LimitsDesign& limits, Findings& findings) {
-  const auto value = limits_map.find("speed");
-  if (!value) return;
-  MapReader map(*value, "A speed limit", "speed: {highest: 4 m/s}", findings);
+/// Beside its range a speed has the place from which its lowest value holds.
+void read_speed(const Value& value, Limits& limits, Findings& findings) {
+  MapReader map(value, "A speed limit", "speed: {highest: 4 m/s}", findings);
   limits.speed.lowest = map.quantity("lowest", Dimension::speed);
   limits.speed.highest = map.quantity("highest", Dimension::speed);
   limits.lowest_speed_from = map.quantity("lowest_from", Dimension::length).value_or(0.0);
   map.refuse_unknown_keys();
+}
+
+/// "none" lifts the one limit that holds where nothing is said.
+std::optional<double> read_value(MapReader& map, const LimitEntry& entry, std::optional<double> unsaid,
+                                 Findings& findings) {
+  const auto value = map.find(entry.key);
+  if (!value) return unsaid;
+  const bool lifted = value->node->kind == Node::Kind::scalar && value->node->scalar == "none";
+  if (unsaid && lifted) return {};
+  const auto number = as_quantity(*value, entry.dimension, findings);
+  return number ? number : unsaid;
+}
+
+void read_numbers(MapReader& map, Limits& limits, Findings& findings) {
+  // One key for both radii, before its parts are asked for.
+  const auto both = map.quantity("smallest_radius", Dimension::length);
+  limits.smallest_valley_radius = both;
+  limits.smallest_crest_radius = both;
+  for (const LimitEntry& entry : limit_catalogue()) {
+    if (entry.id == LimitId::speed) {
+      const auto value = map.find(entry.key);
+      if (value && value->node->kind == Node::Kind::map) {
+        read_speed(*value, limits, findings);
+        continue;
+      }
+    }
+    if (entry.range != nullptr) limits.*entry.range = read_range(map, entry, findings);
+    if (entry.value != nullptr) {
+      limits.*entry.value = read_value(map, entry, limits.*entry.value, findings);
+    }
+    if (entry.length != nullptr) {
+      limits.*entry.length = map.quantity(entry.key, entry.dimension).value_or(0.0);
+    }
+  }
+  if (const auto value = map.find("concave")) limits.concave = as_flag(*value, findings).value_or(false);
 }
 
 double read_clearance(MapReader& map) {
@@ -87,14 +90,14 @@ std::optional<Vec2> away_from(Side stay, Vec2 along) {
   return (component > 0.0) == wanted_positive ? away : -1.0 * away;
 }
 
-std::optional<HalfPlaneDesign> read_half_plane(const Value& value, Findings& findings) {
+std::optional<HalfPlane> read_half_plane(const Value& value, Findings& findings) {
   constexpr std::string_view kExample = "{line: [[0 m, 2 m], [5 m, 2 m]], stay: below}";
   static const Words<Side> sides = {
       {"above", Side::above}, {"below", Side::below}, {"left", Side::left}, {"right", Side::right}};
   MapReader map(value, "A half_plane", kExample, findings);
   const auto line_value = map.need("line", "line: [[0 m, 2 m], [5 m, 2 m]]");
   const auto stay_value = map.need("stay", "stay: below");
-  HalfPlaneDesign plane;
+  HalfPlane plane;
   plane.clearance = read_clearance(map);
   map.refuse_unknown_keys();
   const std::vector<Vec2> line =
@@ -119,27 +122,27 @@ std::optional<HalfPlaneDesign> read_half_plane(const Value& value, Findings& fin
   return plane;
 }
 
-std::optional<KeepOutDesign> read_keep_out(const Value& value, Findings& findings) {
-  static const Words<PassageDesign> passages = {
-      {"either", PassageDesign::either}, {"above", PassageDesign::above}, {"below", PassageDesign::below}};
+std::optional<KeepOut> read_keep_out(const Value& value, Findings& findings) {
+  static const Words<Passage> passages = {
+      {"either", Passage::either}, {"above", Passage::above}, {"below", Passage::below}};
   constexpr std::string_view kOutline = "[[2 m, 3 m], [2.4 m, 3 m], [2.4 m, 3.4 m], [2 m, 3.4 m]]";
   MapReader map(value, "A keep_out", "{outline: [[2 m, 3 m], [2.4 m, 3 m], [2 m, 3.4 m]], clearance: 50 mm}",
                 findings);
-  KeepOutDesign keep_out;
+  KeepOut keep_out;
   if (const auto outline = map.need("outline", kOutline)) {
     keep_out.outline = as_points(*outline, kOutline, findings);
   }
   keep_out.clearance = read_clearance(map);
   if (const auto pass = map.find("pass")) {
-    keep_out.passage = map.choice(*pass, passages).value_or(PassageDesign::either);
+    keep_out.passage = map.choice(*pass, passages).value_or(Passage::either);
   }
   map.refuse_unknown_keys();
   return keep_out;
 }
 
-std::optional<ProfileDesign> read_profile(const Value& value, Findings& findings) {
+std::optional<Profile> read_profile(const Value& value, Findings& findings) {
   MapReader map(value, "A line", "{line: [[0 m, 1 m], [5 m, 0.5 m]], clearance: 100 mm}", findings);
-  ProfileDesign profile;
+  Profile profile;
   if (const auto line = map.need("line", kLineExample))
     profile.line = as_points(*line, kLineExample, findings);
   profile.clearance = read_clearance(map);
@@ -160,7 +163,7 @@ std::vector<Thing> read_list(MapReader& map, std::string_view key, std::string_v
   return things;
 }
 
-void read_clearances(MapReader& map, LimitsDesign& limits, Findings& findings) {
+void read_clearances(MapReader& map, Limits& limits, Findings& findings) {
   limits.half_planes = read_list(map, "half_planes", "[{line: [[0 m, 2 m], [5 m, 2 m]], stay: below}]",
                                  &read_half_plane, findings);
   limits.keep_outs = read_list(map, "keep_outs", "[{outline: [[2 m, 3 m], [2.4 m, 3 m], [2 m, 3.4 m]]}]",
@@ -174,15 +177,15 @@ void read_clearances(MapReader& map, LimitsDesign& limits, Findings& findings) {
   }
 }
 
-void read_objective(MapReader& limits_map, ObjectiveDesign& objective, Findings& findings) {
-  static const Words<ObjectiveDesignKind> kinds = {{"travel_time", ObjectiveDesignKind::travel_time},
-                                                   {"exit_speed", ObjectiveDesignKind::exit_speed},
-                                                   {"blend", ObjectiveDesignKind::blend}};
+void read_objective(MapReader& limits_map, Objective& objective, Findings& findings) {
+  static const Words<ObjectiveKind> kinds = {{"travel_time", ObjectiveKind::travel_time},
+                                             {"exit_speed", ObjectiveKind::exit_speed},
+                                             {"blend", ObjectiveKind::blend}};
   const auto value = limits_map.find("objective");
   if (!value) return;
   if (value->node->kind == Node::Kind::scalar) {
-    objective.kind = limits_map.choice(*value, kinds).value_or(ObjectiveDesignKind::travel_time);
-    if (objective.kind != ObjectiveDesignKind::blend) return;
+    objective.kind = limits_map.choice(*value, kinds).value_or(ObjectiveKind::travel_time);
+    if (objective.kind != ObjectiveKind::blend) return;
     findings.add(
         value->node->at, value->key_path,
         {"", "objective: blend has no weight", "It says how much time a unit of exit speed is worth.",
@@ -191,9 +194,9 @@ void read_objective(MapReader& limits_map, ObjectiveDesign& objective, Findings&
   }
   MapReader map(*value, "An objective", "travel_time", findings);
   if (const auto kind = map.need("kind", "kind: travel_time")) {
-    objective.kind = map.choice(*kind, kinds).value_or(ObjectiveDesignKind::travel_time);
+    objective.kind = map.choice(*kind, kinds).value_or(ObjectiveKind::travel_time);
   }
-  if (objective.kind == ObjectiveDesignKind::blend) {
+  if (objective.kind == ObjectiveKind::blend) {
     objective.exit_speed_weight =
         map.needed_quantity("exit_speed_weight", Dimension::time_per_speed, "exit_speed_weight: 0.1 s/(m/s)")
             .value_or(0.0);
@@ -206,32 +209,24 @@ void read_objective(MapReader& limits_map, ObjectiveDesign& objective, Findings&
 
 }  // namespace
 
-LimitRange read_range(const Value& value, Dimension dimension, Findings& findings) {
+Range read_range(const Value& value, Dimension dimension, Findings& findings) {
   MapReader map(value, "A range", "{lowest: ..., highest: ...}", findings);
-  LimitRange range;
+  Range range;
   range.lowest = map.quantity("lowest", dimension);
   range.highest = map.quantity("highest", dimension);
   map.refuse_unknown_keys();
   return range;
 }
 
-std::optional<LimitsDesign> read_limits(MapReader& top, Findings& findings) {
+void read_limits(MapReader& top, Design& design, Findings& findings) {
   const std::optional<Value> value = top.find("limits");
-  if (!value) return {};
+  if (!value) return;
   MapReader map(*value, "A group of limits", "{slope_angle: {highest: 35 deg}}", findings);
-  LimitsDesign limits;
-  read_slopes(map, limits, findings);
-  read_curvature(map, limits, findings);
-  read_loads(map, limits, findings);
-  read_speed(map, limits, findings);
-  limits.exit_speed = read_range(map, "exit_speed", Dimension::speed, Single::fixes, findings);
-  limits.arc_length = read_range(map, "arc_length", Dimension::length, Single::fixes, findings);
-  limits.lead_in = map.quantity("lead_in", Dimension::length).value_or(0.0);
-  limits.lead_out = map.quantity("lead_out", Dimension::length).value_or(0.0);
+  Limits& limits = design.limits.emplace();
+  read_numbers(map, limits, findings);
   read_clearances(map, limits, findings);
-  read_objective(map, limits.objective, findings);
+  read_objective(map, design.objective, findings);
   map.refuse_unknown_keys();
-  return limits;
 }
 
 }  // namespace glissade::design_file

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/design/limits_design.hpp"
+#include "glissade/design/design.hpp"
 
 #include "design/map_reader.hpp"
 
@@ -8,10 +8,10 @@
 
 namespace glissade::design_file {
 
-/// Reads the `limits:` section, if there is one.
-[[nodiscard]] std::optional<LimitsDesign> read_limits(MapReader& top, Findings& findings);
+/// Reads the `limits:` section, if there is one, and the objective in it.
+void read_limits(MapReader& top, Design& design, Findings& findings);
 
 /// Reads a map of `lowest` and `highest`.
-[[nodiscard]] LimitRange read_range(const Value& value, Dimension dimension, Findings& findings);
+[[nodiscard]] Range read_range(const Value& value, Dimension dimension, Findings& findings);
 
 }  // namespace glissade::design_file

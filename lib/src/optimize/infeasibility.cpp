@@ -24,7 +24,7 @@ constexpr double kNearly = 0.005;
 double relaxed_bound(const LimitSpec& limit, double t, double measured) {
   const bool squared = limit.measure == Measure::speed || limit.measure == Measure::exit_speed;
   if (limit.side == 0) return (squared ? std::sqrt(std::max(measured, 0.0)) : measured) / limit.per_si;
-  if (limit.measure == Measure::curvature && limit.unit == "m") {
+  if (limit.name.is_radius()) {
     // A radius: its curvature grows by t times its own bound.
     return limit.bound_si / (1.0 + t);
   }
@@ -82,8 +82,9 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
   const double run = std::fabs(problem.endpoints.run);
   if (problem.endpoints.drop > friction.coefficient() * run) return std::nullopt;
   Conflict conflict;
-  conflict.limits = {{"friction", {}, ""}, {"finish", {}, ""}};
-  conflict.relaxations.push_back({"finish.drop", problem.endpoints.drop, friction.coefficient() * run, "m"});
+  conflict.limits = {{{LimitId::friction}, {}}, {{LimitId::finish}, {}}};
+  conflict.relaxations.push_back(
+      {{LimitId::finish_drop}, problem.endpoints.drop, friction.coefficient() * run});
   conflict.text = "from rest, no track reaches the finish at a friction angle of " +
                   angle_text(friction.angle().radians()) + ": the mean slope is " +
                   angle_text(math::atan2(problem.endpoints.drop, run)) +
@@ -167,15 +168,14 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   for (std::size_t i = 0; i < limits.size(); ++i) {
     if (share[i] <= kPartOf) continue;
     const LimitSpec& limit = limits[i];
-    const auto same = [&](const StatedLimit& known) { return known.limit == limit.key; };
+    const auto same = [&](const StatedLimit& known) { return known.limit == limit.name; };
     if (std::any_of(conflict.limits.begin(), conflict.limits.end(), same)) continue;
-    conflict.limits.push_back(
-        {limit.key, limit.built_in ? std::nullopt : std::optional(limit.bound_si), limit.unit});
+    conflict.limits.push_back({limit.name, limit.built_in ? std::nullopt : std::optional(limit.bound_si)});
     if (limit.built_in || (limit.measure == Measure::curvature && limit.bound == 0.0)) continue;
     Elastic elastic;
     elastic.equalities = false;
     elastic.limits.assign(limits.size(), false);
-    for (std::size_t k = 0; k < limits.size(); ++k) elastic.limits[k] = limits[k].key == limit.key;
+    for (std::size_t k = 0; k < limits.size(); ++k) elastic.limits[k] = limits[k].name == limit.name;
     const std::optional<Relaxed> least = relaxed_alone(*best, elastic, control);
     if (!least) continue;
     const Relaxed& alone = *least;
@@ -195,9 +195,9 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
     }
     const double needed = relaxed_bound(limit, alone.t, measured);
     // A beam cannot be closer than touched: then it is the beam that would have to move.
-    if (limit.key.starts_with("keep_outs") && needed < 0.0) continue;
+    if (limit.name.id == LimitId::keep_outs && needed < 0.0) continue;
     if (limit.measure == Measure::normal_load && needed < 0.0) continue;
-    conflict.relaxations.push_back({limit.key, limit.bound_si, needed, limit.unit});
+    conflict.relaxations.push_back({limit.name, limit.bound_si, needed});
   }
   conflict.text = conflict_text(conflict);
   explanation.conflict = std::move(conflict);

@@ -9,12 +9,12 @@
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/load_arcs.hpp"
-#include "optimize/referee.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
 #include "optimize/starts.hpp"
 #include "optimize/switches.hpp"
+#include "referee/judgement.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -117,7 +117,7 @@ struct Candidate {
   std::shared_ptr<ScaledProblem> problem;
   std::optional<Found> found;
   CenterlinePtr track;
-  Verdict verdict;
+  referee::Judgement judgement;
   bool kept = false;  ///< the referee finds every limit kept
   bool stopped = false;
 };
@@ -285,14 +285,14 @@ class Searcher {
     Vector held;  // places, of the core's length, at which limits are held beside the stations
     for (int round = 0; round < kTighteningRounds; ++round) {
       const CenterlinePtr track = track_of(problem, found);
-      const Verdict verdict = judge_track(problem_, track, kRefereeSamples);
-      const bool kept = verdict.arrived && verdict.worst <= options_.limit_tolerance;
+      const referee::Judgement judgement = referee::judge_track(problem_, track, referee::kRefereeSamples);
+      const bool kept = judgement.arrived && judgement.worst <= options_.limit_tolerance;
       const bool better = !candidate.found || (kept && !candidate.kept) ||
                           (kept == candidate.kept && found.objective < candidate.found->objective);
       if (better) {
         candidate.found = found;
         candidate.track = track;
-        candidate.verdict = verdict;
+        candidate.judgement = judgement;
         candidate.kept = kept;
       }
       if (kept) break;
@@ -307,8 +307,8 @@ class Searcher {
         return (place / problem.chord - problem.lead_in) / core_length;
       };
       // A curvature that follows the load more closely, rather than a load that keeps its distance everywhere.
-      if (verdict.lift_off && round < kHoldingRounds && !found.stopped) {
-        const std::optional<Mesh> closer = following_loads(problem, found, {share_of(*verdict.lift_off)});
+      if (judgement.lift_off && round < kHoldingRounds && !found.stopped) {
+        const std::optional<Mesh> closer = following_loads(problem, found, {share_of(*judgement.lift_off)});
         if (closer && closer->fine.size() > found.track->mesh().fine.size()) {
           control_.tolerance = options_.tolerance;
           control_.most_rounds = 10;
@@ -319,13 +319,13 @@ class Searcher {
           }
         }
       }
-      tighten(problem, verdict, round);
+      tighten(problem, judgement, round);
       control_.tolerance = options_.tolerance;
       control_.most_rounds = 10;
       Mesh mesh = found.track->mesh();
       mesh.core_length = core_length;
       mesh.extra_breaks = breaks_of(problem, core_length);
-      for (const double place : places_to_hold(problem, verdict, round)) {
+      for (const double place : places_to_hold(problem, judgement, round)) {
         const double sigma = share_of(place);
         if (sigma > 0.0 && sigma < 1.0) hold(sigma, mesh.knots, held);
       }
@@ -380,16 +380,16 @@ class Searcher {
 
   /// Where the referee found the ride ending, or in the first rounds limits broken the most: holding a limit
   /// exactly there costs nothing, other than tightening it as a whole.
-  [[nodiscard]] std::vector<double> places_to_hold(const ScaledProblem& problem, const Verdict& verdict,
-                                                   int round) const {
+  [[nodiscard]] std::vector<double> places_to_hold(const ScaledProblem& problem,
+                                                   const referee::Judgement& judgement, int round) const {
     std::vector<double> places;
-    if (verdict.lift_off) places.push_back(*verdict.lift_off);
-    if (verdict.stall) places.push_back(*verdict.stall);
+    if (judgement.lift_off) places.push_back(*judgement.lift_off);
+    if (judgement.stall) places.push_back(*judgement.stall);
     if (round >= kHoldingRounds) return places;
-    for (const Broken& broken : verdict.broken) {
+    for (const referee::Broken& broken : judgement.broken) {
       const bool load = std::any_of(
           problem.limits.begin(), problem.limits.end(),
-          [&](const LimitSpec& limit) { return limit.key == broken.limit && is_highest_load(limit); });
+          [&](const LimitSpec& limit) { return limit.name == broken.limit && is_highest_load(limit); });
       if (!load && broken.violation > 0.5 * options_.limit_tolerance) places.push_back(broken.where);
     }
     return places;
@@ -415,22 +415,22 @@ class Searcher {
     held.push_back(sigma);
   }
 
-  void tighten(const ScaledProblem& problem, const Verdict& verdict, int round) {
+  void tighten(const ScaledProblem& problem, const referee::Judgement& judgement, int round) {
     for (std::size_t i = 0; i < problem.limits.size(); ++i) {
       const LimitSpec& limit = problem.limits[i];
       if (limit.side == 0) continue;
       const bool contact = limit.measure == Measure::normal_load && limit.side < 0;
-      if (contact && verdict.lift_off) {
+      if (contact && judgement.lift_off) {
         margins_[i] *= 2.0;
         continue;
       }
-      if (limit.measure == Measure::arrival && verdict.stall) {
+      if (limit.measure == Measure::arrival && judgement.stall) {
         margins_[i] = std::max(kStallMargin, 2.0 * margins_[i]);
         continue;
       }
       const bool load = is_highest_load(limit);
       if (round < kHoldingRounds && !load) continue;
-      const LimitCheck* check = verdict.find(limit.key);
+      const LimitCheck* check = judgement.find(limit.name);
       if (check == nullptr || check->violation <= 0.5 * options_.limit_tolerance * check->scale) continue;
       margins_[i] += kTightening * check->violation / check->scale;
     }
@@ -476,9 +476,8 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
     const LimitSpec& limit = problem.limits[i];
     ActiveLimit active;
-    active.limit = limit.key;
+    active.limit = limit.name;
     active.value = limit.bound_si;
-    active.unit = limit.unit;
     double multiplier = 0.0;
     for (std::size_t k = 0; k < found.active.size(); ++k) {
       if (found.active[k].limit == i) multiplier += found.inequality[k];
@@ -497,7 +496,7 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
     result.push_back(std::move(active));
   }
   std::sort(result.begin(), result.end(), [](const ActiveLimit& a, const ActiveLimit& b) {
-    return a.limit == b.limit ? a.value < b.value : a.limit < b.limit;
+    return a.limit == b.limit ? a.value < b.value : a.limit.key() < b.limit.key();
   });
   return result;
 }
@@ -505,20 +504,10 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
 }  // namespace
 }  // namespace optimizer
 
-std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track) {
-  Problem checked = problem;
-  // A body held from both sides cannot be searched for, but what else is asked of its track can be checked.
-  checked.limits.lowest_normal_load = problem.limits.lowest_normal_load.value_or(0.0);
-  optimizer::require_valid(checked);
-  if (!track) throw InputError({"", "there is no track to hold against the limits", "", ""});
-  return optimizer::judge_track(problem, track, optimizer::kRefereeSamples, optimizer::BrokenRides::judged)
-      .checks;
-}
-
 Optimum optimize(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
                  const Progress& progress) {
   using namespace optimizer;
-  require_valid(problem);
+  require_searchable(problem);
   require_valid(options);
   const auto begin = Clock::now();
   SearchControl control;
@@ -532,6 +521,7 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
 
   Optimum optimum;
   OptimizeReport& report = optimum.report;
+  report.objective = problem.objective;
   report.unlimited_travel_time = unlimited_travel_time(problem);
   const auto finish = [&] {
     report.iterations = control.rounds;
@@ -574,9 +564,9 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
   if (best->kept) {
     const Found& found = *best->found;
     optimum.centerline = best->track;
-    report.travel_time = best->verdict.travel_time;
-    report.exit_speed = best->verdict.exit_speed;
-    report.checks = best->verdict.checks;
+    report.travel_time = best->judgement.travel_time;
+    report.exit_speed = best->judgement.exit_speed;
+    report.checks = best->judgement.checks;
     report.first_order_residual = found.residual;
     report.active = active_limits(*best->problem, found);
     const bool converged = found.residual <= options.tolerance && !stopped;

@@ -1,6 +1,7 @@
 // Reports as text for people.
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/optimize/optimize.hpp"
 
@@ -9,20 +10,6 @@
 
 namespace glissade {
 namespace {
-
-constexpr double kRadiansPerDegree = 0.017453292519943295;
-
-std::string quantity(double value, const std::string& unit) {
-  if (unit == "rad") return angle_text(value);
-  if (unit == "m") return length_text(value);
-  return rounded_text(value, 4) + " " + unit;
-}
-
-/// A price per unit that people use: degrees for angles.
-std::string price_text(const ActiveLimit& active) {
-  if (active.unit == "rad") return rounded_text(active.price * kRadiansPerDegree, 3) + " s per deg";
-  return rounded_text(active.price, 3) + " s per " + active.unit;
-}
 
 std::string places_text(const std::vector<Stretch>& where) {
   std::string text;
@@ -54,13 +41,15 @@ std::string_view to_text(OptimizeStatus status) {
 std::string conflict_text(const Conflict& conflict) {
   std::vector<std::string> words;
   for (const StatedLimit& stated : conflict.limits) {
-    words.push_back(stated.value ? stated.limit + " " + quantity(*stated.value, stated.unit) : stated.limit);
+    std::string word = stated.limit.key();
+    if (stated.value) word += " " + quantity_text(*stated.value, stated.limit.dimension());
+    words.push_back(std::move(word));
   }
   std::string text = listed(words) + " cannot be met together";
   for (std::size_t i = 0; i < conflict.relaxations.size(); ++i) {
     const Relaxation& relaxation = conflict.relaxations[i];
-    text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit + " " +
-            quantity(relaxation.needed, relaxation.unit);
+    text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit.key() + " " +
+            quantity_text(relaxation.needed, relaxation.limit.dimension());
   }
   return text;
 }
@@ -76,7 +65,8 @@ std::string OptimizeReport::brief() const {
     }
     text += "; exit speed " + rounded_text(exit_speed, 5) + " m/s\n";
     for (const ActiveLimit& limit : active) {
-      text += "  " + limit.limit + " " + quantity(limit.value, limit.unit) + ": " + price_text(limit);
+      text += "  " + limit.limit.key() + " " + quantity_text(limit.value, limit.limit.dimension()) + ": " +
+              price_text(limit.price, limit.limit, objective);
       if (!limit.where.empty()) text += ", " + places_text(limit.where);
       text += "\n";
     }

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/task/limit_catalogue.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,46 +13,162 @@
 namespace glissade::optimizer {
 namespace {
 
-/// Collects the limits of one problem.
+/// What the search measures for a limit that is one number.
+Measure measure_of(LimitId id) {
+  switch (id) {
+    case LimitId::entry_slope_angle:
+      return Measure::entry_slope_angle;
+    case LimitId::exit_slope_angle:
+      return Measure::exit_slope_angle;
+    case LimitId::smallest_valley_radius:
+    case LimitId::smallest_crest_radius:
+    case LimitId::concave:
+      return Measure::curvature;
+    case LimitId::highest_curvature_rate:
+      return Measure::curvature_rate;
+    case LimitId::highest_normal_load:
+    case LimitId::lowest_normal_load:
+      return Measure::normal_load;
+    case LimitId::highest_curvature_load:
+      return Measure::curvature_load;
+    case LimitId::speed:
+      return Measure::speed;
+    case LimitId::exit_speed:
+      return Measure::exit_speed;
+    case LimitId::arc_length:
+      return Measure::arc_length;
+    case LimitId::finish_run:
+    case LimitId::finish_drop:
+      return Measure::finish_coordinate;
+    default:
+      return Measure::slope_angle;
+  }
+}
+
+/// +1: at most, -1: at least, 0: exactly.
+int side_of(Bound bound) {
+  return bound == Bound::highest ? 1 : bound == Bound::lowest ? -1 : 0;
+}
+
+/// Collects the limits of one problem, scaled.
 class LimitList {
  public:
-  explicit LimitList(std::vector<LimitSpec>& limits) : limits_(limits) {}
+  LimitList(const Problem& problem, ScaledProblem& out) : problem_(problem), out_(out) {}
 
-  void add(const std::string& key, const char* unit, Measure measure, const Range& range, double unit_si,
-           double scale, std::size_t obstacle = 0) {
-    if (range.lowest && range.highest && *range.lowest == *range.highest) {
-      add_one(key, unit, measure, 0, *range.lowest, unit_si, scale, obstacle);
-      return;
+  /// Every limit of the catalogue that is a number, in its order.
+  void add_numbers() {
+    for (const LimitEntry& entry : limit_catalogue()) {
+      const Limits& limits = problem_.limits;
+      if (entry.range != nullptr) add_range(entry, range_of(entry, limits));
+      if (entry.id == LimitId::concave && limits.concave) add({entry.id, entry.bound}, 0.0);
+      if (entry.value != nullptr && limits.*entry.value) add_value(entry, *(limits.*entry.value));
     }
-    if (range.lowest) add_one(key + ".lowest", unit, measure, -1, *range.lowest, unit_si, scale, obstacle);
-    if (range.highest) add_one(key + ".highest", unit, measure, +1, *range.highest, unit_si, scale, obstacle);
+    if (problem_.finish.kind == FinishKind::point) return;
+    const bool level = problem_.finish.kind == FinishKind::level;
+    add_range(entry_of(level ? LimitId::finish_run : LimitId::finish_drop), problem_.finish.free_range);
   }
 
-  void add_one(const std::string& key, const char* unit, Measure measure, int side, double bound_si,
-               double unit_si, double scale, std::size_t obstacle = 0) {
+  LimitSpec& add(const LimitName& name, double bound_si) {
     LimitSpec limit;
-    limit.key = key;
-    limit.unit = unit;
-    limit.measure = measure;
-    limit.side = side;
+    limit.name = name;
+    limit.measure = measure_of(name.id);
+    limit.side = side_of(name.bound);
     limit.bound_si = bound_si;
-    limit.bound = bound_si / unit_si;
-    limit.per_si = 1.0 / unit_si;
-    limit.scale = scale;
-    limit.obstacle = obstacle;
-    limits_.push_back(limit);
+    limit.bound = bound_si / unit(name.dimension());
+    limit.per_si = 1.0 / unit(name.dimension());
+    limit.scale = scale(name.dimension(), limit.bound);
+    return out_.limits.emplace_back(limit);
   }
 
-  void add_radius(const std::string& key, int side, double radius, double chord) {
-    add_one(key, "m", Measure::curvature, side, radius, chord, 1.0);
-    LimitSpec& limit = limits_.back();
-    limit.bound = side * chord / radius;
-    limit.per_si = chord / (radius * radius);
-    limit.scale = chord / radius;
+  void add_obstacle(const LimitName& name, Obstacle obstacle, double clearance) {
+    for (Vec2& corner : obstacle.corners) corner = (1.0 / out_.chord) * corner;
+    LimitSpec& limit = add(name, clearance);
+    limit.measure = Measure::distance;
+    limit.obstacle = out_.obstacles.size();
+    out_.obstacles.push_back(std::move(obstacle));
+  }
+
+  void add_waypoint(std::size_t index) {
+    LimitSpec& limit = add({LimitId::waypoints, Bound::exactly, index}, 0.0);
+    limit.measure = Measure::waypoint;
+    limit.obstacle = index;
+    out_.waypoints.push_back((1.0 / out_.chord) * problem_.limits.waypoints[index]);
+  }
+
+  /// What holds without being asked for.
+  void add_built_in(LimitId id, Measure measure, double bound) {
+    LimitSpec limit;
+    limit.name = {id, entry_of(id).bound};
+    limit.measure = measure;
+    limit.side = side_of(limit.name.bound);
+    limit.bound = bound;
+    limit.per_si = 1.0 / unit(limit.name.dimension());
+    limit.bound_si = bound * unit(limit.name.dimension());
+    limit.built_in = true;
+    out_.limits.push_back(limit);
   }
 
  private:
-  std::vector<LimitSpec>& limits_;
+  void add_range(const LimitEntry& entry, const Range& range) {
+    if (range.is_fixed() && entry.fixable) {
+      add({entry.id, Bound::exactly}, *range.lowest);
+      return;
+    }
+    if (range.lowest) add({entry.id, Bound::lowest}, *range.lowest);
+    if (range.highest) add({entry.id, Bound::highest}, *range.highest);
+  }
+
+  void add_value(const LimitEntry& entry, double value) {
+    const LimitName name{entry.id, entry.bound};
+    if (name.is_radius()) {
+      // No crest at all leaves none to have a radius.
+      if (entry.id == LimitId::smallest_valley_radius || !problem_.limits.concave) add_radius(name, value);
+      return;
+    }
+    add(name, value);
+    if (entry.id != LimitId::highest_curvature_rate) return;
+    // The rate is limited both ways.
+    const double rate = value * out_.chord * out_.chord;
+    out_.limits.back().scale = rate;
+    LimitSpec& other = add(name, value);
+    other.side = -1;
+    other.bound = -rate;
+    other.scale = rate;
+  }
+
+  void add_radius(const LimitName& name, double radius) {
+    LimitSpec& limit = add(name, radius);
+    limit.side = name.id == LimitId::smallest_valley_radius ? 1 : -1;
+    limit.bound = limit.side * out_.chord / radius;
+    limit.per_si = out_.chord / (radius * radius);
+    limit.scale = out_.chord / radius;
+  }
+
+  /// One unit of the scaled problem [SI].
+  [[nodiscard]] double unit(Dimension dimension) const {
+    switch (dimension) {
+      case Dimension::length:
+        return out_.chord;
+      case Dimension::speed:
+        return out_.speed;
+      case Dimension::acceleration:
+        return problem_.gravity;
+      case Dimension::per_length:
+        return 1.0 / out_.chord;
+      case Dimension::per_area:
+        return 1.0 / (out_.chord * out_.chord);
+      default:
+        return 1.0;
+    }
+  }
+
+  /// What a violation is measured against.
+  [[nodiscard]] static double scale(Dimension dimension, double bound) {
+    return dimension == Dimension::acceleration ? std::max(1.0, std::fabs(bound)) : 1.0;
+  }
+
+  const Problem& problem_;
+  ScaledProblem& out_;
 };
 
 /// Upper (least drop) or lower chain of a polygon, ascending in run, where the track runs along the polygon.
@@ -78,6 +195,61 @@ std::vector<Vec2> chain(const std::vector<Vec2>& outline, bool upper) {
     result.push_back({run, sign * extreme});
   }
   return result;
+}
+
+void add_obstacles(const Limits& limits, const Passages& passages, LimitList& list) {
+  for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
+    const HalfPlane& plane = limits.half_planes[i];
+    Obstacle obstacle;
+    obstacle.endless = true;
+    obstacle.forbidden = (1.0 / norm(plane.forbidden)) * plane.forbidden;
+    obstacle.corners = {plane.point};
+    list.add_obstacle({LimitId::half_planes, Bound::lowest, i}, obstacle, plane.clearance);
+  }
+  for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
+    Obstacle obstacle;
+    const bool above = passages[i] == Passage::above;
+    obstacle.side = above ? 1.0 : -1.0;
+    obstacle.corners = chain(limits.keep_outs[i].outline, above);
+    list.add_obstacle({LimitId::keep_outs, Bound::lowest, i}, obstacle, limits.keep_outs[i].clearance);
+  }
+  for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
+    Obstacle obstacle;
+    obstacle.corners = limits.stay_above[i].line;
+    list.add_obstacle({LimitId::stay_above, Bound::lowest, i}, obstacle, limits.stay_above[i].clearance);
+  }
+  for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
+    Obstacle obstacle;
+    obstacle.side = -1.0;
+    obstacle.corners = limits.stay_below[i].line;
+    list.add_obstacle({LimitId::stay_below, Bound::lowest, i}, obstacle, limits.stay_below[i].clearance);
+  }
+}
+
+void add_limits(const Problem& problem, const Passages& passages, ScaledProblem& out) {
+  const Limits& limits = problem.limits;
+  LimitList list(problem, out);
+  list.add_numbers();
+  add_obstacles(limits, passages, list);
+  for (std::size_t i = 0; i < limits.waypoints.size(); ++i) list.add_waypoint(i);
+  // Beyond the vertical a track would run backwards; the fastest one of all starts exactly vertical.
+  constexpr double kUpright = 0.5 * std::numbers::pi;
+  if (!limits.slope_angle.highest) {
+    list.add_built_in(LimitId::no_steeper_than_vertical, Measure::slope_angle, kUpright);
+  }
+  if (!limits.slope_angle.lowest) {
+    list.add_built_in(LimitId::no_climb_beyond_vertical, Measure::slope_angle, -kUpright);
+  }
+  // No track is shorter than a chord; none that is worth building is many times longer.
+  constexpr double kShortest = 0.9;
+  constexpr double kLongest = 20.0;
+  constexpr double kShortestCore = 0.05;
+  list.add_built_in(LimitId::not_shorter_than_chord, Measure::arc_length,
+                    std::max(kShortest, out.lead_in + out.lead_out + kShortestCore));
+  list.add_built_in(LimitId::not_many_chords_long, Measure::arc_length, kLongest);
+  // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
+  constexpr double kCreep = 1e-6;
+  list.add_built_in(LimitId::arrival, Measure::arrival, kCreep);
 }
 
 }  // namespace
@@ -131,285 +303,34 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
       break;
   }
 
-  LimitList list(out.limits);
-  const double chord = out.chord;
-  list.add("entry_slope_angle", "rad", Measure::entry_slope_angle, limits.entry_slope_angle, 1.0, 1.0);
-  list.add("exit_slope_angle", "rad", Measure::exit_slope_angle, limits.exit_slope_angle, 1.0, 1.0);
-  list.add("slope_angle", "rad", Measure::slope_angle, limits.slope_angle, 1.0, 1.0);
-  if (limits.smallest_valley_radius) {
-    list.add_radius("smallest_valley_radius", +1, *limits.smallest_valley_radius, chord);
-  }
-  if (limits.concave) {
-    list.add_one("concave", "1/m", Measure::curvature, -1, 0.0, 1.0 / chord, 1.0);
-  } else if (limits.smallest_crest_radius) {
-    list.add_radius("smallest_crest_radius", -1, *limits.smallest_crest_radius, chord);
-  }
-  if (limits.highest_curvature_rate) {
-    const double bound = *limits.highest_curvature_rate * chord * chord;
-    list.add_one("highest_curvature_rate", "1/m^2", Measure::curvature_rate, +1,
-                 *limits.highest_curvature_rate, 1.0 / (chord * chord), bound);
-    list.add_one("highest_curvature_rate", "1/m^2", Measure::curvature_rate, -1,
-                 *limits.highest_curvature_rate, 1.0 / (chord * chord), bound);
-    out.limits.back().bound = -bound;
-  }
-  const auto load_scale = [&](double bound) { return std::max(1.0, std::fabs(bound) / problem.gravity); };
-  if (limits.highest_normal_load) {
-    list.add_one("highest_normal_load", "m/s^2", Measure::normal_load, +1, *limits.highest_normal_load,
-                 problem.gravity, load_scale(*limits.highest_normal_load));
-  }
-  if (limits.lowest_normal_load) {
-    list.add_one("lowest_normal_load", "m/s^2", Measure::normal_load, -1, *limits.lowest_normal_load,
-                 problem.gravity, load_scale(*limits.lowest_normal_load));
-  }
-  if (limits.highest_curvature_load) {
-    list.add_one("highest_curvature_load", "m/s^2", Measure::curvature_load, +1,
-                 *limits.highest_curvature_load, problem.gravity, load_scale(*limits.highest_curvature_load));
-  }
-  list.add("speed", "m/s", Measure::speed, limits.speed, out.speed, 1.0);
-  list.add("exit_speed", "m/s", Measure::exit_speed, limits.exit_speed, out.speed, 1.0);
-  list.add("arc_length", "m", Measure::arc_length, limits.arc_length, chord, 1.0);
-  if (problem.finish.kind != FinishKind::point) {
-    list.add(problem.finish.kind == FinishKind::level ? "finish.run" : "finish.drop", "m",
-             Measure::finish_coordinate, problem.finish.free_range, chord, 1.0);
-  }
-
-  const auto add_obstacle = [&](const std::string& key, Obstacle obstacle, double clearance) {
-    for (Vec2& corner : obstacle.corners) corner = (1.0 / chord) * corner;
-    list.add_one(key, "m", Measure::distance, -1, clearance, chord, 1.0, out.obstacles.size());
-    out.obstacles.push_back(std::move(obstacle));
-  };
-  const auto indexed = [](const char* name, std::size_t i) { return name + ("[" + std::to_string(i) + "]"); };
-  for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
-    const HalfPlane& plane = limits.half_planes[i];
-    Obstacle obstacle;
-    obstacle.endless = true;
-    obstacle.forbidden = (1.0 / norm(plane.forbidden)) * plane.forbidden;
-    obstacle.corners = {plane.point};
-    add_obstacle(indexed("half_planes", i), obstacle, plane.clearance);
-  }
-  for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
-    Obstacle obstacle;
-    const bool above = passages[i] == Passage::above;
-    obstacle.side = above ? 1.0 : -1.0;
-    obstacle.corners = chain(limits.keep_outs[i].outline, above);
-    add_obstacle(indexed("keep_outs", i), obstacle, limits.keep_outs[i].clearance);
-  }
-  for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
-    Obstacle obstacle;
-    obstacle.corners = limits.stay_above[i].line;
-    add_obstacle(indexed("stay_above", i), obstacle, limits.stay_above[i].clearance);
-  }
-  for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
-    Obstacle obstacle;
-    obstacle.side = -1.0;
-    obstacle.corners = limits.stay_below[i].line;
-    add_obstacle(indexed("stay_below", i), obstacle, limits.stay_below[i].clearance);
-  }
-  for (std::size_t i = 0; i < limits.waypoints.size(); ++i) {
-    list.add_one(indexed("waypoints", i), "m", Measure::waypoint, 0, 0.0, chord, 1.0, i);
-    out.waypoints.push_back((1.0 / chord) * limits.waypoints[i]);
-  }
-  // Beyond the vertical a track would run backwards; the fastest one of all starts exactly vertical.
-  const auto add_upright = [&](bool given, int side) {
-    if (given) return;
-    LimitSpec upright;
-    upright.key = side > 0 ? "no steeper than vertical" : "no climb beyond the vertical";
-    upright.unit = "rad";
-    upright.measure = Measure::slope_angle;
-    upright.side = side;
-    upright.bound = side * 0.5 * std::numbers::pi;
-    upright.bound_si = upright.bound;
-    upright.built_in = true;
-    out.limits.push_back(upright);
-  };
-  add_upright(limits.slope_angle.highest.has_value(), +1);
-  add_upright(limits.slope_angle.lowest.has_value(), -1);
-  const auto add_length = [&](int side, double bound) {
-    LimitSpec length;
-    length.key = side > 0 ? "no longer than 20 chords" : "no shorter than the chord";
-    length.unit = "m";
-    length.measure = Measure::arc_length;
-    length.side = side;
-    length.bound = bound;
-    length.bound_si = bound * out.chord;
-    length.per_si = 1.0 / out.chord;
-    length.built_in = true;
-    out.limits.push_back(length);
-  };
-  // No track is shorter than a chord; none that is worth building is many times longer.
-  constexpr double kShortest = 0.9;
-  constexpr double kLongest = 20.0;
-  constexpr double kShortestCore = 0.05;
-  add_length(-1, std::max(kShortest, out.lead_in + out.lead_out + kShortestCore));
-  add_length(+1, kLongest);
-  // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
-  constexpr double kCreep = 1e-6;
-  LimitSpec arrival;
-  arrival.key = "arrival at the finish";
-  arrival.measure = Measure::arrival;
-  arrival.side = -1;
-  arrival.bound = kCreep;
-  arrival.built_in = true;
-  out.limits.push_back(arrival);
+  add_limits(problem, passages, out);
   return out;
 }
 
-namespace {
-
-/// Collects every broken bound of an input.
-class Checker {
- public:
-  void require(bool holds, const std::string& what, const char* why, const char* hint = "") {
-    if (!holds) issues_.push_back({"", what, why, hint});
-  }
-  void number(const char* name, double value, bool holds, const char* why) {
-    require(std::isfinite(value) && holds, std::string(name) + ": " + exact_text(value), why);
-  }
-  void optional(const char* name, const std::optional<double>& value, bool (*holds)(double),
-                const char* why) {
-    if (value) number(name, *value, holds(*value), why);
-  }
-  void range(const char* name, const Range& range, bool (*holds)(double), const char* why) {
-    optional(name, range.lowest, holds, why);
-    optional(name, range.highest, holds, why);
-    if (range.lowest && range.highest) {
-      require(*range.lowest <= *range.highest,
-              std::string(name) + ": lowest " + exact_text(*range.lowest) + " exceeds highest " +
-                  exact_text(*range.highest),
-              "a range needs lowest <= highest");
-    }
-  }
-  void points(const std::string& name, const std::vector<Vec2>& points, std::size_t least) {
-    require(points.size() >= least, name + ": " + std::to_string(points.size()) + " points",
-            "too few points for its shape");
-    for (const Vec2& point : points) {
-      require(std::isfinite(point.x) && std::isfinite(point.y), name + ": a coordinate is not finite",
-              "lengths are finite");
-    }
-  }
-  void finish() {
-    if (!issues_.empty()) throw InputError(std::move(issues_));
-  }
-
- private:
-  std::vector<Issue> issues_;
-};
-
-bool any(double) {
-  return true;
-}
-bool positive(double value) {
-  return value > 0.0;
-}
-bool not_negative(double value) {
-  return value >= 0.0;
-}
-bool upright(double value) {
-  return std::fabs(value) <= 0.5 * std::numbers::pi;
-}
-
-}  // namespace
-
-void require_valid(const Problem& problem) {
-  Checker check;
-  const Limits& limits = problem.limits;
-  const bool run_given = problem.finish.kind != FinishKind::level;
-  const bool drop_given = problem.finish.kind != FinishKind::vertical_line;
-  if (run_given) {
-    check.number("endpoints.run", problem.endpoints.run, problem.endpoints.run != 0.0,
-                 "a run of 0 is a fall straight down, which leaves nothing to optimise");
-  }
-  if (drop_given) {
-    check.number("endpoints.drop", problem.endpoints.drop, true, "the drop is a finite length");
-    check.require(problem.body.entry_speed > 0.0 || problem.endpoints.drop > 0.0,
-                  "endpoints.drop: " + exact_text(problem.endpoints.drop) + " m",
-                  "from rest the finish must lie below the start", "a positive drop, or an entry_speed");
-  }
-  if (problem.finish.kind == FinishKind::level) {
-    check.require(problem.endpoints.drop != 0.0, "endpoints.drop: 0 m", "a level finish needs a drop");
-  }
-  check.number("gravity", problem.gravity, problem.gravity > 0.0, "gravity is positive");
-  check.number("body.entry_speed", problem.body.entry_speed, problem.body.entry_speed >= 0.0,
-               "a speed is not negative");
-  check.number("body.drag_per_metre", problem.body.drag_per_metre, problem.body.drag_per_metre >= 0.0,
-               "drag is not negative");
-  if (problem.low_friction) {
-    check.require(*problem.low_friction <= problem.body.friction, "low_friction exceeds the body's friction",
-                  "a friction range needs low <= nominal <= high");
-  }
-  if (problem.high_friction) {
-    check.require(*problem.high_friction >= problem.body.friction,
-                  "high_friction is below the body's friction",
-                  "a friction range needs low <= nominal <= high");
-  }
-  check.number("objective.exit_speed_weight", problem.objective.exit_speed_weight,
-               problem.objective.exit_speed_weight >= 0.0, "a weight is not negative");
-  constexpr const char* kUpright = "slope angles of an optimised track lie within -90 and 90 deg";
-  check.range("entry_slope_angle", limits.entry_slope_angle, upright, kUpright);
-  check.range("exit_slope_angle", limits.exit_slope_angle, upright, kUpright);
-  check.range("slope_angle", limits.slope_angle, upright, kUpright);
-  check.optional("smallest_valley_radius", limits.smallest_valley_radius, positive, "a radius is positive");
-  check.optional("smallest_crest_radius", limits.smallest_crest_radius, positive, "a radius is positive");
-  check.optional("highest_curvature_rate", limits.highest_curvature_rate, positive,
-                 "a rate bound is positive");
-  check.optional("highest_normal_load", limits.highest_normal_load, positive,
-                 "the load of a straight is positive");
-  check.optional("lowest_normal_load", limits.lowest_normal_load, not_negative,
-                 "below 0 the body has left the track");
-  check.require(limits.lowest_normal_load.has_value(), "lowest_normal_load is lifted",
-                "friction of a body held from both sides is not modelled", "0 or a positive value");
-  check.optional("highest_curvature_load", limits.highest_curvature_load, positive,
-                 "a load bound is positive");
-  check.range("speed", limits.speed, positive, "a speed bound is positive");
-  check.range("exit_speed", limits.exit_speed, positive, "a speed bound is positive");
-  check.number("lowest_speed_from", limits.lowest_speed_from, limits.lowest_speed_from >= 0.0,
-               "an arc length is not negative");
-  check.range("arc_length", limits.arc_length, positive, "an arc length is positive");
-  check.range("finish.free_range", problem.finish.free_range, any, "a length is finite");
-  check.number("lead_in", limits.lead_in, limits.lead_in >= 0.0, "a length is not negative");
-  check.number("lead_out", limits.lead_out, limits.lead_out >= 0.0, "a length is not negative");
-  for (const HalfPlane& plane : limits.half_planes) {
-    check.require(norm(plane.forbidden) > 0.0 && std::isfinite(norm(plane.forbidden)) &&
-                      std::isfinite(norm(plane.point)),
-                  "half_planes: point or direction is not finite, or the direction has no length",
-                  "a half-plane needs a direction");
-    check.number("half_planes clearance", plane.clearance, plane.clearance >= 0.0,
-                 "a clearance is not negative");
-  }
-  for (const KeepOut& keep_out : limits.keep_outs) {
-    check.points("keep_outs outline", keep_out.outline, 3);
-    check.number("keep_outs clearance", keep_out.clearance, keep_out.clearance >= 0.0,
-                 "a clearance is not negative");
-  }
-  const auto check_profiles = [&](const char* name, const std::vector<Profile>& profiles) {
-    for (const Profile& profile : profiles) {
-      check.points(name, profile.line, 2);
-      check.number(name, profile.clearance, profile.clearance >= 0.0, "a clearance is not negative");
-      for (std::size_t i = 0; i + 1 < profile.line.size(); ++i) {
-        check.require(profile.line[i].x < profile.line[i + 1].x,
-                      std::string(name) + ": run " + exact_text(profile.line[i + 1].x) + " after " +
-                          exact_text(profile.line[i].x),
-                      "the runs of a profile ascend");
-      }
-    }
-  };
-  check_profiles("stay_above", limits.stay_above);
-  check_profiles("stay_below", limits.stay_below);
-  check.points("waypoints", limits.waypoints, 0);
-  check.finish();
-}
-
 void require_valid(const OptimizeOptions& options) {
-  Checker check;
-  check.require(options.pieces >= 8 && options.pieces <= 200, "pieces: " + std::to_string(options.pieces),
-                "8 <= pieces <= 200");
-  check.number("tolerance", options.tolerance, options.tolerance >= 1e-12 && options.tolerance <= 1e-3,
-               "1e-12 <= tolerance <= 1e-3");
-  check.number("limit_tolerance", options.limit_tolerance,
-               options.limit_tolerance >= 1e-10 && options.limit_tolerance <= 1e-4,
-               "1e-10 <= limit_tolerance <= 1e-4");
-  check.number("time_budget", options.time_budget, options.time_budget > 0.0, "a time budget is positive");
-  check.finish();
+  std::vector<Issue> issues;
+  const auto require = [&](bool holds, const std::string& what, const char* why) {
+    if (!holds) issues.push_back({"", what, why, ""});
+  };
+  const auto number = [&](const char* name, double value, bool holds, const char* why) {
+    require(std::isfinite(value) && holds, std::string(name) + ": " + exact_text(value), why);
+  };
+  require(options.pieces >= 8 && options.pieces <= 200, "pieces: " + std::to_string(options.pieces),
+          "8 <= pieces <= 200");
+  number("tolerance", options.tolerance, options.tolerance >= 1e-12 && options.tolerance <= 1e-3,
+         "1e-12 <= tolerance <= 1e-3");
+  number("limit_tolerance", options.limit_tolerance,
+         options.limit_tolerance >= 1e-10 && options.limit_tolerance <= 1e-4,
+         "1e-10 <= limit_tolerance <= 1e-4");
+  number("time_budget", options.time_budget, options.time_budget > 0.0, "a time budget is positive");
+  if (!issues.empty()) throw InputError(std::move(issues));
+}
+
+void require_searchable(const Problem& problem) {
+  require_valid(problem);
+  if (problem.limits.lowest_normal_load) return;
+  throw InputError({"", "lowest_normal_load is lifted",
+                    "The friction of a body held from both sides is not modelled.", "0 or a positive value"});
 }
 
 Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {

@@ -2,11 +2,12 @@
 
 #include "glissade/core/vec.hpp"
 #include "glissade/optimize/optimize.hpp"
+#include "glissade/task/limit_catalogue.hpp"
+#include "glissade/task/problem.hpp"
 
 #include "optimize/transcription.hpp"
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -31,8 +32,7 @@ enum class Measure {
 
 /// One limit, scaled.
 struct LimitSpec {
-  std::string key;   ///< as in the design file
-  std::string unit;  ///< of bound_si
+  LimitName name;
   Measure measure = Measure::slope_angle;
   int side = 0;              ///< +1: measure <= bound, -1: measure >= bound, 0: measure == bound
   double bound = 0.0;        ///< scaled; of a radius: the curvature
@@ -85,8 +85,10 @@ using Passages = std::vector<Passage>;
 /// @param core_length  about the length of the core [chords]
 [[nodiscard]] Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length);
 
+/// @throws InputError as require_valid() of a Problem, or if the lowest normal load is lifted, which no search can
+///         model
+void require_searchable(const Problem& problem);
 /// @throws InputError listing every field that breaks its bound
-void require_valid(const Problem& problem);
 void require_valid(const OptimizeOptions& options);
 
 }  // namespace glissade::optimizer

@@ -26,7 +26,7 @@ Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& fr
   design.body.low_friction.reset();
   design.body.high_friction.reset();
   // Not searched: where the objective would count the highest friction does not matter.
-  if (design.limits) design.limits->objective.worst_case = false;
+  design.objective.worst_case = false;
   return ride(design, centerline);
 }
 

@@ -16,11 +16,6 @@ using namespace report;
 
 namespace {
 
-std::string objective_unit(const Design& design) {
-  const bool speed_counts = design.limits && design.limits->objective.kind == ObjectiveDesignKind::exit_speed;
-  return speed_counts ? "m/s" : "s";
-}
-
 Json task_document(const Design& design, const Endpoints& endpoints) {
   Json json;
   json["glissade"] = version();
@@ -91,7 +86,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   }
   json["rides"] = Json::array();
   json["limits"] = limits_json(report.checks);
-  json["search"] = search_json(report, objective_unit(design));
+  json["search"] = search_json(report);
   return json;
 }
 
@@ -106,7 +101,7 @@ Json pipeline::track_document(const Design& design, const Track& track) {
   add_curve(json, track);
   json["rides"] = rides_of(track);
   json["limits"] = limits_json(track.limit_checks);
-  json["search"] = track.search ? search_json(*track.search, objective_unit(design)) : Json(nullptr);
+  json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
   return json;
 }
 

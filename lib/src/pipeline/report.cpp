@@ -117,9 +117,8 @@ ReportCheck search(const OptimizeReport& search) {
 }
 
 std::vector<ReportLimit> limits_of(const Design& design, const Track& track) {
-  const bool speed_counts = design.limits && design.limits->objective.kind == ObjectiveDesignKind::exit_speed;
   return report_limits(track.limit_checks, track.search ? track.search->active : std::vector<ActiveLimit>{},
-                       speed_counts ? "m/s" : "s");
+                       design.objective);
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ CenterlinePtr make_centerline(const Design& design) {
 }
 
 Track ride(const Design& design, CenterlinePtr centerline) {
-  const bool chosen = is_drawn(design.centerline.kind) || design.track.free_finish != FreeFinish::none;
+  const bool chosen = is_drawn(design.centerline.kind) || design.track.free_finish != FinishKind::point;
   const Endpoints endpoints = chosen ? endpoints_of(*centerline) : endpoints_of(design);
   const Body body{design.body.friction, design.body.entry_speed, design.body.drag_per_metre};
 
@@ -178,7 +178,7 @@ Track solve(const Design& design, const RunContext& context) {
   require_sound(design);
   if (context.progress) context.progress("finding the track", -1.0);
   // The closed form knows neither limits nor a finish that it may choose.
-  const bool searched = design.limits || design.track.free_finish != FreeFinish::none;
+  const bool searched = design.limits || design.track.free_finish != FinishKind::point;
   if (!searched || design.centerline.kind != CenterlineKind::fastest) {
     return ride(design, make_centerline(design));
   }

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -34,5 +35,15 @@ enum class Dimension {
 /// @throws InputError if the number is malformed or out of the range of a double, the unit is missing,
 ///         unknown or of another dimension; the message lists the units that fit
 [[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension, std::string_view name);
+
+/// @return the unit that messages give such a value in: "deg", "m", "m/s^2", ...; empty for a number
+[[nodiscard]] std::string_view unit_for_people(Dimension dimension);
+/// @param value  SI, rad
+/// @return it in unit_for_people()
+[[nodiscard]] double in_unit_for_people(double value, Dimension dimension);
+/// @param value  SI, rad
+/// @return the value with a unit, for people: "17 deg", "412 mm", "5.4 m", "9.81 m/s^2"; "unbounded" for
+///         infinity
+[[nodiscard]] std::string quantity_text(double value, Dimension dimension, int digits = 4);
 
 }  // namespace glissade

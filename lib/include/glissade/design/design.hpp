@@ -3,7 +3,9 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
-#include "glissade/design/limits_design.hpp"
+#include "glissade/task/finish.hpp"
+#include "glissade/task/limits.hpp"
+#include "glissade/task/objective.hpp"
 
 #include <filesystem>
 #include <map>
@@ -17,13 +19,6 @@ namespace glissade {
 /// A design file as plain values: the schema is these structs, docs/design-file.md describes them.
 /// SI units and radians throughout; the file itself gives every dimensional value with its unit.
 
-/// Which coordinate of the finish the fastest track may choose itself.
-enum class FreeFinish {
-  none,    ///< the finish is a point
-  height,  ///< anywhere on a vertical line: z is free
-  run      ///< anywhere on a level: x is free
-};
-
 struct TrackDesign {
   Vec3 start;  ///< [m], z up
   /// [m]; below the start, unless the body enters fast enough. For `segments` without a finish in the file it
@@ -31,8 +26,8 @@ struct TrackDesign {
   /// +x. Of a free coordinate it holds some value within its range.
   Vec3 finish;
   bool finish_given = true;  ///< false only for `segments` and `points` whose file leaves the finish out
-  FreeFinish free_finish = FreeFinish::none;
-  LimitRange free_range;  ///< of the free coordinate, x or z [m]
+  FinishKind free_finish = FinishKind::point;  ///< z is free on a vertical_line, x on a level
+  Range free_range;                            ///< of the free coordinate, x or z [m]
 };
 
 /// How well a finish that is given must agree with the end of a drawn track, of the distance to the start.
@@ -125,7 +120,11 @@ struct Design {
   BodyDesign body;
   double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
   CenterlineDesign centerline;
-  std::optional<LimitsDesign> limits;  ///< the kind `fastest` is searched for within them, others are checked
+  /// The kind `fastest` is searched for within them, others are checked. Their points are (x, z) as the file gives
+  /// them: x is the design's x for a track along the x axis, otherwise the horizontal distance from the start
+  /// towards the finish; in_track_plane() turns them into run and drop.
+  std::optional<Limits> limits;
+  Objective objective;  ///< what the search is for
   std::optional<CrossSectionDesign> cross_section;
   MeshDesign mesh;
   ExportDesign exports;

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
-#include "glissade/core/friction_level.hpp"
 #include "glissade/core/progress.hpp"
 #include "glissade/core/units.hpp"
-#include "glissade/motion/motion.hpp"
-#include "glissade/optimize/limits.hpp"
+#include "glissade/referee/referee.hpp"
+#include "glissade/task/problem.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -14,42 +13,6 @@
 #include <vector>
 
 namespace glissade {
-
-/// Where the track may end.
-enum class FinishKind {
-  point,          ///< at Endpoints
-  vertical_line,  ///< at run = Endpoints::run, drop within Finish::free_range
-  level           ///< at drop = Endpoints::drop, run within Finish::free_range
-};
-
-struct Finish {
-  FinishKind kind = FinishKind::point;
-  Range free_range;  ///< of the coordinate that is free [m]; unlimited where left out
-};
-
-enum class ObjectiveKind {
-  travel_time,  ///< least T
-  exit_speed,   ///< greatest u(S)
-  blend         ///< least T - exit_speed_weight * u(S)
-};
-
-struct Objective {
-  ObjectiveKind kind = ObjectiveKind::travel_time;
-  double exit_speed_weight = 0.0;  ///< of `blend`: seconds given for one m/s of exit speed [s/(m/s)]; >= 0
-  bool worst_case = false;         ///< at the highest friction of the range instead of the body's own
-};
-
-/// What is asked: a body, two ends, and the limits between them.
-struct Problem {
-  Endpoints endpoints;  ///< run != 0; runs of limits count towards the finish, whichever side it lies on
-  Finish finish;
-  Body body;                              ///< body.friction is the nominal friction
-  std::optional<Friction> low_friction;   ///< <= body.friction; limits hold there too
-  std::optional<Friction> high_friction;  ///< >= body.friction; limits hold there too
-  double gravity = kDefaultGravity;       ///< [m/s^2]; > 0
-  Limits limits;
-  Objective objective;
-};
 
 struct OptimizeOptions {
   int pieces = 32;          ///< clothoids between the places where limits change over; 8 <= pieces <= 200
@@ -76,49 +39,25 @@ struct Stretch {
 
 /// A limit that holds the optimum back, where, and what it costs.
 struct ActiveLimit {
-  std::string limit;           ///< key as in the design file: "slope_angle.highest", "keep_outs[0]", ...
-  double value = 0.0;          ///< the bound [unit]
-  std::string unit;            ///< "rad", "m", "m/s^2", "m/s", "1/m", "1/m^2"
+  LimitName limit;
+  double value = 0.0;          ///< the bound [SI]
   std::vector<Stretch> where;  ///< where the track lies at the bound, in order
   /// Seconds of the objective won for each unit by which the bound is relaxed (of an objective exit_speed:
   /// m/s); >= 0. The first-order multiplier; of a radius it belongs to a smaller radius.
   double price = 0.0;
 };
 
-/// Greatest violation of a limit that still counts as kept, in the scale of the limit.
-inline constexpr double kLimitAccuracy = 1e-6;
-
-/// How well the referee finds one limit kept.
-struct LimitCheck {
-  std::string limit;
-  double value = 0.0;      ///< the bound, SI
-  double reached = 0.0;    ///< the worst value that the referee found, SI; may be infinite (curvature rate)
-  double violation = 0.0;  ///< by which it breaks the bound [unit]; 0 where kept
-  double scale = 1.0;      ///< what a violation is measured against [unit]; > 0
-  double where = 0.0;      ///< arc length of the worst value [m]
-  std::string unit;
-  int side = 0;  ///< +1: at most `value`, -1: at least, 0: exactly
-  /// Of a problem with a friction range: at which of its frictions the worst value was reached; none where
-  /// friction has no part in it.
-  std::optional<FrictionLevel> friction = {};
-
-  /// @return violation <= kLimitAccuracy * scale
-  [[nodiscard]] bool kept() const { return violation <= kLimitAccuracy * scale; }
-};
-
 /// The smallest change of one limit, all others kept, that would make the problem solvable.
 struct Relaxation {
-  std::string limit;
+  LimitName limit;
   double value = 0.0;   ///< the bound now, SI
   double needed = 0.0;  ///< the bound that would do, SI
-  std::string unit;
 };
 
 /// A limit as the problem states it.
 struct StatedLimit {
-  std::string limit;
+  LimitName limit;
   std::optional<double> value;  ///< SI; none for what holds without being asked for
-  std::string unit;
 };
 
 /// Why there is no track.
@@ -134,6 +73,8 @@ struct Conflict {
 struct OptimizeReport {
   OptimizeStatus status = OptimizeStatus::no_track_found;
   std::string message;  ///< one sentence on how the search ended
+
+  Objective objective;  ///< what was searched for; it says what a price is in
 
   double travel_time = 0.0;  ///< by the referee, at nominal friction [s]
   double exit_speed = 0.0;   ///< by the referee, at nominal friction [m/s]
@@ -173,14 +114,6 @@ struct Optimum {
 /// @throws InputError if a field of problem or options breaks its stated bound
 [[nodiscard]] Optimum optimize(const Problem& problem, const OptimizeOptions& options = {},
                                const std::stop_token& stop = {}, const Progress& progress = {});
-
-/// Holds any track against the limits of a problem, sampled ten times finer than optimize() looks: each limit
-/// with its worst value and the place, at every friction of the range. Where a body of the range does not
-/// arrive, limits on its motion are held against the part that it rides, and "arrival_at_low_friction" or
-/// "arrival_at_high_friction" tells how far it comes; at the nominal friction Motion tells.
-/// @param track  leads to problem.finish; its own run counts towards the finish
-/// @throws InputError if there is no track, or as optimize()
-[[nodiscard]] std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track);
 
 /// Greatest relative excess of travel time over the exact optimum without limits, mu 0 to 1, H/L from 1.02 mu
 /// to 5, default options.

@@ -80,10 +80,9 @@ struct ReportInput {
 
 /// What the referee found of each limit, in the units that people use: one row a limit, a limit that holds
 /// the track back with what it costs. "violated" is what LimitCheck::kept() denies.
-/// @param objective_unit  of the prices: "s", or "m/s" where the objective is the exit speed
 [[nodiscard]] std::vector<ReportLimit> report_limits(const std::vector<LimitCheck>& checks,
                                                      const std::vector<ActiveLimit>& active = {},
-                                                     const std::string& objective_unit = "s");
+                                                     const Objective& objective = {});
 
 /// Where a design keeps its track out: polygons, grounds and ceilings (open lines), half-planes (an open line
 /// as long as the chord). Clearances are not drawn.

@@ -1,5 +1,8 @@
 #include "report/serial/vocabulary.hpp"
 
+#include "glissade/core/quantity.hpp"
+#include "glissade/task/limit_catalogue.hpp"
+
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -24,9 +27,14 @@ Json lift_off_json(const std::optional<LiftOff>& lift_off) {
           {"curvature_per_m", number(lift_off->curvature)}};
 }
 
-const char* side_name(int side) {
-  if (side == 0) return "exactly";
-  return side > 0 ? "at most" : "at least";
+const char* side_name(Bound bound) {
+  if (bound == Bound::exactly) return "exactly";
+  return bound == Bound::highest ? "at most" : "at least";
+}
+
+/// A bound or a violation: angles in degrees, everything else in SI units.
+Json in_unit(double value, const LimitName& limit) {
+  return number(in_unit_for_people(value, limit.dimension()));
 }
 
 Json level_json(const std::optional<FrictionLevel>& level) {
@@ -35,17 +43,17 @@ Json level_json(const std::optional<FrictionLevel>& level) {
 
 Json conflict_json(const Conflict& conflict) {
   Json limits = Json::array();
-  for (const StatedLimit& stated : conflict.limits) limits.push_back(stated.limit);
+  for (const StatedLimit& stated : conflict.limits) limits.push_back(stated.limit.key());
   return limits;
 }
 
 Json relaxations_json(const Conflict& conflict) {
   Json relaxations = Json::array();
   for (const Relaxation& relaxation : conflict.relaxations) {
-    relaxations.push_back({{"limit", relaxation.limit},
-                           {"bound", in_unit(relaxation.value, relaxation.unit)},
-                           {"needed", in_unit(relaxation.needed, relaxation.unit)},
-                           {"unit", unit_name(relaxation.unit)}});
+    relaxations.push_back({{"limit", relaxation.limit.key()},
+                           {"bound", in_unit(relaxation.value, relaxation.limit)},
+                           {"needed", in_unit(relaxation.needed, relaxation.limit)},
+                           {"unit", unit_for_people(relaxation.limit.dimension())}});
   }
   return relaxations;
 }
@@ -66,14 +74,6 @@ double degrees(double radians) {
 
 Json position_json(Vec3 position) {
   return Json::array({position.x, position.y, position.z});
-}
-
-std::string unit_name(const std::string& unit) {
-  return unit == "rad" ? "deg" : unit;
-}
-
-Json in_unit(double value, const std::string& unit) {
-  return number(unit == "rad" ? degrees(value) : value);
 }
 
 void add_friction(Json& json, const Friction& friction) {
@@ -122,31 +122,31 @@ Json ride_json(FrictionLevel level, const Motion& motion, const std::optional<An
 }
 
 Json check_json(const LimitCheck& check) {
-  return {{"limit", check.limit},
-          {"side", side_name(check.side)},
-          {"bound", in_unit(check.value, check.unit)},
-          {"reached", in_unit(check.reached, check.unit)},
-          {"unit", unit_name(check.unit)},
+  return {{"limit", check.limit.key()},
+          {"side", side_name(check.limit.bound)},
+          {"bound", in_unit(check.value, check.limit)},
+          {"reached", in_unit(check.reached, check.limit)},
+          {"unit", unit_for_people(check.limit.dimension())},
           {"at_m", check.where},
           {"friction", level_json(check.friction)},
           {"kept", check.kept()},
-          {"violation", in_unit(check.violation, check.unit)},
+          {"violation", in_unit(check.violation, check.limit)},
           {"violation_of_scale", number(check.violation / check.scale)}};
 }
 
-Json active_json(const ActiveLimit& active, const std::string& objective_unit) {
+Json active_json(const ActiveLimit& active, const Objective& objective) {
   Json where = Json::array();
   for (const Stretch& stretch : active.where)
     where.push_back({{"from_m", stretch.from}, {"to_m", stretch.to}});
-  // A price is per unit: what is a value of one radian is a price of 57.3 times as much as one per degree.
-  const double price = active.unit == "rad" ? active.price / degrees(1.0) : active.price;
-  return {
-      {"limit", active.limit},          {"bound", in_unit(active.value, active.unit)},
-      {"unit", unit_name(active.unit)}, {"where", std::move(where)},
-      {"price", number(price)},         {"price_unit", objective_unit + " per " + unit_name(active.unit)}};
+  return {{"limit", active.limit.key()},
+          {"bound", in_unit(active.value, active.limit)},
+          {"unit", unit_for_people(active.limit.dimension())},
+          {"where", std::move(where)},
+          {"price", number(price_for_people(active.price, active.limit))},
+          {"price_unit", price_unit(active.limit, objective)}};
 }
 
-Json search_json(const OptimizeReport& report, const std::string& objective_unit) {
+Json search_json(const OptimizeReport& report) {
   const bool found = report.travel_time > 0.0;
   const bool contradictory = report.status == OptimizeStatus::infeasible;
   Json json;
@@ -159,7 +159,7 @@ Json search_json(const OptimizeReport& report, const std::string& objective_unit
   json["first_order_residual"] = found ? number(report.first_order_residual) : Json(nullptr);
   json["active"] = Json::array();
   for (const ActiveLimit& active : report.active)
-    json["active"].push_back(active_json(active, objective_unit));
+    json["active"].push_back(active_json(active, report.objective));
   json["rounds"] = report.iterations;
   json["evaluations"] = report.evaluations;
   json["seconds"] = report.seconds;

@@ -26,11 +26,6 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json number(const std::optional<double>& value);
 [[nodiscard]] double degrees(double radians);
 [[nodiscard]] Json position_json(Vec3 position);
-/// @return "deg" for "rad"; every other unit is written as it is
-[[nodiscard]] std::string unit_name(const std::string& unit);
-/// @return a value of that unit, angles in degrees
-[[nodiscard]] Json in_unit(double value, const std::string& unit);
-
 /// friction_coefficient, friction_angle_deg
 void add_friction(Json& json, const Friction& friction);
 /// The friction, entry_speed_m_per_s, drag_per_m, gravity_m_per_s2
@@ -45,10 +40,9 @@ void add_ride(Json& json, const Motion& motion);
                              const std::optional<Angle>& stall_angle);
 
 [[nodiscard]] Json check_json(const LimitCheck& check);
-/// @param objective_unit  what prices are counted in: "s", or "m/s" where exit speed is the objective
-[[nodiscard]] Json active_json(const ActiveLimit& active, const std::string& objective_unit);
+[[nodiscard]] Json active_json(const ActiveLimit& active, const Objective& objective);
 /// @return how a search ended; conflict and relaxations are null unless the limits contradict each other
-[[nodiscard]] Json search_json(const OptimizeReport& report, const std::string& objective_unit);
+[[nodiscard]] Json search_json(const OptimizeReport& report);
 
 [[nodiscard]] Json mesh_json(const MeshFacts& facts);
 

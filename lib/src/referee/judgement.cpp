@@ -1,6 +1,7 @@
-#include "optimize/referee.hpp"
+#include "referee/judgement.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/motion/motion.hpp"
 
@@ -13,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace glissade::optimizer {
+namespace glissade::referee {
 namespace {
 
 double distance_to_polygon(Vec2 point, const std::vector<Vec2>& outline) {
@@ -76,12 +77,11 @@ double distance_to_keep_out(Vec2 point, const KeepOut& keep_out) {
 /// Keeps the worst value of one limit while the track is sampled, and that of each stretch that breaks it.
 class Watch {
  public:
-  Watch(std::string limit, const char* unit, int side, double bound, double scale)
-      : check_{std::move(limit), bound, 0.0, 0.0, scale, 0.0, unit, side, {}} {}
+  Watch(const LimitName& limit, double bound, double scale)
+      : check_{limit, bound, 0.0, 0.0, scale, 0.0, {}} {}
 
   void see(double value, double where, std::optional<FrictionLevel> friction = {}) {
-    const double excess =
-        check_.side == 0 ? std::fabs(value - check_.value) : check_.side * (value - check_.value);
+    const double excess = excess_of(value);
     see_broken(excess / check_.scale, where);
     // A friction that changes nothing but the last digits is not the one at which a limit binds.
     constexpr double kSameDigits = 1e-12;
@@ -99,6 +99,18 @@ class Watch {
   [[nodiscard]] const std::vector<Broken>& broken() const { return broken_; }
 
  private:
+  [[nodiscard]] double excess_of(double value) const {
+    switch (check_.limit.bound) {
+      case Bound::highest:
+        return value - check_.value;
+      case Bound::lowest:
+        return check_.value - value;
+      case Bound::exactly:
+        break;
+    }
+    return std::fabs(value - check_.value);
+  }
+
   void see_broken(double violation, double where) {
     constexpr double kRounding = 1e-12;
     const bool goes_on = breaking_ && where >= last_;
@@ -139,10 +151,6 @@ std::vector<double> sampled(const Centerline& track, const Limits& limits, int s
   return stations;
 }
 
-std::string indexed(const char* name, std::size_t i) {
-  return name + ("[" + std::to_string(i) + "]");
-}
-
 /// All watches of a problem, and how to feed them.
 class Watches {
  public:
@@ -151,90 +159,67 @@ class Watches {
   void at_point(const CenterlinePoint& point) {
     const Limits& limits = problem_.limits;
     const double s = point.arc_length;
-    range("slope_angle", "rad", limits.slope_angle, 1.0, point.slope_angle, s);
+    see(LimitId::slope_angle, point.slope_angle, s);
     const Vec2 place{point.x, point.drop};
     for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
       const HalfPlane& plane = limits.half_planes[i];
       const double depth = dot(place - plane.point, plane.forbidden) / norm(plane.forbidden);
-      least(indexed("half_planes", i), plane.clearance, -depth, s);
+      see_item(LimitId::half_planes, i, plane.clearance, -depth, s);
     }
     for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
       const KeepOut& keep_out = limits.keep_outs[i];
-      least(indexed("keep_outs", i), keep_out.clearance, distance_to_keep_out(place, keep_out), s);
+      see_item(LimitId::keep_outs, i, keep_out.clearance, distance_to_keep_out(place, keep_out), s);
     }
     for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
       const Profile& profile = limits.stay_above[i];
-      least(indexed("stay_above", i), profile.clearance, distance_to_profile(place, profile.line, 1.0), s);
+      see_item(LimitId::stay_above, i, profile.clearance, distance_to_profile(place, profile.line, 1.0), s);
     }
     for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
       const Profile& profile = limits.stay_below[i];
-      least(indexed("stay_below", i), profile.clearance, distance_to_profile(place, profile.line, -1.0), s);
+      see_item(LimitId::stay_below, i, profile.clearance, distance_to_profile(place, profile.line, -1.0), s);
     }
   }
 
   /// `curvature` and `load` count on each side of a joint.
   void at_curvature(double s, double curvature) {
-    const Limits& limits = problem_.limits;
-    if (limits.smallest_valley_radius && curvature > 0.0)
-      radius("smallest_valley_radius", *limits.smallest_valley_radius, curvature, s);
-    if (limits.concave) {
-      watch("concave", "1/m", -1, 0.0, 1.0 / chord_).see(curvature, s);
-    } else if (limits.smallest_crest_radius && curvature < 0.0) {
-      radius("smallest_crest_radius", *limits.smallest_crest_radius, -curvature, s);
+    if (curvature > 0.0) see(LimitId::smallest_valley_radius, 1.0 / curvature, s);
+    if (problem_.limits.concave) {
+      watch({LimitId::concave, Bound::lowest}, 0.0, 1.0 / chord_).see(curvature, s);
+    } else if (curvature < 0.0) {
+      see(LimitId::smallest_crest_radius, -1.0 / curvature, s);
     }
   }
 
-  void at_rate(double s, double rate) {
-    const auto& bound = problem_.limits.highest_curvature_rate;
-    if (bound) watch("highest_curvature_rate", "1/m^2", +1, *bound, *bound).see(std::fabs(rate), s);
-  }
+  void at_rate(double s, double rate) { see(LimitId::highest_curvature_rate, std::fabs(rate), s); }
 
   /// What is seen from here on is of the ride at this friction, or of none.
   void ride_at(std::optional<FrictionLevel> friction) { friction_ = friction; }
 
   void at_state(const MotionState& state, const CenterlinePoint& point) {
-    const Limits& limits = problem_.limits;
     const double s = state.arc_length;
     // Unbounded curvature at a start from rest loads the track all the same no more than finitely.
     const double curvature_load = std::isfinite(point.curvature)
                                       ? point.curvature * state.speed * state.speed
                                       : state.normal_load - problem_.gravity * math::cos(point.slope_angle);
-    const double speed_scale = std::sqrt(problem_.gravity * chord_);
-    if (limits.highest_normal_load) {
-      watch("highest_normal_load", "m/s^2", +1, *limits.highest_normal_load,
-            load_scale(*limits.highest_normal_load))
-          .see(state.normal_load, s, friction_);
-    }
-    if (limits.lowest_normal_load) {
-      watch("lowest_normal_load", "m/s^2", -1, *limits.lowest_normal_load,
-            load_scale(*limits.lowest_normal_load))
-          .see(state.normal_load, s, friction_);
-    }
-    if (limits.highest_curvature_load) {
-      watch("highest_curvature_load", "m/s^2", +1, *limits.highest_curvature_load,
-            load_scale(*limits.highest_curvature_load))
-          .see(curvature_load, s, friction_);
-    }
-    if (limits.speed.highest)
-      watch("speed.highest", "m/s", +1, *limits.speed.highest, speed_scale).see(state.speed, s, friction_);
-    if (limits.speed.lowest && s >= limits.lowest_speed_from) {
-      watch("speed.lowest", "m/s", -1, *limits.speed.lowest, speed_scale).see(state.speed, s, friction_);
+    see(LimitId::highest_normal_load, state.normal_load, s);
+    see(LimitId::lowest_normal_load, state.normal_load, s);
+    see(LimitId::highest_curvature_load, curvature_load, s);
+    const Range& speed = problem_.limits.speed;
+    if (s >= problem_.limits.lowest_speed_from) {
+      see(LimitId::speed, state.speed, s);
+    } else if (speed.highest) {
+      see_side({LimitId::speed, Bound::highest}, *speed.highest, state.speed, s);
     }
   }
 
-  void at_exit_speed(double exit_speed, double end) {
-    range("exit_speed", "m/s", problem_.limits.exit_speed, std::sqrt(problem_.gravity * chord_), exit_speed,
-          end);
-  }
+  void at_exit_speed(double exit_speed, double end) { see(LimitId::exit_speed, exit_speed, end); }
 
   void at_end(const Centerline& track) {
-    const Limits& limits = problem_.limits;
     const double end = track.length();
-    const CenterlinePoint first = track.at(0.0);
     const CenterlinePoint last = track.at(end);
-    range("entry_slope_angle", "rad", limits.entry_slope_angle, 1.0, first.slope_angle, 0.0);
-    range("exit_slope_angle", "rad", limits.exit_slope_angle, 1.0, last.slope_angle, end);
-    range("arc_length", "m", limits.arc_length, chord_, end, end);
+    see(LimitId::entry_slope_angle, track.at(0.0).slope_angle, 0.0);
+    see(LimitId::exit_slope_angle, last.slope_angle, end);
+    see(LimitId::arc_length, end, end);
     const double miss_run = last.x - std::fabs(problem_.endpoints.run);
     const double miss_drop = last.drop - problem_.endpoints.drop;
     double miss = 0.0;
@@ -244,34 +229,34 @@ class Watches {
         break;
       case FinishKind::vertical_line:
         miss = std::fabs(miss_run);
-        range("finish.drop", "m", problem_.finish.free_range, chord_, last.drop, end);
+        see_range(LimitId::finish_drop, problem_.finish.free_range, last.drop, end);
         break;
       case FinishKind::level:
         miss = std::fabs(miss_drop);
-        range("finish.run", "m", problem_.finish.free_range, chord_, last.x, end);
+        see_range(LimitId::finish_run, problem_.finish.free_range, last.x, end);
         break;
     }
-    watch("finish", "m", 0, 0.0, chord_).see(miss, end);
+    see_side({LimitId::finish, Bound::exactly}, 0.0, miss, end);
   }
 
   /// @param in,out  lengths of the straights that the track starts and ends with
   void at_leads(double in, double out, double length) {
-    if (problem_.limits.lead_in > 0.0) least("lead_in", problem_.limits.lead_in, in, in);
-    if (problem_.limits.lead_out > 0.0) least("lead_out", problem_.limits.lead_out, out, length - out);
+    see(LimitId::lead_in, in, in);
+    see(LimitId::lead_out, out, length - out);
   }
 
   /// How far the body comes at a friction that is not the nominal one.
-  void at_arrival(const std::string& limit, double distance, double length) {
-    watch(limit, "m", -1, length, chord_).see(distance, distance, friction_);
+  void at_arrival(LimitId limit, double distance, double length) {
+    see_side({limit, Bound::lowest}, length, distance, distance);
   }
 
   void near(std::size_t waypoint, double distance, double s) {
-    watch(indexed("waypoints", waypoint), "m", 0, 0.0, chord_).see(distance, s);
+    see_item(LimitId::waypoints, waypoint, 0.0, distance, s);
   }
 
   [[nodiscard]] std::vector<Broken> broken() const {
     std::vector<Broken> result;
-    for (const auto& [name, watch] : watches_) {
+    for (const Watch& watch : watches_) {
       result.insert(result.end(), watch.broken().begin(), watch.broken().end());
     }
     return result;
@@ -279,42 +264,70 @@ class Watches {
 
   [[nodiscard]] std::vector<LimitCheck> checks() const {
     std::vector<LimitCheck> result;
-    for (const auto& [name, watch] : watches_) {
+    for (const Watch& watch : watches_) {
       if (watch.seen()) result.push_back(watch.check());
     }
     return result;
   }
 
  private:
-  [[nodiscard]] double load_scale(double bound) const { return std::max(problem_.gravity, std::fabs(bound)); }
-
-  Watch& watch(const std::string& limit, const char* unit, int side, double bound, double scale) {
-    const auto found = std::find_if(watches_.begin(), watches_.end(),
-                                    [&](const auto& entry) { return entry.first == limit; });
-    if (found != watches_.end()) return found->second;
-    watches_.emplace_back(limit, Watch(limit, unit, side, bound, scale));
-    return watches_.back().second;
+  /// Holds a value against whatever the limit asks for, if anything.
+  void see(LimitId id, double value, double s) {
+    const LimitEntry& entry = entry_of(id);
+    const Limits& limits = problem_.limits;
+    if (entry.range != nullptr) see_range(id, range_of(entry, limits), value, s);
+    if (entry.value != nullptr && limits.*entry.value)
+      see_side({id, entry.bound}, *(limits.*entry.value), value, s);
+    if (entry.length != nullptr && limits.*entry.length > 0.0) {
+      see_side({id, entry.bound}, limits.*entry.length, value, s);
+    }
   }
-  void range(const std::string& limit, const char* unit, const Range& range, double scale, double value,
-             double s) {
-    if (range.lowest && range.highest && *range.lowest == *range.highest) {
-      watch(limit, unit, 0, *range.lowest, scale).see(value, s, friction_);
+
+  void see_range(LimitId id, const Range& range, double value, double s) {
+    if (range.is_fixed() && entry_of(id).fixable) {
+      see_side({id, Bound::exactly}, *range.lowest, value, s);
       return;
     }
-    if (range.lowest) watch(limit + ".lowest", unit, -1, *range.lowest, scale).see(value, s, friction_);
-    if (range.highest) watch(limit + ".highest", unit, +1, *range.highest, scale).see(value, s, friction_);
+    if (range.lowest) see_side({id, Bound::lowest}, *range.lowest, value, s);
+    if (range.highest) see_side({id, Bound::highest}, *range.highest, value, s);
   }
-  void least(const std::string& limit, double bound, double value, double s) {
-    watch(limit, "m", -1, bound, chord_).see(value, s);
+
+  void see_item(LimitId id, std::size_t index, double bound, double value, double s) {
+    see_side({id, entry_of(id).bound, index}, bound, value, s);
   }
-  void radius(const std::string& limit, double bound, double curvature, double s) {
-    watch(limit, "m", -1, bound, bound).see(1.0 / curvature, s);
+
+  void see_side(const LimitName& limit, double bound, double value, double s) {
+    watch(limit, bound, scale_of(limit, bound)).see(value, s, friction_);
+  }
+
+  /// What a violation is measured against.
+  [[nodiscard]] double scale_of(const LimitName& limit, double bound) const {
+    if (limit.is_radius()) return bound;
+    switch (limit.dimension()) {
+      case Dimension::length:
+        return chord_;
+      case Dimension::speed:
+        return std::sqrt(problem_.gravity * chord_);
+      case Dimension::acceleration:
+        return std::max(problem_.gravity, std::fabs(bound));
+      case Dimension::per_area:
+        return bound;
+      default:
+        return 1.0;
+    }
+  }
+
+  Watch& watch(const LimitName& limit, double bound, double scale) {
+    const auto found = std::find_if(watches_.begin(), watches_.end(),
+                                    [&](const Watch& known) { return known.check().limit == limit; });
+    if (found != watches_.end()) return *found;
+    return watches_.emplace_back(limit, bound, scale);
   }
 
   const Problem& problem_;
   double chord_;
   std::optional<FrictionLevel> friction_;
-  std::vector<std::pair<std::string, Watch>> watches_;
+  std::vector<Watch> watches_;
 };
 
 double closest_approach(const Centerline& track, const std::vector<CenterlinePoint>& points, Vec2 target,
@@ -406,33 +419,37 @@ std::pair<double, double> straight_ends(const std::vector<CenterlinePoint>& poin
   return {in > kNothing * last.arc_length ? in : 0.0, out > kNothing * last.arc_length ? out : 0.0};
 }
 
-/// A friction that limits hold at, and what the check of arriving there is called; empty: the nominal one.
+/// A friction that limits hold at, and what the check of arriving there is called; none: the nominal one.
 struct NamedFriction {
   Friction friction;
   std::optional<FrictionLevel> level;  ///< none where there is no range
-  std::string arrival;
+  std::optional<LimitId> arrival;
 };
 
 std::vector<NamedFriction> frictions_of(const Problem& problem) {
   using enum FrictionLevel;
   const bool ranges = problem.low_friction || problem.high_friction;
   std::vector<NamedFriction> frictions{
-      {problem.body.friction, ranges ? std::optional(nominal) : std::nullopt, ""}};
-  if (problem.low_friction) frictions.push_back({*problem.low_friction, low, "arrival_at_low_friction"});
-  if (problem.high_friction) frictions.push_back({*problem.high_friction, high, "arrival_at_high_friction"});
+      {problem.body.friction, ranges ? std::optional(nominal) : std::nullopt, {}}};
+  if (problem.low_friction) {
+    frictions.push_back({*problem.low_friction, low, LimitId::arrival_at_low_friction});
+  }
+  if (problem.high_friction) {
+    frictions.push_back({*problem.high_friction, high, LimitId::arrival_at_high_friction});
+  }
   return frictions;
 }
 
 }  // namespace
 
-const LimitCheck* Verdict::find(const std::string& limit) const {
+const LimitCheck* Judgement::find(const LimitName& limit) const {
   const auto found = std::find_if(checks.begin(), checks.end(),
                                   [&](const LimitCheck& check) { return check.limit == limit; });
   return found == checks.end() ? nullptr : &*found;
 }
 
-Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
-                    BrokenRides broken_rides) {
+Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
+                      BrokenRides broken_rides) {
   const CenterlinePoint end = track->at(track->length());
   const double chord = math::hypot(end.x, end.drop);
   const std::vector<double> stations = sampled(*track, problem.limits, samples);
@@ -451,23 +468,23 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
     watches.near(i, distance, where);
   }
 
-  Verdict verdict;
-  verdict.arrived = true;
+  Judgement judgement;
+  judgement.arrived = true;
   for (const auto& [friction, level, arrival] : frictions_of(problem)) {
     watches.ride_at(level);
     Body body = problem.body;
     body.friction = friction;
     const Motion motion(track, body, problem.gravity);
-    if (!arrival.empty()) watches.at_arrival(arrival, motion.distance(), track->length());
+    if (arrival) watches.at_arrival(*arrival, motion.distance(), track->length());
     if (!motion.arrived()) {
-      verdict.arrived = false;
-      if (motion.lift_off()) verdict.lift_off = motion.lift_off()->arc_length;
-      if (motion.stall()) verdict.stall = motion.stall()->arc_length;
+      judgement.arrived = false;
+      if (motion.lift_off()) judgement.lift_off = motion.lift_off()->arc_length;
+      if (motion.stall()) judgement.stall = motion.stall()->arc_length;
       if (broken_rides == BrokenRides::left_out) continue;
     }
-    if (arrival.empty()) {
-      verdict.travel_time = motion.travel_time();
-      verdict.exit_speed = motion.exit_speed();
+    if (!arrival) {
+      judgement.travel_time = motion.travel_time();
+      judgement.exit_speed = motion.exit_speed();
     }
     const auto ridden = std::upper_bound(stations.begin(), stations.end(), motion.distance());
     const std::vector<MotionState> states = motion.at({stations.begin(), ridden});
@@ -476,12 +493,22 @@ Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samp
   }
   watches.ride_at({});
   watches.at_end(*track);
-  verdict.checks = watches.checks();
-  verdict.broken = watches.broken();
-  for (const LimitCheck& check : verdict.checks) {
-    verdict.worst = std::max(verdict.worst, check.violation / check.scale);
+  judgement.checks = watches.checks();
+  judgement.broken = watches.broken();
+  for (const LimitCheck& check : judgement.checks) {
+    judgement.worst = std::max(judgement.worst, check.violation / check.scale);
   }
-  return verdict;
+  return judgement;
 }
 
-}  // namespace glissade::optimizer
+}  // namespace glissade::referee
+
+namespace glissade {
+
+std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track) {
+  require_valid(problem);
+  if (!track) throw InputError({"", "there is no track to hold against the limits", "", ""});
+  return referee::judge_track(problem, track, referee::kRefereeSamples, referee::BrokenRides::judged).checks;
+}
+
+}  // namespace glissade

@@ -1,24 +1,22 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
-#include "glissade/optimize/optimize.hpp"
+#include "glissade/referee/referee.hpp"
 
-#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
-namespace glissade::optimizer {
+namespace glissade::referee {
 
 /// A stretch along which a limit is broken.
 struct Broken {
-  std::string limit;
+  LimitName limit;
   double where = 0.0;      ///< arc length at which it is broken the most [m]
   double violation = 0.0;  ///< there, in scales; > 0
 };
 
 /// What the independent integration says of a track.
-struct Verdict {
+struct Judgement {
   bool arrived = false;            ///< at every friction of the range
   std::optional<double> stall;     ///< arc length at which the body stalls, at some friction [m]
   std::optional<double> lift_off;  ///< arc length at which the body leaves the track, at some friction [m]
@@ -28,7 +26,7 @@ struct Verdict {
   std::vector<Broken> broken;  ///< of every limit
   double worst = 0.0;          ///< greatest violation in scales
 
-  [[nodiscard]] const LimitCheck* find(const std::string& limit) const;
+  [[nodiscard]] const LimitCheck* find(const LimitName& limit) const;
 };
 
 /// Whether limits on motion are held against a ride that ends before the finish.
@@ -41,7 +39,7 @@ inline constexpr int kRefereeSamples = 70;
 /// Rides the track with Motion and compares it with the problem as given, in SI, sharing no code with the
 /// search.
 /// @param samples  points on each smooth piece of the centerline
-[[nodiscard]] Verdict judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
-                                  BrokenRides broken_rides = BrokenRides::left_out);
+[[nodiscard]] Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
+                                    BrokenRides broken_rides = BrokenRides::left_out);
 
-}  // namespace glissade::optimizer
+}  // namespace glissade::referee

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string_view>
+
+namespace glissade {
+
+enum class ObjectiveKind {
+  travel_time,  ///< least T
+  exit_speed,   ///< greatest u(S)
+  blend         ///< least T - exit_speed_weight * u(S)
+};
+
+struct Objective {
+  ObjectiveKind kind = ObjectiveKind::travel_time;
+  double exit_speed_weight = 0.0;  ///< of `blend`: seconds given for one m/s of exit speed [s/(m/s)]; >= 0
+  bool worst_case = false;         ///< at the highest friction of the range instead of the body's own
+
+  friend bool operator==(const Objective&, const Objective&) = default;
+};
+
+/// @return what a unit of the objective is: "s", "m/s"
+[[nodiscard]] constexpr std::string_view unit_of(const Objective& objective) {
+  return objective.kind == ObjectiveKind::exit_speed ? "m/s" : "s";
+}
+
+}  // namespace glissade

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/core/units.hpp"
+#include "glissade/motion/motion.hpp"
+#include "glissade/task/finish.hpp"
+#include "glissade/task/limits.hpp"
+#include "glissade/task/objective.hpp"
+
+#include <optional>
+
+namespace glissade {
+
+/// What is asked: a body, two ends, and the limits between them.
+struct Problem {
+  Endpoints endpoints;  ///< run != 0; runs of limits count towards the finish, whichever side it lies on
+  Finish finish;
+  Body body;                              ///< body.friction is the nominal friction
+  std::optional<Friction> low_friction;   ///< <= body.friction; limits hold there too
+  std::optional<Friction> high_friction;  ///< >= body.friction; limits hold there too
+  double gravity = kDefaultGravity;       ///< [m/s^2]; > 0
+  Limits limits;
+  Objective objective;
+};
+
+/// @throws InputError listing every field that breaks its stated bound: ends, body, friction range, gravity and
+///         objective here, limits in limit_catalogue() and Limits
+void require_valid(const Problem& problem);
+
+}  // namespace glissade

@@ -1,0 +1,122 @@
+#include "glissade/task/problem.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/task/limit_catalogue.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glissade {
+namespace {
+
+/// Collects every broken bound of an input.
+class Checker {
+ public:
+  void require(bool holds, const std::string& what, const char* why, const char* hint = "") {
+    if (!holds) issues_.push_back({"", what, why, hint});
+  }
+  void number(const char* name, double value, bool holds, const char* why) {
+    require(std::isfinite(value) && holds, std::string(name) + ": " + exact_text(value), why);
+  }
+  void range(const char* name, const Range& range) {
+    if (range.lowest) number(name, *range.lowest, true, "a length is finite");
+    if (range.highest) number(name, *range.highest, true, "a length is finite");
+    if (!range.lowest || !range.highest) return;
+    require(*range.lowest <= *range.highest,
+            std::string(name) + ": lowest " + exact_text(*range.lowest) + " exceeds highest " +
+                exact_text(*range.highest),
+            "a range needs lowest <= highest");
+  }
+  void add(Issue issue) { issues_.push_back(std::move(issue)); }
+  void points(const std::string& name, const std::vector<Vec2>& points, std::size_t least) {
+    require(points.size() >= least, name + ": " + std::to_string(points.size()) + " points",
+            "too few points for its shape");
+    for (const Vec2& point : points) {
+      require(std::isfinite(point.x) && std::isfinite(point.y), name + ": a coordinate is not finite",
+              "lengths are finite");
+    }
+  }
+  void finish() {
+    if (!issues_.empty()) throw InputError(std::move(issues_));
+  }
+
+ private:
+  std::vector<Issue> issues_;
+};
+
+}  // namespace
+
+void require_valid(const Problem& problem) {
+  Checker check;
+  const Limits& limits = problem.limits;
+  const bool run_given = problem.finish.kind != FinishKind::level;
+  const bool drop_given = problem.finish.kind != FinishKind::vertical_line;
+  if (run_given) {
+    check.number("endpoints.run", problem.endpoints.run, problem.endpoints.run != 0.0,
+                 "a run of 0 is a fall straight down, which leaves nothing to optimise");
+  }
+  if (drop_given) {
+    check.number("endpoints.drop", problem.endpoints.drop, true, "the drop is a finite length");
+    check.require(problem.body.entry_speed > 0.0 || problem.endpoints.drop > 0.0,
+                  "endpoints.drop: " + exact_text(problem.endpoints.drop) + " m",
+                  "from rest the finish must lie below the start", "a positive drop, or an entry_speed");
+  }
+  if (problem.finish.kind == FinishKind::level) {
+    check.require(problem.endpoints.drop != 0.0, "endpoints.drop: 0 m", "a level finish needs a drop");
+  }
+  check.number("gravity", problem.gravity, problem.gravity > 0.0, "gravity is positive");
+  check.number("body.entry_speed", problem.body.entry_speed, problem.body.entry_speed >= 0.0,
+               "a speed is not negative");
+  check.number("body.drag_per_metre", problem.body.drag_per_metre, problem.body.drag_per_metre >= 0.0,
+               "drag is not negative");
+  if (problem.low_friction) {
+    check.require(*problem.low_friction <= problem.body.friction, "low_friction exceeds the body's friction",
+                  "a friction range needs low <= nominal <= high");
+  }
+  if (problem.high_friction) {
+    check.require(*problem.high_friction >= problem.body.friction,
+                  "high_friction is below the body's friction",
+                  "a friction range needs low <= nominal <= high");
+  }
+  check.number("objective.exit_speed_weight", problem.objective.exit_speed_weight,
+               problem.objective.exit_speed_weight >= 0.0, "a weight is not negative");
+  for (LimitFault& fault : limit_faults(limits)) check.add(std::move(fault.issue));
+  check.number("lowest_speed_from", limits.lowest_speed_from, limits.lowest_speed_from >= 0.0,
+               "an arc length is not negative");
+  check.range("finish.free_range", problem.finish.free_range);
+  for (const HalfPlane& plane : limits.half_planes) {
+    check.require(norm(plane.forbidden) > 0.0 && std::isfinite(norm(plane.forbidden)) &&
+                      std::isfinite(norm(plane.point)),
+                  "half_planes: point or direction is not finite, or the direction has no length",
+                  "a half-plane needs a direction");
+    check.number("half_planes clearance", plane.clearance, plane.clearance >= 0.0,
+                 "a clearance is not negative");
+  }
+  for (const KeepOut& keep_out : limits.keep_outs) {
+    check.points("keep_outs outline", keep_out.outline, 3);
+    check.number("keep_outs clearance", keep_out.clearance, keep_out.clearance >= 0.0,
+                 "a clearance is not negative");
+  }
+  const auto check_profiles = [&](const char* name, const std::vector<Profile>& profiles) {
+    for (const Profile& profile : profiles) {
+      check.points(name, profile.line, 2);
+      check.number(name, profile.clearance, profile.clearance >= 0.0, "a clearance is not negative");
+      for (std::size_t i = 0; i + 1 < profile.line.size(); ++i) {
+        check.require(profile.line[i].x < profile.line[i + 1].x,
+                      std::string(name) + ": run " + exact_text(profile.line[i + 1].x) + " after " +
+                          exact_text(profile.line[i].x),
+                      "the runs of a profile ascend");
+      }
+    }
+  };
+  check_profiles("stay_above", limits.stay_above);
+  check_profiles("stay_below", limits.stay_below);
+  check.points("waypoints", limits.waypoints, 0);
+  check.finish();
+}
+
+}  // namespace glissade
