@@ -87,8 +87,13 @@ study::Plan plan_of(const Options& options) {
 }
 
 study::Study study_of(const Options& options) {
-  return {study::Study{DesignSource::read(options.design), options.overrides.values(), plan_of(options),
-                       options.frozen, options.columns}};
+  return {DesignSource::read(options.design),
+          options.overrides.values(),
+          plan_of(options),
+          options.frozen,
+          options.columns,
+          study::needs_stall_margins(options.columns) ? study::quantities_with_stall_margins
+                                                      : study::quantities_of};
 }
 
 /// The command that a worker runs, without the shard.

@@ -60,11 +60,15 @@ Json limits_json(const std::vector<LimitCheck>& checks) {
   return limits;
 }
 
-Json rides_of(const Track& track) {
-  const std::optional<Angle> stall_angle = stall_angle_of(track);
+Json rides_of(const Track& track, pipeline::StallMargin margin) {
+  const std::optional<Angle> stall_angle =
+      margin == pipeline::StallMargin::yes ? stall_angle_of(track) : std::nullopt;
   Json rides = Json::array();
-  for (const LevelRide& ride : track.rides())
+  for (const LevelRide& ride : track.rides()) {
+    // The nominal ride is the track's own: without a margin it says nothing new.
+    if (margin == pipeline::StallMargin::no && ride.level == FrictionLevel::nominal) continue;
     rides.push_back(ride_json(ride.level, *ride.motion, stall_angle));
+  }
   return rides;
 }
 
@@ -92,14 +96,14 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
 
 }  // namespace
 
-Json pipeline::track_document(const Design& design, const Track& track) {
+Json pipeline::track_document(const Design& design, const Track& track, StallMargin margin) {
   Json json = task_document(design, track.endpoints);
   json["centerline"] = word(design.centerline.kind);
   add_ride(json, track.motion);
   json["straight_travel_time_s"] = number(track.straight_travel_time());
   json["optimum_travel_time_s"] = number(track.optimum_travel_time);
   add_curve(json, track);
-  json["rides"] = rides_of(track);
+  json["rides"] = rides_of(track, margin);
   json["limits"] = limits_json(track.limit_checks);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
   return json;

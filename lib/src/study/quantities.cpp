@@ -51,31 +51,59 @@ void add_limit(const Json& limit, std::vector<Quantity>& quantities) {
   add(prefix + ".violation", limit["violation"], quantities);
 }
 
-/// The ends of a friction range; the nominal ride is the track's own.
+bool is_stall_margin(std::string_view name) {
+  return name.ends_with("stall_friction_angle_deg") || name.ends_with("stall_margin_deg");
+}
+
+/// The ends of a friction range; the nominal ride is the track's own, but for how far it is from a stall.
 void add_ride(const Json& ride, std::vector<Quantity>& quantities) {
   const auto level = ride["friction"].get<std::string>();
-  if (level == to_text(FrictionLevel::nominal)) return;
+  const bool nominal = level == to_text(FrictionLevel::nominal);
   for (const auto& [name, value] : ride.items()) {
     // Where such a ride ends early is said by its status in --json; here its time is empty.
-    if (name != "stall" && name != "lift_off") add("rides." + level + "." + name, value, quantities);
+    if (name == "stall" || name == "lift_off" || is_stall_margin(name)) continue;
+    if (!nominal) add("rides." + level + "." + name, value, quantities);
   }
 }
 
-}  // namespace
+void add_stall_margins(const Json& rides, std::vector<Quantity>& quantities) {
+  for (const Json& ride : rides) {
+    const auto level = ride["friction"].get<std::string>();
+    const std::string prefix = level == to_text(FrictionLevel::nominal) ? "" : "rides." + level + ".";
+    for (const auto& [name, value] : ride.items()) {
+      if (is_stall_margin(name)) add(prefix + name, value, quantities);
+    }
+  }
+}
 
-std::vector<Quantity> quantities_of(const Design& design, const Track& track) {
-  const Json json = pipeline::track_document(design, track);
+std::vector<Quantity> quantities(const Design& design, const Track& track, pipeline::StallMargin margin) {
+  const Json json = pipeline::track_document(design, track, margin);
   std::vector<Quantity> quantities;
   for (const auto& [name, value] : json.items()) {
     if (name == "limits") {
       for (const Json& limit : value) add_limit(limit, quantities);
     } else if (name == "rides") {
       for (const Json& ride : value) add_ride(ride, quantities);
+      if (margin == pipeline::StallMargin::yes) add_stall_margins(value, quantities);
     } else {
       add(name, value, quantities);
     }
   }
   return quantities;
+}
+
+}  // namespace
+
+std::vector<Quantity> quantities_of(const Design& design, const Track& track) {
+  return quantities(design, track, pipeline::StallMargin::no);
+}
+
+std::vector<Quantity> quantities_with_stall_margins(const Design& design, const Track& track) {
+  return quantities(design, track, pipeline::StallMargin::yes);
+}
+
+bool needs_stall_margins(const std::vector<std::string>& columns) {
+  return std::any_of(columns.begin(), columns.end(), is_stall_margin);
 }
 
 }  // namespace glissade::study

@@ -48,7 +48,12 @@ using Quantities = std::function<std::vector<Quantity>(const Design& design, con
 
 /// The usual ones: every figure of --json that a table can hold. Of each limit what was reached and by how much it is
 /// broken; of a friction range the rides at its ends (`rides.low.travel_time_s`). What the clock had a part in is left out.
+/// The friction at which the body stalls, which takes some fifty rides, is not among them.
 [[nodiscard]] std::vector<Quantity> quantities_of(const Design& design, const Track& track);
+/// The same with `stall_friction_angle_deg` and `stall_margin_deg`, at the ends of a friction range too.
+[[nodiscard]] std::vector<Quantity> quantities_with_stall_margins(const Design& design, const Track& track);
+/// @return whether one of the columns is a figure that quantities_of() leaves out
+[[nodiscard]] bool needs_stall_margins(const std::vector<std::string>& columns);
 
 /// A part of the work, for engines that run many processes: the chunks whose number leaves `index` when divided by `count`.
 struct Shard {
