@@ -71,8 +71,7 @@ void add_keep_outs(Figure& figure, const Design& design) {
 }
 
 Figure figure_of(RideQuantity quantity, const Design& design, const Track& track) {
-  const std::string kind =
-      track.search ? "fastest within the limits" : std::string(word(design.centerline.kind));
+  const std::string kind = track.search ? searched_name(design) : std::string(word(design.centerline.kind));
   std::vector<FigureRide> rides = {{kind, &track.motion}};
   if (quantity != RideQuantity::profile) return ride_figure(quantity, rides);
   if (track.optimum && kind != "fastest") {

@@ -25,11 +25,11 @@ std::string profile_text(const FittedProfile& profile) {
          " in the root of the mean square";
 }
 
-std::string kind_text(const Track& track) {
+std::string kind_text(const Design& design, const Track& track) {
   const Centerline& centerline = *track.centerline;
   if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline))
     return profile_text(*profile);
-  if (track.search) return "fastest within the limits";
+  if (track.search) return searched_name(design);
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
   if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
     return "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)\n" +
@@ -61,10 +61,6 @@ std::string comparison_lines(const Track& track) {
       add(against(time, *track.optimum_travel_time,
                   track.limit_checks.empty() ? "the least possible," : "the least possible without limits,"));
     }
-  } else if (fastest) {
-    const bool drag = track.motion.body().drag_per_metre > 0.0;
-    add(std::string("fastest from rest without drag; 'limits: {}' in the design searches the one for this ") +
-        (drag ? "drag" : "entry speed"));
   }
   if (track.centerline->kind() == "straight") return text;
   add(track.straight ? against(time, track.straight->travel_time(), "the straight line's")
@@ -206,7 +202,7 @@ std::string task_line(const Design& design, const Endpoints& endpoints) {
 std::string track_summary(const Design& design, const Track& track) {
   const std::string heading = design.name.empty() ? std::string("Track") : design.name;
   return emphasised(heading, Emphasis::heading) + "\n  " + task_line(design, track.endpoints) + "\n\n" +
-         labelled("Centerline", kind_text(track)) + ride_lines(track) +
+         labelled("Centerline", kind_text(design, track)) + ride_lines(track) +
          labelled("Slope angle", slope_text(track)) +
          labelled("Arc length", length_text(track.centerline->length())) +
          labelled("Normal load", load_lines(track.motion)) + labelled("Smallest radius", radius_text(track)) +

@@ -2,6 +2,7 @@
 // are what one writes down first from docs/theory.md; all run in one program so that the ratios are measured
 // together.
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/flying_start_brachistochrone.hpp"
 
 #include "allocation_count.hpp"
 
@@ -129,6 +130,28 @@ BENCHMARK_CAPTURE(solve, steep, spread(0.02, 3.0, 1.5, 4.0));
 BENCHMARK_CAPTURE(solve, little_friction, spread(1e-8, 0.02, -3.0, 8.0));
 BENCHMARK_CAPTURE(solve, no_friction, frictionless());
 
+/// Endpoints that a body reaches that enters with 5 m/s.
+std::vector<Problem> within_reach(double least_margin, double most_margin) {
+  constexpr double kEntrySpeed = 5.0;
+  std::vector<Problem> problems;
+  for (int i = 0; i < 1000; ++i) {
+    const double mu = 0.02 * std::pow(50.0, i % 32 / 32.0);
+    const double run = std::pow(10.0, -0.5 + 2.0 * (i % 29) / 29.0);
+    const double margin = std::pow(10.0, least_margin + (most_margin - least_margin) * (i % 23) / 23.0);
+    const Friction friction = Friction::from_coefficient(mu);
+    problems.push_back({{run, glissade::least_drop(run, friction, kEntrySpeed) + run * margin}, friction});
+  }
+  return problems;
+}
+
+void solve_flying_start(benchmark::State& state, const std::vector<Problem>& problems) {
+  over(state, problems, [](const Problem& problem) {
+    return glissade::solve_flying_start(problem.endpoints, problem.friction, 5.0, 9.81);
+  });
+}
+BENCHMARK_CAPTURE(solve_flying_start, usual, within_reach(-1.0, 0.5));
+BENCHMARK_CAPTURE(solve_flying_start, near_reach_limit, within_reach(-5.0, -1.0));
+
 void plain_closed_form_bisected(benchmark::State& state) {
   over(state, spread(0.02, 1.0, -1.0, 1.5),
        [](const Problem& problem) { return plain::travel_time(problem, 9.81, plain::closed_form); });
@@ -152,6 +175,14 @@ void build_curve(benchmark::State& state, const Problem& problem) {
 }
 BENCHMARK_CAPTURE(build_curve, chute, kChute)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(build_curve, eps_1e_minus_6, kTurnpike)->Unit(benchmark::kMicrosecond);
+
+void build_flying_start(benchmark::State& state) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        glissade::FlyingStartBrachistochrone({10.0, 6.0}, Friction::from_coefficient(0.2), 5.0));
+  }
+}
+BENCHMARK(build_flying_start)->Unit(benchmark::kMicrosecond);
 
 template <class Ask>
 void ask(benchmark::State& state, const Problem& problem, const Ask& question) {

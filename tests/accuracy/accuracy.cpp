@@ -4,6 +4,7 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/centerline/flying_start_brachistochrone.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/motion/motion.hpp"
 
@@ -100,14 +101,48 @@ Section fastest_track() {
           {time, speed, slope, straight, x, drop, point_time, point_speed}};
 }
 
-json tracks_file() {
-  std::ifstream file(test_data_path("reference/pudasaini_and_tracks.json"));
-  return json::parse(file);
-}
-
 double number(const json& item, const char* key) {
   const json& value = item.at(key);
   return value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>();
+}
+
+Section flying_start() {
+  const auto of = [](std::string quantity) { return Line{std::move(quantity), 0.0, "1e-12 + 1e-15/margin"}; };
+  Line time = of("travel time");
+  Line speed = of("exit speed");
+  Line entry = of("entry slope angle");
+  Line exit = of("exit slope angle");
+  Line place = line("finish of the curve, over the length", FlyingStartBrachistochrone::kPositionAccuracy);
+  Line ridden_time = line("travel time, by the referee", kMotionAccuracy);
+  Line ridden_speed = line("exit speed, by the referee", kMotionAccuracy);
+  std::ifstream file(test_data_path("reference/entry_speed.json"));
+  for (const json& item : json::parse(file)) {
+    const Endpoints ends{number(item, "run"), number(item, "drop")};
+    const Friction friction = Friction::from_coefficient(number(item, "friction_coefficient"));
+    const double v0 = number(item, "entry_speed");
+    const double gravity = number(item, "gravity");
+    const auto curve = std::make_shared<const FlyingStartBrachistochrone>(ends, friction, v0, gravity);
+    const FlyingStartSolution& found = curve->solution();
+    const double size = std::hypot(ends.run, ends.drop) + v0 * v0 / gravity;
+    const double bound =
+        flying_start_accuracy((ends.drop - least_drop(ends.run, friction, v0, gravity)) / size);
+    time.add(relative_error(found.travel_time, number(item, "travel_time")), bound);
+    speed.add(relative_error(found.exit_speed, number(item, "exit_speed")), bound);
+    entry.add(std::fabs(found.entry_slope_angle - number(item, "entry_slope_angle")), bound);
+    exit.add(std::fabs(found.exit_slope_angle - number(item, "exit_slope_angle")), bound);
+    const Endpoints end = curve->endpoints();
+    place.add(std::hypot(end.run - ends.run, end.drop - ends.drop) / curve->length());
+    const Motion ride(curve, {friction, v0, 0.0}, gravity);
+    ridden_time.add(relative_error(ride.travel_time(), number(item, "travel_time")));
+    ridden_speed.add(relative_error(ride.exit_speed(), number(item, "exit_speed")));
+  }
+  return {"Fastest track with an entry speed (relative, angles in rad; tests/reference/entry_speed.json)",
+          {time, speed, entry, exit, place, ridden_time, ridden_speed}};
+}
+
+json tracks_file() {
+  std::ifstream file(test_data_path("reference/pudasaini_and_tracks.json"));
+  return json::parse(file);
 }
 
 Section constant_speed_curve() {
@@ -276,7 +311,8 @@ Section fitted_profiles() {
 }
 
 std::vector<Section> sections() {
-  return {fastest_track(), constant_speed_curve(), given_tracks(), referee(), fitted_profiles()};
+  return {fastest_track(), flying_start(), constant_speed_curve(),
+          given_tracks(),  referee(),      fitted_profiles()};
 }
 
 std::string read_all(const std::string& path) {

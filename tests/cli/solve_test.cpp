@@ -4,6 +4,7 @@
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
 #include "support/paths.hpp"
+#include "support/random.hpp"
 #include "support/temp_dir.hpp"
 
 #include <cmath>
@@ -41,6 +42,51 @@ double relative(double value, double expected) {
 }
 
 }  // namespace
+
+TEST_CASE("solve --json with an entry speed gives the reference values") {
+  std::ifstream stream(test_data_path("reference/entry_speed.json"));
+  for (const json& expected : json::parse(stream)) {
+    const auto input = [&](const char* name) { return digits(value_of(expected[name])); };
+    const json track = solved({"--run", input("run"), "--drop", input("drop"), "--friction-coefficient",
+                               input("friction_coefficient"), "--gravity", input("gravity"), "--entry-speed",
+                               input("entry_speed")});
+    CHECK(relative(track["travel_time_s"], value_of(expected["travel_time"])) <= glissade::kMotionAccuracy);
+    CHECK(relative(track["optimum_travel_time_s"], value_of(expected["travel_time"])) <= 1e-12);
+    CHECK(relative(track["exit_speed_m_per_s"], value_of(expected["exit_speed"])) <=
+          glissade::kMotionAccuracy);
+  }
+}
+
+TEST_CASE("what is called fastest is never slower than the straight line") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int compared = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double mu = random.between(0.0, 0.6);
+    const double run = random.between(1.0, 50.0);
+    const double speed = i % 3 == 0 ? 0.0 : random.between(0.5, 15.0);
+    const double drag = i % 2 == 0 ? 0.0 : random.between(0.001, 0.05) / run;
+    const double drop = run * (mu + random.between(0.05, 1.0));
+    const std::vector<std::string> arguments = {
+        "--run",    digits(run),     "--drop",      digits(drop), "--friction-coefficient",
+        digits(mu), "--entry-speed", digits(speed), "--drag",     digits(drag)};
+    INFO(json(arguments).dump());
+    const json track = solved(arguments);
+    if (track["straight_travel_time_s"].is_null()) continue;
+    CHECK(track["travel_time_s"].get<double>() <=
+          track["straight_travel_time_s"].get<double>() * (1.0 + 1e-9));
+    ++compared;
+  }
+  CHECK(compared > 40);
+}
+
+TEST_CASE("solve with an entry speed that cannot reach the finish names the speed that could") {
+  const Outcome outcome = glissade_run(
+      {"solve", "--run", "10", "--drop", "-2", "--friction-coefficient", "0.2", "--entry-speed", "6.5"});
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors, Contains("--entry-speed") && Contains("6.5 m/s is not more than the 8.") &&
+                                 Contains("an entry_speed of at least 8."));
+}
 
 TEST_CASE("solve --json of the fastest track gives the reference values") {
   // tests/reference: every value exact to the printed digits.
@@ -129,25 +175,32 @@ TEST_CASE("without a P, the one that is fastest is told") {
 }
 
 TEST_CASE("a load without bound is called so, and is null in --json") {
-  // The fastest track starts with unbounded curvature; whoever enters it with speed meets an unbounded load.
+  // The cycloid starts with unbounded curvature; whoever enters it with speed meets an unbounded load.
   const std::vector<std::string> task = {"--run",         "10", "--drop", "5", "--friction-angle", "11deg",
                                          "--entry-speed", "5"};
-  CHECK(solved(task)["max_normal_load_m_per_s2"].is_null());
+  std::vector<std::string> cycloid = task;
+  cycloid.insert(cycloid.end(), {"--centerline", "cycloid"});
+  CHECK(solved(cycloid)["max_normal_load_m_per_s2"].is_null());
   for (const std::string command : {"solve", "compare"}) {
+    const std::vector<std::string>& asked = command == "solve" ? cycloid : task;
     std::vector<std::string> all = {command};
-    all.insert(all.end(), task.begin(), task.end());
+    all.insert(all.end(), asked.begin(), asked.end());
     const Outcome outcome = glissade_run(all);
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.output, Contains("unbounded") && !Contains("inf "));
   }
 }
 
-TEST_CASE("the fastest track uphill needs limits to be searched, and the message says so") {
-  const Outcome outcome = glissade_run(
-      {"solve", "--run", "10", "--drop", "-1", "--friction-angle", "11deg", "--entry-speed", "20"});
+TEST_CASE("the fastest track leads uphill, curves made for a start from rest do not and say so") {
+  std::vector<std::string> task = {"--run",         "10", "--drop", "-1", "--friction-angle", "11deg",
+                                   "--entry-speed", "20"};
+  CHECK(solved(task)["travel_time_s"].get<double>() < 0.6);
+  task.insert(task.begin(), "solve");
+  task.insert(task.end(), {"--centerline", "cycloid"});
+  const Outcome outcome = glissade_run(task);
   CHECK(outcome.exit_code == 2);
   CHECK_THAT(outcome.errors, Contains("--drop: the finish lies 1 m above the start") &&
-                                 Contains("start from rest") && Contains("Try: limits: {}"));
+                                 Contains("start from rest") && Contains("Try: kind: fastest"));
 }
 
 TEST_CASE("solve --json: the straight ramp has its closed form, no curvature and the load g cos") {

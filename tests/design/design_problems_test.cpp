@@ -139,14 +139,15 @@ TEST_CASE("friction steeper than the mean slope is infeasible, with what would d
       "43.36 deg (drop 5.1 m over 5.4 m)\n"
       "      From rest, no track between these points reaches the finish, whatever its shape "
       "(docs/theory.md, reach theorem).\n"
-      "      Try: a friction_angle of at most 43.32 deg, a drop of at least 6.003 m, or an entry_speed");
+      "      Try: a friction_angle of at most 43.32 deg, a drop of at least 6.003 m, or an "
+      "entry_speed of at least 2.176 m/s");
   CHECK_THAT(problems_with("friction_angle: 17 deg", "friction_coefficient: 0.95"),
              StartsWith("infeasible: d.yaml:7:25: friction_coefficient: 0.95 (43.53 deg) is steeper"));
 }
 
 TEST_CASE("what the reach message says to try is feasible indeed") {
   CHECK(problems_with("17 deg", "43.32 deg").empty());
-  CHECK(problems_with("17 deg", "48 deg\n  entry_speed: 1 m/s").empty());
+  CHECK(problems_with("17 deg", "48 deg\n  entry_speed: 2.176 m/s").empty());
   std::string lower = sound_design_with("17 deg", "48 deg");
   lower.replace(lower.find("z: 6.2 m"), 8, "z: 7.103 m");
   CHECK(problems_of(lower).empty());

@@ -123,6 +123,10 @@ class LimitsConflict : public InfeasibleError {
 ///         make_centerline()
 [[nodiscard]] Track solve(const Design& design, const RunContext& context = {});
 
+/// @return what to call a track that was searched for: "fastest within the limits", or "fastest, searched for"
+///         where the search had another reason (drag, a free finish)
+[[nodiscard]] std::string searched_name(const Design& design);
+
 /// Why a ride is not what was wanted: the body stalls or leaves the track.
 /// @return the problem with the place and what is missing there; none if the body arrives
 [[nodiscard]] std::optional<Issue> ride_problem(const Design& design, const Track& track);

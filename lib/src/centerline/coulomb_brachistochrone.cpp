@@ -6,6 +6,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
+#include "chebyshev_series.hpp"
 #include "coulomb_laws.hpp"
 #include "endpoint_rules.hpp"
 
@@ -104,35 +105,6 @@ double midpoint_guess(const CoulombShape& shape, const Panel& rest, double dista
   const double high = std::max(rest.first, rest.last);
   const double middle = rest.first + 0.5 * step / arc_slope(shape, rest.first, rest.upper_half);
   return rest.first + step / arc_slope(shape, std::clamp(middle, low, high), rest.upper_half);
-}
-
-template <std::size_t kTerms>
-double chebyshev_value(const std::array<double, kTerms>& coefficients, double x) {
-  double next = 0.0;
-  double after = 0.0;
-  for (std::size_t i = kTerms - 1; i > 0; --i) {
-    const double current = 2.0 * x * next - after + coefficients[i];
-    after = next;
-    next = current;
-  }
-  return x * next - after + coefficients[0];
-}
-
-/// @return cos(k (j + 1/2) pi/kTerms), the angle reduced first: an error in it would pass for a coefficient
-template <std::size_t kTerms>
-double node_cosine(std::size_t k, std::size_t j) {
-  const std::size_t halves = k * (2 * j + 1) % (4 * kTerms);
-  return math::cos_pi(static_cast<double>(halves) / static_cast<double>(2 * kTerms));
-}
-
-template <std::size_t kTerms>
-std::array<double, kTerms> chebyshev_series(const std::array<double, kTerms>& values) {
-  std::array<double, kTerms> coefficients{};
-  for (std::size_t k = 0; k < kTerms; ++k) {
-    for (std::size_t j = 0; j < kTerms; ++j) coefficients[k] += values[j] * node_cosine<kTerms>(k, j);
-    coefficients[k] *= (k == 0 ? 1.0 : 2.0) / static_cast<double>(kTerms);
-  }
-  return coefficients;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "endpoint_rules.hpp"
 
+#include "glissade/centerline/reach.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
@@ -41,6 +42,22 @@ Issue out_of_reach(const Endpoints& endpoints, Friction friction) {
               length_text(least_drop, drop_digits) + ", or a centerline kind that takes an entry_speed."};
 }
 
+Issue out_of_reach_with_speed(const Endpoints& endpoints, Friction friction, double entry_speed,
+                              double gravity) {
+  const double needed = least_entry_speed(endpoints, friction, gravity);
+  const double drop = least_drop(endpoints.run, friction, entry_speed, gravity);
+  const int digits = digits_to_tell_apart(entry_speed, needed);
+  return {"",
+          "entry_speed: " + rounded_text(entry_speed, digits) + " m/s is not more than the " +
+              rounded_text(needed, digits) + " m/s that bring a body to rest at the finish (drop " +
+              length_text(endpoints.drop) + " over " + length_text(std::fabs(endpoints.run)) +
+              ", friction_angle " + angle_text(friction.angle().radians()) + ")",
+          "At that speed no track between these points reaches the finish, whatever its shape "
+          "(docs/theory.md, reach theorem).",
+          "an entry_speed above " + rounded_text(needed, digits) + " m/s, a drop above " +
+              length_text(drop, digits_to_tell_apart(drop, endpoints.drop)) + ", or less friction"};
+}
+
 }  // namespace
 
 void require_falling(const Endpoints& endpoints) {
@@ -54,6 +71,28 @@ void require_falling(const Endpoints& endpoints) {
                       "a finish below the start; the drop counts positive downwards"});
   }
   if (!issues.empty()) throw InputError(std::move(issues));
+}
+
+void require_reachable_with_speed(const Endpoints& endpoints, Friction friction, double entry_speed,
+                                  double gravity) {
+  std::vector<Issue> issues;
+  const auto require_length = [&](const char* name, double value) {
+    if (std::isfinite(value)) return;
+    issues.push_back(
+        {"", std::string(name) + ": " + exact_text(value) + " m is not a finite length", "", ""});
+  };
+  require_length("run", endpoints.run);
+  require_length("drop", endpoints.drop);
+  if (!(std::isfinite(entry_speed) && entry_speed > 0.0)) {
+    issues.push_back({"", "entry_speed: " + exact_text(entry_speed) + " m/s is not a finite speed above 0",
+                      "From rest the fastest track is another curve.", ""});
+  }
+  if (endpoints == Endpoints{}) {
+    issues.push_back({"", "run and drop: both are 0 m", "Start and finish are the same point.", ""});
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
+  if (can_arrive(endpoints, friction, entry_speed, gravity)) return;
+  throw InfeasibleError(out_of_reach_with_speed(endpoints, friction, entry_speed, gravity));
 }
 
 void require_gravity(double gravity) {

@@ -17,4 +17,9 @@ void require_gravity(double gravity);
 /// @throws as require_falling; InfeasibleError if drop <= mu |run|: out of reach from rest
 void require_reachable_from_rest(const Endpoints& endpoints, Friction friction);
 
+/// @throws InputError if run, drop or entry_speed is not finite, entry_speed is not positive, or both ends are
+///         the same; names every fault at once. InfeasibleError if drop <= least_drop(): out of reach
+void require_reachable_with_speed(const Endpoints& endpoints, Friction friction, double entry_speed,
+                                  double gravity);
+
 }  // namespace glissade::centerline

@@ -1,5 +1,6 @@
 #include "design/check.hpp"
 
+#include "glissade/centerline/reach.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
@@ -61,14 +62,39 @@ bool finish_is_unbounded(const TrackDesign& track) {
 
 }  // namespace
 
+namespace {
+
+Finding too_slow(const Design& design, Friction friction) {
+  const TrackDesign& track = design.track;
+  const double speed = design.body.entry_speed;
+  const double needed = least_entry_speed({run_of(track), drop_of(track)}, friction, design.gravity);
+  const double drop = least_drop(run_of(track), friction, speed, design.gravity);
+  constexpr double kAbove = 1.0 + 1e-3;
+  Issue issue;
+  issue.what = "entry_speed: " + rounded_text(speed, 6) + " m/s is not more than the " +
+               rounded_text(needed, 6) + " m/s that bring a body to rest at the finish (" +
+               drop_over_run(track) + ", friction angle " + angle_text(friction.angle().radians()) + ")";
+  issue.why =
+      "At that speed no track between these points reaches the finish, whatever its shape (docs/theory.md, "
+      "reach theorem).";
+  issue.hint = "an entry_speed of at least " + rounded_text(kAbove * needed, 4) + " m/s, a finish " +
+               (drop < 0.0 ? "less than " : "more than ") + metres(std::fabs(drop)) +
+               (drop < 0.0 ? " above" : " below") + " the start, or less friction";
+  return Finding{{"body.entry_speed", "body", "track", "centerline.kind"}, std::move(issue)};
+}
+
+}  // namespace
+
 std::optional<Finding> find_unreachable(const Design& design) {
   const TrackDesign& track = design.track;
   const double run = run_of(track);
   const double drop = drop_of(track);
-  const double mu = design.body.high_friction.value_or(design.body.friction).coefficient();
-  if (finish_is_unbounded(track)) return {};
-  if (is_given(design.centerline.kind) || design.body.entry_speed > 0.0 || !(drop > 0.0)) return {};
-  if (drop > mu * run) return {};
+  const Friction friction = design.body.high_friction.value_or(design.body.friction);
+  const double mu = friction.coefficient();
+  if (finish_is_unbounded(track) || is_given(design.centerline.kind)) return {};
+  if (can_arrive({run, drop}, friction, design.body.entry_speed, design.gravity)) return {};
+  if (design.body.entry_speed > 0.0) return too_slow(design, friction);
+  if (!(drop > 0.0)) return {};
 
   // Hints are rounded to the side on which they hold.
   constexpr double kBelow = 1.0 - 1e-3;
@@ -87,7 +113,8 @@ std::optional<Finding> find_unreachable(const Design& design) {
       "From rest, no track between these points reaches the finish, whatever its shape (docs/theory.md, "
       "reach theorem).";
   issue.hint = "a " + key + " of at most " + better + ", a drop of at least " + metres(kAbove * mu * run) +
-               ", or an entry_speed";
+               ", or an entry_speed of at least " +
+               rounded_text(kAbove * least_entry_speed({run, drop}, friction, design.gravity), 4) + " m/s";
   return Finding{{"body." + key, "body", "track", "centerline.kind"}, std::move(issue)};
 }
 

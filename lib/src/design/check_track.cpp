@@ -27,11 +27,10 @@ void check_coordinates(const Vec3& position, const std::string& key_path, Collec
 }
 
 bool may_climb(const Design& design) {
-  if (is_given(design.centerline.kind)) return true;
-  // Only a search takes account of the entry speed; the closed form of the fastest track starts from rest.
-  const bool searched = design.centerline.kind == CenterlineKind::fastest &&
-                        (design.limits || design.track.free_finish != FinishKind::point);
-  return (searched || design.centerline.kind == CenterlineKind::straight) && design.body.entry_speed > 0.0;
+  const CenterlineKind kind = design.centerline.kind;
+  if (is_given(kind)) return true;
+  return (kind == CenterlineKind::fastest || kind == CenterlineKind::straight) &&
+         design.body.entry_speed > 0.0;
 }
 
 void check_drop(const Design& design, Collected& findings) {
@@ -41,12 +40,11 @@ void check_drop(const Design& design, Collected& findings) {
                                           "track.start",    "body.entry_speed", "centerline"};
   const std::string place = drop < 0.0 ? metres(-drop) + " above the start" : "level with the start";
   if (!may_climb(design) && design.body.entry_speed > 0.0) {
-    report(
-        findings, paths,
-        {"", "the finish lies " + place,
-         "The kind " + std::string(word(design.centerline.kind)) +
-             " is made for a start from rest: it must go down.",
-         "limits: {} with the kind fastest, which searches the one for this entry_speed, or kind: straight"});
+    report(findings, paths,
+           {"", "the finish lies " + place,
+            "The kind " + std::string(word(design.centerline.kind)) +
+                " is made for a start from rest: it must go down.",
+            "kind: fastest, which takes account of the entry_speed, or kind: straight"});
     return;
   }
   if (!may_climb(design)) {

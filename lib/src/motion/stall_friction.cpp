@@ -1,6 +1,9 @@
 #include "glissade/motion/stall_friction.hpp"
 
+#include "glissade/core/error.hpp"
+
 #include <algorithm>
+#include <numbers>
 
 namespace glissade {
 namespace {
@@ -22,18 +25,26 @@ Body with_friction(Body body, Angle angle) {
 
 std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const Body& body, double gravity) {
   const auto stalls = [&](Angle angle) {
-    return Motion(centerline, with_friction(body, angle), gravity).stall().has_value();
+    try {
+      return Motion(centerline, with_friction(body, angle), gravity).stall().has_value();
+    } catch (const ConvergenceError&) {
+      return false;  // free flight along a track at an absurd friction: it feels none
+    }
   };
   if (stalls(Angle{})) return Angle{};
-  if (!stalls(kSteepest)) return {};
+  // From the body's own friction, the one that people ask about, towards the steepest: at absurd frictions a ride
+  // that touches the track without load (N = 0) cannot be told from one that leaves it.
   double clear = 0.0;
-  double stuck = kSteepest.radians();
-  // The body's own friction is the one that people ask about: often it halves the range at once.
-  double tried = body.friction.angle().radians();
+  double stuck = body.friction.angle().radians();
+  while (!stalls(Angle::from_radians(stuck))) {
+    if (stuck >= kSteepest.radians()) return {};
+    clear = stuck;
+    constexpr double kRightAngle = std::numbers::pi / 2.0;
+    stuck = std::min(0.5 * (stuck + kRightAngle), kSteepest.radians());
+  }
   while (stuck - clear > kStallFrictionAccuracy) {
-    if (!(tried > clear && tried < stuck)) tried = 0.5 * (clear + stuck);
+    const double tried = 0.5 * (clear + stuck);
     (stalls(Angle::from_radians(tried)) ? stuck : clear) = tried;
-    tried = 0.5 * (clear + stuck);
   }
   return Angle::from_radians(clear);
 }

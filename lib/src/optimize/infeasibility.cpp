@@ -1,5 +1,6 @@
 #include "optimize/infeasibility.hpp"
 
+#include "glissade/centerline/reach.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
@@ -74,11 +75,31 @@ std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elas
   return least;
 }
 
+Conflict too_slow(const Problem& problem, Friction friction) {
+  const Endpoints& ends = problem.endpoints;
+  const double speed = problem.body.entry_speed;
+  const double needed = least_entry_speed(ends, friction, problem.gravity);
+  const double drop = least_drop(ends.run, friction, speed, problem.gravity);
+  Conflict conflict;
+  conflict.limits = {{{LimitId::friction}, {}}, {{LimitId::finish}, {}}};
+  conflict.relaxations.push_back({{LimitId::finish_drop}, ends.drop, drop});
+  conflict.text = "at an entry speed of " + rounded_text(speed, 4) +
+                  " m/s no track reaches the finish at a friction angle of " +
+                  angle_text(friction.angle().radians()) +
+                  ", whatever the shape (reach theorem); an entry speed above " + rounded_text(needed, 4) +
+                  " m/s or a drop above " + length_text(drop) + " would do";
+  return conflict;
+}
+
 }  // namespace
 
 std::optional<Conflict> beyond_reach(const Problem& problem) {
-  if (problem.body.entry_speed > 0.0 || problem.finish.kind != FinishKind::point) return std::nullopt;
+  if (problem.finish.kind != FinishKind::point || !is_sliding_point(problem.body)) return std::nullopt;
   const Friction friction = problem.high_friction.value_or(problem.body.friction);
+  if (problem.body.entry_speed > 0.0) {
+    const bool arrives = can_arrive(problem.endpoints, friction, problem.body.entry_speed, problem.gravity);
+    return arrives ? std::nullopt : std::optional(too_slow(problem, friction));
+  }
   const double run = std::fabs(problem.endpoints.run);
   if (problem.endpoints.drop > friction.coefficient() * run) return std::nullopt;
   Conflict conflict;

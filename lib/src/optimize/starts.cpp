@@ -1,6 +1,7 @@
 #include "optimize/starts.hpp"
 
-#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/fastest_track.hpp"
+#include "glissade/centerline/reach.hpp"
 #include "glissade/core/math.hpp"
 
 #include <algorithm>
@@ -81,12 +82,12 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
 }
 
 std::optional<double> unlimited_travel_time(const Problem& problem) {
-  const Endpoints& ends = problem.endpoints;
-  const bool applies = problem.finish.kind == FinishKind::point && problem.body.entry_speed == 0.0 &&
-                       problem.body.drag_per_metre == 0.0 &&
-                       ends.drop > problem.body.friction.coefficient() * std::fabs(ends.run);
+  const Body& body = problem.body;
+  const bool applies = problem.finish.kind == FinishKind::point && is_sliding_point(body) &&
+                       body.drag_per_metre == 0.0 &&
+                       can_arrive(problem.endpoints, body.friction, body.entry_speed, problem.gravity);
   if (!applies) return std::nullopt;
-  return solve_coulomb_brachistochrone(ends, problem.body.friction, problem.gravity).travel_time;
+  return fastest_travel_time(problem.endpoints, body.friction, body.entry_speed, problem.gravity);
 }
 
 }  // namespace glissade::optimizer

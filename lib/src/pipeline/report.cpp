@@ -109,9 +109,9 @@ ReportCheck limits(const std::vector<ReportLimit>& limits) {
               std::to_string(limits.size()) + " kept, each asked of the finished track"};
 }
 
-ReportCheck search(const OptimizeReport& search) {
+ReportCheck search(const Design& design, const OptimizeReport& search) {
   const bool optimal = search.status == OptimizeStatus::optimal;
-  return {"Fastest within the limits", verdict(optimal),
+  return {design.limits ? "Fastest within the limits" : "Fastest, searched for", verdict(optimal),
           std::string(to_text(search.status)) + ": first-order residual " +
               rounded_text(search.first_order_residual, 2)};
 }
@@ -127,7 +127,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   const Track& track = build.track;
   ReportInput input;
   input.design = &design;
-  input.centerline = track.search ? "fastest within the limits" : std::string(word(design.centerline.kind));
+  input.centerline = track.search ? searched_name(design) : std::string(word(design.centerline.kind));
   input.endpoints = track.endpoints;
   input.placement = track.placement;
   input.motion = &track.motion;
@@ -151,7 +151,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
                   self_intersections(build.facts),
                   deviation(design, build.solid),
                   read_back(build.read_back_files)};
-  if (track.search) input.checks.insert(input.checks.begin() + 4, search(*track.search));
+  if (track.search) input.checks.insert(input.checks.begin() + 4, search(design, *track.search));
   return input;
 }
 

@@ -1,9 +1,10 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/constant_speed_curve.hpp"
-#include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/centerline/cycloid.hpp"
+#include "glissade/centerline/fastest_track.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/centerline/no_curvature_load.hpp"
+#include "glissade/centerline/reach.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
@@ -81,7 +82,7 @@ CenterlinePtr make_of_kind(const Design& design) {
   const Friction friction = design.body.friction;
   switch (design.centerline.kind) {
     case CenterlineKind::fastest:
-      return std::make_shared<CoulombBrachistochrone>(endpoints, friction, design.gravity);
+      return fastest_track(endpoints, friction, design.body.entry_speed, design.gravity).centerline;
     case CenterlineKind::constant_speed:
       return make_constant_speed(design, endpoints);
     case CenterlineKind::straight:
@@ -114,9 +115,13 @@ std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body
   return ride;
 }
 
-bool optimum_is_known(const Endpoints& endpoints, const Body& body) {
-  return body.entry_speed == 0.0 && body.drag_per_metre == 0.0 &&
-         endpoints.drop > body.friction.coefficient() * std::fabs(endpoints.run);
+/// Whether the theory gives the fastest track of this body in closed form, limits aside.
+bool has_closed_optimum(const Body& body) {
+  return is_sliding_point(body) && body.drag_per_metre == 0.0;
+}
+
+Body body_of(const Design& design) {
+  return {design.body.friction, design.body.entry_speed, design.body.drag_per_metre};
 }
 
 }  // namespace
@@ -146,14 +151,14 @@ CenterlinePtr make_centerline(const Design& design) {
 Track ride(const Design& design, CenterlinePtr centerline) {
   const bool chosen = is_drawn(design.centerline.kind) || design.track.free_finish != FinishKind::point;
   const Endpoints endpoints = chosen ? endpoints_of(*centerline) : endpoints_of(design);
-  const Body body{design.body.friction, design.body.entry_speed, design.body.drag_per_metre};
+  const Body body = body_of(design);
 
   std::optional<Motion> optimum;
   std::optional<double> optimum_travel_time;
-  if (optimum_is_known(endpoints, body)) {
-    const auto fastest = std::make_shared<CoulombBrachistochrone>(endpoints, body.friction, design.gravity);
-    optimum_travel_time = fastest->solution().travel_time;
-    optimum.emplace(fastest, body, design.gravity);
+  if (has_closed_optimum(body) && can_arrive(endpoints, body.friction, body.entry_speed, design.gravity)) {
+    FastestTrack fastest = fastest_track(endpoints, body.friction, body.entry_speed, design.gravity);
+    optimum_travel_time = fastest.travel_time;
+    optimum.emplace(std::move(fastest.centerline), body, design.gravity);
   }
   const double radius = smallest_radius(*centerline);
   const double steepest = steepest_slope_angle(*centerline);
@@ -177,8 +182,9 @@ Track ride(const Design& design, CenterlinePtr centerline) {
 Track solve(const Design& design, const RunContext& context) {
   require_sound(design);
   if (context.progress) context.progress("finding the track", -1.0);
-  // The closed form knows neither limits nor a finish that it may choose.
-  const bool searched = design.limits || design.track.free_finish != FinishKind::point;
+  // The closed form knows neither limits, nor a finish that it may choose, nor drag.
+  const bool searched =
+      design.limits || design.track.free_finish != FinishKind::point || !has_closed_optimum(body_of(design));
   if (!searched || design.centerline.kind != CenterlineKind::fastest) {
     return ride(design, make_centerline(design));
   }
@@ -186,6 +192,10 @@ Track solve(const Design& design, const RunContext& context) {
   Track track = ride(design, std::move(optimum.centerline));
   track.search = std::move(optimum.report);
   return track;
+}
+
+std::string searched_name(const Design& design) {
+  return design.limits ? "fastest within the limits" : "fastest, searched for";
 }
 
 namespace {

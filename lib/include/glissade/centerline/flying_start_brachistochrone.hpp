@@ -1,0 +1,117 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/centerline/reach.hpp"
+#include "glissade/core/units.hpp"
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace glissade {
+
+/// What fixes one fastest track with an entry speed: slopes t = tan(zeta) and two sizes.
+///
+/// Curve: a parabola of free flight from slope t0 to t_j >= t0, then the pressed part of docs/theory.md,
+///   fastest track, (B4) and (B5), on which the slope falls from t_j to t1.
+struct FlyingStartShape {
+  double friction_coefficient = 0.0;  ///< mu [-]
+  double entry_slope = 0.0;           ///< t0 = tan(zeta_0)
+  double flight_turn = 0.0;           ///< d = t_j - t0; >= 0, 0 without friction
+  double flight_end_slope = 0.0;      ///< t_j = tan(zeta_j)
+  double exit_slope = 0.0;            ///< t1 = tan(zeta_1)
+  double flight_end_e = 0.0;          ///< E(t_j) > 0; 0 if all of the track is flight
+  double horizontal_speed = 0.0;      ///< u cos(zeta) of the flight [m/s]; 0 for a vertical track
+};
+
+/// The fastest track between two points for a body that enters with speed, under Coulomb friction on the full
+/// normal load, N >= 0, the entry slope angle free.
+///
+/// Regular value; holds no heap memory.
+/// Source: docs/theory.md, fastest track with an entry speed; S. Salinic, Acta Mechanica 208 (2009) 97.
+/// Accuracy: flying_start_accuracy(margin) relative, see there.
+/// Identity: travel_time is no longer than that of the straight line; (V4) holds between the slopes; the first
+///   part is lossless, so that the speed at its end is sqrt(v0^2 + 2 g flight.drop).
+struct FlyingStartSolution {
+  double travel_time = 0.0;             ///< from start to finish [s]
+  double exit_speed = 0.0;              ///< at the finish [m/s]
+  double entry_slope_angle = 0.0;       ///< zeta_0 [rad]
+  double flight_end_slope_angle = 0.0;  ///< zeta_j [rad]; >= zeta_0
+  double exit_slope_angle = 0.0;        ///< zeta_1 [rad]; <= zeta_j
+  double flight_time = 0.0;             ///< of the first part [s]
+  Endpoints flight;                     ///< run and drop of the first part [m]
+  double entry_speed = 0.0;             ///< v0 [m/s]
+  double gravity = 0.0;                 ///< [m/s^2]
+  Endpoints endpoints;
+  FlyingStartShape shape;
+
+  /// @return true if the whole track is free flight: g L <= v0 v1 sin(delta) with v1^2 = v0^2 + 2 g H
+  [[nodiscard]] bool all_flight() const noexcept { return shape.flight_end_e == 0.0; }
+};
+
+/// Finds the fastest track of a body that enters with speed. Allocates nothing unless it throws.
+/// @param endpoints    run [m], finite, any sign (a negative run is the mirror image), 0 is a vertical line;
+///                     drop [m], finite, any sign, > least_drop(); not both 0
+/// @param entry_speed  v0 [m/s]; finite, > 0
+/// @param gravity      [m/s^2]; finite, > 0
+/// @throws InputError if a number is outside its stated range
+/// @throws InfeasibleError if drop <= least_drop(): no track whatever reaches the finish
+[[nodiscard]] FlyingStartSolution solve_flying_start(const Endpoints& endpoints, Friction friction,
+                                                     double entry_speed, double gravity = kDefaultGravity);
+
+/// Bound of the relative error of a FlyingStartSolution, measured in docs/accuracy.md; of angles the absolute
+/// error in radians where they are below 1 rad. The square of the exit speed may be off by
+/// kFlyingStartRounding (v0^2 + 2 g chord) besides, which tells where it is small.
+///
+/// Holds for friction coefficients from 0 to 3 and v0^2/(g chord) from 1e-8 to 1e8.
+/// @param margin  (H - least_drop)/(chord + v0^2/g) > 0: how far the finish lies inside what can be reached
+[[nodiscard]] constexpr double flying_start_accuracy(double margin) {
+  return 1e-12 + 1e-15 / margin;
+}
+
+inline constexpr double kFlyingStartRounding = 1e-14;
+
+namespace centerline {
+class SlopeTable;
+}
+
+/// Kind "fastest" with an entry speed: free flight along the track, then pressed on it to the finish.
+///
+/// Frame: as CenterlinePoint; x counts towards the finish on whichever side of the start it lies.
+/// Curve: curvature -g cos^3(zeta)/(v0 cos(zeta_0))^2 on the flight, where the normal load is 0; it jumps at
+///   flight_length(), a break, to a positive one. Without friction there is no flight, far faster than gravity
+///   needs there is nothing else. A vertical one (run 0) is a straight line.
+/// Source: docs/theory.md, fastest track with an entry speed; slope angle over arc length by Chebyshev pieces.
+/// Accuracy: position to kPositionAccuracy of the length for margins above 1e-3, see flying_start_accuracy.
+/// Identity: the referee Motion, started with entry_speed, finds travel_time and exit_speed of solution().
+class FlyingStartBrachistochrone final : public Centerline {
+ public:
+  /// Stated bound of the position error relative to the length, measured in docs/accuracy.md.
+  static constexpr double kPositionAccuracy = 1e-12;
+
+  /// @throws as solve_flying_start
+  FlyingStartBrachistochrone(const Endpoints& endpoints, Friction friction, double entry_speed,
+                             double gravity = kDefaultGravity);
+
+  [[nodiscard]] const FlyingStartSolution& solution() const noexcept { return solution_; }
+  /// @return where the flight ends [m]; 0 where there is none
+  [[nodiscard]] double flight_length() const noexcept { return flight_length_; }
+
+  [[nodiscard]] std::string_view kind() const noexcept override { return "fastest"; }
+  [[nodiscard]] double length() const noexcept override { return length_; }
+  [[nodiscard]] CenterlinePoint at(double s) const override;
+  [[nodiscard]] double slope_angle(double s) const override;
+  [[nodiscard]] Direction direction(double s) const override;
+  [[nodiscard]] std::vector<double> breaks() const override;
+
+ private:
+  [[nodiscard]] double curvature(double s, double slope_angle) const;
+
+  FlyingStartSolution solution_;
+  double flight_length_ = 0.0;
+  double length_ = 0.0;
+  std::shared_ptr<const centerline::SlopeTable> flight_;   // none without a flight
+  std::shared_ptr<const centerline::SlopeTable> pressed_;  // none where all is flight
+};
+
+}  // namespace glissade

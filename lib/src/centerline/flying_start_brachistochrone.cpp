@@ -1,0 +1,102 @@
+// Both parts by their radius of curvature over the slope angle: c^2/(g cos^3) of the flight, and of the pressed
+// part, with e = E cos^2 = (sin - mu cos)^2 + q^2 cos^2, which stays finite where the slope does not,
+//
+//     ds/d|zeta| = C cos [e + 4 mu cos (sin - t1 cos)]/e^3,   C = c^2 E(t_j)^2/g
+#include "glissade/centerline/flying_start_brachistochrone.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include "slope_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace glissade {
+namespace {
+
+using centerline::SlopeTable;
+
+double flight_radius(const FlyingStartSolution& solution, double slope_angle) {
+  const double cosine = math::cos(slope_angle);
+  const double speed = solution.shape.horizontal_speed;
+  return speed * speed / (solution.gravity * cosine * cosine * cosine);
+}
+
+double pressed_radius(const FlyingStartSolution& solution, double slope_angle) {
+  const FlyingStartShape& shape = solution.shape;
+  const double mu = shape.friction_coefficient;
+  const double q2 = 1.0 - mu * mu + 2.0 * mu * shape.exit_slope;
+  const double cosine = math::cos(slope_angle);
+  const double sine = math::sin(slope_angle);
+  const double lean = sine - mu * cosine;
+  const double e = lean * lean + q2 * cosine * cosine;
+  const double speed = shape.horizontal_speed * shape.flight_end_e;
+  const double scale = speed * speed / solution.gravity;
+  return scale * cosine * (e + 4.0 * mu * cosine * (sine - shape.exit_slope * cosine)) / (e * e * e);
+}
+
+/// @return atan(to) - atan(from), with no digits lost where they are close
+double turn_between(double from, double to) {
+  return math::atan2(to - from, 1.0 + from * to);
+}
+
+}  // namespace
+
+FlyingStartBrachistochrone::FlyingStartBrachistochrone(const Endpoints& endpoints, Friction friction,
+                                                       double entry_speed, double gravity)
+    : solution_(solve_flying_start(endpoints, friction, entry_speed, gravity)) {
+  const FlyingStartShape& shape = solution_.shape;
+  if (shape.horizontal_speed == 0.0) {
+    length_ = std::fabs(endpoints.drop);
+    return;
+  }
+  const double flown = math::atan2(shape.flight_turn, 1.0 + shape.entry_slope * shape.flight_end_slope);
+  if (flown > 0.0) {
+    flight_ = std::make_shared<SlopeTable>(solution_.entry_slope_angle, flown,
+                                           [this](double zeta) { return flight_radius(solution_, zeta); });
+    flight_length_ = flight_->length();
+  }
+  const double pressed = turn_between(shape.flight_end_slope, shape.exit_slope);
+  if (pressed < 0.0) {
+    pressed_ = std::make_shared<SlopeTable>(solution_.flight_end_slope_angle, pressed,
+                                            [this](double zeta) { return pressed_radius(solution_, zeta); });
+  }
+  length_ = flight_length_ + (pressed_ ? pressed_->length() : 0.0);
+}
+
+double FlyingStartBrachistochrone::slope_angle(double s) const {
+  require_on_track(s);
+  if (flight_ && (s < flight_length_ || !pressed_)) return flight_->slope_angle(s);
+  return pressed_ ? pressed_->slope_angle(s - flight_length_) : solution_.entry_slope_angle;
+}
+
+double FlyingStartBrachistochrone::curvature(double s, double slope_angle) const {
+  if (flight_ && (s < flight_length_ || !pressed_)) return -1.0 / flight_radius(solution_, slope_angle);
+  return pressed_ ? 1.0 / pressed_radius(solution_, slope_angle) : 0.0;
+}
+
+Direction FlyingStartBrachistochrone::direction(double s) const {
+  const double zeta = slope_angle(s);
+  return {zeta, curvature(s, zeta)};
+}
+
+CenterlinePoint FlyingStartBrachistochrone::at(double s) const {
+  require_on_track(s);
+  SlopeTable::Point point{solution_.entry_slope_angle, 0.0, std::copysign(s, solution_.endpoints.drop)};
+  if (flight_ && (s < flight_length_ || !pressed_)) {
+    point = flight_->at(s);
+  } else if (pressed_) {
+    point = pressed_->at(s - flight_length_);
+    point.x += solution_.flight.run;
+    point.drop += solution_.flight.drop;
+  }
+  return {s, point.x, point.drop, point.slope_angle, curvature(s, point.slope_angle)};
+}
+
+std::vector<double> FlyingStartBrachistochrone::breaks() const {
+  if (flight_ && pressed_) return {0.0, flight_length_, length_};
+  return {0.0, length_};
+}
+
+}  // namespace glissade
