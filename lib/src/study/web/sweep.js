@@ -40,14 +40,17 @@ function quoted(text) {
   return /^[\w.,:=/+%-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 }
 
-function commandOf(inputs) {
-  const sets = data.base.concat(inputs.map((value, index) => `${data.inputKeys[index].key}=${value}${data.inputKeys[index].unit}`));
-  return `glissade solve ${quoted(data.design)}${sets.map((set) => ` --set ${quoted(set)}`).join("")}`;
+/** A point of its own is a design with these values; one on the frozen track is a sweep of one point. */
+function commandOf(point) {
+  const values = point.inputs.map((value, index) => `${data.inputKeys[index].key}=${value}${data.inputKeys[index].unit}`);
+  const options = (name, texts) => texts.map((text) => ` ${name} ${quoted(text)}`).join("");
+  if (!data.frozen) return `glissade solve ${quoted(data.design)}${options("--set", data.base.concat(values))}`;
+  return `glissade sweep ${quoted(data.design)} --frozen${options("--set", data.base)}${options("--vary", values)} -o point_${point.index}`;
 }
 
 const command = make("pre", { class: "command", "aria-live": "polite" }, "Choose a cell or a row: its first point's command appears here.");
 function showPoint(point, extra) {
-  command.textContent = `# point ${point.index}${extra ? `, ${extra}` : ""}\n${commandOf(point.inputs)}`;
+  command.textContent = `# point ${point.index}${extra ? `, ${extra}` : ""}\n${commandOf(point)}`;
 }
 
 // --- axes -----------------------------------------------------------------------------------------------------------------
