@@ -5,8 +5,10 @@
 #include "support/temp_dir.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -93,7 +95,109 @@ TEST_CASE("build --json tells of the track, the mesh and the files") {
   CHECK(again.exit_code == 0);
   const json facts = json::parse(again.output);
   CHECK(facts["triangles"] == mesh["triangles"]);
-  CHECK(facts["volume_m3"].get<double>() == Approx(mesh["volume_m3"].get<double>()).epsilon(1e-12));
+  CHECK(facts["volume_m3"].get<double>() == Approx(mesh["mesh_volume_m3"].get<double>()).epsilon(1e-12));
+}
+
+namespace {
+
+/// The test chute, turned and moved.
+std::string chute_at(double x, double y, double z, double azimuth_deg, const std::string& exports) {
+  const double azimuth = azimuth_deg * 3.14159265358979323846 / 180.0;
+  std::ostringstream track;
+  track.precision(17);
+  track << "track:\n  start: {x: " << x << " m, y: " << y << " m, z: " << z
+        << " m}\n  finish: {x: " << x + 2.0 * std::cos(azimuth) << " m, y: " << y + 2.0 * std::sin(azimuth)
+        << " m, z: " << z - 1.6 << " m}\n";
+  std::string text = kChute;
+  const std::size_t from = text.find("track:");
+  text.replace(from, text.find("body:") - from, track.str());
+  return text.replace(text.find("export:"), std::string::npos, "export: " + exports + "\n");
+}
+
+json build_at(const TempDir& place, const std::string& text, const std::string& directory) {
+  put_bytes(place / "chute.yaml", text);
+  const Outcome outcome =
+      glissade_run({"build", "chute.yaml", "-o", directory, "--json", "--no-report"}, {place.path(), {}, {}});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  return json::parse(outcome.output);
+}
+
+}  // namespace
+
+TEST_CASE("a design 5,000 km away, whatever its azimuth, is the same solid in every file") {
+  const TempDir place;
+  const std::string formats = "[stl, stl-ascii, off, scad]";
+  const json home = build_at(place, chute_at(0.0, 0.0, 2.0, 0.0, formats), "home")["mesh"];
+  const double tolerance = 2e-3;
+  int number = 0;
+  for (const double azimuth : {0.0, 45.0, 77.0, 180.0, -131.0}) {
+    const std::string directory = "far" + std::to_string(number++);
+    const json far = build_at(place, chute_at(4e6, -3e6, 2500.0, azimuth, formats), directory)["mesh"];
+    INFO("azimuth " << azimuth);
+    CHECK(far["valid"] == true);
+    CHECK(far["max_deviation_m"].get<double>() <= tolerance);
+    CHECK(far["offset_m"] == json({4e6, -3e6, 2500.0}));
+    // Both ends are rounded to a nanometre there, which the length of the track shows.
+    CHECK(far["volume_m3"].get<double>() == Approx(home["volume_m3"].get<double>()).epsilon(1e-7));
+    CHECK(far["area_m2"].get<double>() == Approx(home["area_m2"].get<double>()).epsilon(1e-3));
+    for (const char* name : {"chute.stl", "chute.ascii.stl", "chute.off"}) {
+      INFO(name);
+      const Outcome found = glissade_run({"inspect", (place.path() / directory / name).string(), "--json"},
+                                         {place.path(), {}, {}});
+      REQUIRE(found.exit_code == 0);
+      const json facts = json::parse(found.output);
+      const double area = facts["area_m2"];
+      CHECK(std::fabs(facts["volume_m3"].get<double>() - far["volume_m3"].get<double>()) <= tolerance * area);
+      // In its own frame the solid begins at the origin.
+      for (int axis = 0; axis < 3; ++axis) {
+        CHECK(facts["lower_m"][axis].get<double>() > -3.0);
+        CHECK(facts["upper_m"][axis].get<double>() < 3.0);
+      }
+    }
+    CHECK_THAT(
+        bytes_of(place.path() / directory / "chute.off"),
+        Contains("# Glissade; unit: mm; origin at (4000000, -3000000, 2500) m of the site; Test chute\n"));
+    CHECK_THAT(bytes_of(place.path() / directory / "chute.scad"),
+               Contains("// origin at (4000000, -3000000, 2500) m of the site; see glissade_offset()\n") &&
+                   Contains("function glissade_offset() = [4e+09,-3e+09,2500000];\n"));
+    CHECK_THAT(bytes_of(place.path() / directory / "chute.stl").substr(0, 80),
+               Contains("origin at (4000000, -3000000, 2500) m of the site"));
+  }
+}
+
+TEST_CASE("coordinates of the site on request; binary STL that cannot hold them says what can") {
+  const TempDir place;
+  const json near =
+      build_at(place, chute_at(10.0, 20.0, 30.0, 30.0, "{formats: [stl, off], frame: site}"), "near");
+  CHECK(near["mesh"]["offset_m"] == json({0.0, 0.0, 0.0}));
+  CHECK(near["mesh"]["lower_m"][0].get<double>() > 9.0);
+  CHECK(near["mesh"]["upper_m"][2].get<double>() > 29.0);
+  CHECK_THAT(bytes_of(place / "near/chute.off"), !Contains("origin at"));
+
+  put_bytes(place / "chute.yaml", chute_at(5e5, 0.0, 2.0, 0.0, "{formats: [stl], frame: site}"));
+  const Outcome refused = glissade_run({"build", "chute.yaml", "-o", "far"}, {place.path(), {}, {}});
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.errors,
+             Contains("tolerance: 2 mm is finer than binary STL can hold") &&
+                 Contains("at 500 km from the origin of the file, positions move by up to") &&
+                 Contains("Try: frame: local in export, whose origin is the start of the track; or "
+                          "off or stl-ascii"));
+  CHECK_FALSE(fs::exists(place / "far"));
+  const json off =
+      build_at(place, chute_at(5e5, 0.0, 2.0, 0.0, "{formats: [off, stl-ascii], frame: site}"), "off");
+  CHECK(off["mesh"]["max_deviation_m"].get<double>() <= 2e-3);
+}
+
+TEST_CASE("a tolerance finer than single precision is refused for binary STL alone") {
+  const TempDir place;
+  put_bytes(place / "chute.yaml", chute_with("mesh:", "mesh: {tolerance: 0.0001 mm}"));
+  const Outcome refused = glissade_run({"build", "chute.yaml", "-o", "far"}, {place.path(), {}, {}});
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.errors,
+             StartsWith("glissade: error: chute.yaml:9:19: tolerance: 0.0001 mm is finer than binary STL") &&
+                 Contains("Try: off or stl-ascii, which hold double precision; or a tolerance of at "
+                          "least"));
 }
 
 TEST_CASE("the same design gives the same bytes") {

@@ -33,3 +33,10 @@ TEST_CASE("lengths are shown in the unit that suits their size") {
   CHECK(angle_text(-8.7e-16) == "0 deg");
   CHECK(angle_text(1e-9) == "5.73e-08 deg");
 }
+
+TEST_CASE("number text: decimals have no exponent and read back as the same number") {
+  CHECK(decimal_text(4e6) == "4000000");
+  CHECK(decimal_text(-0.1) == "-0.1");
+  CHECK(std::stod(decimal_text(5e-324)) == 5e-324);
+  CHECK(std::stod(decimal_text(-1.7976931348623157e308)) == -1.7976931348623157e308);
+}

@@ -154,6 +154,10 @@ struct Build {
   Solid solid;
   /// Of the mesh as the least precise of the files holds it, confirmed on each file read back.
   MeshFacts facts;
+  /// The greatest distance between the ideal solid and the mesh as that file holds it, rounding included [m].
+  double max_deviation = 0.0;
+  /// Where the origin of the mesh files lies in the frame of the site [m]; none: they are in that frame.
+  std::optional<Vec3> offset;
   std::vector<WrittenFile> files;
   /// Files of an earlier build of this design that this one does not make, unchanged since they were written.
   std::vector<std::filesystem::path> removed;

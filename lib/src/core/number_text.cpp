@@ -14,6 +14,14 @@ std::string exact_text(double value) {
   return {buffer.data(), end};
 }
 
+std::string decimal_text(double value) {
+  // The smallest double has 324 zeros after the point.
+  std::array<char, 512> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed).ptr;
+  return {buffer.data(), end};
+}
+
 std::string rounded_text(double value, int digits) {
   if (!std::isfinite(value)) return exact_text(value);
   std::array<char, 64> buffer;

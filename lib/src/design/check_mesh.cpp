@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,23 @@ void check_mesh_size(const Design& design, Collected& findings) {
           "a tolerance above " + rounded_text(smallest * 1e3, 2) + " mm; 0.5 mm suits most workshops"});
 }
 
+void check_kink(const Design& design, Collected& findings) {
+  if (!design.mesh.largest_kink) return;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  constexpr double kSmallest = 0.001 * kDegree;
+  constexpr double kLargest = 14.0 * kDegree;
+  const double kink = design.mesh.largest_kink->radians();
+  if (kink >= kSmallest && kink <= kLargest) return;
+  report(findings, {"mesh.largest_kink"},
+         {"", "largest_kink: " + angle_text(kink) + " is out of range",
+          "Facets that follow a curve meet at 0.001 to 14 deg; without the key, as the tolerance asks.",
+          "0.25 deg for codes that move particles over the mesh"});
+}
+
 }  // namespace
 
 void check_mesh(const Design& design, Collected& findings) {
+  check_kink(design, findings);
   const double tolerance = design.mesh.tolerance;
   if (!(tolerance > 0.0 && std::isfinite(tolerance))) {
     report(findings, {"mesh.tolerance"},

@@ -376,6 +376,8 @@ MeshDesign read_mesh(MapReader& top, Findings& findings) {
   if (!value) return mesh;
   MapReader map(*value, "A mesh", "{tolerance: 0.5 mm}", findings);
   mesh.tolerance = map.quantity("tolerance", Dimension::length).value_or(mesh.tolerance);
+  if (const auto kink = map.quantity("largest_kink", Dimension::angle))
+    mesh.largest_kink = Angle::from_radians(*kink);
   map.refuse_unknown_keys();
   return mesh;
 }
@@ -399,6 +401,9 @@ ExportDesign read_export(MapReader& top, Findings& findings) {
   if (const auto formats = map.find("formats")) read_formats(map, *formats, exports, findings);
   if (const auto unit = map.find("unit")) {
     exports.unit = map.choice(*unit, length_unit_words()).value_or(exports.unit);
+  }
+  if (const auto frame = map.find("frame")) {
+    exports.frame = map.choice(*frame, mesh_frame_words()).value_or(exports.frame);
   }
   map.refuse_unknown_keys();
   return exports;

@@ -39,6 +39,11 @@ const Words<LengthUnit>& length_unit_words() {
   return words;
 }
 
+const Words<MeshFrame>& mesh_frame_words() {
+  static const Words<MeshFrame> words = {{"local", MeshFrame::local}, {"site", MeshFrame::site}};
+  return words;
+}
+
 namespace {
 
 template <typename Meaning>

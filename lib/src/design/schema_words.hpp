@@ -15,5 +15,6 @@ using Words = std::vector<std::pair<std::string_view, Meaning>>;
 [[nodiscard]] const Words<CrossSectionKind>& cross_section_words();
 [[nodiscard]] const Words<ExportFormat>& export_words();
 [[nodiscard]] const Words<LengthUnit>& length_unit_words();
+[[nodiscard]] const Words<MeshFrame>& mesh_frame_words();
 
 }  // namespace glissade::design_file

@@ -1,6 +1,7 @@
 #include "io/byte_source.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/stop.hpp"
 
 #include "io/system_error.hpp"
 
@@ -29,8 +30,10 @@ std::uint64_t size_of_regular(const std::filesystem::path& file, int descriptor)
 }  // namespace
 
 // Without O_NONBLOCK the opening of a pipe would wait for its writer.
-FileSource::FileSource(std::filesystem::path file)
-    : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+FileSource::FileSource(std::filesystem::path file, std::stop_token stop)
+    : file_(std::move(file)),
+      stop_(std::move(stop)),
+      descriptor_(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0) throw system_error(file_, "cannot read", errno);
   try {
     size_ = size_of_regular(file_, descriptor_);
@@ -45,6 +48,7 @@ FileSource::~FileSource() {
 }
 
 std::size_t FileSource::read(char* buffer, std::size_t count) {
+  require_going(stop_);
   std::size_t done = 0;
   while (done < count) {
     const ssize_t got = ::read(descriptor_, buffer + done, count - done);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -28,7 +29,8 @@ class ByteSource {
 class FileSource final : public ByteSource {
  public:
   /// @throws FileError if the file cannot be opened or is a directory, a device or a pipe
-  explicit FileSource(std::filesystem::path file);
+  /// @param stop  read() throws Interrupted if it asks for it
+  explicit FileSource(std::filesystem::path file, std::stop_token stop = {});
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;
   ~FileSource() override;
@@ -38,6 +40,7 @@ class FileSource final : public ByteSource {
 
  private:
   std::filesystem::path file_;
+  std::stop_token stop_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
 };

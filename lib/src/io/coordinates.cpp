@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/stop.hpp"
 #include "glissade/io/mesh_file.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
@@ -19,6 +20,7 @@
 namespace glissade::io {
 namespace {
 
+constexpr std::uint32_t kVerticesBetweenPauses = 1U << 16U;
 constexpr double kLargestFloat = std::numeric_limits<float>::max();
 
 /// @param p  in metres
@@ -87,8 +89,9 @@ InputError too_coarse(std::string what, double size, double feature, LengthUnit 
 /// Positions in the file's unit and their roundings, one object for the steps of keeping them apart.
 class DistinctRounding {
  public:
-  DistinctRounding(const std::vector<Vec3>& exact, std::vector<FloatPosition>& rounded, LengthUnit unit)
-      : exact_(exact), rounded_(rounded), unit_(unit), positions_(exact.size()) {
+  DistinctRounding(const std::vector<Vec3>& exact, std::vector<FloatPosition>& rounded, LengthUnit unit,
+                   const std::stop_token& stop)
+      : exact_(exact), rounded_(rounded), unit_(unit), stop_(stop), positions_(exact.size()) {
     std::transform(rounded.begin(), rounded.end(), positions_.begin(), to_vec);
   }
 
@@ -99,6 +102,7 @@ class DistinctRounding {
     std::vector<std::uint32_t> leader(exact_.size());
     std::vector<std::uint32_t> homeless;
     for (std::uint32_t i = 0; i < exact_.size(); ++i) {
+      if (i % kVerticesBetweenPauses == 0) require_going(stop_);
       leader[i] = originals.enter(exact_[i], i);
       if (leader[i] == i && taken.enter(positions_[i], i) != i) homeless.push_back(i);
     }
@@ -110,6 +114,7 @@ class DistinctRounding {
   [[nodiscard]] bool has_merged() const {
     solid::PositionIndex index(positions_, positions_.size());
     for (std::uint32_t i = 0; i < positions_.size(); ++i) {
+      if (i % kVerticesBetweenPauses == 0) require_going(stop_);
       if (!(exact_[index.enter(positions_[i], i)] == exact_[i])) return true;
     }
     return false;
@@ -134,6 +139,7 @@ class DistinctRounding {
   const std::vector<Vec3>& exact_;
   std::vector<FloatPosition>& rounded_;
   LengthUnit unit_;
+  const std::stop_token& stop_;
   std::vector<Vec3> positions_;
 };
 
@@ -191,6 +197,11 @@ void refuse_beyond_single_precision(const TriangleMesh& mesh, std::size_t first,
 
 }  // namespace
 
+std::string offset_in_words(Vec3 offset) {
+  return "origin at (" + decimal_text(offset.x) + ", " + decimal_text(offset.y) + ", " +
+         decimal_text(offset.z) + ") m of the site";
+}
+
 void require_writable(const TriangleMesh& mesh) {
   in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
     solid::require_usable_positions(mesh, first, last, "written");
@@ -217,7 +228,7 @@ bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit) {
   return is_exact;
 }
 
-std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
+std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit, const std::stop_token& stop) {
   // What came out of as_written() rounds to itself: vertices that are apart stay so without a look.
   const bool is_exact = is_single_precision(mesh, unit);
   const double per_metre = units_per_metre(unit);
@@ -228,7 +239,9 @@ std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
     rounded[i] = nearest(positions[i]);
   }
   if (!is_exact) {
-    DistinctRounding(positions, rounded, unit).keep_apart();
+    require_going(stop);
+    DistinctRounding(positions, rounded, unit, stop).keep_apart();
+    require_going(stop);
     require_same_attitude(mesh, rounded, unit);
   }
   std::transform(rounded.begin(), rounded.end(), positions.begin(),
@@ -240,9 +253,10 @@ std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit) {
 
 namespace glissade {
 
-TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit) {
+TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit,
+                        const std::stop_token& stop) {
   io::require_writable(mesh);
-  if (format == MeshFormat::stl_binary) return {io::single_precision(mesh, unit), mesh.triangles};
+  if (format == MeshFormat::stl_binary) return {io::single_precision(mesh, unit, stop), mesh.triangles};
   return io::as_double_precision(mesh, unit);
 }
 

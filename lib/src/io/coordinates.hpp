@@ -4,6 +4,7 @@
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <array>
+#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,9 @@ using FloatPosition = std::array<float, 3>;
   return {static_cast<float>(p.x) + 0.0F, static_cast<float>(p.y) + 0.0F, static_cast<float>(p.z) + 0.0F};
 }
 
+/// @return for a header: "origin at (1, 2, 3) m of the site"
+[[nodiscard]] std::string offset_in_words(Vec3 offset);
+
 /// @throws InputError if a triangle names a vertex that does not exist or a coordinate is not finite
 ///         or beyond kLargestMeshCoordinate
 void require_writable(const TriangleMesh& mesh);
@@ -27,6 +31,8 @@ void require_writable(const TriangleMesh& mesh);
 
 /// @return the vertices of as_written() for binary STL [m]
 /// @throws InputError as as_written(); triangles must name vertices that exist
-[[nodiscard]] std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit);
+/// @throws Interrupted if `stop` asks for it
+[[nodiscard]] std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit,
+                                                 const std::stop_token& stop = {});
 
 }  // namespace glissade::io

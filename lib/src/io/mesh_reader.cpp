@@ -80,8 +80,8 @@ TriangleMesh read_mesh_bytes(ByteSource& source, const std::string& name, Length
 
 namespace glissade {
 
-TriangleMesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
-  io::FileSource source(file);
+TriangleMesh read_mesh(const std::filesystem::path& file, LengthUnit unit, const std::stop_token& stop) {
+  io::FileSource source(file, stop);
   return io::read_mesh_bytes(source, file.string(), unit);
 }
 

@@ -35,6 +35,11 @@ std::string titled(std::string_view title, const MeshFileOptions& options, std::
   std::string text(title);
   text += "unit: ";
   text += unit_symbol(options.unit);
+  if (options.offset) {
+    // The header of a binary file may be too short for coordinates of many digits.
+    const std::string offset = "; " + offset_in_words(*options.offset);
+    if (text.size() + offset.size() <= most_bytes) text += offset;
+  }
   const std::string prefix = text + "; ";
   const std::string name =
       printable_name(options.name, most_bytes > prefix.size() ? most_bytes - prefix.size() : std::size_t{0});
@@ -70,13 +75,15 @@ void write_stl_binary(AtomicFile& file, const TriangleMesh& mesh, const MeshFile
   const auto prefix = stl_prefix(mesh, options);
   file.expect(stl::file_bytes(static_cast<std::uint32_t>(mesh.triangles.size())));
   file.write(prefix.data(), prefix.size());
-  write_in_order(
-      file, {mesh.triangles.size(), stl::kFacetBytes, [&](std::size_t first, std::size_t last, char* block) {
-               // Here and not at first: the triangles of a block stay in the cache.
-               if (is_rounded) solid::require_existing_vertices(mesh, first, last);
-               return put_stl_facets(block, mesh.triangles.data() + first, mesh.triangles.data() + last,
-                                     vertices, per_metre);
-             }});
+  write_in_order(file,
+                 {mesh.triangles.size(), stl::kFacetBytes,
+                  [&](std::size_t first, std::size_t last, char* block) {
+                    // Here and not at first: the triangles of a block stay in the cache.
+                    if (is_rounded) solid::require_existing_vertices(mesh, first, last);
+                    return put_stl_facets(block, mesh.triangles.data() + first, mesh.triangles.data() + last,
+                                          vertices, per_metre);
+                  }},
+                 options.stop);
 }
 
 std::vector<Vec3> in_unit(const std::vector<Vec3>& vertices, LengthUnit unit) {
@@ -114,16 +121,18 @@ void write_stl_ascii(AtomicFile& file, const TriangleMesh& mesh, const MeshFileO
   const std::string title = titled("Glissade; ", options, kLongestTitle);
   TextWriter text(file);
   text.put("solid ", title, '\n');
-  write_in_order(
-      file, {mesh.triangles.size(), kLongestFacet, [&](std::size_t first, std::size_t last, char* block) {
-               TextCursor cursor(block);
-               RecurringNumbers coordinates;
-               for (std::size_t i = first; i < last; ++i) {
-                 const auto& [a, b, c] = mesh.triangles[i];
-                 put_facet(cursor, coordinates, vertices[a], vertices[b], vertices[c]);
-               }
-               return cursor.place();
-             }});
+  write_in_order(file,
+                 {mesh.triangles.size(), kLongestFacet,
+                  [&](std::size_t first, std::size_t last, char* block) {
+                    TextCursor cursor(block);
+                    RecurringNumbers coordinates;
+                    for (std::size_t i = first; i < last; ++i) {
+                      const auto& [a, b, c] = mesh.triangles[i];
+                      put_facet(cursor, coordinates, vertices[a], vertices[b], vertices[c]);
+                    }
+                    return cursor.place();
+                  }},
+                 options.stop);
   text.put("endsolid ", title, '\n');
 }
 
@@ -134,23 +143,27 @@ void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshFileOptions
   text.put("OFF\n# ", titled("Glissade; ", options, kLongestTitle), '\n');
   text.put(mesh.vertices.size(), ' ', mesh.triangles.size(), " 0\n");
   write_in_order(file,
-                 {mesh.vertices.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
+                 {mesh.vertices.size(), kLongestLine,
+                  [&](std::size_t first, std::size_t last, char* block) {
                     TextCursor cursor(block);
                     RecurringNumbers coordinates;
                     for (std::size_t i = first; i < last; ++i) {
                       put_point(cursor, coordinates, per_metre * mesh.vertices[i]);
                     }
                     return cursor.place();
-                  }});
+                  }},
+                 options.stop);
   write_in_order(file,
-                 {mesh.triangles.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
+                 {mesh.triangles.size(), kLongestLine,
+                  [&](std::size_t first, std::size_t last, char* block) {
                     TextCursor cursor(block);
                     for (std::size_t i = first; i < last; ++i) {
                       const auto& [a, b, c] = mesh.triangles[i];
                       cursor.put("3 ", a, ' ', b, ' ', c, '\n');
                     }
                     return cursor.place();
-                  }});
+                  }},
+                 options.stop);
 }
 
 }  // namespace

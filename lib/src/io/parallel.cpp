@@ -1,5 +1,7 @@
 #include "io/parallel.hpp"
 
+#include "glissade/core/stop.hpp"
+
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
@@ -24,9 +26,10 @@ std::size_t thread_count() {
 
 class OrderedWriting {
  public:
-  OrderedWriting(AtomicFile& file, const BlockPlan& plan)
+  OrderedWriting(AtomicFile& file, const BlockPlan& plan, const std::stop_token& stop)
       : file_(file),
         plan_(plan),
+        stop_(stop),
         items_per_block_(std::max<std::size_t>(1, kBlockBytes / plan.most_bytes_per_item)),
         bytes_per_block_(items_per_block_ * plan.most_bytes_per_item + kBytesBeyondBlock),
         blocks_((plan.items + items_per_block_ - 1) / items_per_block_) {}
@@ -46,6 +49,7 @@ class OrderedWriting {
     try {
       const auto block = std::make_unique_for_overwrite<char[]>(bytes_per_block_);
       while (const std::optional<std::size_t> number = take()) {
+        require_going(stop_);
         const std::size_t first = *number * items_per_block_;
         const std::size_t last = std::min(first + items_per_block_, plan_.items);
         const char* const end = plan_.format(first, last, block.get());
@@ -89,6 +93,7 @@ class OrderedWriting {
 
   AtomicFile& file_;
   const BlockPlan& plan_;
+  const std::stop_token& stop_;
   std::size_t items_per_block_;
   std::size_t bytes_per_block_;
   std::size_t blocks_;
@@ -101,8 +106,8 @@ class OrderedWriting {
 
 }  // namespace
 
-void write_in_order(AtomicFile& file, const BlockPlan& plan) {
-  OrderedWriting(file, plan).run();
+void write_in_order(AtomicFile& file, const BlockPlan& plan, const std::stop_token& stop) {
+  OrderedWriting(file, plan, stop).run();
 }
 
 void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work) {

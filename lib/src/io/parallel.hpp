@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <stop_token>
 
 namespace glissade::io {
 
@@ -23,7 +24,8 @@ struct BlockPlan {
 /// system, which takes about as long as formatting it, the others format. The bytes do not depend on how many
 /// threads there are.
 /// @throws FileError as AtomicFile, or what `format` throws
-void write_in_order(AtomicFile& file, const BlockPlan& plan);
+/// @throws Interrupted if `stop` asks for it, from one block to the next
+void write_in_order(AtomicFile& file, const BlockPlan& plan, const std::stop_token& stop = {});
 
 /// Splits [0, count) among the cores: `work` gets [first, last) and runs on several threads at once.
 /// @throws what `work` throws; where several do, that of the lowest range

@@ -26,6 +26,7 @@ constexpr std::string_view kUsage =
     "//   glissade_solid();\n"
     "//   glissade_centerline(diameter);          a bar along it, so wide and high\n"
     "//   points = glissade_centerline_points();  from start to finish\n"
+    "//   translate(glissade_offset()) ...          into the frame of the site\n"
     "\n"
     "glissade_solid();\n"
     "\n";
@@ -81,33 +82,39 @@ std::string_view before_item(std::size_t item) {
   return item == 0 ? "\n" : ",\n";
 }
 
-void write_points(AtomicFile& file, const std::vector<Vec3>& points, double per_metre) {
+void write_points(AtomicFile& file, const std::vector<Vec3>& points, double per_metre,
+                  const std::stop_token& stop) {
   constexpr std::size_t kLongestLine = 4 + 3 * (TextCursor::kLongestNumber + 1);
   file.write("[");
-  write_in_order(file, {points.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
-                          TextCursor cursor(block);
-                          for (std::size_t i = first; i < last; ++i) {
-                            const Vec3 p = per_metre * points[i];
-                            cursor.put(before_item(i), '[', p.x, ',', p.y, ',', p.z, ']');
-                          }
-                          return cursor.place();
-                        }});
+  write_in_order(file,
+                 {points.size(), kLongestLine,
+                  [&](std::size_t first, std::size_t last, char* block) {
+                    TextCursor cursor(block);
+                    for (std::size_t i = first; i < last; ++i) {
+                      const Vec3 p = per_metre * points[i];
+                      cursor.put(before_item(i), '[', p.x, ',', p.y, ',', p.z, ']');
+                    }
+                    return cursor.place();
+                  }},
+                 stop);
   file.write("\n]");
 }
 
 /// OpenSCAD winds facets clockwise as seen from outside, Glissade the other way.
-void write_faces(AtomicFile& file, const TriangleMesh& mesh) {
+void write_faces(AtomicFile& file, const TriangleMesh& mesh, const std::stop_token& stop) {
   constexpr std::size_t kLongestLine = 4 + 3 * (TextCursor::kLongestNumber + 1);
   file.write("[");
   write_in_order(file,
-                 {mesh.triangles.size(), kLongestLine, [&](std::size_t first, std::size_t last, char* block) {
+                 {mesh.triangles.size(), kLongestLine,
+                  [&](std::size_t first, std::size_t last, char* block) {
                     TextCursor cursor(block);
                     for (std::size_t i = first; i < last; ++i) {
                       const auto& [a, b, c] = mesh.triangles[i];
                       cursor.put(before_item(i), '[', a, ',', c, ',', b, ']');
                     }
                     return cursor.place();
-                  }});
+                  }},
+                 stop);
   file.write("\n]");
 }
 
@@ -121,15 +128,19 @@ void write_scad(const std::filesystem::path& file, const TriangleMesh& mesh,
   AtomicFile output(file);
   TextWriter text(output);
   text.put("// Glissade; unit: ", unit_symbol(options.unit), "; ", printable_name(options.name), '\n');
+  if (options.offset) text.put("// ", offset_in_words(*options.offset), "; see glissade_offset()\n");
   if (!options.section.empty()) text.put("// Cross-section: ", printable_name(options.section), '\n');
   text.put(kUsage, "module glissade_solid() {\n  polyhedron(convexity = 10, points = ");
-  write_points(output, mesh.vertices, per_metre);
+  write_points(output, mesh.vertices, per_metre, options.stop);
   text.put(", faces = ");
-  write_faces(output, mesh);
+  write_faces(output, mesh, options.stop);
   text.put(");\n}\n\nfunction glissade_centerline_points() = ");
-  write_points(output, centerline, per_metre);
+  write_points(output, centerline, per_metre, options.stop);
   const Vec3 along = direction_of(centerline);
-  text.put(";\n\nfunction glissade_direction() = [", along.x, ',', along.y, ",0];\n\n", kCenterlineModule);
+  text.put(";\n\nfunction glissade_direction() = [", along.x, ',', along.y, ",0];\n\n");
+  const Vec3 offset = per_metre * options.offset.value_or(Vec3{});
+  text.put("function glissade_offset() = [", offset.x, ',', offset.y, ',', offset.z, "];\n\n",
+           kCenterlineModule);
   output.commit();
 }
 

@@ -1,4 +1,5 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/stop.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/mesh_file.hpp"
 #include "glissade/io/scad_file.hpp"
@@ -10,6 +11,7 @@
 #include "pipeline/staging.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -29,12 +31,8 @@ struct MeasuredMesh {
   std::vector<MeshFormat> formats;
   TriangleMesh mesh;
   MeshFacts facts;
+  double moved = 0.0;  // farthest that rounding took a vertex [m]
 };
-
-void require_going(const RunContext& context) {
-  if (!context.stop.stop_requested()) return;
-  throw Interrupted({"", "interrupted, nothing was written", "", ""});
-}
 
 // What the steps of a build cost, as shares of time measured on meshes of 0.25 and 1 million triangles.
 constexpr double kSweepCost = 0.1;
@@ -50,10 +48,12 @@ class Steps {
 
   /// Tells what comes next and what it will have cost, unless the work is to end.
   void enter(const std::string& stage, double cost) {
-    require_going(context_);
+    require_going(context_.stop);
     if (context_.progress) context_.progress(stage, done_ / total_);
     done_ += cost;
   }
+
+  [[nodiscard]] const std::stop_token& stop() const { return context_.stop; }
 
  private:
   const RunContext& context_;
@@ -146,6 +146,15 @@ const MeasuredMesh* held_by(const std::vector<MeasuredMesh>& meshes, MeshFormat 
   return nullptr;
 }
 
+double farthest_move(const TriangleMesh& exact, const TriangleMesh& rounded) {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < exact.vertices.size(); ++i) {
+    const Vec3 move = rounded.vertices[i] - exact.vertices[i];
+    squared = std::max(squared, dot(move, move));
+  }
+  return std::sqrt(squared);
+}
+
 /// Every rounding of the mesh that a file of this build holds, each measured once.
 std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, Steps& steps) {
   std::vector<MeasuredMesh> meshes;
@@ -153,8 +162,9 @@ std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, Ste
     const auto format = mesh_format(exported);
     if (!format || held_by(meshes, *format) != nullptr) continue;
     steps.enter("checking the mesh", kCheckCost);
-    TriangleMesh rounded = at_place(design.where("export"),
-                                    [&] { return as_written(solid.mesh, *format, design.exports.unit); });
+    TriangleMesh rounded = at_place(design.where("export"), [&] {
+      return as_written(solid.mesh, *format, design.exports.unit, steps.stop());
+    });
     const auto known = std::find_if(meshes.begin(), meshes.end(), [&](const MeasuredMesh& other) {
       return same_mesh(other.mesh, rounded);
     });
@@ -162,9 +172,10 @@ std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, Ste
       known->formats.push_back(*format);
       continue;
     }
-    const MeshFacts facts = measure(rounded);
+    const MeshFacts facts = measure(rounded, steps.stop());
     require_valid(facts, solid);
-    meshes.push_back({{*format}, std::move(rounded), facts});
+    const double moved = farthest_move(solid.mesh, rounded);
+    meshes.push_back({{*format}, std::move(rounded), facts, moved});
   }
   return meshes;
 }
@@ -176,8 +187,9 @@ const MeasuredMesh& as_held_by(const std::vector<MeasuredMesh>& meshes, MeshForm
 
 /// Reads a file again and holds it against the mesh that was measured: the same facets at the same positions,
 /// in the same order, so that every fact of the one is a fact of the other.
-void require_same_on_disk(const fs::path& file, const TriangleMesh& expected, LengthUnit unit) {
-  const TriangleMesh found = read_mesh(file, unit);
+void require_same_on_disk(const fs::path& file, const TriangleMesh& expected, LengthUnit unit,
+                          const std::stop_token& stop) {
+  const TriangleMesh found = read_mesh(file, unit, stop);
   bool same = found.triangles.size() == expected.triangles.size() &&
               found.vertices.size() == expected.vertices.size();
   for (std::size_t facet = 0; same && facet < expected.triangles.size(); ++facet) {
@@ -219,18 +231,57 @@ std::vector<StationRow> stations_of(const Track& track, const std::vector<double
   return stations;
 }
 
-std::vector<Vec3> positions(const Track& track, const std::vector<double>& arc_lengths) {
+/// The centerline in the frame of the mesh.
+std::vector<Vec3> positions(const Track& track, const Solid& solid) {
   std::vector<Vec3> positions;
-  positions.reserve(arc_lengths.size());
-  for (const double s : arc_lengths) {
+  positions.reserve(solid.stations.size());
+  for (const double s : solid.stations) {
     const CenterlinePoint point = track.centerline->at(s);
-    positions.push_back(track.placement.to_space(point.x, point.drop, 0.0));
+    positions.push_back(solid.placement.to_space(point.x, point.drop, 0.0));
   }
   return positions;
 }
 
+std::optional<Vec3> offset_in_files(const Design& design, const Track& track) {
+  if (design.exports.frame == MeshFrame::site) return {};
+  return track.placement.start();
+}
+
+/// By how much the least precise of the files may move a vertex, before there is a mesh to measure it on.
+/// @throws InputError if that leaves nothing of the tolerance
+double rounding_in_files(const Design& design, const Centerline& centerline, const CrossSection& section,
+                         const Placement& placement) {
+  const std::vector<ExportFormat>& formats = design.exports.formats;
+  if (std::find(formats.begin(), formats.end(), ExportFormat::stl) == formats.end()) return 0.0;
+  const Vec3 start = placement.start();
+  const double farthest = std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) +
+                          centerline.length() + section.highest() - section.lowest();
+  // Half a step of single precision on each axis; one whole step where two vertices would become one.
+  const double step = 0x1p-23 * farthest;
+  const double rounding = std::sqrt(3.0) * step;
+  constexpr double kMostOfTolerance = 0.5;
+  if (rounding <= kMostOfTolerance * design.mesh.tolerance) return rounding;
+  const bool far_away = norm(start) > 2.0 * centerline.length();
+  throw InputError(
+      {design.where("mesh.tolerance"),
+       "tolerance: " + length_text(design.mesh.tolerance) + " is finer than binary STL can hold",
+       "It holds single precision: at " + length_text(farthest, 3) +
+           " from the origin of the file, positions move by up to " + length_text(rounding, 2) + ".",
+       far_away ? "frame: local in export, whose origin is the start of the track; or off or stl-ascii"
+                : "off or stl-ascii, which hold double precision; or a tolerance of at least " +
+                      length_text(rounding / kMostOfTolerance, 2)});
+}
+
+void require_within_tolerance(const Design& design, double max_deviation) {
+  if (max_deviation <= design.mesh.tolerance) return;
+  throw InternalError({"",
+                       "the files depart by " + length_text(max_deviation, 3) + ", the tolerance is " +
+                           length_text(design.mesh.tolerance, 3),
+                       "", ""});
+}
+
 void write_file(const fs::path& path, ExportFormat format, const Design& design, const Track& track,
-                const Solid& solid, const std::vector<MeasuredMesh>& meshes) {
+                const Solid& solid, const std::vector<MeasuredMesh>& meshes, const std::stop_token& stop) {
   switch (format) {
     case ExportFormat::stl:
     case ExportFormat::stl_ascii:
@@ -238,13 +289,15 @@ void write_file(const fs::path& path, ExportFormat format, const Design& design,
       const MeshFormat mesh_file = *mesh_format(format);
       // Rounding the rounded mesh again changes nothing, and takes far less time.
       const TriangleMesh& rounded = as_held_by(meshes, mesh_file).mesh;
-      write_mesh(path, mesh_file, rounded, {design.exports.unit, design.name});
-      require_same_on_disk(path, rounded, design.exports.unit);
+      write_mesh(path, mesh_file, rounded,
+                 {design.exports.unit, offset_in_files(design, track), design.name, stop});
+      require_same_on_disk(path, rounded, design.exports.unit, stop);
       return;
     }
     case ExportFormat::scad:
-      write_scad(path, solid.mesh, positions(track, solid.stations),
-                 {design.exports.unit, design.name, section_in_words(*design.cross_section)});
+      write_scad(path, solid.mesh, positions(track, solid),
+                 {design.exports.unit, design.name, offset_in_files(design, track),
+                  section_in_words(*design.cross_section), stop});
       return;
     case ExportFormat::csv:
       write_stations_csv(path, stations_of(track, solid.stations));
@@ -327,19 +380,27 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   steps.enter("making the mesh", kSweepCost);
   const std::string place = design.where("cross_section");
   CrossSection section = at_place(place, [&] { return make_cross_section(*design.cross_section); });
+  const Placement placement =
+      design.exports.frame == MeshFrame::local ? track.placement.at_origin() : track.placement;
+  const double rounding = rounding_in_files(design, *track.centerline, section, placement);
   Solid solid = at_place(place, [&] {
-    return sweep(*track.centerline, section, track.placement, {.tolerance = design.mesh.tolerance});
+    return sweep(*track.centerline, section, placement,
+                 {.tolerance = design.mesh.tolerance - rounding,
+                  .largest_kink = design.mesh.largest_kink,
+                  .stop = context.stop});
   });
 
   std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
   if (meshes.empty()) {
     steps.enter("checking the mesh", kCheckCost);
-    const MeshFacts facts = measure(solid.mesh);
+    const MeshFacts facts = measure(solid.mesh, context.stop);
     require_valid(facts, solid);
-    meshes.push_back({{}, solid.mesh, facts});
+    meshes.push_back({{}, solid.mesh, facts, 0.0});
   }
 
   MeshFacts facts = least_precise(meshes).facts;
+  const double max_deviation = solid.max_deviation + least_precise(meshes).moved;
+  require_within_tolerance(design, max_deviation);
   Staging staging(directory, stem_of(design));
   std::vector<fs::path> made;
   std::vector<fs::path> read_back;
@@ -348,7 +409,7 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
     steps.enter("writing " + name, cost_of(format));
     made.push_back(staging.path_for(name));
     named_as(made.back(), directory / name,
-             [&] { write_file(made.back(), format, design, track, solid, meshes); });
+             [&] { write_file(made.back(), format, design, track, solid, meshes, context.stop); });
     if (is_read_back(format)) read_back.push_back(made.back());
   }
   if (options.report) {
@@ -357,10 +418,12 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
     steps.enter("writing " + name, kReportCost);
     const fs::path page = staging.path_for(name);
     named_as(page, directory / name, [&] {
-      write_report(page, design, {track, section, solid, facts, std::move(made), std::move(read_back)});
+      write_report(
+          page, design,
+          {track, section, solid, facts, max_deviation, std::move(made), std::move(read_back), context.stop});
     });
   }
-  require_going(context);
+  require_going(context.stop);
 
   Published published = staging.publish();
   std::vector<WrittenFile> files;
@@ -369,6 +432,8 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
           std::move(section),
           std::move(solid),
           facts,
+          max_deviation,
+          offset_in_files(design, track),
           std::move(files),
           std::move(published.removed),
           std::move(published.set_aside)};

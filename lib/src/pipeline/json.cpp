@@ -120,7 +120,12 @@ std::string conflict_json(const Design& design, const OptimizeReport& report) {
 std::string build_json(const Design& design, const Build& build) {
   Json json = pipeline::track_document(design, build.track);
   json["mesh"] = report::mesh_json(build.facts);
-  json["mesh"]["max_deviation_m"] = build.solid.max_deviation;
+  // Of a mesh that is known to follow a solid, the volume is that solid's.
+  json["mesh"]["volume_m3"] = build.solid.exact_volume;
+  json["mesh"]["mesh_volume_m3"] = build.facts.volume;
+  json["mesh"]["max_deviation_m"] = build.max_deviation;
+  const Vec3 offset = build.offset.value_or(Vec3{});
+  json["mesh"]["offset_m"] = {offset.x, offset.y, offset.z};
   json["mesh"]["trimmed"] = build.solid.trimmed;
   json["files"] = Json::array();
   for (const WrittenFile& file : build.files) {

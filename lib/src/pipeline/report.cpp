@@ -82,9 +82,9 @@ ReportCheck self_intersections(const MeshFacts& facts) {
               std::to_string(facts.degenerate_facets) + " facets without area"};
 }
 
-ReportCheck deviation(const Design& design, const Solid& solid) {
-  return {"The facets follow the track", verdict(solid.max_deviation <= design.mesh.tolerance),
-          "largest deviation " + length_text(solid.max_deviation, 3) + ", tolerance " +
+ReportCheck deviation(const Design& design, double max_deviation) {
+  return {"The facets follow the track", verdict(max_deviation <= design.mesh.tolerance),
+          "largest deviation " + length_text(max_deviation, 3) + ", tolerance " +
               length_text(design.mesh.tolerance, 3)};
 }
 
@@ -126,6 +126,7 @@ std::vector<ReportLimit> limits_of(const Design& design, const Track& track) {
 ReportInput report_input(const Design& design, const BuildForReport& build) {
   const Track& track = build.track;
   ReportInput input;
+  input.stop = build.stop;
   input.design = &design;
   input.centerline = track.search ? searched_name(design) : std::string(word(design.centerline.kind));
   input.endpoints = track.endpoints;
@@ -136,11 +137,11 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.optimum_travel_time = track.optimum_travel_time;
   input.min_radius = track.min_radius;
   input.steepest_slope_angle = track.steepest_slope_angle;
-  input.solid = {&build.solid, &build.facts, &build.section};
+  input.solid = {&build.solid, &build.facts, &build.section, build.max_deviation};
   input.keep_outs = report_keep_outs(design);
   input.limits = limits_of(design, track);
   for (const fs::path& file : build.files) {
-    input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file)});
+    input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file, build.stop)});
   }
   input.checks = {arrival(track),
                   contact(track),
@@ -149,7 +150,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
                   limits(input.limits),
                   watertight(build.facts, build.solid),
                   self_intersections(build.facts),
-                  deviation(design, build.solid),
+                  deviation(design, build.max_deviation),
                   read_back(build.read_back_files)};
   if (track.search) input.checks.insert(input.checks.begin() + 4, search(design, *track.search));
   return input;

@@ -14,8 +14,10 @@ struct BuildForReport {
   const CrossSection& section;
   const Solid& solid;
   const MeshFacts& facts;
+  double max_deviation = 0.0;                          ///< as of Build
   std::vector<std::filesystem::path> files;            ///< as they stand, in the order of the build
   std::vector<std::filesystem::path> read_back_files;  ///< those that were read again and compared
+  std::stop_token stop = {};
 };
 
 /// @return what the report page of a build is made from; a verdict is a pass only where this build compared

@@ -1,4 +1,5 @@
 #include "glissade/core/error.hpp"
+#include "glissade/core/stop.hpp"
 #include "glissade/report/report.hpp"
 
 #include <array>
@@ -46,13 +47,14 @@ class Sha256 {
 
 }  // namespace
 
-std::string sha256_of_file(const std::filesystem::path& file) {
+std::string sha256_of_file(const std::filesystem::path& file, const std::stop_token& stop) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw FileError({file.string(), "cannot be read for its checksum", "", "whether it still exists"});
   Sha256 sum;
   std::vector<char> block(1U << 20U);
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0) {
+    require_going(stop);
     sum.add(block.data(), static_cast<std::size_t>(stream.gcount()));
   }
   const auto digits = sum.digits();

@@ -136,15 +136,17 @@ Json mesh_facts(const ReportInput& input) {
   Json mesh;
   mesh["triangles"] = facts.triangles;
   mesh["vertices"] = facts.vertices;
-  mesh["volume_m3"] = facts.volume;
+  mesh["volume_m3"] = input.solid.solid->exact_volume;
+  mesh["mesh_volume_m3"] = facts.volume;
   mesh["area_m2"] = facts.area;
   mesh["watertight"] = facts.watertight();
   mesh["self_intersections"] = facts.self_intersections;
   mesh["euler_characteristic"] = facts.euler_characteristic;
   mesh["smallest_angle_deg"] = facts.smallest_angle * kDegrees;
-  mesh["max_deviation_m"] = input.solid.solid->max_deviation;
+  mesh["max_deviation_m"] = input.solid.max_deviation;
   mesh["lower_m"] = vector_of(facts.lower);
   mesh["upper_m"] = vector_of(facts.upper);
+  mesh["offset_m"] = vector_of(input.placement.start() - input.solid.solid->placement.start());
   return mesh;
 }
 

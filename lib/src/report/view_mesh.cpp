@@ -52,8 +52,8 @@ Solid coarser(const ReportInput& input, double& tolerance) {
   const Centerline& centerline = input.motion->centerline();
   const double largest = 0.02 * centerline.length();
   while (true) {
-    Solid solid = sweep(centerline, *input.solid.section, input.placement,
-                        {.tolerance = tolerance, .shape_triangles = kViewTriangles / 2});
+    Solid solid = sweep(centerline, *input.solid.section, input.solid.solid->placement,
+                        {.tolerance = tolerance, .shape_triangles = kViewTriangles / 2, .stop = input.stop});
     if (solid.mesh.triangles.size() <= kViewTriangles || tolerance >= largest) return solid;
     tolerance = std::min(2.0 * tolerance, largest);
   }
@@ -69,7 +69,7 @@ void pack(const ReportInput& input, const TriangleMesh& mesh, ViewMesh& view) {
   }
   const Centerline& centerline = input.motion->centerline();
   const std::vector<Station> stations = stations_of(centerline, 300);
-  const Vec3 start = input.placement.start();
+  const Vec3 start = input.solid.solid->placement.start();
   const double cosine = math::cos(input.placement.azimuth().radians());
   const double sine = math::sin(input.placement.azimuth().radians());
   view.positions.reserve(3 * mesh.vertices.size());

@@ -20,6 +20,7 @@ constexpr double kWorthwhile = 0.03;
 constexpr std::size_t kMeasured = 64;
 // Rounding of the differences and products of a leaning box, relative to its size.
 constexpr double kLeaningMargin = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr std::size_t kFacetsBetweenPauses = std::size_t{1} << 15U;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 using Corners = std::array<Vec3, 3>;
@@ -138,8 +139,8 @@ float rounded_up(double value) {
 class FacetBoxes::Leaning {
  public:
   Leaning(FacetBoxes& boxes, const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets,
-          const Scale& scale)
-      : boxes_(boxes), positions_(positions), facets_(facets), scale_(scale) {
+          const Scale& scale, const std::function<void()>& pause)
+      : boxes_(boxes), positions_(positions), facets_(facets), scale_(scale), pause_(pause) {
     boxes_.leaning_.resize(boxes_.nodes_.size());
   }
 
@@ -157,6 +158,7 @@ class FacetBoxes::Leaning {
   }
 
   Model enclose(std::size_t node, std::size_t begin, std::size_t end) {
+    if (end - begin > kFacetsBetweenPauses / 4) pause_();
     Model model;
     if (boxes_.is_leaf(node)) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -228,14 +230,17 @@ class FacetBoxes::Leaning {
   const std::vector<Vec3>& positions_;
   const std::vector<FacetCorners>& facets_;
   const Scale& scale_;
+  const std::function<void()>& pause_;
 };
 
-FacetBoxes::FacetBoxes(const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets) {
+FacetBoxes::FacetBoxes(const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets,
+                       const std::function<void()>& pause) {
   if (facets.empty()) return;
   const Scale scale(positions);
   std::vector<Box> boxes(facets.size());
   std::vector<Item> items(facets.size());
   for (std::size_t i = 0; i < facets.size(); ++i) {
+    if (i % kFacetsBetweenPauses == 0) pause();
     const Corners corners = scale.of(positions, facets[i]);
     const std::array<Extent, 3> extents{extent_along({1.0, 0.0, 0.0}, corners),
                                         extent_along({0.0, 1.0, 0.0}, corners),
@@ -252,7 +257,7 @@ FacetBoxes::FacetBoxes(const std::vector<Vec3>& positions, const std::vector<Fac
   std::size_t leaves = 1;
   while (leaves * kLeaf < facets.size()) leaves *= 2;
   nodes_.resize(2 * leaves);
-  arrange(items, 1, 0, items.size());
+  arrange(items, 1, 0, items.size(), pause);
   facets_.reserve(items.size());
   boxes_.reserve(items.size());
   for (const Item& item : items) {
@@ -260,12 +265,14 @@ FacetBoxes::FacetBoxes(const std::vector<Vec3>& positions, const std::vector<Fac
     boxes_.push_back(boxes[item.facet]);
   }
   enclose(1, 0, boxes_.size());
-  if (facets_lean(positions, facets, scale)) Leaning(*this, positions, facets, scale).enclose();
+  if (facets_lean(positions, facets, scale)) Leaning(*this, positions, facets, scale, pause).enclose();
 }
 
 // Halves the range across its longest side, down to the leaves.
-void FacetBoxes::arrange(std::vector<Item>& items, std::size_t node, std::size_t begin, std::size_t end) {
+void FacetBoxes::arrange(std::vector<Item>& items, std::size_t node, std::size_t begin, std::size_t end,
+                         const std::function<void()>& pause) {
   if (is_leaf(node)) return;
+  if (end - begin > kFacetsBetweenPauses) pause();
   std::array<float, 3> low{kInfinity, kInfinity, kInfinity};
   std::array<float, 3> high{-kInfinity, -kInfinity, -kInfinity};
   for (std::size_t i = begin; i < end; ++i) {
@@ -282,8 +289,8 @@ void FacetBoxes::arrange(std::vector<Item>& items, std::size_t node, std::size_t
   const auto at = [&items](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end),
                    [longest](const Item& a, const Item& b) { return a.centre[longest] < b.centre[longest]; });
-  arrange(items, 2 * node, begin, middle);
-  arrange(items, 2 * node + 1, middle, end);
+  arrange(items, 2 * node, begin, middle, pause);
+  arrange(items, 2 * node + 1, middle, end, pause);
 }
 
 void FacetBoxes::enclose(std::size_t node, std::size_t begin, std::size_t end) {

@@ -23,7 +23,10 @@ using FacetCorners = std::array<std::uint32_t, 3>;
 class FacetBoxes {
  public:
   /// @param facets  corners are indices of positions, which are finite
-  FacetBoxes(const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets);
+  /// @param pause  called every some ten thousand facets while the tree is made; may throw to end
+  FacetBoxes(
+      const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets,
+      const std::function<void()>& pause = [] {});
 
   /// Visits every pair once, in an order that depends on the facets alone.
   /// @param visit  told both facets
@@ -51,7 +54,8 @@ class FacetBoxes {
   class Leaning;
   class Walk;
 
-  void arrange(std::vector<Item>& items, std::size_t node, std::size_t begin, std::size_t end);
+  void arrange(std::vector<Item>& items, std::size_t node, std::size_t begin, std::size_t end,
+               const std::function<void()>& pause);
   void enclose(std::size_t node, std::size_t begin, std::size_t end);
   [[nodiscard]] bool is_leaf(std::size_t node) const { return 2 * node >= nodes_.size(); }
 

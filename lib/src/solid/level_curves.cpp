@@ -1,5 +1,7 @@
 #include "solid/level_curves.hpp"
 
+#include "glissade/core/stop.hpp"
+
 #include "core/plane_geometry.hpp"
 
 #include <algorithm>
@@ -17,6 +19,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRightAngle = 0.5 * std::numbers::pi;
 constexpr std::size_t kLeaf = 8;
+// Whether the work is to end is asked once in so many stations.
+constexpr std::size_t kStationsBetweenPauses = 256;
 // A ball counts as free of a point that it reaches by less than this share of its squared radius: rounding.
 constexpr double kBallMargin = 1e-13;
 // Nodes next to a trim are left out where they stand closer to it than this share of the step after them.
@@ -120,12 +124,13 @@ void thin_out(std::vector<LevelNode>& nodes, const NodeSpacing& limits) {
 }  // namespace
 
 LevelCurves::LevelCurves(const Centerline& centerline, std::vector<Station> stations, double below,
-                         double above, double sharpness)
+                         double above, double sharpness, std::stop_token stop)
     : centerline_(centerline),
       stations_(std::move(stations)),
       below_(below),
       above_(above),
-      sharpness_(sharpness) {
+      sharpness_(sharpness),
+      stop_(std::move(stop)) {
   const bool faces_alone = faces_alone_trim();
   make_probes(!faces_alone);
   rooms_above_ = rooms_of(1, above, faces_alone);
@@ -303,9 +308,13 @@ void LevelCurves::shrink_ball(std::size_t probe, int side, bool exactly, Room& r
 }
 
 void LevelCurves::shrink_to_free_balls(int side, double reach, std::vector<Room>& rooms) const {
-  for (std::size_t i = 0; i < stations_.size(); ++i) shrink_ball(probe_of_[i], side, true, rooms[i]);
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (i % kStationsBetweenPauses == 0) require_going(stop_);
+    shrink_ball(probe_of_[i], side, true, rooms[i]);
+  }
   // A far part of the track may come near between two stations: their room is then that of the probe between.
   for (std::size_t i = 0; i + 1 < stations_.size(); ++i) {
+    if (i % kStationsBetweenPauses == 0) require_going(stop_);
     const double far = kFar * (reach + stations_[i + 1].s - stations_[i].s);
     for (std::size_t probe = probe_of_[i] + 1; probe < probe_of_[i + 1]; ++probe) {
       Room room{reach, probes_[probe].s};
@@ -578,6 +587,7 @@ double LevelCurves::largest_height(int side) const {
   double fails = side > 0 ? above_ : below_;
   if (!trims(side * fails).obstacle) return fails;
   for (int i = 0; i < 40; ++i) {
+    require_going(stop_);
     const double middle = 0.5 * (fits + fails);
     (trims(side * middle).obstacle ? fails : fits) = middle;
   }
@@ -622,6 +632,12 @@ Station LevelCurves::foot_of(Vec2 point) const {
   const double high = place(std::min(best + 1, places));
   const auto [s, distance] = boost::math::tools::brent_find_minima(distance_at, low, high, kBits, iterations);
   return station_at(centerline_, least <= distance ? place(best) : s);
+}
+
+bool LevelCurves::are_neighbours(double from, double to) const {
+  const auto after = std::upper_bound(stations_.begin(), stations_.end(), from,
+                                      [](double s, const Station& station) { return s < station.s; });
+  return after == stations_.end() || after->s >= to;
 }
 
 double LevelCurves::height_of(Vec2 point) const {

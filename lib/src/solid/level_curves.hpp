@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 namespace glissade::solid {
@@ -63,8 +64,9 @@ class LevelCurves {
  public:
   /// @param below,above  heights of interest on either side [m]; >= 0
   /// @param sharpness  a trim's point may be this much nearer to the centerline than its level [m]; > 0
+  /// @throws Interrupted if `stop` asks for it while this is made
   LevelCurves(const Centerline& centerline, std::vector<Station> stations, double below, double above,
-              double sharpness);
+              double sharpness, std::stop_token stop = {});
 
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
 
@@ -83,6 +85,9 @@ class LevelCurves {
 
   /// @return the least room on that side [m]; infinite where nothing is trimmed
   [[nodiscard]] double least_room(int side) const { return side > 0 ? least_above_ : least_below_; }
+
+  /// @return whether no station lies between the two arc lengths
+  [[nodiscard]] bool are_neighbours(double from, double to) const;
 
   /// @return the signed distance of a point to the centerline: its height above the floor [m]
   [[nodiscard]] double height_of(Vec2 point) const;
@@ -146,6 +151,7 @@ class LevelCurves {
   double below_ = 0.0;
   double above_ = 0.0;
   double sharpness_ = 0.0;
+  std::stop_token stop_;
   double least_above_ = 0.0;
   double least_below_ = 0.0;
 };

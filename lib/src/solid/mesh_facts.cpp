@@ -129,12 +129,22 @@ struct Topology {
   std::optional<std::uint32_t> non_manifold_vertex;
 };
 
+// Whether the work is to end is asked once in so many vertices or facets.
+constexpr std::size_t kItemsBetweenPauses = std::size_t{1} << 16U;
+
+void pause(std::size_t item, const std::stop_token& stop) {
+  if (item % kItemsBetweenPauses == 0) require_going(stop);
+}
+
 /// Walks once around every vertex; an edge is counted at its vertex of lower number.
 class TopologyCount {
  public:
-  TopologyCount(std::size_t vertices, const std::vector<FacetCorners>& facets)
+  TopologyCount(std::size_t vertices, const std::vector<FacetCorners>& facets, const std::stop_token& stop)
       : facets_(facets), incidence_(vertices, facets), groups_(facets.size()) {
-    for (std::size_t vertex = 0; vertex < vertices; ++vertex) visit(static_cast<std::uint32_t>(vertex));
+    for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
+      pause(vertex, stop);
+      visit(static_cast<std::uint32_t>(vertex));
+    }
   }
 
   [[nodiscard]] const Topology& topology() const { return topology_; }
@@ -226,11 +236,12 @@ struct Welding {
   std::optional<std::uint32_t> first_duplicate;
 };
 
-Welding weld(const std::vector<Vec3>& vertices) {
+Welding weld(const std::vector<Vec3>& vertices, const std::stop_token& stop) {
   Welding welding{
       .leader = std::vector<std::uint32_t>(vertices.size()), .duplicates = 0, .first_duplicate = {}};
   PositionIndex index(vertices, vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
+    pause(i, stop);
     const auto vertex = static_cast<std::uint32_t>(i);
     welding.leader[i] = index.enter(vertices[i], vertex);
     if (welding.leader[i] == vertex) continue;
@@ -256,11 +267,13 @@ double largest_cotangent(double ab, double bc, double ca, double double_area) {
   return (ab + bc + ca - 2.0 * shortest) / (2.0 * double_area);
 }
 
-void measure_shape(const TriangleMesh& mesh, MeshFacts& facts) {
+void measure_shape(const TriangleMesh& mesh, const std::stop_token& stop, MeshFacts& facts) {
   double shortest_squared = std::numeric_limits<double>::infinity();
   double cotangent = 0.0;
   CompensatedSum double_area;
-  for (const auto& [ia, ib, ic] : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    pause(i, stop);
+    const auto& [ia, ib, ic] = mesh.triangles[i];
     const Vec3 a = mesh.vertices[ia];
     const Vec3 ab = mesh.vertices[ib] - a;
     const Vec3 ac = mesh.vertices[ic] - a;
@@ -302,8 +315,9 @@ Pieces find_pieces(const std::vector<Vec3>& vertices, const std::vector<FacetCor
 }
 
 /// Expects the self-intersections to be known.
-void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>& facets, MeshFacts& facts) {
-  TopologyCount count(mesh.vertices.size(), facets);
+void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>& facets,
+                      const std::stop_token& stop, MeshFacts& facts) {
+  TopologyCount count(mesh.vertices.size(), facets, stop);
   const Topology& topology = count.topology();
   facts.boundary_edges = topology.boundary_edges;
   facts.non_manifold_edges = topology.non_manifold_edges;
@@ -334,7 +348,7 @@ void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>&
   const bool all_positive =
       std::all_of(pieces.volumes.begin(), pieces.volumes.end(), [](double volume) { return volume > 0.0; });
   facts.oriented_outward = facts.closed() && facts.non_manifold_edges == 0 &&
-                           (is_plain ? bounds_material(mesh.vertices, facets, pieces) : all_positive);
+                           (is_plain ? bounds_material(mesh.vertices, facets, pieces, stop) : all_positive);
 }
 
 bool has_repeated_vertex(const FacetCorners& facet) {
@@ -355,10 +369,13 @@ bool is_degenerate(const std::vector<Vec3>& vertices, const FacetCorners& facet)
          are_collinear(vertices[facet[0]], vertices[facet[1]], vertices[facet[2]]);
 }
 
-std::vector<FacetCorners> proper_facets(const TriangleMesh& mesh, const Welding& welding, MeshFacts& facts) {
+std::vector<FacetCorners> proper_facets(const TriangleMesh& mesh, const Welding& welding,
+                                        const std::stop_token& stop, MeshFacts& facts) {
   std::vector<FacetCorners> facets;
   facets.reserve(mesh.triangles.size());
-  for (const auto& [ia, ib, ic] : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    pause(i, stop);
+    const auto& [ia, ib, ic] = mesh.triangles[i];
     const FacetCorners facet{welding.leader[ia], welding.leader[ib], welding.leader[ic]};
     if (!is_degenerate(mesh.vertices, facet)) {
       facets.push_back(facet);
@@ -436,11 +453,11 @@ MeshFacts measure(const TriangleMesh& mesh, const std::stop_token& stop) {
   facts.triangles = mesh.triangles.size();
   measure_bounds(mesh.vertices, facts);
   {
-    const Welding welding = weld(mesh.vertices);
+    const Welding welding = weld(mesh.vertices, stop);
     require_going(stop);
     facts.duplicate_vertices = welding.duplicates;
     if (welding.first_duplicate) facts.places.duplicate_vertex = mesh.vertices[*welding.first_duplicate];
-    const std::vector<FacetCorners> facets = proper_facets(mesh, welding, facts);
+    const std::vector<FacetCorners> facets = proper_facets(mesh, welding, stop, facts);
     require_going(stop);
     const SelfIntersections found = find_self_intersections(
         mesh.vertices, facets, SelfIntersectionLimits::for_facets(facets.size()), stop);
@@ -448,9 +465,9 @@ MeshFacts measure(const TriangleMesh& mesh, const std::stop_token& stop) {
     facts.self_intersections_complete = found.complete;
     facts.places.self_intersection = found.first;
   }
-  measure_shape(mesh, facts);
+  measure_shape(mesh, stop, facts);
   require_going(stop);
-  measure_topology(mesh, facets_of_three_vertices(mesh), facts);
+  measure_topology(mesh, facets_of_three_vertices(mesh), stop, facts);
   return facts;
 }
 

@@ -1,6 +1,7 @@
 #include "solid/nesting.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/stop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,7 @@ class Winding {
 }  // namespace
 
 bool bounds_material(const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets,
-                     const Pieces& pieces) {
+                     const Pieces& pieces, const std::stop_token& stop) {
   const bool has_void = std::any_of(pieces.volumes.begin(), pieces.volumes.end(),
                                     [](double volume) { return !(volume > 0.0); });
   if (pieces.volumes.size() == 1) return !has_void;
@@ -99,6 +100,7 @@ bool bounds_material(const std::vector<Vec3>& positions, const std::vector<Facet
   const std::vector<Piece> gathered = gather(positions, facets, pieces);
   Winding winding(positions, facets, gathered);
   for (std::size_t i = 0; i < gathered.size(); ++i) {
+    require_going(stop);
     const long expected = pieces.volumes[i] > 0.0 ? 0 : 1;
     const std::optional<long> actual = winding.around(i);
     if (!actual) return !has_void;

@@ -5,6 +5,7 @@
 #include "solid/self_intersections.hpp"
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 namespace glissade::solid {
@@ -23,6 +24,7 @@ struct Pieces {
 /// than 5,000 pieces, or 2e8 solid angles to add, only pieces that are all positive count as bounding
 /// material.
 [[nodiscard]] bool bounds_material(const std::vector<Vec3>& positions,
-                                   const std::vector<FacetCorners>& facets, const Pieces& pieces);
+                                   const std::vector<FacetCorners>& facets, const Pieces& pieces,
+                                   const std::stop_token& stop = {});
 
 }  // namespace glissade::solid

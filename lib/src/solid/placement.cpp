@@ -41,6 +41,12 @@ Placement Placement::through(Vec3 start, Vec3 finish) {
   return placement;
 }
 
+Placement Placement::at_origin() const {
+  Placement placement = *this;
+  placement.start_ = {};
+  return placement;
+}
+
 Angle Placement::azimuth() const {
   return Angle::from_radians(math::atan2(sin_, cos_));
 }

@@ -196,11 +196,10 @@ SelfIntersections find_self_intersections(const std::vector<Vec3>& positions,
                                           const std::vector<FacetCorners>& facets,
                                           const SelfIntersectionLimits& limits, const std::stop_token& stop) {
   PairTester tester(positions, facets, limits);
-  const FacetBoxes boxes(positions, facets);
-  require_going(stop);
+  const auto pause = [&stop] { require_going(stop); };
+  const FacetBoxes boxes(positions, facets, pause);
   try {
-    boxes.for_each_pair([&tester](std::uint32_t a, std::uint32_t b) { tester.test(a, b); },
-                        [&stop] { require_going(stop); });
+    boxes.for_each_pair([&tester](std::uint32_t a, std::uint32_t b) { tester.test(a, b); }, pause);
   } catch (const LimitReached&) {
     return tester.found(false);
   }

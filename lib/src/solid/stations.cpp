@@ -9,8 +9,6 @@
 namespace glissade::solid {
 namespace {
 
-// A step that turns further than this no longer looks like the curve, however loose the tolerance.
-constexpr double kLargestTurn = 0.25;
 // The fewest steps of a track: end faces and creases need something between them.
 constexpr double kFewestSteps = 8.0;
 // Curvature is read off differences of the slope angle over panels no longer than this share of the track.
@@ -49,8 +47,8 @@ double StationPlan::steps_of(double length, double turn) const {
   const double angle = std::fabs(turn);
   const double outer = turn > 0.0 ? limits_.below : limits_.above;
   const double chord_error = 0.125 * angle * (length + angle * outer);
-  return std::max(
-      {length / limits_.longest, angle / kLargestTurn, std::sqrt(chord_error / limits_.chord_tolerance)});
+  return std::max({length / limits_.longest, angle / limits_.largest_turn,
+                   std::sqrt(chord_error / limits_.chord_tolerance)});
 }
 
 void StationPlan::spread(double begin, double begin_slope, double end, double end_slope, int depth) {

@@ -31,11 +31,16 @@ struct StationLimits {
   double below = 0.0;            ///< the section reaches this far below the floor [m]; >= 0
   double above = 0.0;            ///< and this far above it [m]; >= 0
   double longest = 0.0;          ///< greatest distance between stations [m]
+  /// Greatest angle that the track turns through between stations [rad]; one step that turns further than
+  /// the default no longer looks like the curve, however loose the tolerance.
+  double largest_turn = kLargestTurn;
+
+  static constexpr double kLargestTurn = 0.25;
 };
 
 /// How stations are spread along a track: their density, before any of them is made.
 ///
-/// The number of steps that an interval needs is the largest of ds/longest, dzeta/kLargestTurn, and
+/// The number of steps that an interval needs is the largest of ds/longest, dzeta/largest_turn, and
 /// sqrt((ds dzeta + dzeta^2 n)/(8 tolerance)): the chord error of the level curve n on the convex side, whose
 /// radius is largest. It stays finite at a start of unbounded curvature, where the slope angle does.
 class StationPlan {

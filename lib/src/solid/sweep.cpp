@@ -2,9 +2,11 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/stop.hpp"
 
 #include "core/plane_geometry.hpp"
 #include "solid/cap_triangulation.hpp"
+#include "solid/chord_sagitta.hpp"
 #include "solid/level_curves.hpp"
 #include "solid/stations.hpp"
 #include "solid/sweep_plan.hpp"
@@ -37,39 +39,51 @@ constexpr double kTrimShare = 0.1;
 constexpr double kRoomAtTrims = 0.25;
 constexpr double kSagittaAtTrims = 0.9;
 constexpr int kMostRefinements = 12;
-
-// Greatest distance between the chord of two stations and the level curves of `heights` halfway between them.
-double chord_deviation(const Station& a, const Station& middle, const Station& b,
-                       const std::array<double, 3>& heights) {
-  double worst = 0.0;
-  for (const double height : heights) {
-    const auto folds = [height](const Station& at) { return height != 0.0 && at.kappa * height >= 1.0; };
-    if (folds(a) || folds(middle) || folds(b)) continue;
-    worst =
-        std::max(worst, core::distance_to_line(offset(middle, height), offset(a, height), offset(b, height)));
-  }
-  return worst;
-}
+// Whether the work is to end is asked once in so many steps of it.
+constexpr std::size_t kStepsBetweenPauses = 256;
 
 struct CheckedStations {
   std::vector<Station> stations;
   double deviation = 0.0;
 };
 
+// Greatest distance between the level curves of `heights` and their chords between two stations; exact where it
+// is more than `enough`.
+double step_deviation(const Centerline& centerline, const Station& a, const Station& b,
+                      const std::array<double, 3>& heights, double enough) {
+  const ChordSagitta sagitta(centerline, a.s, b.s);
+  double worst = 0.0;
+  for (const double height : heights) {
+    if (sagitta.folds(height)) continue;
+    worst = std::max(worst,
+                     sagitta.of_level(height, offset(a, height), offset(b, height), std::max(worst, enough)));
+  }
+  return worst;
+}
+
+struct StepBounds {
+  double tolerance = 0.0;
+  double turn = 0.0;  // [rad]
+};
+
 // Measures every step and halves those that miss the tolerance: the plan only estimates.
-CheckedStations check_steps(const Centerline& centerline, std::vector<Station> planned, double tolerance,
-                            const std::array<double, 3>& heights, double limit) {
+CheckedStations check_steps(const Centerline& centerline, std::vector<Station> planned,
+                            const StepBounds& bounds, const std::array<double, 3>& heights,
+                            const Planner& planner) {
   CheckedStations checked;
   checked.stations.reserve(planned.size());
   std::vector<Station> ahead(planned.rbegin(), planned.rend());
   checked.stations.push_back(ahead.back());
   ahead.pop_back();
-  while (!ahead.empty()) {
+  for (std::size_t measured = 0; !ahead.empty(); ++measured) {
+    if (measured % kStepsBetweenPauses == 0) require_going(planner.stop());
     const Station& from = checked.stations.back();
     const Station middle = station_at(centerline, 0.5 * (from.s + ahead.back().s));
-    const double deviation = chord_deviation(from, middle, ahead.back(), heights);
+    const double deviation = step_deviation(centerline, from, ahead.back(), heights, checked.deviation);
     const bool splits = middle.s > from.s && middle.s < ahead.back().s;
-    if (deviation > tolerance && splits && static_cast<double>(checked.stations.size()) < limit) {
+    const bool misses =
+        deviation > bounds.tolerance || std::fabs(from.slope - ahead.back().slope) > bounds.turn;
+    if (misses && splits && static_cast<double>(checked.stations.size()) < planner.limit()) {
       ahead.push_back(middle);
       continue;
     }
@@ -95,12 +109,12 @@ struct SectionVertex {
 using Loop = std::vector<SectionVertex>;
 
 // Cuts a side into equal pieces, counted from its lower end: mirrored sides get the same heights.
-Polygon subdivided(const Polygon& corners, double piece) {
+Polygon subdivided(const Polygon& corners, const Fineness& fineness) {
   Polygon points;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 a = corners[i];
     const Vec2 b = corners[(i + 1) % corners.size()];
-    const auto pieces = static_cast<std::size_t>(std::max(1.0, std::round(norm(b - a) / piece)));
+    const auto pieces = static_cast<std::size_t>(fineness.pieces(norm(b - a)));
     const bool rises = a.y <= b.y;
     const Vec2 low = rises ? a : b;
     const Vec2 high = rises ? b : a;
@@ -147,10 +161,11 @@ class Sweeper {
         placement_(placement),
         planner_(planner),
         fineness_(fineness),
-        spacing_{std::max(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance),
-                          finest_length(centerline, section, placement)),
-                 kRoomAtTrims * std::min(fineness.side_piece, fineness.longest_step),
-                 kSagittaAtTrims * fineness.chord_tolerance} {}
+        spacing_{
+            std::max(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance),
+                     finest_length(centerline, section, placement)),
+            planner.holds_kink() ? 0.0 : kRoomAtTrims * std::min(fineness.side_piece, fineness.longest_step),
+            kSagittaAtTrims * fineness.chord_tolerance} {}
 
   /// Lays out the mesh without making it.
   /// @return false if some level of the section does not lead from start to finish: see refuse()
@@ -171,10 +186,11 @@ class Sweeper {
 
   [[nodiscard]] Solid make() const {
     Solid solid;
+    solid.placement = placement_;
     emit(solid);
     solid.max_deviation = deviation();
     solid.expected_euler = loops_.size() == 1 ? 2 : 0;
-    solid.exact_volume = swept_volume(centerline_, section_, *curves_);
+    solid.exact_volume = swept_volume(centerline_, section_, *curves_, planner_.stop());
     for (const Station& station : curves_->stations()) solid.stations.push_back(station.s);
     for (const auto& [height, level] : levels_) solid.trimmed = solid.trimmed || level.curve.trimmed;
     return solid;
@@ -183,15 +199,17 @@ class Sweeper {
  private:
   void make_levels() {
     const std::array<double, 3> heights{section_.lowest(), 0.0, section_.highest()};
-    CheckedStations checked =
-        check_steps(centerline_, StationPlan(centerline_, planner_.limits(fineness_)).stations(),
-                    fineness_.chord_tolerance / kPlannedShare, heights, planner_.limit());
+    CheckedStations checked = check_steps(
+        centerline_, StationPlan(centerline_, planner_.limits(fineness_)).stations(),
+        {fineness_.chord_tolerance / kPlannedShare, 1.05 * fineness_.largest_turn}, heights, planner_);
     deviation_ = checked.deviation;
     curves_ = std::make_unique<LevelCurves>(centerline_, std::move(checked.stations), -section_.lowest(),
-                                            section_.highest(), kTrimShare * fineness_.chord_tolerance);
+                                            section_.highest(), kTrimShare * fineness_.chord_tolerance,
+                                            planner_.stop());
   }
 
   Levels::iterator level_at(double height) {
+    require_going(planner_.stop());
     const auto found = levels_.find(height);
     if (found != levels_.end()) return found;
     if (curves_->trims(height).obstacle) {
@@ -211,7 +229,7 @@ class Sweeper {
          {section_.outline(fineness_.outline_tolerance), section_.bore(fineness_.outline_tolerance)}) {
       if (corners.empty()) continue;
       Loop loop;
-      for (const Vec2 at : subdivided(corners, fineness_.side_piece)) {
+      for (const Vec2 at : subdivided(corners, fineness_)) {
         loop.push_back({at, level_at(at.y)});
         if (blocked_height_ != 0.0) return;
       }
@@ -246,6 +264,7 @@ class Sweeper {
     for (Loop& loop : loops_) {
       Loop refined;
       for (std::size_t j = 0; j < loop.size(); ++j) {
+        require_going(planner_.stop());
         refined.push_back(loop[j]);
         refine_side(refined, loop[(j + 1) % loop.size()], allowed, 0);
       }
@@ -274,15 +293,26 @@ class Sweeper {
     refine_side(refined, end, allowed, depth + 1);
   }
 
-  // The steps beside trims are not those that check_steps() measured.
+  // The steps beside trims, and those over stations that a level leaves out, are not those that check_steps()
+  // measured.
   void check_levels_at_trims() {
     for (const auto& [height, level] : levels_) {
-      const std::vector<LevelNode>& nodes = level.curve.nodes;
-      for (std::size_t i = 0; level.curve.trimmed && i + 1 < nodes.size(); ++i) {
-        if (!nodes[i].trim && !nodes[i + 1].trim) continue;
-        const double there = curves_->height_of(0.5 * (nodes[i].point + nodes[i + 1].point));
-        deviation_ = std::max(deviation_, std::fabs(there - height));
-      }
+      require_going(planner_.stop());
+      if (level.curve.trimmed) check_level_at_trims(height, level.curve.nodes);
+    }
+  }
+
+  void check_level_at_trims(double height, const std::vector<LevelNode>& nodes) {
+    const auto note = [this](double deviation) { deviation_ = std::max(deviation_, deviation); };
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      const LevelNode& node = nodes[i];
+      const LevelNode& after = nodes[i + 1];
+      if (node.trim) note(std::fabs(curves_->height_of(node.point) - height));
+      if (!node.trim && !after.trim && curves_->are_neighbours(node.to, after.from)) continue;
+      note(std::fabs(curves_->height_of(0.5 * (node.point + after.point)) - height));
+      if (!(after.from > node.to)) continue;
+      const ChordSagitta sagitta(centerline_, node.to, after.from);
+      note(sagitta.of_level(height, node.point, after.point, deviation_));
     }
   }
 
@@ -316,6 +346,7 @@ class Sweeper {
       const Loop& loop = loops_[l];
       for (std::size_t j = 0; j < loop.size(); ++j) {
         const std::size_t next = (j + 1) % loop.size();
+        require_going(planner_.stop());
         emit_band(loop[j], first_vertex[l][j], loop[next], first_vertex[l][next], mesh);
       }
     }

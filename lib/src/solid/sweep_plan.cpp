@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace glissade::solid {
 namespace {
@@ -23,6 +24,11 @@ constexpr double kShareOfPlate = 0.25;
 constexpr double kLongestAspect = 8.0;
 // Facets smaller than this share of the coordinates' size lose their shape when those are rounded.
 constexpr double kCoordinateShare = 4096.0 * std::numeric_limits<double>::epsilon();
+// A side of more pieces than this, were they as wide as long, is wide: its facets may be longer across.
+constexpr double kWidePieces = 64.0;
+constexpr double kMostWidePieces = 256.0;
+// Steps turn by this share of the largest kink: neighbours may be somewhat unequal.
+constexpr double kKinkShare = 0.9;
 constexpr double kBytesPerVertex = sizeof(Vec3);
 constexpr double kBytesPerTriangle = sizeof(std::array<std::uint32_t, 3>);
 
@@ -34,6 +40,7 @@ double coordinate_size(const Centerline& centerline, const CrossSection& section
 }
 
 struct Sides {
+  std::vector<double> lengths;
   double total = 0.0;
   double shortest = std::numeric_limits<double>::infinity();
   double longest = 0.0;
@@ -44,6 +51,7 @@ Sides sides_of(const CrossSection& section, double tolerance) {
   for (const Polygon& loop : {section.outline(tolerance), section.bore(tolerance)}) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const double side = norm(loop[(i + 1) % loop.size()] - loop[i]);
+      sides.lengths.push_back(side);
       sides.total += side;
       sides.shortest = std::min(sides.shortest, side);
       sides.longest = std::max(sides.longest, side);
@@ -60,12 +68,28 @@ std::string count_text(double count) {
 
 }  // namespace
 
+double Fineness::pieces(double side) const {
+  const double square = side / side_piece;
+  if (square <= kWidePieces) return std::max(1.0, std::round(square));
+  return std::clamp(std::round(square / kLongestAspect), kWidePieces, kMostWidePieces);
+}
+
 Fineness Planner::fineness(double tolerance) const {
   Fineness fineness;
+  fineness.largest_turn = StationLimits::kLargestTurn;
+  if (options_.largest_kink) {
+    fineness.largest_turn = std::min(fineness.largest_turn, kKinkShare * options_.largest_kink->radians());
+  }
   const double finest = std::min(tolerance, kShareOfPlate * section_.narrowest());
   const bool round = section_.chord_error(finest) > 0.0;
   const double track_share = round ? 0.5 * finest : finest;
   fineness.outline_tolerance = 0.5 * finest;
+  if (options_.largest_kink && section_.widest_radius() > 0.0) {
+    // The sagitta of a chord that turns so far.
+    const double half_turn = math::sin(0.25 * fineness.largest_turn);
+    fineness.outline_tolerance =
+        std::min(fineness.outline_tolerance, 2.0 * section_.widest_radius() * half_turn * half_turn);
+  }
   fineness.chord_tolerance = kPlannedShare * track_share;
   const double corners = section_.vertex_count(fineness.outline_tolerance);
   fineness.section_vertices = corners;
@@ -83,7 +107,8 @@ Fineness Planner::fineness(double tolerance) const {
   const double step = length / fineness.steps;
   fineness.side_piece =
       spare > 0.0 ? std::max(step, sides.total / spare) : std::numeric_limits<double>::infinity();
-  fineness.section_vertices = corners + sides.total / fineness.side_piece;
+  fineness.section_vertices = corners;
+  for (const double side : sides.lengths) fineness.section_vertices += fineness.pieces(side) - 1.0;
   return fineness;
 }
 
@@ -95,8 +120,13 @@ void Planner::require_room(double triangles) const {
                " triangles, " + size_text(bytes) + " of memory";
   issue.why = "A mesh may have at most " + count_text(limit()) + " triangles.";
   const double fitting = fitting_tolerance();
-  issue.hint = fitting > 0.0 ? "a tolerance of " + length_text(fitting) + " or coarser"
-                             : "a higher limit: no tolerance makes this section and track fit";
+  if (fitting > 0.0) {
+    issue.hint = "a tolerance of " + length_text(fitting) + " or coarser";
+  } else if (options_.largest_kink) {
+    issue.hint = "a larger largest_kink than " + angle_text(options_.largest_kink->radians());
+  } else {
+    issue.hint = "a higher limit: no tolerance makes this section and track fit";
+  }
   throw InputError(issue);
 }
 
@@ -128,6 +158,10 @@ void check_options(const Centerline& centerline, const CrossSection& section, co
     throw InputError({"", "tolerance: " + length_text(options.tolerance) + " is not a distance",
                       "The mesh stays within the tolerance of the ideal solid; it is finite and above zero.",
                       "0.5 mm for a sheet-metal chute"});
+  }
+  if (options.largest_kink && !(options.largest_kink->radians() > 0.0)) {
+    throw InputError({"", "largest_kink: " + angle_text(options.largest_kink->radians()) + " is not an angle",
+                      "Facets that follow a curve meet at an angle above zero.", "0.25 deg"});
   }
   if (options.max_triangles < 1000) {
     throw InputError({"", "max_triangles: " + std::to_string(options.max_triangles) + " is too few",

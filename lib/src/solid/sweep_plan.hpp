@@ -18,8 +18,13 @@ struct Fineness {
   double chord_tolerance = 0.0;    // of the level curves
   double longest_step = 0.0;       // between stations
   double steps = 0.0;              // how many of them
-  double side_piece = 0.0;         // length that the sides of the section are cut into
+  double side_piece = 0.0;         // length that the sides of the section are cut into, wide ones aside
+  double largest_turn = 0.0;       // of the track from station to station [rad]
   double section_vertices = 0.0;   // how many that gives
+
+  /// @return how many pieces a side is cut into. A wide one asks for none across: it gets facets that are up to
+  ///         some eight times as wide as long, and wider ones where those would be too many.
+  [[nodiscard]] double pieces(double side) const;
 
   [[nodiscard]] double triangles() const { return 2.0 * section_vertices * (steps + 1.0); }
 };
@@ -33,12 +38,16 @@ class Planner {
   [[nodiscard]] Fineness fineness(double tolerance) const;
 
   [[nodiscard]] StationLimits limits(const Fineness& fineness) const {
-    return {fineness.chord_tolerance, -section_.lowest(), section_.highest(), fineness.longest_step};
+    return {fineness.chord_tolerance, -section_.lowest(), section_.highest(), fineness.longest_step,
+            fineness.largest_turn};
   }
 
   /// @throws InputError if the mesh would be larger than the options allow; names a tolerance that fits
   void require_room(double triangles) const;
 
+  /// @return whether facets must not meet at more than a given angle
+  [[nodiscard]] bool holds_kink() const { return options_.largest_kink.has_value(); }
+  [[nodiscard]] const std::stop_token& stop() const { return options_.stop; }
   [[nodiscard]] double limit() const { return static_cast<double>(options_.max_triangles); }
 
  private:

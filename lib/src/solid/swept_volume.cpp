@@ -1,5 +1,7 @@
 #include "solid/swept_volume.hpp"
 
+#include "glissade/core/stop.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +31,8 @@ double width_at(const std::vector<Polygon>& loops, double height) {
 
 // V = A S - M dphi, less the integral of width(n) times the length that level n loses (coarea formula, |grad
 // d| = 1).
-double swept_volume(const Centerline& centerline, const CrossSection& section, const LevelCurves& curves) {
+double swept_volume(const Centerline& centerline, const CrossSection& section, const LevelCurves& curves,
+                    const std::stop_token& stop) {
   const double turn = curves.stations().front().slope - curves.stations().back().slope;
   double volume = section.area() * centerline.length() - section.first_moment() * turn;
   constexpr double kOutlineShare = 1e-6;
@@ -54,6 +57,7 @@ double swept_volume(const Centerline& centerline, const CrossSection& section, c
       const double span = heights[i + 1] - heights[i];
       const double panels = std::ceil(kPanels * span / (reach - least));
       for (double panel = 0.0; panel < panels; ++panel) {
+        require_going(stop);
         const double half = 0.5 * span / panels;
         const double centre = heights[i] + (2.0 * panel + 1.0) * half;
         for (std::size_t k = 0; k < kNodes.size(); ++k) {

@@ -10,6 +10,6 @@ namespace glissade::solid {
 /// @param curves  the level curves of that centerline over the reach of the section
 /// @return volume of the ideal solid to kSweepVolumeAccuracy, arcs round, trims cut [m^3]
 [[nodiscard]] double swept_volume(const Centerline& centerline, const CrossSection& section,
-                                  const LevelCurves& curves);
+                                  const LevelCurves& curves, const std::stop_token& stop = {});
 
 }  // namespace glissade::solid

@@ -8,6 +8,9 @@ namespace glissade {
 ///         "nan", "inf", "-inf" where it is not finite
 [[nodiscard]] std::string exact_text(double value);
 
+/// @return the same without an exponent, for coordinates: "4000000"
+[[nodiscard]] std::string decimal_text(double value);
+
 /// @param digits  significant digits; 1 to 17
 /// @return `value` rounded to `digits` significant digits, without trailing zeros, in plain notation where
 ///         the exponent lies within -5 to 9; independent of locale

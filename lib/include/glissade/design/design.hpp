@@ -102,6 +102,8 @@ struct CrossSectionDesign {
 
 struct MeshDesign {
   double tolerance = 0.5e-3;  ///< [m]; > 0
+  /// The greatest angle at which facets that follow a curve meet; none: as the tolerance asks.
+  std::optional<Angle> largest_kink;
 };
 
 enum class ExportFormat { stl, stl_ascii, off, scad, csv };
@@ -109,9 +111,16 @@ enum class ExportFormat { stl, stl_ascii, off, scad, csv };
 /// @return the word that a design file uses, e.g. "stl-ascii"
 [[nodiscard]] std::string_view word(ExportFormat format);
 
+/// Where the origin of a mesh file lies; its axes are always those of the design.
+enum class MeshFrame {
+  local,  ///< at the start of the track: binary STL holds single precision, which is lost far from the origin
+  site    ///< where the design has it
+};
+
 struct ExportDesign {
   std::vector<ExportFormat> formats = {ExportFormat::stl, ExportFormat::off, ExportFormat::scad};
   LengthUnit unit = LengthUnit::millimetre;
+  MeshFrame frame = MeshFrame::local;
 };
 
 struct Design {

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <stop_token>
 #include <string>
 
 namespace glissade {
@@ -13,8 +15,12 @@ enum class MeshFormat { stl_binary, stl_ascii, off };
 
 struct MeshFileOptions {
   LengthUnit unit = LengthUnit::millimetre;
+  /// Where the file's origin lies in the frame of the site [m], for the header or comment that says so; none: the
+  /// file's frame is that of the site.
+  std::optional<Vec3> offset = {};
   /// Of the solid, for a header or comment; control characters become spaces, what does not fit is cut off.
   std::string name;
+  std::stop_token stop = {};  ///< ends the writing within some milliseconds; the target stays untouched
 };
 
 /// Writes a mesh beside the target and renames it into place: the target is either complete or untouched.
@@ -25,6 +31,7 @@ struct MeshFileOptions {
 /// @throws FileError as AtomicFile
 /// @throws InputError if a triangle names a vertex that does not exist, a coordinate is not finite or does
 ///         not fit the format, and as as_written()
+/// @throws Interrupted if options.stop asks for it
 void write_mesh(const std::filesystem::path& file, MeshFormat format, const TriangleMesh& mesh,
                 const MeshFileOptions& options = {});
 
@@ -39,7 +46,9 @@ void write_mesh(const std::filesystem::path& file, MeshFormat format, const Tria
 /// @return same vertices and triangles in the same order
 /// @throws InputError if single precision cannot keep two vertices apart or turns a facet by more than
 ///         45 deg (names the size at which it does not), or if a coordinate does not fit the format
-[[nodiscard]] TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit);
+/// @throws Interrupted if `stop` asks for it
+[[nodiscard]] TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit,
+                                      const std::stop_token& stop = {});
 
 /// Reads STL (binary or ASCII, told apart by content) or OFF.
 ///
@@ -47,7 +56,9 @@ void write_mesh(const std::filesystem::path& file, MeshFormat format, const Tria
 /// they are; polygons of more than three corners become triangles; colours and normals are skipped.
 /// @throws FileError if the file cannot be read, is of neither format, is truncated, has coordinates that are
 ///         not finite or beyond kLargestMeshCoordinate, or counts that its size cannot hold; says where
+/// @throws Interrupted if `stop` asks for it
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& file,
-                                     LengthUnit unit = LengthUnit::millimetre);
+                                     LengthUnit unit = LengthUnit::millimetre,
+                                     const std::stop_token& stop = {});
 
 }  // namespace glissade

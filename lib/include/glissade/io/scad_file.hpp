@@ -5,6 +5,8 @@
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -12,8 +14,11 @@ namespace glissade {
 
 struct ScadFileOptions {
   LengthUnit unit = LengthUnit::millimetre;
-  std::string name;     ///< of the design, for a comment; control characters become spaces
-  std::string section;  ///< the cross-section in words, for a comment likewise; may be empty
+  std::string name;  ///< of the design, for a comment; control characters become spaces
+  /// As of MeshFileOptions; the program also tells it, as glissade_offset().
+  std::optional<Vec3> offset = {};
+  std::string section;        ///< the cross-section in words, for a comment likewise; may be empty
+  std::stop_token stop = {};  ///< as of MeshFileOptions
 };
 
 /// Writes an OpenSCAD program that renders the solid as it is, and that others `use`.

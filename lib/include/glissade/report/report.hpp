@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct ReportSolid {
   const Solid* solid = nullptr;
   const MeshFacts* facts = nullptr;
   const CrossSection* section = nullptr;
+  double max_deviation = 0.0;  ///< of the mesh as the files hold it [m]
 };
 
 /// What a report is made from. Everything was computed elsewhere: a report measures nothing of its own.
@@ -76,6 +78,7 @@ struct ReportInput {
   std::vector<ReportLimit> limits;
   std::vector<ReportKeepOut> keep_outs;
   std::vector<ReportFile> files;
+  std::stop_token stop = {};  ///< report_html() throws Interrupted if it asks for it
 };
 
 /// What the referee found of each limit, in the units that people use: one row a limit, a limit that holds
@@ -101,7 +104,8 @@ inline constexpr std::size_t kViewTriangles = 150'000;
 
 /// @return SHA-256 of a file's bytes as 64 hexadecimal digits
 /// @throws FileError if the file cannot be read
-[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
+/// @throws Interrupted if `stop` asks for it
+[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file, const std::stop_token& stop = {});
 /// @return SHA-256 of the bytes, as 64 hexadecimal digits
 [[nodiscard]] std::string sha256_of_text(std::string_view text);
 

@@ -77,6 +77,8 @@ class CrossSection {
   [[nodiscard]] double lowest() const;
   /// @return height of the highest point [m]; >= 0
   [[nodiscard]] double highest() const;
+  /// @return radius of the widest arc of the outline [m]; 0 where nothing is round
+  [[nodiscard]] double widest_radius() const { return round() ? 0.5 * diameter_ + thickness_ : 0.0; }
   /// @return the narrowest place: least distance between two sides that do not share a vertex [m]
   [[nodiscard]] double narrowest() const;
 

@@ -24,6 +24,8 @@ class Placement {
   [[nodiscard]] static Placement through(Vec3 start, Vec3 finish);
 
   [[nodiscard]] Vec3 start() const { return start_; }
+  /// @return the same plane, parallel, with its start at the origin
+  [[nodiscard]] Placement at_origin() const;
   /// @return direction of the run, counter-clockwise from +x seen from above; -180 to 180 deg
   [[nodiscard]] Angle azimuth() const;
 

@@ -6,6 +6,8 @@
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <cstddef>
+#include <optional>
+#include <stop_token>
 #include <vector>
 
 namespace glissade {
@@ -17,11 +19,17 @@ struct SweepOptions {
   std::size_t max_triangles = 20'000'000;
   /// About how many triangles may be spent on well shaped facets where the tolerance alone needs fewer.
   std::size_t shape_triangles = 1'000'000;
+  /// Greatest angle that the track, or a round outline, may turn through from one facet to the next; > 0. Without
+  /// it, the tolerance alone decides, and 0.25 rad.
+  std::optional<Angle> largest_kink = {};
+  /// Ends the sweep within some milliseconds.
+  std::stop_token stop = {};
 };
 
 /// A swept solid and what the sweep knows of it.
 struct Solid {
   TriangleMesh mesh;
+  Placement placement;         ///< that of its frame
   double max_deviation = 0.0;  ///< greatest measured distance between mesh and ideal solid [m]
   bool trimmed = false;        ///< parts of the naive sweep that would have folded over were cut away
   double exact_volume = 0.0;   ///< of the ideal solid, arcs round, trims cut; see kSweepVolumeAccuracy [m^3]
@@ -44,9 +52,10 @@ struct Solid {
 /// @throws InputError if
 ///   - the section cannot follow the track: names the place, the radius there and the largest height above or
 ///     depth below the floor that works;
-///   - options.tolerance is not finite and positive, or finer than the coordinates can carry;
+///   - options.tolerance is not finite and positive, options.largest_kink not positive, or finer than the coordinates can carry;
 ///   - the mesh would exceed options.max_triangles: names its size in triangles and bytes, and a tolerance
 ///     that fits; decided before anything of that size is allocated
+/// @throws Interrupted if options.stop asks for it
 [[nodiscard]] Solid sweep(const Centerline& centerline, const CrossSection& section,
                           const Placement& placement, const SweepOptions& options = {});
 
