@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -200,6 +201,47 @@ TEST_CASE("a profile that leads to the left is mirrored, and begins where its fi
   CHECK(left.at(0.0).drop == 0.0);
   CHECK(left.length() == Approx(right.length()).epsilon(1e-9));
   CHECK(left.endpoints().run == Approx(right.endpoints().run).epsilon(1e-9));
+}
+
+TEST_CASE("a wavy profile keeps its waves, however many and however sampled") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr double kRun = 100.0;
+  constexpr double kHeight = 2.0;
+  for (const int count : {40, 120, 400}) {
+    for (const double periods : {1.0, 2.0, 3.0, 5.0, 8.0}) {
+      if (count < 8.0 * periods) continue;
+      for (const double noise : {0.0, 0.02}) {
+        const auto wave = [&](double x) {
+          return 0.3 * x + kHeight * std::sin(2.0 * std::numbers::pi * periods * x / kRun);
+        };
+        std::vector<Vec2> points;
+        for (int i = 0; i < count; ++i) {
+          const double x = kRun * i / (count - 1);
+          points.push_back({x, wave(x) + noise * bell(random)});
+        }
+        const FittedProfile profile(points);
+        INFO(count << " points, " << periods << " periods, noise " << noise);
+        // Between points that are few for their waves a curve of linear curvature may pass a crest by 1 %.
+        CHECK(profile.max_deviation() <= 5.0 * noise + 1e-3 * kHeight);
+        CHECK_FALSE(profile.leaves_out_much());
+        for (int i = 0; i <= 300; ++i) {
+          const CenterlinePoint place = profile.at(profile.length() * (i / 300.0));
+          const double start = points.front().y;
+          CHECK(std::fabs(place.drop + start - wave(place.x)) <= 6.0 * noise + 0.01 * kHeight);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a profile that runs back is refused by the number of the point") {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 60; ++i) points.push_back({2.5 * i - (i == 31 ? 4.0 : 0.0), 1.0 * i});
+  const auto fault = profile_fault(points);
+  REQUIRE(fault);
+  CHECK(fault->index == 31);
+  CHECK_THAT(fault->issue.what, Contains("runs back here"));
 }
 
 TEST_CASE("what no track can follow is refused by the number of the point") {

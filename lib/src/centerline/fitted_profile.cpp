@@ -32,6 +32,21 @@ double reach_of(const std::vector<Vec2>& points) {
   return reach;
 }
 
+/// A point may lie this share of the profile's reach behind an earlier one: noise, where the profile is steep.
+constexpr double kFarthestBack = 0.005;
+
+/// The first point that lies too far behind an earlier one; the number of points if there is none.
+std::size_t point_running_back(const std::vector<Vec2>& points, double reach) {
+  const double side = points.back().x < points.front().x ? -1.0 : 1.0;
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double run = side * (points[i].x - points.front().x);
+    if (run < farthest - kFarthestBack * reach) return i;
+    farthest = std::max(farthest, run);
+  }
+  return points.size();
+}
+
 bool turns_back(Vec2 before, Vec2 after, double long_chord) {
   if (std::min(norm(before), norm(after)) < long_chord) return false;
   return dot(before, after) < kSharpestTurnCosine * norm(before) * norm(after);
@@ -82,6 +97,12 @@ std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
                  "Points are read in order from start to finish; a track has no spikes.",
                  "the points sorted along the track");
   }
+  const std::size_t back = point_running_back(points, reach_of(points));
+  if (back < points.size()) {
+    return fault(back, "the profile runs back here, behind a point before it",
+                 "A track leads from start to finish; it does not overhang.",
+                 "the points sorted along the track, or this one left out");
+  }
   return {};
 }
 
@@ -96,6 +117,13 @@ FittedProfile::FittedProfile(std::vector<Vec2> points, const ProfileFit& fit)
     sum += deviation * deviation;
   }
   rms_deviation_ = std::sqrt(sum / static_cast<double>(points_.size()));
+  double bulge = 0.0;
+  const Vec2 chord = points_.back();
+  for (const Vec2& point : points_) {
+    const double away = (chord.x * point.y - chord.y * point.x) / norm(chord);
+    bulge += away * away;
+  }
+  rms_bulge_ = std::sqrt(bulge / static_cast<double>(points_.size()));
 }
 
 }  // namespace glissade

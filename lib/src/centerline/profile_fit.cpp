@@ -29,8 +29,6 @@ constexpr double kPriceOfFreedom = 1.4;
 // tells nothing.
 constexpr double kMostFreedom = 0.65;
 constexpr std::size_t kFewestToValidate = 20;
-// The search for the best score ends when it has not become better over this many steps.
-constexpr int kMostStepsUphill = 4;
 constexpr int kMostSteps = 60;
 constexpr int kMostHalvings = 12;
 // A step that promises less than this share of what is left is not worth its while.
@@ -151,27 +149,29 @@ double Fitter::validation_score(double smoothing) {
   return data.mean_square / math::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
 }
 
-/// The shape of the best score. Where the score becomes better as long as it means anything, the points show
-/// no noise: then the one that goes through all of them.
+/// The shape of the best score over all of the range: a score with more than one valley is the rule where a
+/// profile has more than one length of wave. Where the score becomes better as long as it means anything, the
+/// points show no noise: then the one that goes through all of them.
 Shape Fitter::validated() {
   Shape best = shape_;
   double best_score = std::numeric_limits<double>::infinity();
-  int uphill = 0;
   bool meaningful = model_.point_count() >= kFewestToValidate;
+  bool improving = true;
   for (double smoothing = kMostSmoothing; smoothing >= kLeastSmoothing; smoothing *= kSmoothingStep) {
     relax(smoothing);
     if (!meaningful) continue;
     const double score = validation_score(smoothing);
     meaningful = std::isfinite(score);
-    if (!meaningful && uphill > 0) return best;
-    if (!meaningful) continue;
-    uphill = score < best_score ? 0 : uphill + 1;
-    if (uphill == kMostStepsUphill) return best;
-    if (uphill > 0) continue;
+    if (!meaningful) {
+      if (!improving) return best;
+      continue;
+    }
+    improving = score < best_score;
+    if (!improving) continue;
     best = shape_;
     best_score = score;
   }
-  return uphill > 0 ? best : shape_;
+  return improving ? shape_ : best;
 }
 
 double Fitter::farthest_point() const {

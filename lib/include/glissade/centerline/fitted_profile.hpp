@@ -82,6 +82,13 @@ class FittedProfile final : public Centerline {
   [[nodiscard]] std::size_t farthest_point() const noexcept { return farthest_point_; }
   /// @return root of the mean squared distance [m]
   [[nodiscard]] double rms_deviation() const noexcept { return rms_deviation_; }
+  /// @return true where the curve leaves out more than kLargeDeviation of the profile's own shape: of the root of
+  ///         the mean squared distance of the points from the straight line between the ends. Either the points
+  ///         are very noisy, or they are too few for their shape.
+  [[nodiscard]] bool leaves_out_much() const noexcept {
+    return rms_deviation_ > kLargeDeviation * rms_bulge_;
+  }
+  static constexpr double kLargeDeviation = 0.1;
   /// @return the fitted curve
   [[nodiscard]] const ClothoidSpline& curve() const noexcept { return curve_; }
 
@@ -91,6 +98,7 @@ class FittedProfile final : public Centerline {
   std::vector<PointDeviation> deviations_;
   std::size_t farthest_point_ = 0;
   double rms_deviation_ = 0.0;
+  double rms_bulge_ = 0.0;
 };
 
 /// The most knots that a FittedProfile has.
