@@ -45,7 +45,7 @@ ProgressLine::~ProgressLine() {
 
 Progress ProgressLine::callback() {
   if (!enabled_) return {};
-  return [this](std::string_view stage, double fraction) {
+  return [this](std::string_view stage, std::optional<double> fraction) {
     if (verbose_) {
       tell(stage);
     } else {
@@ -62,11 +62,11 @@ void ProgressLine::tell(std::string_view stage) {
               "\n");
 }
 
-void ProgressLine::note(std::string_view stage, double fraction) {
+void ProgressLine::note(std::string_view stage, std::optional<double> fraction) {
   const std::scoped_lock lock(mutex_);
   const bool changed = stage != stage_;
   const Clock::time_point now = Clock::now();
-  if (fraction < fraction_ || fraction_ < 0.0) work_start_ = now;
+  if (!fraction_ || !fraction || *fraction < *fraction_) work_start_ = now;
   stage_ = stage;
   fraction_ = fraction;
   told_ = now;
@@ -87,10 +87,10 @@ void ProgressLine::draw(Clock::time_point now) {
 /// How far, how long still; where nobody knows, how long so far.
 std::string ProgressLine::distance_text(Clock::time_point now) const {
   std::string so_far = ", " + rounded_text(std::floor(seconds(now - start_)), 6) + " s so far";
-  if (fraction_ < 0.0) return so_far;
-  const std::string percent = ", " + rounded_text(std::floor(fraction_ * 100.0), 3) + " %";
-  if (fraction_ < kTrustedFraction) return percent + so_far;
-  const double whole = seconds(told_ - work_start_) / fraction_;
+  if (!fraction_) return so_far;
+  const std::string percent = ", " + rounded_text(std::floor(*fraction_ * 100.0), 3) + " %";
+  if (*fraction_ < kTrustedFraction) return percent + so_far;
+  const double whole = seconds(told_ - work_start_) / *fraction_;
   const double left = whole - seconds(now - work_start_);
   return percent + ", about " + rounded_text(std::max(std::ceil(left), 1.0), 6) + " s left";
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -30,7 +31,7 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void note(std::string_view stage, double fraction);
+  void note(std::string_view stage, std::optional<double> fraction);
   void tell(std::string_view stage);
   void keep_drawing(const std::stop_token& stop);
   void draw(Clock::time_point now);
@@ -41,7 +42,7 @@ class ProgressLine {
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();
   std::string stage_;
-  double fraction_ = -1.0;  ///< done when last told; negative where unknown
+  std::optional<double> fraction_;  ///< done when last told; none where unknown
   Clock::time_point told_ = start_;
   Clock::time_point work_start_ = start_;  ///< when the work began that the fraction is of
 

@@ -271,7 +271,7 @@ TEST_CASE(
   problem.limits.slope_angle.highest = 0.8;
   problem.limits.smallest_valley_radius = 5.0;
   std::stop_source source;
-  const Progress ask = [&](std::string_view stage, double) {
+  const Progress ask = [&](std::string_view stage, std::optional<double>) {
     if (stage == "finer track") source.request_stop();
   };
   const Optimum early = optimize(problem, {}, source.get_token(), ask);

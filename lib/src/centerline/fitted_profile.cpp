@@ -77,7 +77,7 @@ std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
   if (points.size() < 3) {
     const std::string count =
         points.size() == 1 ? "there is 1" : "there are " + std::to_string(points.size());
-    return ProfileFault{points.size(),
+    return ProfileFault{{},
                         {"points", count + " of them", "A curve needs at least 3 points.",
                          "more points; between two, the kind straight"}};
   }

@@ -61,7 +61,7 @@ FittedProfile fit_points(const CenterlineDesign& design) {
   if (const auto fault = profile_fault(profile.points)) {
     Issue issue = fault->issue;
     issue.where = design.points_file.string();
-    if (fault->index < profile.lines.size()) issue.where += ":" + std::to_string(profile.lines[fault->index]);
+    if (fault->point) issue.where += ":" + std::to_string(profile.lines[*fault->point]);
     throw InputError(issue);
   }
   return FittedProfile(std::move(profile.points), ProfileFit{design.points_max_deviation});
@@ -181,7 +181,7 @@ Track ride(const Design& design, CenterlinePtr centerline) {
 
 Track solve(const Design& design, const RunContext& context) {
   require_sound(design);
-  if (context.progress) context.progress("finding the track", -1.0);
+  if (context.progress) context.progress("finding the track", {});
   // The closed form knows neither limits, nor a finish that it may choose, nor drag.
   const bool searched =
       design.limits || design.track.free_finish != FinishKind::point || !has_closed_optimum(body_of(design));

@@ -30,8 +30,8 @@ struct PointDeviation {
 
 /// Why points are no profile, and which of them shows it.
 struct ProfileFault {
-  std::size_t index = 0;  ///< into the points; their number where there are too few
-  Issue issue;            ///< `where` names the point by number, counted from 1, and its coordinates
+  std::optional<std::size_t> point;  ///< its index; none where there are too few of them
+  Issue issue;  ///< `where` names the point by number, counted from 1, and its coordinates
 };
 
 /// @param points  as FittedProfile takes them
