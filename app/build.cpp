@@ -63,6 +63,7 @@ ExitCode build_design(const Options& options) {
   } else if (!options.verbosity.quiet()) {
     print(build_summary(design, built));
   }
+  print_warnings(warnings(design, built.track));
   if (const auto problem = search_problem(design, built.track)) throw ConvergenceError(*problem);
   return ExitCode::done;
 }

@@ -45,6 +45,10 @@ void print_error(std::string_view text) {
   (void)std::fflush(stderr);
 }
 
+void print_warnings(const std::vector<Issue>& warnings) {
+  for (const Issue& warning : warnings) print_error("glissade: warning: " + to_text(warning) + "\n");
+}
+
 bool output_is_terminal() {
   return isatty(STDOUT_FILENO) == 1;
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "glissade/core/error.hpp"
+
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace glissade::app {
 
@@ -15,6 +18,9 @@ void reserve_standard_streams();
 
 /// Writes to standard error; what cannot be written there is lost.
 void print_error(std::string_view text);
+
+/// Writes each as "glissade: warning: ..." to standard error.
+void print_warnings(const std::vector<Issue>& warnings);
 
 [[nodiscard]] bool output_is_terminal();
 [[nodiscard]] bool error_is_terminal();

@@ -10,6 +10,7 @@
 #include "app/track_input.hpp"
 
 #include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -17,7 +18,7 @@ namespace glissade::app {
 namespace {
 
 constexpr const char* kDescription =
-    "Find the centerline and the ride down it; write no files.\n"
+    "Find the centerline and the ride down it; write no files but those asked for.\n"
     "\n"
     "A body that stalls or leaves the track is reported with the place, and the exit code is 3; the same "
     "for\n"
@@ -26,6 +27,7 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "Examples:\n"
     "  glissade solve designs/grain_chute.yaml\n"
+    "  glissade solve designs/grain_chute.yaml --csv ride.csv           speed, load, ... by stations\n"
     "  glissade solve designs/grain_chute.yaml --set body.friction_angle=19deg\n"
     "  glissade solve --run 10 --drop 5 --friction-angle 11deg\n"
     "  glissade solve --run 10 --drop 5 --friction-coefficient 0.2 --p 127 --json";
@@ -34,6 +36,7 @@ struct Options {
   TrackInput input{TrackInput::Scope::one_kind};
   TimeBudget time_budget;
   Verbosity verbosity;
+  std::string csv;
   bool json = false;
 };
 
@@ -54,6 +57,8 @@ ExitCode solve_track(const Options& options) {
   try {
     const Track track = solved(design, options);
     print(options.json ? track_json(design, track) : track_summary(design, track));
+    if (!options.csv.empty()) write_track_csv(options.csv, track);
+    print_warnings(warnings(design, track));
     require_sound(design, track);
   } catch (const LimitsConflict& conflict) {
     if (options.json) print(conflict_json(design, conflict.report()));
@@ -69,6 +74,7 @@ void add_solve(CLI::App& program, Action& action) {
   const auto options = std::make_shared<Options>();
   options->input.add_to(command);
   options->time_budget.add_to(command);
+  command.add_option("--csv", options->csv, "Write the track and the ride by stations")->type_name("FILE");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return solve_track(*options); }; });

@@ -7,6 +7,7 @@
 
 #include "app/console.hpp"
 #include "app/limits_text.hpp"
+#include "app/probes_text.hpp"
 #include "app/rides_text.hpp"
 #include "app/table.hpp"
 
@@ -215,7 +216,7 @@ std::string track_summary(const Design& design, const Track& track) {
          labelled("Slope angle", slope_text(track)) +
          labelled("Arc length", length_text(track.centerline->length())) +
          labelled("Normal load", load_lines(track.motion)) + labelled("Smallest radius", radius_text(track)) +
-         friction_lines(track) + limits_lines(design, track);
+         friction_lines(track) + limits_lines(design, track) + probes_lines(design, track);
 }
 
 std::string build_summary(const Design& design, const Build& build) {

@@ -7,6 +7,7 @@
 #include "support/random.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -14,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using nlohmann::json;
 
 namespace {
@@ -258,4 +260,25 @@ TEST_CASE("--set replaces a value of the design file") {
       glissade_run({"solve", shipped("grain_chute"), "--set", "body.friction_angle=19deg", "--json"});
   REQUIRE(outcome.exit_code == 0);
   CHECK(json::parse(outcome.output)["friction_angle_deg"].get<double>() == Approx(19.0));
+}
+
+TEST_CASE("solve --csv writes the ride by stations, at every friction, without a cross-section") {
+  const TempDir place;
+  const Outcome outcome =
+      glissade_run({"solve", shipped("grain_chute_with_limits"), "--csv", (place / "ride.csv").string()});
+  REQUIRE(outcome.exit_code == 0);
+  const std::string text = bytes_of(place / "ride.csv");
+  CHECK_THAT(text, StartsWith("arc_length_m,run_m,drop_m,x_m,y_m,z_m,slope_angle_deg"));
+  CHECK_THAT(text, Contains("speed_low_m_per_s") && Contains("speed_high_m_per_s"));
+  CHECK(std::count(text.begin(), text.end(), '\n') > 400);
+}
+
+TEST_CASE("a stall of a body that enters with speed asks for more of it") {
+  const TempDir place;
+  put_bytes(place / "d.yaml",
+            "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
+            "body: {friction_angle: 30 deg, entry_speed: 2 m/s}\ncenterline: {kind: straight}\n");
+  const Outcome outcome = glissade_run({"solve", (place / "d.yaml").string()});
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors, Contains("or a higher entry_speed"));
 }

@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 #include <limits>
+#include <string>
+#include <utility>
 
 using namespace glissade;
 
@@ -39,4 +41,13 @@ TEST_CASE("number text: decimals have no exponent and read back as the same numb
   CHECK(decimal_text(-0.1) == "-0.1");
   CHECK(std::stod(decimal_text(5e-324)) == 5e-324);
   CHECK(std::stod(decimal_text(-1.7976931348623157e308)) == -1.7976931348623157e308);
+}
+
+TEST_CASE("two values that a message holds against each other are written with digits that tell them apart") {
+  using Texts = std::pair<std::string, std::string>;
+  CHECK(texts_apart(1.0, 2.0, &length_text) == Texts{"1 m", "2 m"});
+  CHECK(texts_apart(0.0005, 0.00036056, &length_text) == Texts{"0.5 mm", "0.3606 mm"});
+  CHECK(texts_apart(33.6901, 33.6899, [](double value, int digits) { return rounded_text(value, digits); }) ==
+        Texts{"33.6901", "33.6899"});
+  CHECK(texts_apart(2.0, 2.0, &length_text) == Texts{"2 m", "2 m"});
 }

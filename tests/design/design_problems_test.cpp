@@ -337,3 +337,32 @@ TEST_CASE("a curvature beyond all measure is one problem, and no finish is sough
   }
   CHECK(refusal_of("{length: 2 m, curvature: 0.2 1/m}").empty());
 }
+
+TEST_CASE("a friction just too steep for the track is told with the digits that show it") {
+  // tan(33.69 deg) is 0.66666..., the mean slope 2 in 3.
+  const std::string same = sound_design_with("{x: 5.4 m, z: 1.1 m}", "{x: 7.5 m, z: 1.2 m}");
+  std::string steep = same;
+  steep.replace(steep.find("17 deg"), 6, "33.69007 deg");
+  CHECK_THAT(problems_of(steep),
+             Contains("33.69007 deg is steeper than the mean slope from start to finish, 33.69006"));
+}
+
+TEST_CASE("what the message of a mesh too coarse for its track says to try is finer than the track") {
+  std::string tiny = sound_design_with("{x: 5.4 m, z: 1.1 m}", "{x: 0.3 mm, z: 6199.8 mm}");
+  const std::string problems = problems_of(tiny);
+  CHECK_THAT(problems,
+             Contains("tolerance: 0.5 mm is larger than the track, 0.3606 mm") && !Contains("Try: 0.5 mm"));
+}
+
+TEST_CASE(
+    "a mesh that would have more triangles than Glissade makes is refused on reading, by the sweep's own "
+    "bound") {
+  CHECK_THAT(problems_with("tolerance: 0.5 mm", "tolerance: 0.000002 mm"),
+             Contains("A mesh has at most 20000000 triangles."));
+}
+
+TEST_CASE("a lowest speed that holds from behind the longest track is refused") {
+  std::string text(kSoundDesign);
+  text += "limits: {arc_length: {highest: 9 m}, speed: {lowest: 1 m/s, lowest_from: 30 m}}\n";
+  CHECK_THAT(problems_of(text), Contains("speed.lowest_from: 30 m lies past the end of the track"));
+}

@@ -2,6 +2,7 @@
 
 #include "design/design_text.hpp"
 #include "support/catch.hpp"
+#include "support/temp_dir.hpp"
 
 #include <string>
 
@@ -232,4 +233,40 @@ TEST_CASE("shapes of clearances are sound") {
   CHECK_THAT(
       problems_of_limits("keep_outs: [{outline: [[1 m, 2 m], [3 m, 2 m], [2 m, 3 m]], clearance: -1 m}]"),
       Contains("clearance: -1 m is out of range"));
+}
+
+TEST_CASE("a line of ground comes from a CSV file beside the design, its faults with the file's lines") {
+  const TempDir place;
+  const auto read = [&](const std::string& csv, const std::string& keys) {
+    put_bytes(place / "ground.csv", csv);
+    put_bytes(place / "d.yaml",
+              std::string(kSoundDesign) + "limits: {stay_above: [{file: ground.csv" + keys + "}]}\n");
+    return read_design(place / "d.yaml");
+  };
+  const auto refusal = [&](const std::string& csv, const std::string& keys) -> std::string {
+    try {
+      static_cast<void>(read(csv, keys));
+      return {};
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  const Design design = read("x,z\n0,0.5\n2.5,0.25\n6,0\n", ", clearance: 100 mm");
+  REQUIRE(design.limits->stay_above.size() == 1);
+  CHECK(design.limits->stay_above[0].line == std::vector<Vec2>{{0.0, 0.5}, {2.5, 0.25}, {6.0, 0.0}});
+  CHECK(design.limits->stay_above[0].clearance == 0.1);
+  CHECK(read("s;h\n0;500\n6000;0\n", ", columns: [s, h], unit: mm").limits->stay_above[0].line ==
+        std::vector<Vec2>{{0.0, 0.5}, {6.0, 0.0}});
+  CHECK_THAT(refusal("x,z\n0,0\n3,0\n2,0\n", ""),
+             Contains("file: ground.csv:4: x does not grow from 3 m to 2 m"));
+  CHECK_THAT(refusal("x,z\n0,0\n3,high\n", ""),
+             Contains("ground.csv:3:3: column \"z\": \"high\" is no number"));
+  CHECK_THAT(refusal("x,z\n0,0\n", ""), Contains("ground.csv has 1 points"));
+  CHECK_THAT(refusal("x,z\n0,0\n6,0\n", ", line: [[0 m, 0 m], [1 m, 0 m]]"),
+             Contains("unknown key line") && Contains("either line or file"));
+  CHECK_THAT(problems_of(std::string(kSoundDesign) + "limits: {stay_above: [{file: nowhere.csv}]}\n"),
+             Contains("nowhere.csv") && Contains("No such file") && !Contains("has at least two"));
+  CHECK_THAT(problems_of(std::string(kSoundDesign) +
+                         "limits: {stay_above: [{line: [[0 m, 0 m], [6 m, 0 m]], unit: mm}]}\n"),
+             Contains("unknown key unit"));
 }

@@ -15,7 +15,7 @@ namespace {
 
 std::string csv_of(const std::vector<StationRow>& stations) {
   const TempDir dir;
-  write_stations_csv(dir / "stations.csv", stations);
+  write_stations_csv(dir / "stations.csv", {stations, {}});
   return bytes_of(dir / "stations.csv");
 }
 
@@ -63,9 +63,23 @@ TEST_CASE("a station that is not a number is refused and nothing is written") {
   StationRow row;
   row.point.drop = std::numeric_limits<double>::quiet_NaN();
   const TempDir dir;
-  CHECK_THROWS_WITH(write_stations_csv(dir / "stations.csv", {StationRow{}, row}),
+  CHECK_THROWS_WITH(write_stations_csv(dir / "stations.csv", {{StationRow{}, row}, {}}),
                     Contains("station 1: drop_m is not a number"));
   CHECK(dir.names().empty());
+}
+
+TEST_CASE("of a friction range the columns of motion follow for each end, the unit last") {
+  StationRow row;
+  row.motion = MotionState{};
+  MotionState slow;
+  slow.speed = 2.5;
+  const TempDir dir;
+  write_stations_csv(dir / "stations.csv",
+                     {{row}, {{FrictionLevel::low, {{}}}, {FrictionLevel::high, {slow}}}});
+  const std::string text = bytes_of(dir / "stations.csv");
+  CHECK_THAT(text, Contains(",drag_loss_j_per_kg,time_low_s,speed_low_m_per_s,normal_load_low_m_per_s2,"
+                            "friction_loss_low_j_per_kg,drag_loss_low_j_per_kg,time_high_s,"));
+  CHECK_THAT(text, Contains(",0,0,0,0,0,,,,,,0,2.5,0,0,0\n"));
 }
 
 TEST_CASE("an OpenSCAD file says unit, name and section, and holds doubles in full") {

@@ -30,30 +30,24 @@ const std::vector<ActiveLimit> kActive = {
 
 }  // namespace
 
-TEST_CASE("limits are told in the units that people use, with the price per degree") {
+TEST_CASE("limits carry what the referee found, a name for people, and the price of an active one") {
   const std::vector<ReportLimit> rows = report_limits(checks_with_exit_slope(0.0), kActive);
   REQUIRE(rows.size() == 5);
   CHECK(rows[0].name == "exit slope angle");
-  CHECK(rows[0].bound == "at most 11 deg");
-  CHECK(rows[0].where == "s = 91.2 m");
+  CHECK(rows[0].check.limit.key() == "exit_slope_angle.highest");
   CHECK(rows[0].status == "active");
-  CHECK(*rows[0].price == Approx(0.5 * kDegree));
-  CHECK(rows[0].price_unit == "s per deg");
-  CHECK(rows[1].bound == "at least 3 m");
+  REQUIRE(rows[0].active);
+  CHECK(rows[0].active->price == 0.5);
   CHECK(rows[1].status == "kept");
-  CHECK_FALSE(rows[1].price);
-  CHECK(rows[2].bound == "at most 19.613 m/s^2 (2 g)");
-  CHECK(rows[3].name == "keep-out 2");
-  CHECK(rows[4].bound == "no crest");
-  CHECK(rows[4].reached == "no crest");
-  CHECK(report_limits(checks_with_exit_slope(0.0), kActive, {ObjectiveKind::exit_speed})[0].price_unit ==
-        "m/s per deg");
+  CHECK_FALSE(rows[1].active);
+  CHECK(rows[3].name == "keep-out");
+  CHECK(rows[3].check.limit.key() == "keep_outs[1]");
 }
 
 TEST_CASE("a limit that is broken by more than the tolerance is violated, active or not, and has no price") {
   const ReportLimit broken = report_limits(checks_with_exit_slope(1e-3), kActive).front();
   CHECK(broken.status == "violated");
-  CHECK_FALSE(broken.price);
+  CHECK_FALSE(broken.active);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   CHECK(report_limits(checks_with_exit_slope(unknown), kActive).front().status == "violated");
 }
@@ -68,6 +62,8 @@ TEST_CASE("keep-outs are drawn where the design has them, heights as the design 
   design.limits->stay_above = {{{{2.0, 3.0}, {12.0, 2.0}}, 0.1}};
   const std::vector<ReportKeepOut> areas = report_keep_outs(design);
   REQUIRE(areas.size() == 2);
+  CHECK(areas[0].name == "keep_outs[0]");
+  CHECK(areas[1].name == "stay_above[0]");
   CHECK_FALSE(areas[0].open);
   CHECK(areas[0].points.front() == Vec2{3.0, 6.0});
   CHECK(areas[1].open);

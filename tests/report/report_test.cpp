@@ -72,7 +72,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 TEST_CASE("report data: the ride is the referee's, to the last digit") {
   const Chute chute;
   const json document = json::parse(report_json(chute.input()));
-  CHECK(document["schema"] == "glissade-report/1");
+  CHECK(document["schema"] == "glissade-report/2");
   CHECK(document["ride"]["travel_time_s"] == chute.motion().travel_time());
   CHECK(document["ride"]["exit_speed_m_per_s"] == chute.motion().exit_speed());
   // Straight ramp: T = sqrt(2 l / (g (sin - mu cos))), sin = 0.6, cos = 0.8.

@@ -25,7 +25,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"referee", {"core", "centerline", "motion", "clearance", "task"}},
     {"optimize", {"core", "centerline", "motion", "clearance", "task", "referee"}},
     {"solid", {"core", "centerline"}},
-    {"design", {"core", "centerline", "task"}},
+    {"design", {"core", "centerline", "task", "io"}},
     {"io", {"core", "centerline", "motion", "solid"}},
     {"report",
      {"core", "centerline", "motion", "clearance", "task", "referee", "optimize", "solid", "design", "io"}},

@@ -139,6 +139,15 @@ class LimitsConflict : public InfeasibleError {
 /// @return how it ended and what that means; none if it converged, or there was none
 [[nodiscard]] std::optional<Issue> search_problem(const Design& design, const Track& track);
 
+/// Writes a track and the ride down it by stations, as the format csv does: some 400, closer together near the
+/// start, and one at each jump of curvature. No cross-section is needed.
+/// @throws FileError as AtomicFile
+void write_track_csv(const std::filesystem::path& file, const Track& track);
+
+/// What a user should hear of beside a sound answer: something asked for that had no effect, or data that may
+/// not say what they seem to.
+[[nodiscard]] std::vector<Issue> warnings(const Design& design, const Track& track);
+
 /// The outline that a design asks for.
 /// @throws InputError if the measures do not make a cross-section
 [[nodiscard]] CrossSection make_cross_section(const CrossSectionDesign& design);

@@ -51,6 +51,14 @@ std::string angle_text(double radians, int digits) {
   return rounded_text(radians * (180.0 / std::numbers::pi), digits) + " deg";
 }
 
+std::pair<std::string, std::string> texts_apart(double a, double b,
+                                                const std::function<std::string(double, int)>& text,
+                                                int digits) {
+  constexpr int kMostDigits = 15;
+  while (digits < kMostDigits && a != b && text(a, digits) == text(b, digits)) ++digits;
+  return {text(a, digits), text(b, digits)};
+}
+
 std::string size_text(double bytes, int digits) {
   constexpr std::array<const char*, 4> kUnits = {" bytes", " kB", " MB", " GB"};
   std::size_t unit = 0;

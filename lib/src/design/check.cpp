@@ -102,13 +102,13 @@ std::optional<Finding> find_unreachable(const Design& design) {
   const std::string key = friction_key(design);
   const bool by_coefficient = key == "friction_coefficient";
   const double mean_slope = math::atan2(drop, run);
-  const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle_text(math::atan(mu)) + ")"
-                                           : angle_text(math::atan(mu));
+  const auto [angle, slope] = texts_apart(math::atan(mu), mean_slope, &angle_text);
+  const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle + ")" : angle;
   const std::string better =
       by_coefficient ? rounded_text(kBelow * drop / run, 4) : angle_text(kBelow * mean_slope);
   Issue issue;
-  issue.what = key + ": " + value + " is steeper than the mean slope from start to finish, " +
-               angle_text(mean_slope) + " (" + drop_over_run(track) + ")";
+  issue.what = key + ": " + value + (angle == slope ? " is as steep as" : " is steeper than") +
+               " the mean slope from start to finish, " + slope + " (" + drop_over_run(track) + ")";
   issue.why =
       "From rest, no track between these points reaches the finish, whatever its shape (docs/theory.md, "
       "reach theorem).";

@@ -123,12 +123,18 @@ void check_lengths(const Design& design, Collected& findings) {
   const std::optional<double>& longest = limits.arc_length.highest;
   if (!longest) return;
   const double distance = norm(design.track.finish - design.track.start);
+  const auto [most, straight] = texts_apart(*longest, distance, &length_text);
   if (design.track.free_finish == FinishKind::point && *longest < distance) {
     report(findings, {path("arc_length"), "track"},
-           {"",
-            "arc_length: at most " + length_text(*longest) + " is shorter than the straight line, " +
-                length_text(distance),
+           {"", "arc_length: at most " + most + " is shorter than the straight line, " + straight,
             "No track is.", ""});
+  }
+  if (limits.lowest_speed_from >= *longest && limits.speed.lowest) {
+    report(findings, {path("speed.lowest_from"), path("speed"), path("arc_length")},
+           {"",
+            "speed.lowest_from: " + length_text(limits.lowest_speed_from) +
+                " lies past the end of the track, which is at most " + length_text(*longest) + " long",
+            "speed.lowest would never apply.", "a place before the end, or exit_speed: {lowest: ...}"});
   }
   if (limits.lead_in + limits.lead_out > *longest) {
     report(findings, {path("arc_length"), path("lead_in"), path("lead_out")},

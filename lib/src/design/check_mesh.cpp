@@ -1,3 +1,4 @@
+#include "glissade/core/capacity.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/checks.hpp"
@@ -33,19 +34,19 @@ double least_triangles(const Design& design) {
 }
 
 void check_mesh_size(const Design& design, Collected& findings) {
-  constexpr double kMostTriangles = 1e8;
   constexpr double kBytesPerTriangle = 60.0;  // facet, half of a vertex, and what checking them takes
   const bool curved = !is_given(design.centerline.kind) && design.centerline.kind != CenterlineKind::straight;
   if (!design.cross_section || !curved) return;
   const double triangles = least_triangles(design);
-  if (!(triangles > kMostTriangles)) return;
-  const double smallest = design.mesh.tolerance * triangles / kMostTriangles;
+  constexpr auto kMost = static_cast<double>(kMostTriangles);
+  if (!(triangles > kMost)) return;
+  const double smallest = design.mesh.tolerance * triangles / kMost;
   report(findings, {"mesh.tolerance", "cross_section", "centerline"},
          {"",
           "tolerance: " + rounded_text(design.mesh.tolerance * 1e3, 4) + " mm needs more than " +
               rounded_text(triangles, 2) + " triangles, some " +
               rounded_text(triangles * kBytesPerTriangle * 1e-9, 2) + " GB",
-          "Such a mesh does not fit in memory.",
+          "A mesh has at most " + rounded_text(kMost, 2) + " triangles.",
           "a tolerance above " + rounded_text(smallest * 1e3, 2) + " mm; 0.5 mm suits most workshops"});
 }
 
@@ -75,10 +76,11 @@ void check_mesh(const Design& design, Collected& findings) {
   }
   const double distance = norm(design.track.finish - design.track.start);
   if (distance > 0.0 && tolerance > distance) {
-    report(
-        findings, {"mesh.tolerance", "track"},
-        {"", "tolerance: " + length_text(tolerance) + " is larger than the track, " + length_text(distance),
-         "It is how far the mesh may depart from the exact shape.", "0.5 mm"});
+    constexpr double kFine = 1e-3;  // of the track: its shape is there, and the mesh small
+    const auto [given, whole] = texts_apart(tolerance, distance, &length_text);
+    report(findings, {"mesh.tolerance", "track"},
+           {"", "tolerance: " + given + " is larger than the track, " + whole,
+            "It is how far the mesh may depart from the exact shape.", length_text(kFine * distance, 1)});
   }
   check_mesh_size(design, findings);
 }

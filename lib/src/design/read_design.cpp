@@ -9,6 +9,7 @@
 #include "design/map_reader.hpp"
 #include "design/overrides.hpp"
 #include "design/read_limits.hpp"
+#include "design/read_probes.hpp"
 #include "design/schema_words.hpp"
 #include "design/yaml_tree.hpp"
 
@@ -424,8 +425,8 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
-  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "cross_section", "mesh",
-              "export"});
+  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "probes",
+              "cross_section", "mesh", "export"});
   for (const std::string_view key : {"friction_angle", "friction_coefficient", "entry_speed", "drag"}) {
     top.add_stranger(key, "two spaces before it, below body:");
   }
@@ -440,6 +441,7 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   design.body = read_body(top, findings);
   design.gravity = top.quantity("gravity", Dimension::acceleration).value_or(kDefaultGravity);
   read_limits(top, design, findings);
+  design.probes = read_probes(top, findings);
   design.cross_section = read_cross_section(top, findings);
   design.mesh = read_mesh(top, findings);
   design.exports = read_export(top, findings);

@@ -3,15 +3,16 @@
 #include "glissade/core/words.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "design/read_line.hpp"
 #include "design/schema_words.hpp"
 
+#include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace glissade::design_file {
 namespace {
-
-constexpr std::string_view kLineExample = "[[0 m, 1 m], [5 m, 0.5 m]]";
 
 Range read_range(MapReader& map, const LimitEntry& entry, Findings& findings) {
   const auto value = map.find(entry.key);
@@ -140,14 +141,16 @@ std::optional<KeepOut> read_keep_out(const Value& value, Findings& findings) {
   return keep_out;
 }
 
-std::optional<Profile> read_profile(const Value& value, Findings& findings) {
-  MapReader map(value, "A line", "{line: [[0 m, 1 m], [5 m, 0.5 m]], clearance: 100 mm}", findings);
-  Profile profile;
-  if (const auto line = map.need("line", kLineExample))
-    profile.line = as_points(*line, kLineExample, findings);
-  profile.clearance = read_clearance(map);
-  map.refuse_unknown_keys();
-  return profile;
+/// Lines of ground or of roofs; each keeps its place, as in read_list().
+std::vector<Profile> read_lines(MapReader& map, std::string_view key, std::string_view example,
+                                const std::filesystem::path& directory, Findings& findings) {
+  std::vector<Profile> lines;
+  const auto value = map.find(key);
+  if (!value) return lines;
+  for (const Value& item : as_list(*value, example, findings)) {
+    lines.push_back(read_line(item, directory, findings).value_or(Profile{}));
+  }
+  return lines;
 }
 
 /// Reads a list of things; each keeps its place, so that its number in messages is that of the file.
@@ -163,15 +166,16 @@ std::vector<Thing> read_list(MapReader& map, std::string_view key, std::string_v
   return things;
 }
 
-void read_clearances(MapReader& map, Limits& limits, Findings& findings) {
+void read_clearances(MapReader& map, Limits& limits, const std::filesystem::path& directory,
+                     Findings& findings) {
   limits.half_planes = read_list(map, "half_planes", "[{line: [[0 m, 2 m], [5 m, 2 m]], stay: below}]",
                                  &read_half_plane, findings);
   limits.keep_outs = read_list(map, "keep_outs", "[{outline: [[2 m, 3 m], [2.4 m, 3 m], [2 m, 3.4 m]]}]",
                                &read_keep_out, findings);
   limits.stay_above =
-      read_list(map, "stay_above", "[{line: [[0 m, 1 m], [5 m, 0.5 m]]}]", &read_profile, findings);
+      read_lines(map, "stay_above", "[{line: [[0 m, 1 m], [5 m, 0.5 m]]}]", directory, findings);
   limits.stay_below =
-      read_list(map, "stay_below", "[{line: [[0 m, 7 m], [5 m, 4 m]]}]", &read_profile, findings);
+      read_lines(map, "stay_below", "[{line: [[0 m, 7 m], [5 m, 4 m]]}]", directory, findings);
   if (const auto waypoints = map.find("waypoints")) {
     limits.waypoints = as_points(*waypoints, "[[2 m, 3.5 m]]", findings);
   }
@@ -224,7 +228,7 @@ void read_limits(MapReader& top, Design& design, Findings& findings) {
   MapReader map(*value, "A group of limits", "{slope_angle: {highest: 35 deg}}", findings);
   Limits& limits = design.limits.emplace();
   read_numbers(map, limits, findings);
-  read_clearances(map, limits, findings);
+  read_clearances(map, limits, design.file.parent_path(), findings);
   read_objective(map, design.objective, findings);
   map.refuse_unknown_keys();
 }

@@ -56,23 +56,46 @@ void write_values(TextWriter& text, const std::array<double, Count>& values,
   }
 }
 
+void write_motion(TextWriter& text, const std::optional<MotionState>& motion, std::size_t station) {
+  text.put(',');
+  if (motion) {
+    write_values(text, motion_values(*motion), kMotionColumns, station);
+  } else {
+    text.put(std::string(kMotionColumns.size() - 1, ','));
+  }
+}
+
+/// "speed_m_per_s" at low friction: "speed_low_m_per_s"; the unit stays at the end.
+std::string column_at(std::string_view column, FrictionLevel level) {
+  for (const std::string_view unit : {"_m_per_s2", "_m_per_s", "_j_per_kg", "_s"}) {
+    if (!column.ends_with(unit)) continue;
+    return std::string(column.substr(0, column.size() - unit.size()))
+        .append("_")
+        .append(to_text(level))
+        .append(unit);
+  }
+  return std::string(column);
+}
+
 }  // namespace
 
-void write_stations_csv(const std::filesystem::path& file, const std::vector<StationRow>& stations) {
+void write_stations_csv(const std::filesystem::path& file, const StationTable& stations) {
   AtomicFile output(file);
   TextWriter text(output);
   for (const std::string_view column : kTrackColumns) text.put(column, ',');
   for (const std::string_view column : kMotionColumns) {
-    text.put(column, (column == kMotionColumns.back() ? '\n' : ','));
+    text.put(column, column == kMotionColumns.back() && stations.range.empty() ? '\n' : ',');
   }
-  for (std::size_t i = 0; i < stations.size(); ++i) {
-    write_values(text, track_values(stations[i]), kTrackColumns, i);
-    text.put(',');
-    if (stations[i].motion) {
-      write_values(text, motion_values(*stations[i].motion), kMotionColumns, i);
-    } else {
-      text.put(std::string(kMotionColumns.size() - 1, ','));
+  for (const StationRange& range : stations.range) {
+    const bool last = &range == &stations.range.back();
+    for (const std::string_view column : kMotionColumns) {
+      text.put(column_at(column, range.level), last && column == kMotionColumns.back() ? '\n' : ',');
     }
+  }
+  for (std::size_t i = 0; i < stations.rows.size(); ++i) {
+    write_values(text, track_values(stations.rows[i]), kTrackColumns, i);
+    write_motion(text, stations.rows[i].motion, i);
+    for (const StationRange& range : stations.range) write_motion(text, range.states.at(i), i);
     text.put('\n');
   }
   output.commit();

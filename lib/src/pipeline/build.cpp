@@ -9,6 +9,7 @@
 #include "pipeline/located.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/staging.hpp"
+#include "pipeline/stations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -218,17 +219,6 @@ std::string section_in_words(const CrossSectionDesign& section) {
             " wide";
   }
   return text + ", thickness " + length_text(section.thickness);
-}
-
-std::vector<StationRow> stations_of(const Track& track, const std::vector<double>& arc_lengths) {
-  std::vector<StationRow> stations;
-  stations.reserve(arc_lengths.size());
-  const std::vector<MotionState> states = track.motion.at(arc_lengths);
-  for (std::size_t index = 0; index < arc_lengths.size(); ++index) {
-    const CenterlinePoint point = track.centerline->at(arc_lengths[index]);
-    stations.push_back({point, track.placement.to_space(point.x, point.drop, 0.0), states[index]});
-  }
-  return stations;
 }
 
 /// The centerline in the frame of the mesh.

@@ -3,6 +3,7 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/version.hpp"
+#include "glissade/pipeline/probes.hpp"
 
 #include "pipeline/track_document.hpp"
 #include "report/serial/vocabulary.hpp"
@@ -91,6 +92,8 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   json["rides"] = Json::array();
   json["limits"] = limits_json(report.checks);
   json["search"] = search_json(report);
+  json["probes"] = Json::array();
+  json["warnings"] = Json::array();
   return json;
 }
 
@@ -106,6 +109,8 @@ Json pipeline::track_document(const Design& design, const Track& track, StallMar
   json["rides"] = rides_of(track, margin);
   json["limits"] = limits_json(track.limit_checks);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
+  json["probes"] = probes_json(probe_readings(design, track));
+  json["warnings"] = issues_json(warnings(design, track));
   return json;
 }
 

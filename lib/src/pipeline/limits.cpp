@@ -111,6 +111,18 @@ std::string place_of(const Design& design, const LimitName& limit) {
   }
 }
 
+/// Straight pieces that are longer together than the way from start to finish leave a track only detours.
+std::optional<std::string> long_leads(const Design& design) {
+  if (!design.limits || design.track.free_finish != FinishKind::point) return {};
+  const double leads = design.limits->lead_in + design.limits->lead_out;
+  const double chord = norm(design.track.finish - design.track.start);
+  if (leads < chord) return {};
+  const auto [together, straight] = texts_apart(leads, chord, &length_text);
+  return "lead_in and lead_out are " + together + " together, the straight line from start to finish is " +
+         straight +
+         ": the track would have to turn back on itself, and the body to lose its speed in the bend.";
+}
+
 Issue conflict_issue(const Design& design, const OptimizeReport& report) {
   const Conflict& conflict = report.conflict;
   const std::string place =
@@ -122,7 +134,9 @@ Issue conflict_issue(const Design& design, const OptimizeReport& report) {
     hint += relaxation.limit.key() + ": " + quantity_text(relaxation.needed, relaxation.limit.dimension());
   }
   if (conflict.relaxations.size() > 1) hint += " (each alone would do)";
-  return {place, conflict.text, "Even the track that breaks them least still breaks them.", hint};
+  std::string why = "Even the track that breaks them least still breaks them.";
+  if (const auto leads = long_leads(design)) why = *leads;
+  return {place, conflict.text, std::move(why), std::move(hint)};
 }
 
 void rename_finish(const Design& design, OptimizeReport& report) {

@@ -2,6 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
+#include "glissade/pipeline/probes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -116,9 +117,8 @@ ReportCheck search(const Design& design, const OptimizeReport& search) {
               rounded_text(search.first_order_residual, 2)};
 }
 
-std::vector<ReportLimit> limits_of(const Design& design, const Track& track) {
-  return report_limits(track.limit_checks, track.search ? track.search->active : std::vector<ActiveLimit>{},
-                       design.objective);
+std::vector<ReportLimit> limits_of(const Track& track) {
+  return report_limits(track.limit_checks, track.search ? track.search->active : std::vector<ActiveLimit>{});
 }
 
 }  // namespace
@@ -138,8 +138,12 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.min_radius = track.min_radius;
   input.steepest_slope_angle = track.steepest_slope_angle;
   input.solid = {&build.solid, &build.facts, &build.section, build.max_deviation};
+  for (const LevelRide& ride : track.rides()) input.rides.push_back({ride.level, ride.motion});
+  input.stall_angle = stall_angle_of(track);
+  input.probes = probe_readings(design, track);
+  input.warnings = warnings(design, track);
   input.keep_outs = report_keep_outs(design);
-  input.limits = limits_of(design, track);
+  input.limits = limits_of(track);
   for (const fs::path& file : build.files) {
     input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file, build.stop)});
   }

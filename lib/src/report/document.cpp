@@ -3,53 +3,48 @@
 #include "glissade/core/version.hpp"
 
 #include "report/ride_stations.hpp"
+#include "report/serial/vocabulary.hpp"
 #include "report/view_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 #include <openssl/evp.h>
 
 namespace glissade::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr std::array kTrackColumns = {"arc_length_m",   "x_m", "z_m", "drop_m", "slope_angle_deg",
+                                      "curvature_per_m"};
+constexpr std::array kRideColumns = {"time_s", "speed_m_per_s", "normal_load_m_per_s2",
+                                     "friction_loss_j_per_kg", "drag_loss_j_per_kg"};
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-/// JSON has no infinity: null stands for a value that does not exist or is unbounded.
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json vector_of(Vec3 v) {
-  return Json::array({v.x, v.y, v.z});
+void add_state(Json& columns, const MotionState& state) {
+  columns["time_s"].push_back(number(state.time));
+  columns["speed_m_per_s"].push_back(state.speed);
+  columns["normal_load_m_per_s2"].push_back(number(state.normal_load));
+  columns["friction_loss_j_per_kg"].push_back(state.friction_loss);
+  columns["drag_loss_j_per_kg"].push_back(state.drag_loss);
 }
 
 Json ride_line(const Motion& motion, double start_height) {
   Json line;
-  for (const char* key :
-       {"arc_length_m", "x_m", "z_m", "drop_m", "slope_angle_deg", "curvature_per_m", "time_s",
-        "speed_m_per_s", "normal_load_m_per_s2", "friction_loss_j_per_kg", "drag_loss_j_per_kg"}) {
-    line[key] = Json::array();
-  }
+  for (const char* key : kTrackColumns) line[key] = Json::array();
+  for (const char* key : kRideColumns) line[key] = Json::array();
   for (const double s : ride_stations(motion)) {
     const CenterlinePoint point = motion.centerline().at(s);
-    const MotionState state = motion.at(s);
     line["arc_length_m"].push_back(s);
     line["x_m"].push_back(point.x);
     line["z_m"].push_back(start_height - point.drop);
     line["drop_m"].push_back(point.drop);
-    line["slope_angle_deg"].push_back(point.slope_angle * kDegrees);
-    line["curvature_per_m"].push_back(finite(point.curvature));
-    line["time_s"].push_back(finite(state.time));
-    line["speed_m_per_s"].push_back(state.speed);
-    line["normal_load_m_per_s2"].push_back(state.normal_load);
-    line["friction_loss_j_per_kg"].push_back(state.friction_loss);
-    line["drag_loss_j_per_kg"].push_back(state.drag_loss);
+    line["slope_angle_deg"].push_back(degrees(point.slope_angle));
+    line["curvature_per_m"].push_back(number(point.curvature));
+    add_state(line, motion.at(s));
   }
   return line;
 }
@@ -79,43 +74,53 @@ double steepest_slope_angle(const Motion& motion) {
 }
 
 Json optimum_travel_time(const ReportInput& input) {
-  if (input.optimum_travel_time) return finite(*input.optimum_travel_time);
-  return input.optimum ? finite(input.optimum->travel_time()) : Json(nullptr);
+  if (input.optimum_travel_time) return number(*input.optimum_travel_time);
+  return input.optimum ? number(input.optimum->travel_time()) : Json(nullptr);
 }
 
 Json ride_facts(const ReportInput& input) {
   const Motion& motion = *input.motion;
   const Centerline& centerline = motion.centerline();
-  const MotionState highest = motion.highest_load();
   const Radius radius = smallest_radius(motion);
-  Json facts;
-  facts["arrived"] = motion.arrived();
-  facts["travel_time_s"] = finite(motion.travel_time());
-  facts["straight_travel_time_s"] = input.straight ? finite(input.straight->travel_time()) : Json(nullptr);
-  facts["optimum_travel_time_s"] = optimum_travel_time(input);
-  facts["exit_speed_m_per_s"] = motion.exit_speed();
-  facts["entry_slope_angle_deg"] = centerline.slope_angle(0.0) * kDegrees;
-  facts["exit_slope_angle_deg"] = centerline.slope_angle(centerline.length()) * kDegrees;
-  facts["arc_length_m"] = centerline.length();
   const double steepest =
       input.steepest_slope_angle ? *input.steepest_slope_angle : steepest_slope_angle(motion);
-  facts["steepest_slope_angle_deg"] = steepest * kDegrees;
-  facts["max_normal_load_m_per_s2"] = highest.normal_load;
-  facts["max_normal_load_at_m"] = highest.arc_length;
-  facts["min_radius_m"] = finite(input.min_radius.value_or(radius.value));
+  Json facts;
+  add_ride(facts, motion);
+  facts["straight_travel_time_s"] = input.straight ? number(input.straight->travel_time()) : Json(nullptr);
+  facts["optimum_travel_time_s"] = optimum_travel_time(input);
+  facts["entry_slope_angle_deg"] = degrees(centerline.slope_angle(0.0));
+  facts["exit_slope_angle_deg"] = degrees(centerline.slope_angle(centerline.length()));
+  facts["steepest_slope_angle_deg"] = degrees(steepest);
+  facts["arc_length_m"] = centerline.length();
+  facts["min_radius_m"] = number(input.min_radius.value_or(radius.value));
   facts["min_radius_at_m"] = radius.arc_length;
-  facts["stall"] = nullptr;
-  if (motion.stall()) {
-    facts["stall"] = {{"arc_length_m", motion.stall()->arc_length},
-                      {"missing_slope_deg", motion.stall()->missing_slope * kDegrees}};
-  }
-  facts["lift_off"] = nullptr;
-  if (motion.lift_off()) {
-    facts["lift_off"] = {{"arc_length_m", motion.lift_off()->arc_length},
-                         {"speed_m_per_s", motion.lift_off()->speed},
-                         {"curvature_per_m", finite(motion.lift_off()->curvature)}};
-  }
   return facts;
+}
+
+/// A ride at the stations of the nominal one, null from where it ends.
+Json ride_columns(const Motion& motion, const std::vector<double>& stations) {
+  Json columns;
+  for (const char* key : kRideColumns) columns[key] = Json::array();
+  for (const double s : stations) {
+    if (s > motion.distance()) {
+      for (const char* key : kRideColumns) columns[key].push_back(nullptr);
+      continue;
+    }
+    add_state(columns, motion.at(s));
+  }
+  return columns;
+}
+
+Json rides_of(const ReportInput& input) {
+  const std::vector<ReportRide> rides =
+      input.rides.empty() ? std::vector<ReportRide>{{FrictionLevel::nominal, input.motion}} : input.rides;
+  const std::vector<double> stations = ride_stations(*input.motion);
+  Json list = Json::array();
+  for (const ReportRide& ride : rides) {
+    list.push_back(ride_json(ride.level, *ride.motion, input.stall_angle));
+    list.back()["stations"] = ride_columns(*ride.motion, stations);
+  }
+  return list;
 }
 
 const char* word(Verdict verdict) {
@@ -130,23 +135,14 @@ const char* word(Verdict verdict) {
   return "not-checked";
 }
 
-Json mesh_facts(const ReportInput& input) {
+Json mesh_of(const ReportInput& input) {
   if (input.solid.facts == nullptr) return nullptr;
-  const MeshFacts& facts = *input.solid.facts;
-  Json mesh;
-  mesh["triangles"] = facts.triangles;
-  mesh["vertices"] = facts.vertices;
+  Json mesh = mesh_json(*input.solid.facts);
+  mesh["mesh_volume_m3"] = mesh["volume_m3"];
   mesh["volume_m3"] = input.solid.solid->exact_volume;
-  mesh["mesh_volume_m3"] = facts.volume;
-  mesh["area_m2"] = facts.area;
-  mesh["watertight"] = facts.watertight();
-  mesh["self_intersections"] = facts.self_intersections;
-  mesh["euler_characteristic"] = facts.euler_characteristic;
-  mesh["smallest_angle_deg"] = facts.smallest_angle * kDegrees;
   mesh["max_deviation_m"] = input.solid.max_deviation;
-  mesh["lower_m"] = vector_of(facts.lower);
-  mesh["upper_m"] = vector_of(facts.upper);
-  mesh["offset_m"] = vector_of(input.placement.start() - input.solid.solid->placement.start());
+  mesh["trimmed"] = input.solid.solid->trimmed;
+  mesh["offset_m"] = position_json(input.placement.start() - input.solid.solid->placement.start());
   return mesh;
 }
 
@@ -170,8 +166,8 @@ Json view_of(const ReportInput& input) {
   Json json;
   json["steps"] = ViewMesh::kSteps;
   json["length_m"] = input.motion->centerline().length();
-  json["lower_m"] = vector_of(view.lower);
-  json["upper_m"] = vector_of(view.upper);
+  json["lower_m"] = position_json(view.lower);
+  json["upper_m"] = position_json(view.upper);
   json["note"] = view.note;
   json["positions"] = packed("u16", view.positions);
   json["arc_length"] = packed("u16", view.arc_length);
@@ -182,13 +178,11 @@ Json view_of(const ReportInput& input) {
 Json limits_of(const ReportInput& input) {
   Json limits = Json::array();
   for (const ReportLimit& limit : input.limits) {
-    limits.push_back({{"name", limit.name},
-                      {"bound", limit.bound},
-                      {"reached", limit.reached},
-                      {"where", limit.where},
-                      {"status", limit.status},
-                      {"price", limit.price ? finite(*limit.price) : Json(nullptr)},
-                      {"price_unit", limit.price_unit}});
+    Json row{{"name", limit.name}, {"status", limit.status}};
+    row.update(check_json(limit.check));
+    const Json active = limit.active ? active_json(*limit.active, input.design->objective) : Json::object();
+    for (const char* key : {"where", "price", "price_unit"}) row[key] = active.value(key, Json(nullptr));
+    limits.push_back(std::move(row));
   }
   return limits;
 }
@@ -225,7 +219,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   const Design& design = *input.design;
   const double height = design.track.start.z;
   Json document;
-  document["schema"] = "glissade-report/1";
+  document["schema"] = "glissade-report/2";
   document["generator"] = {{"name", "Glissade"}, {"version", version()}};
   document["design"] = {
       {"name", design.name.empty() ? "Untitled design" : design.name},
@@ -233,20 +227,19 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
       {"centerline",
        input.centerline.empty() ? std::string(input.motion->centerline().kind()) : input.centerline},
       {"cross_section", input.solid.section ? std::string(input.solid.section->kind()) : "none"}};
-  document["placement"] = {{"start_m", vector_of(design.track.start)},
-                           {"finish_m", vector_of(design.track.finish)},
+  document["placement"] = {{"start_m", position_json(design.track.start)},
+                           {"finish_m", position_json(design.track.finish)},
                            {"azimuth_deg", input.placement.azimuth().degrees()}};
   document["endpoints"] = {{"run_m", input.endpoints.run}, {"drop_m", input.endpoints.drop}};
-  document["body"] = {{"friction_coefficient", design.body.friction.coefficient()},
-                      {"friction_angle_deg", design.body.friction.angle().degrees()},
-                      {"entry_speed_m_per_s", design.body.entry_speed},
-                      {"drag_per_m", design.body.drag_per_metre},
-                      {"gravity_m_per_s2", design.gravity}};
+  add_body(document["body"], design);
   document["ride"] = ride_facts(input);
+  document["rides"] = rides_of(input);
+  document["probes"] = probes_json(input.probes);
+  document["warnings"] = issues_json(input.warnings);
   document["checks"] = checks_of(input);
   document["limits"] = limits_of(input);
   document["keep_outs"] = keep_outs_of(input);
-  document["mesh"] = mesh_facts(input);
+  document["mesh"] = mesh_of(input);
   document["files"] = files_of(input);
   document["stations"] = ride_line(*input.motion, height);
   document["straight"] = input.straight ? ride_line(*input.straight, height) : Json(nullptr);

@@ -1,81 +1,25 @@
 #include "glissade/core/math.hpp"
-#include "glissade/core/number_text.hpp"
-#include "glissade/core/quantity.hpp"
-#include "glissade/core/units.hpp"
 #include "glissade/report/report.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <string_view>
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace glissade {
-namespace {
-
-constexpr int kDigits = 5;
-constexpr int kReachedDigits = 4;
-constexpr int kPlaceDigits = 3;
-
-std::string value_text(double value, Dimension dimension, int digits) {
-  // What an angle is off level by rounding is no angle.
-  if (dimension == Dimension::angle && std::fabs(value) < 1e-11) value = 0.0;
-  std::string text = quantity_text(value, dimension, digits);
-  if (dimension == Dimension::acceleration && std::isfinite(value)) {
-    text += " (" + rounded_text(value / kStandardGravity, 3) + " g)";
-  }
-  return text;
-}
-
-std::string bound_text(const LimitCheck& check) {
-  if (const std::string_view met = entry_of(check.limit.id).met; !met.empty()) return std::string(met);
-  const Bound bound = check.limit.bound;
-  const std::string_view side = bound == Bound::highest  ? "at most "
-                                : bound == Bound::lowest ? "at least "
-                                                         : "";
-  return std::string(side) + value_text(check.value, check.limit.dimension(), kDigits);
-}
-
-std::string reached_text(const LimitCheck& check) {
-  const std::string_view met = entry_of(check.limit.id).met;
-  if (!met.empty() && check.kept()) return std::string(met);
-  constexpr double kAlmostStraight = 1e6;
-  if (check.limit.is_radius() && check.reached > kAlmostStraight * check.scale) return "straight";
-  return value_text(check.reached, check.limit.dimension(), kReachedDigits);
-}
-
-std::string places_text(const LimitCheck& check, const ActiveLimit* active) {
-  if (active == nullptr || active->where.empty()) return "s = " + length_text(check.where, kPlaceDigits);
-  constexpr std::size_t kMost = 3;
-  std::string text = "s = ";
-  for (std::size_t index = 0; index < std::min(active->where.size(), kMost); ++index) {
-    const Stretch& stretch = active->where[index];
-    if (index != 0) text += ", ";
-    text += length_text(stretch.from, kPlaceDigits);
-    if (stretch.to > stretch.from) text += " to " + length_text(stretch.to, kPlaceDigits);
-  }
-  return active->where.size() > kMost ? text + ", ..." : text;
-}
-
-}  // namespace
 
 std::vector<ReportLimit> report_limits(const std::vector<LimitCheck>& checks,
-                                       const std::vector<ActiveLimit>& active, const Objective& objective) {
+                                       const std::vector<ActiveLimit>& active) {
   std::vector<ReportLimit> rows;
   for (const LimitCheck& check : checks) {
     const auto found = std::find_if(active.begin(), active.end(),
                                     [&](const ActiveLimit& one) { return one.limit == check.limit; });
-    const ActiveLimit* const holding = check.kept() && found != active.end() ? &*found : nullptr;
-    ReportLimit row;
-    row.name = check.limit.label();
-    row.bound = bound_text(check);
-    row.reached = reached_text(check);
-    row.where = places_text(check, holding);
-    row.status = !check.kept() ? "violated" : holding != nullptr ? "active" : "kept";
-    if (holding != nullptr) {
-      row.price = price_for_people(holding->price, holding->limit);
-      row.price_unit = price_unit(holding->limit, objective);
-    }
-    rows.push_back(std::move(row));
+    const bool holds = check.kept() && found != active.end();
+    const char* const kept = holds ? "active" : "kept";
+    // The key stands beside the name and counts as the design file does: the name alone has no number.
+    rows.push_back({std::string(entry_of(check.limit.id).label), check.kept() ? kept : "violated", check,
+                    holds ? std::optional(*found) : std::nullopt});
   }
   return rows;
 }
@@ -94,14 +38,19 @@ std::vector<ReportKeepOut> report_keep_outs(const Design& design) {
     areas.push_back(std::move(area));
   };
   const Limits& limits = *design.limits;
-  for (const KeepOut& area : limits.keep_outs) add("keep-out", area.outline, false);
-  for (const Profile& ground : limits.stay_above) add("stay above", ground.line, true);
-  for (const Profile& ceiling : limits.stay_below) add("stay below", ceiling.line, true);
+  const auto key = [](LimitId id, std::size_t index) { return LimitName{id, Bound::lowest, index}.key(); };
+  for (std::size_t i = 0; i < limits.keep_outs.size(); ++i)
+    add(key(LimitId::keep_outs, i), limits.keep_outs[i].outline, false);
+  for (std::size_t i = 0; i < limits.stay_above.size(); ++i)
+    add(key(LimitId::stay_above, i), limits.stay_above[i].line, true);
+  for (std::size_t i = 0; i < limits.stay_below.size(); ++i)
+    add(key(LimitId::stay_below, i), limits.stay_below[i].line, true);
   const Vec3 way = design.track.finish - design.track.start;
   const double reach = math::hypot(way.x, way.y, way.z);
-  for (const HalfPlane& side : limits.half_planes) {
+  for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
+    const HalfPlane& side = limits.half_planes[i];
     const Vec2 along{-side.forbidden.y * reach, side.forbidden.x * reach};
-    add("half-plane",
+    add(key(LimitId::half_planes, i),
         {{side.point.x - along.x, side.point.y - along.y}, {side.point.x + along.x, side.point.y + along.y}},
         true);
   }

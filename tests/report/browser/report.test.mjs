@@ -303,8 +303,8 @@ export: [stl]
     const { page, complaints } = await open(browser, report, SMALL);
     const rows = await page.locator("#limits tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
     assert.equal(rows.length, json.limits.length);
-    const slope = rows.find(([name]) => name === "slope angle");
-    assert.equal(slope[1], "at most 35 deg");
+    const slope = rows.find(([name]) => name === "slope angleslope_angle.highest");
+    assert.equal(slope[1], "at most 35\u00a0deg");
     assert.equal(slope[4], "active");
     const price = json.limits.find(({ limit }) => limit === "slope_angle.highest");
     assert.ok(price, "the limit is among those of --json");

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
+#include "glissade/design/probe_design.hpp"
 #include "glissade/task/finish.hpp"
 #include "glissade/task/limits.hpp"
 #include "glissade/task/objective.hpp"
@@ -133,7 +134,8 @@ struct Design {
   /// them: x is the design's x for a track along the x axis, otherwise the horizontal distance from the start
   /// towards the finish; in_track_plane() turns them into run and drop.
   std::optional<Limits> limits;
-  Objective objective;  ///< what the search is for
+  Objective objective;              ///< what the search is for
+  std::vector<ProbeDesign> probes;  ///< places whose speed, slope angle and load are told
   std::optional<CrossSectionDesign> cross_section;
   MeshDesign mesh;
   ExportDesign exports;

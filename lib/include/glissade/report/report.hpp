@@ -3,6 +3,7 @@
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/motion/probe.hpp"
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/solid/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
@@ -29,13 +30,16 @@ struct ReportCheck {
 
 /// One limit of the design and what the track made of it.
 struct ReportLimit {
-  std::string name;             ///< "exit slope angle"
-  std::string bound;            ///< "at most 11 deg"
-  std::string reached;          ///< "11 deg"
-  std::string where;            ///< "s = 91.2 m"
-  std::string status;           ///< "kept", "active", "violated" or "not checked"
-  std::optional<double> price;  ///< travel time that one unit of the limit costs
-  std::string price_unit;       ///< "s per deg"
+  std::string name;                   ///< "exit slope angle"; the key in the design file is check.limit
+  std::string status;                 ///< "kept", "active" or "violated"
+  LimitCheck check;                   ///< bound, what was reached, where, and at which friction
+  std::optional<ActiveLimit> active;  ///< places and price of one that holds the track back
+};
+
+/// The ride at one friction of the design's range.
+struct ReportRide {
+  FrictionLevel level = FrictionLevel::nominal;
+  const Motion* motion = nullptr;
 };
 
 /// An area that the track stays out of; an open line where only one side is known.
@@ -76,22 +80,26 @@ struct ReportInput {
   ReportSolid solid;
   std::vector<ReportCheck> checks;
   std::vector<ReportLimit> limits;
+  /// The rides at every friction of the design, from low to high; empty: `motion` alone.
+  std::vector<ReportRide> rides;
+  std::optional<Angle> stall_angle;  ///< friction angle from which on the body stalls on this track
+  std::vector<ProbeReading> probes;
+  std::vector<Issue> warnings;  ///< what to hear of beside the answer
   std::vector<ReportKeepOut> keep_outs;
   std::vector<ReportFile> files;
   std::stop_token stop = {};  ///< report_html() throws Interrupted if it asks for it
 };
 
-/// What the referee found of each limit, in the units that people use: one row a limit, a limit that holds
-/// the track back with what it costs. "violated" is what LimitCheck::kept() denies.
+/// What the referee found of each limit: one row a limit, a limit that holds the track back with what it
+/// costs. "violated" is what LimitCheck::kept() denies.
 [[nodiscard]] std::vector<ReportLimit> report_limits(const std::vector<LimitCheck>& checks,
-                                                     const std::vector<ActiveLimit>& active = {},
-                                                     const Objective& objective = {});
+                                                     const std::vector<ActiveLimit>& active = {});
 
 /// Where a design keeps its track out: polygons, grounds and ceilings (open lines), half-planes (an open line
 /// as long as the chord). Clearances are not drawn.
 [[nodiscard]] std::vector<ReportKeepOut> report_keep_outs(const Design& design);
 
-/// The report's data as one JSON document, "glissade-report/1": docs/report-data.md describes each field.
+/// The report's data as one JSON document, "glissade-report/2": docs/report-data.md describes each field.
 /// Bytes depend on the input alone. The view of a solid above kViewTriangles is swept anew at a coarser
 /// tolerance, and the document says so.
 [[nodiscard]] std::string report_json(const ReportInput& input);

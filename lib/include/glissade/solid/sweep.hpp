@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/core/capacity.hpp"
 #include "glissade/solid/cross_section.hpp"
 #include "glissade/solid/placement.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
@@ -16,7 +17,7 @@ struct SweepOptions {
   /// Greatest distance between the mesh and the ideal solid [m]; > 0.
   double tolerance = 0.5e-3;
   /// Refuse a mesh that would need more triangles than this; >= 1000.
-  std::size_t max_triangles = 20'000'000;
+  std::size_t max_triangles = kMostTriangles;
   /// About how many triangles may be spent on well shaped facets where the tolerance alone needs fewer.
   std::size_t shape_triangles = 1'000'000;
   /// Greatest angle that the track, or a round outline, may turn through from one facet to the next; > 0. Without

@@ -168,6 +168,37 @@ Json search_json(const OptimizeReport& report) {
   return json;
 }
 
+Json probes_json(const std::vector<ProbeReading>& probes) {
+  Json list = Json::array();
+  for (const ProbeReading& probe : probes) {
+    Json states = Json::array();
+    for (const ProbeState& state : probe.states) {
+      const auto& motion = state.motion;
+      states.push_back({{"friction", to_text(state.level)},
+                        {"time_s", motion ? number(motion->time) : Json(nullptr)},
+                        {"speed_m_per_s", motion ? number(motion->speed) : Json(nullptr)},
+                        {"normal_load_m_per_s2", motion ? number(motion->normal_load) : Json(nullptr)}});
+    }
+    list.push_back({{"name", probe.name},
+                    {"arc_length_m", probe.point.arc_length},
+                    {"x_m", probe.point.x},
+                    {"drop_m", probe.point.drop},
+                    {"position_m", position_json(probe.position)},
+                    {"slope_angle_deg", degrees(probe.point.slope_angle)},
+                    {"curvature_per_m", number(probe.point.curvature)},
+                    {"states", std::move(states)}});
+  }
+  return list;
+}
+
+Json issues_json(const std::vector<Issue>& issues) {
+  Json list = Json::array();
+  for (const Issue& issue : issues) {
+    list.push_back({{"where", issue.where}, {"what", issue.what}, {"why", issue.why}, {"hint", issue.hint}});
+  }
+  return list;
+}
+
 Json mesh_json(const MeshFacts& facts) {
   Json json;
   json["valid"] = facts.valid();

@@ -5,6 +5,7 @@
 #include "glissade/core/vec.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/motion/probe.hpp"
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
@@ -43,6 +44,10 @@ void add_ride(Json& json, const Motion& motion);
 [[nodiscard]] Json active_json(const ActiveLimit& active, const Objective& objective);
 /// @return how a search ended; conflict and relaxations are null unless the limits contradict each other
 [[nodiscard]] Json search_json(const OptimizeReport& report);
+[[nodiscard]] Json probes_json(const std::vector<ProbeReading>& probes);
+
+/// @return list of {where, what, why, hint}
+[[nodiscard]] Json issues_json(const std::vector<Issue>& issues);
 
 [[nodiscard]] Json mesh_json(const MeshFacts& facts);
 

@@ -1,6 +1,6 @@
 // The one JSON document of the report; docs/report-data.md describes every field.
 
-const SCHEMA = "glissade-report/1";
+const SCHEMA = "glissade-report/2";
 
 export function readDocument() {
   const text = document.getElementById("glissade-data").textContent;

@@ -43,3 +43,18 @@ export function button(text, onclick, attributes = {}) {
 export function themeColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
+
+// A table that may be wider than its room: a remark says so where it is.
+export function scrollable(label, table) {
+  const remark = element("p", { class: "more", hidden: true, "aria-hidden": "true" }, "The table goes on to the right: swipe or scroll \u2192");
+  const holder = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label }, table);
+  const look = () => {
+    remark.hidden = holder.scrollWidth <= holder.clientWidth + 1;
+    holder.classList.toggle("cut", holder.scrollLeft + holder.clientWidth < holder.scrollWidth - 1);
+  };
+  holder.addEventListener("scroll", look);
+  const observer = new ResizeObserver(look);
+  observer.observe(holder);
+  observer.observe(table);
+  return [remark, holder];
+}

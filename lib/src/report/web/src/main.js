@@ -4,13 +4,14 @@ import { readDocument } from "./data.js";
 import { element, select } from "./dom.js";
 import { plotSection } from "./plots.js";
 import { profileSection } from "./profile.js";
+import { Rides } from "./ranges.js";
 import { Store } from "./store.js";
 import { summary } from "./summary.js";
 import { limitTable, stationTable } from "./tables.js";
 import { Units } from "./units.js";
 import { viewSection } from "./view3d.js";
 
-function header(doc, store, units) {
+function header(doc, store, units, rides) {
   const theme = select("Theme", [["auto", "as the system"], ["light", "light"], ["dark", "dark"]], (value) => {
     if (value === "auto") delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = value;
@@ -24,23 +25,33 @@ function header(doc, store, units) {
     element("div", {},
       element("h1", {}, doc.design.name),
       element("p", { class: "subtitle" }, `${doc.design.centerline} \u00b7 ${doc.generator.name} ${doc.generator.version}`)),
-    element("div", { class: "controls" }, system, theme));
+    element("div", { class: "controls" }, rides.several ? frictionSwitch(store, rides) : null, system, theme));
+}
+
+function frictionSwitch(store, rides) {
+  const control = select("Friction", rides.doc.rides.map((ride) => [ride.friction, rides.name(ride)]), (level) => {
+    rides.choose(level);
+    store.set("friction", level);
+  });
+  control.querySelector("select").value = rides.level;
+  return control;
 }
 
 function start() {
   const doc = readDocument();
+  const rides = new Rides(doc);
   document.title = doc.design.name;
   const units = new Units();
-  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false });
+  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false, friction: "nominal" });
   const profile = profileSection(doc, store, units);
-  const plots = plotSection(doc, store, units);
+  const plots = plotSection(doc, store, units, rides);
   const view = viewSection(doc, store, units);
 
   const holder = element("div", {}, summary(doc, units));
-  store.on("units", () => holder.replaceChildren(summary(doc, units)));
+  for (const key of ["units", "friction"]) store.on(key, () => holder.replaceChildren(summary(doc, units)));
   document.getElementById("page").replaceChildren(
-    header(doc, store, units),
-    element("main", {}, holder, limitTable(doc) ?? "", profile.node, view?.node ?? "", plots.node, stationTable(doc, store, units)),
+    header(doc, store, units, rides),
+    element("main", {}, holder, limitTable(doc, store, units) ?? "", profile.node, view?.node ?? "", plots.node, stationTable(doc, store, units)),
     element("footer", {}, element("p", {}, `Made by ${doc.generator.name} ${doc.generator.version}. Every number comes from the `
       + "document embedded in this page; the ride is re-integrated along the centerline that was built.")));
 

@@ -1,6 +1,7 @@
 import uPlot from "uplot";
 import { radiusOf } from "./data.js";
-import { button, element, section, select, themeColour } from "./dom.js";
+import { button, element, section, select, svgElement, themeColour } from "./dom.js";
+import { exportButtons } from "./export.js";
 import { columnText, number } from "./units.js";
 
 const SYNC = "glissade";
@@ -27,15 +28,23 @@ function energies(doc) {
   };
 }
 
-function charts(doc) {
+// The chart of one column, with the band between the ends of the friction range where there is one.
+function ranged(chart, rides, key) {
+  const band = rides.band(key);
+  if (!band) return chart;
+  const colour = chart.series[0][2];
+  return { ...chart, band: true, series: [...chart.series, ["at low friction", band[0], colour, "band"], ["at high friction", band[1], colour, "band"]] };
+}
+
+function charts(doc, rides) {
   const { stations } = doc;
   const radius = radiusOf(stations);
   const energy = energies(doc);
   const longest = MOST_LENGTHS * stations.arc_length_m[stations.arc_length_m.length - 1];
   return [
     { id: "slope", title: "Slope angle", quantity: "angle", series: [["slope angle", stations.slope_angle_deg, "--series-1"]] },
-    { id: "speed", title: "Speed", quantity: "speed", series: [["speed", stations.speed_m_per_s, "--series-2"]] },
-    { id: "load", title: "Normal load", quantity: "load", range: boundedRange, series: [["normal load", stations.normal_load_m_per_s2, "--series-3"]] },
+    ranged({ id: "speed", title: "Speed", quantity: "speed", series: [["speed", stations.speed_m_per_s, "--series-2"]] }, rides, "speed_m_per_s"),
+    ranged({ id: "load", title: "Normal load", quantity: "load", range: boundedRange, series: [["normal load", stations.normal_load_m_per_s2, "--series-3"]] }, rides, "normal_load_m_per_s2"),
     { id: "curvature", title: "Curvature", quantity: "curvature", range: boundedRange, series: [["curvature", stations.curvature_per_m, "--series-4"]] },
     { id: "radius", title: "Radius of curvature", quantity: "length", range: (column) => radiusRange(column, longest), series: [["radius", radius, "--series-5"]] },
     {
@@ -79,7 +88,7 @@ function radiusRange(column, longest) {
 
 // The values of one chart at a station, in words.
 function valuesAt({ chart, units }, station) {
-  if (chart.series.length > 1) return "";
+  if (chart.legend) return "";
   const column = chart.series[0][1];
   const value = column[station];
   if (value === null) return chart.id === "radius" ? "straight" : "unbounded";
@@ -99,17 +108,18 @@ class Chart {
       class: "chart", id: `chart-${chart.id}`, tabindex: 0, role: "group",
       "aria-label": `${chart.title}. Arrow keys move the cursor along the track, plus and minus zoom, 0 shows all.`,
       onkeydown: (event) => this.key(event),
-    }, element("figcaption", {}, element("span", { class: "chart-title" }, chart.title), this.value), legend, this.holder);
+    }, element("figcaption", {}, element("span", { class: "chart-title" }, chart.title), this.value,
+      element("span", { class: "exports" }, exportButtons(doc.design.stem, chart.title, () => this.file()))),
+    legend, chart.band ? element("p", { class: "hint band-hint" }, "Shaded: from low to high friction.") : null, this.holder);
     store.on("station", (station) => this.show(station));
   }
 
   columns() {
     const { units, chart } = this;
     const axis = this.store.get("axis");
-    return [
-      this.doc.stations[axis].map((v) => units.convert(AXES[axis][1], v)),
-      ...chart.series.map(([, column]) => column.map((v) => units.convert(chart.quantity, v))),
-    ];
+    // At one time bodies of different friction are at different places: there is no band over time.
+    const shown = ([, column, , band]) => (band && axis === "time_s" ? column.map(() => null) : column.map((v) => units.convert(chart.quantity, v)));
+    return [this.doc.stations[axis].map((v) => units.convert(AXES[axis][1], v)), ...chart.series.map(shown)];
   }
 
   draw() {
@@ -125,7 +135,7 @@ class Chart {
     const width = this.store.get("paper") ? PAPER.width : Math.max(this.holder.clientWidth, 200);
     const font = `${12 * scale}px system-ui, sans-serif`;
     const tick = (_, values) => values.map((v) => (v === null ? "" : number(v, 4)));
-    const bounds = chart.range?.(chart.series[0][1])?.map((v) => units.convert(chart.quantity, v));
+    const bounds = chart.range?.(chart.series.flatMap(([, column]) => column))?.map((v) => units.convert(chart.quantity, v));
     this.plot = new uPlot({
       width: width * scale,
       height: HEIGHT * scale,
@@ -136,9 +146,10 @@ class Chart {
         { label: `${axisName} [${units.unit(axisQuantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 44 * scale, labelSize: 26 * scale, gap: 5 * scale },
         { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 60 * scale, labelSize: 24 * scale, gap: 5 * scale },
       ],
-      series: [{}, ...chart.series.map(([name, , colour]) => ({
-        label: name, stroke: themeColour(colour), width: 2 * scale, points: { show: false },
+      series: [{}, ...chart.series.map(([name, , colour, band]) => ({
+        label: name, stroke: themeColour(colour) + (band ? "80" : ""), width: (band ? 1 : 2) * scale, points: { show: false },
       }))],
+      bands: chart.band ? [{ series: [2, 3], fill: `${themeColour(chart.series[0][2])}2e` }] : [],
       hooks: {
         setScale: [(plot, key) => {
           if (key === "x" && plot === this.plot) this.onzoom?.(plot.scales.x);
@@ -155,6 +166,52 @@ class Chart {
     }, data, this.holder);
     if (zoom && this.axisDrawn === this.axisKey()) this.plot.setScale("x", { min: zoom.min, max: zoom.max });
     this.axisDrawn = this.axisKey();
+  }
+
+  // The chart as it is shown now, drawn again as SVG.
+  file() {
+    const { plot, chart, doc } = this;
+    const { width, height } = plot.over.getBoundingClientRect();
+    const [left, top] = [Number.parseFloat(plot.over.style.left), Number.parseFloat(plot.over.style.top) + 22];
+    const whole = { width: plot.width, height: plot.height + 22 };
+    const ink = themeColour("--ink");
+    const soft = themeColour("--ink-soft");
+    const font = { "font-family": "system-ui, sans-serif", "font-size": 12, fill: soft };
+    const line = (ends) => svgElement("line", { stroke: themeColour("--grid"), ...ends });
+    const text = (attributes, value) => svgElement("text", { ...font, ...attributes }, value);
+    const path = (values) => {
+      let drawn = "";
+      let pen = "M";
+      plot.data[0].forEach((x, i) => {
+        if (values[i] === null) pen = "M";
+        else {
+          drawn += `${pen}${(left + plot.valToPos(x, "x")).toFixed(2)} ${(top + plot.valToPos(values[i], "y")).toFixed(2)}`;
+          pen = "L";
+        }
+      });
+      return drawn;
+    };
+    const [across, up] = plot.axes;
+    const ticks = [
+      ...across._splits.map((value, i) => [left + plot.valToPos(value, "x"), across._values[i]]).filter(([x]) => x >= left - 1 && x <= left + width + 1)
+        .map(([x, label]) => [line({ x1: x, x2: x, y1: top, y2: top + height }), text({ x, y: top + height + 18, "text-anchor": "middle" }, label)]),
+      ...up._splits.map((value, i) => [top + plot.valToPos(value, "y"), up._values[i]]).filter(([y]) => y >= top - 1 && y <= top + height + 1)
+        .map(([y, label]) => [line({ x1: left, x2: left + width, y1: y, y2: y }), text({ x: left - 8, y: y + 4, "text-anchor": "end" }, label)]),
+    ].flat();
+    const clip = svgElement("clipPath", { id: "plot" }, svgElement("rect", { x: left, y: top, width, height }));
+    const curves = svgElement("g", { "clip-path": "url(#plot)" }, chart.series.map(([name, , colour, band], i) => svgElement("path", {
+      d: path(plot.data[i + 1]), fill: "none", stroke: themeColour(colour), "stroke-width": band ? 1 : 2,
+      "stroke-dasharray": band ? "4 3" : null,
+    }, svgElement("title", {}, name))));
+    const legend = chart.legend ? chart.series.map(([name, , colour], i) =>
+      text({ x: left + width - 4, y: top + 14 + 15 * i, "text-anchor": "end", fill: themeColour(colour) }, name)) : [];
+    const svg = svgElement("svg", { xmlns: "http://www.w3.org/2000/svg", ...whole, viewBox: `0 0 ${whole.width} ${whole.height}` },
+      svgElement("rect", { ...whole, fill: themeColour("--panel") }),
+      text({ x: left, y: 16, fill: ink, "font-weight": 600 }, `${doc.design.name}: ${chart.title.toLowerCase()}`),
+      clip, ticks, svgElement("rect", { x: left, y: top, width, height, fill: "none", stroke: themeColour("--grid") }), curves, legend,
+      text({ x: left + width / 2, y: top + height + 38, "text-anchor": "middle" }, across.label),
+      text({ transform: `translate(14 ${top + height / 2}) rotate(-90)`, "text-anchor": "middle" }, up.label));
+    return { svg: new XMLSerializer().serializeToString(svg), ...whole };
   }
 
   resize() {
@@ -231,15 +288,18 @@ function readout(doc, store, units) {
   measure();
   draw();
   store.on("station", draw);
-  store.on("units", () => {
-    measure();
-    draw();
-  });
+  for (const key of ["units", "friction"]) {
+    store.on(key, () => {
+      measure();
+      draw();
+    });
+  }
   return list;
 }
 
-export function plotSection(doc, store, units) {
-  const all = charts(doc).map((chart) => new Chart(chart, doc, store, units));
+export function plotSection(doc, store, units, rides) {
+  const list = charts(doc, rides);
+  const all = list.map((chart) => new Chart(chart, doc, store, units));
   let following = false;
   for (const chart of all) {
     // One zoom for all: each plot takes the range of the one that was zoomed.
@@ -258,6 +318,13 @@ export function plotSection(doc, store, units) {
     following = false;
   };
   for (const key of ["axis", "units", "theme", "paper"]) store.on(key, redraw);
+  store.on("friction", () => {
+    const kinetic = list.find((chart) => chart.id === "energy").series[1][1];
+    doc.stations.speed_m_per_s.forEach((speed, i) => {
+      kinetic[i] = 0.5 * speed * speed;
+    });
+    redraw();
+  });
   new ResizeObserver(() => all.forEach((chart) => chart.resize())).observe(document.body);
   const node = section("plots", "Along the track",
     element("div", { class: "controls" }, control,

@@ -1,8 +1,10 @@
 import { button, element, section, svgElement } from "./dom.js";
 import { interpolate, stationAt } from "./data.js";
+import { exportButtons, standAlone } from "./export.js";
 import { number } from "./units.js";
 
 const PAPER_WIDTH = 686;  // A4 between its margins, in CSS pixels
+const LEAST_HEIGHTS = 3;  // ticks along the height
 const MARGIN = { left: 62, right: 18, top: 14, bottom: 44 };
 
 function niceStep(span, count) {
@@ -25,7 +27,7 @@ class Profile {
     this.svg.addEventListener("pointerdown", (event) => this.grab(event));
     this.svg.addEventListener("pointermove", (event) => this.hover(event));
     this.svg.addEventListener("keydown", (event) => this.key(event));
-    for (const key of ["units", "theme", "paper"]) store.on(key, () => this.draw());
+    for (const key of ["units", "theme", "paper", "friction"]) store.on(key, () => this.draw());
     store.on("station", () => this.moveCursor());
   }
 
@@ -82,18 +84,22 @@ class Profile {
     const right = MARGIN.left + at.inner;
     const bottom = MARGIN.top + at.plotHeight;
     const step = niceStep(Math.max(at.inner, at.plotHeight) / at.scale, Math.max(Math.max(at.inner, at.plotHeight) / 75, 4));
-    const label = (k) => number(units.convert("length", k * step), 4);
-    const multiples = (low, high) => {
-      const first = Math.ceil(low / step);
-      return Array.from({ length: Math.max(Math.floor(high / step) - first + 1, 0) }, (_, i) => first + i);
+    const label = (value) => number(units.convert("length", value), 4);
+    const multiples = (low, high, by) => {
+      const first = Math.ceil(low / by);
+      return Array.from({ length: Math.max(Math.floor(high / by) - first + 1, 0) }, (_, i) => (first + i) * by);
     };
-    for (const k of multiples((MARGIN.left - at.px(0)) / at.scale, (right - at.px(0)) / at.scale)) {
-      const x = at.px(k * step);
+    const [lowest, highest] = [(at.pz(0) - bottom) / at.scale, (at.pz(0) - MARGIN.top) / at.scale];
+    // A flat track has few heights at the step of its run: it gets a finer one, as a reader must tell heights too.
+    const finer = multiples(lowest, highest, step).length < LEAST_HEIGHTS;
+    const stepZ = finer ? niceStep(at.plotHeight / at.scale, at.plotHeight / 34) : step;
+    for (const k of multiples((MARGIN.left - at.px(0)) / at.scale, (right - at.px(0)) / at.scale, step)) {
+      const x = at.px(k);
       nodes.push(svgElement("line", { class: "grid", x1: x, x2: x, y1: MARGIN.top, y2: bottom }),
         svgElement("text", { class: "tick", x, y: bottom + 16, "text-anchor": "middle" }, label(k)));
     }
-    for (const k of multiples((at.pz(0) - bottom) / at.scale, (at.pz(0) - MARGIN.top) / at.scale)) {
-      const y = at.pz(k * step);
+    for (const k of multiples(lowest, highest, stepZ)) {
+      const y = at.pz(k);
       nodes.push(svgElement("line", { class: "grid", x1: MARGIN.left, x2: right, y1: y, y2: y }),
         svgElement("text", { class: "tick", x: MARGIN.left - 8, y: y + 4, "text-anchor": "end" }, label(k)));
     }
@@ -107,10 +113,10 @@ class Profile {
     this.at = this.layout();
     const { at, doc } = this;
     const frame = { x: MARGIN.left, y: MARGIN.top, width: at.inner, height: at.plotHeight };
-    this.marker = svgElement("circle", { class: "cursor", r: 5 });
+    this.marker = svgElement("circle", { class: "cursor", r: 5, "data-screen-only": true });
     this.bodies = {
-      track: svgElement("circle", { class: "body body-track", r: 7, visibility: "hidden" }),
-      straight: svgElement("circle", { class: "body body-straight", r: 6, visibility: "hidden" }),
+      track: svgElement("circle", { class: "body body-track", r: 7, visibility: "hidden", "data-screen-only": true }),
+      straight: svgElement("circle", { class: "body body-straight", r: 6, visibility: "hidden", "data-screen-only": true }),
     };
     const clip = svgElement("clipPath", { id: "profile-clip" }, svgElement("rect", frame));
     const curves = svgElement("g", { "clip-path": "url(#profile-clip)" },
@@ -239,10 +245,14 @@ class Profile {
 class Ride {
   constructor(doc, profile, store) {
     Object.assign(this, { doc, profile, store });
-    this.duration = Math.max(doc.ride.travel_time_s ?? 0, doc.straight ? doc.straight.time_s.at(-1) : 0);
     this.label = element("output", { class: "clock" });
     this.toggle = button("Let go", () => (this.running ? this.stop() : this.start()), { class: "primary", id: "ride" });
     this.slow = element("input", { type: "checkbox", id: "ride-slow" });
+  }
+
+  get duration() {
+    const { ride, straight } = this.doc;
+    return Math.max(ride.travel_time_s ?? 0, straight ? straight.time_s.at(-1) : 0);
   }
 
   controls() {
@@ -294,7 +304,8 @@ export function profileSection(doc, store, units) {
     element("div", { class: "controls" }, ride.controls(),
       button("Zoom in", () => profile.key({ key: "+", preventDefault() {} })),
       button("Zoom out", () => profile.key({ key: "-", preventDefault() {} })),
-      button("Whole track", () => profile.whole())),
+      button("Whole track", () => profile.whole()),
+      exportButtons(doc.design.stem, "Profile", () => ({ svg: standAlone(profile.svg), width: profile.at.width, height: profile.at.height }))),
     legend, element("p", { class: "hint" }, "Drag to move; the wheel zooms once the drawing is selected."),
     element("div", { class: "profile-holder" }, profile.svg));
   new ResizeObserver(() => profile.draw()).observe(node);

@@ -1,4 +1,4 @@
-import { element, section } from "./dom.js";
+import { element, scrollable, section } from "./dom.js";
 import { bytesText, countText, number, volumeText } from "./units.js";
 
 const NO_BREAK = "\u00a0";
@@ -35,7 +35,7 @@ function tiles(doc, units) {
     remark: ride.min_radius_m === null ? "no curve anywhere" : ride.min_radius_m === 0 ? "at the vertical start" : place(ride.min_radius_at_m),
   };
   const all = [
-    ["Travel time", units.text("time", ride.travel_time_s, 5), timeRemarks(doc, units)],
+    [doc.rides.length > 1 ? `Travel time at ${ride.friction ?? "nominal"} friction` : "Travel time", units.text("time", ride.travel_time_s, 5), timeRemarks(doc, units)],
     ["Exit speed", units.text("speed", ride.exit_speed_m_per_s, 4), [directionText(ride.exit_slope_angle_deg, units)]],
     ["Highest normal load", units.text("load", ride.max_normal_load_m_per_s2, 4), [place(ride.max_normal_load_at_m)]],
     ["Smallest radius", radius.text, [radius.remark]],
@@ -63,10 +63,17 @@ function task({ endpoints, body, placement }, units) {
   ]);
 }
 
-function track({ ride, design }, units) {
+function marginText({ rides }, units) {
+  const { stall_friction_angle_deg: angle, stall_margin_deg: margin } = rides.find(({ friction }) => friction === "nominal");
+  return angle === null ? "none below 89.9 deg" : `${units.text("angle", angle, 4)} (margin ${units.text("angle", margin, 3)})`;
+}
+
+function track(doc, units) {
+  const { ride, design } = doc;
   return list([
     ["Centerline", design.centerline],
     ["Cross-section", design.cross_section],
+    ["Stalls from a friction angle of", marginText(doc, units)],
     ["Arc length", units.text("length", ride.arc_length_m, 5)],
     ["Entry slope angle", units.text("angle", ride.entry_slope_angle_deg, 4)],
     ["Steepest slope angle", units.text("angle", ride.steepest_slope_angle_deg, 4)],
@@ -112,19 +119,58 @@ function checks(doc) {
 }
 
 function files(doc) {
-  return element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Files" },
-    element("table", { class: "files" },
-      element("thead", {}, element("tr", {},
-        ["File", "Size", "SHA-256"].map((head) => element("th", { scope: "col" }, head)))),
-      element("tbody", {}, doc.files.map((file) => element("tr", {},
-        element("th", { scope: "row" }, file.name),
-        element("td", { title: `${file.bytes} bytes` }, bytesText(file.bytes)),
-        element("td", { class: "hash" }, file.sha256))))));
+  return scrollable("Files", element("table", { class: "files" },
+    element("thead", {}, element("tr", {},
+      ["File", "Size", "SHA-256"].map((head) => element("th", { scope: "col" }, head)))),
+    element("tbody", {}, doc.files.map((file) => element("tr", {},
+      element("th", { scope: "row" }, file.name),
+      element("td", { title: `${file.bytes} bytes` }, bytesText(file.bytes)),
+      element("td", { class: "hash" }, file.sha256))))));
+}
+
+// One row a friction of the design's range.
+function frictions({ rides }, units) {
+  const ended = (ride) => (ride.stall ? "stalls" : ride.lift_off ? "leaves the track" : "does not arrive");
+  const heads = ["Friction", "Travel time", "Exit speed", "Highest speed", "Highest load", "Lowest load", "Stall margin"];
+  return scrollable("Range of rides", element("table", { class: "frictions" },
+    element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
+    element("tbody", {}, rides.map((ride) => element("tr", {},
+      element("th", { scope: "row" }, `${ride.friction}, ${units.text("angle", ride.friction_angle_deg, 4)}`),
+      element("td", {}, ride.travel_time_s === null ? ended(ride) : units.text("time", ride.travel_time_s, 5)),
+      element("td", {}, units.text("speed", ride.exit_speed_m_per_s, 4)),
+      element("td", {}, units.text("speed", ride.highest_speed_m_per_s, 4)),
+      element("td", {}, units.text("load", ride.max_normal_load_m_per_s2, 4)),
+      element("td", {}, units.text("load", ride.min_normal_load_m_per_s2, 4)),
+      element("td", {}, ride.stall_margin_deg === null ? "never stalls" : units.text("angle", ride.stall_margin_deg, 3)))))));
+}
+
+// Places that the design asks about, one row a friction.
+function probes(doc, units) {
+  const several = doc.rides.length > 1;
+  const heads = ["Probe", "s", "Slope angle", ...(several ? ["Friction"] : []), "Speed", "Normal load", "Time"];
+  return scrollable("Table of probes", element("table", { class: "probes" },
+    element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
+    element("tbody", {}, doc.probes.flatMap((probe) => probe.states.map((state, i) => element("tr", {},
+      element("th", { scope: "row" }, i === 0 ? probe.name : ""),
+      element("td", {}, i === 0 ? units.text("length", probe.arc_length_m, 5) : ""),
+      element("td", {}, i === 0 ? units.text("angle", probe.slope_angle_deg, 4) : ""),
+      several ? element("td", {}, state.friction) : null,
+      element("td", {}, units.text("speed", state.speed_m_per_s, 4)),
+      element("td", {}, units.text("load", state.normal_load_m_per_s2, 4)),
+      element("td", {}, units.text("time", state.time_s, 5))))))));
+}
+
+function notices({ warnings }) {
+  return element("ul", { class: "warnings" }, warnings.map((warning) => element("li", {},
+    element("strong", {}, warning.what), warning.why ? element("span", { class: "detail" }, warning.why) : null)));
 }
 
 export function summary(doc, units) {
   const heading = (text) => element("h3", {}, text);
   return section("summary", "Summary", tiles(doc, units),
+    doc.warnings.length === 0 ? null : notices(doc),
+    doc.rides.length < 2 ? null : [heading("Range of friction"), frictions(doc, units)],
+    doc.probes.length === 0 ? null : [heading("Probes"), probes(doc, units)],
     heading("Verdicts"), tally(doc), checks(doc),
     heading("Task"), task(doc, units),
     heading("Track"), track(doc, units),

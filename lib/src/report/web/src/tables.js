@@ -1,4 +1,4 @@
-import { button, element, section, select } from "./dom.js";
+import { button, element, scrollable, section, select } from "./dom.js";
 import { interpolate } from "./data.js";
 import { columnText, number } from "./units.js";
 
@@ -79,7 +79,7 @@ export function stationTable(doc, store, units) {
       element("tr", {}, columns.map((column) => element("td", {}, column[i])))));
   };
   draw();
-  store.on("units", draw);
+  for (const key of ["units", "friction"]) store.on(key, draw);
 
   const copy = async () => {
     try {
@@ -112,25 +112,76 @@ export function stationTable(doc, store, units) {
   store.on("units", label);
   return section("stations", "Stations",
     element("div", { class: "controls" }, control, button("Copy", copy), button("CSV", save), status),
-    element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Table of stations" },
-      element("table", { class: "stations" }, head, body)));
+    scrollable("Table of stations", element("table", { class: "stations" }, head, body)));
 }
 
 const superscripts = (text) => text.replaceAll("^2", "\u00b2").replaceAll("^3", "\u00b3");
 
-export function limitTable(doc) {
+// Which quantity of the units a limit's unit is; what no unit system changes stands as it is.
+const QUANTITIES = { m: "length", deg: "angle", "m/s": "speed", "m/s^2": "load", "1/m": "curvature" };
+
+// Limits that have no number, only a yes.
+const WORDS = [
+  [/^concave$/, "no crest", "no crest"], [/^finish$/, "met", "met"], [/^waypoints/, "passed", "passed"],
+  [/^arrival/, "the body arrives", "arrives"],
+];
+
+function valueText({ unit }, value, units, digits) {
+  if (value === null) return "unbounded";
+  const quantity = QUANTITIES[unit];
+  return quantity ? units.text(quantity, value, digits) : `${number(value, digits)}\u00a0${superscripts(unit)}`;
+}
+
+function boundText(limit, units) {
+  const words = WORDS.find(([pattern]) => pattern.test(limit.limit));
+  if (words) return words[1];
+  const side = limit.side === "exactly" ? "" : `${limit.side} `;
+  return side + valueText(limit, limit.bound, units, 5);
+}
+
+function reachedText(limit, units) {
+  const words = WORDS.find(([pattern]) => pattern.test(limit.limit));
+  if (words && limit.kept) return words[2];
+  // A radius beyond a million times its bound is that of a straight.
+  const straight = limit.limit.includes("radius") && (limit.reached === null || limit.reached > 1e6 * limit.bound);
+  return straight ? "straight" : valueText(limit, limit.reached, units, 4);
+}
+
+function placeText(limit, units) {
+  const length = (value) => units.text("length", value, 3);
+  const places = (limit.where ?? []).map(({ from_m: from, to_m: to }) => (to > from ? `${length(from)} to ${length(to)}` : length(from)));
+  const text = places.length === 0 ? length(limit.at_m) : places.slice(0, 3).join(", ") + (places.length > 3 ? ", \u2026" : "");
+  return `s = ${text}${limit.friction ? `, at ${limit.friction} friction` : ""}`;
+}
+
+// A price counts per unit of the limit: in the unit that is shown.
+function priceText(limit, units) {
+  if (limit.price === null) return "\u2013";
+  const quantity = QUANTITIES[limit.unit];
+  const [objective] = limit.price_unit.split(" per ");
+  const unit = quantity ? units.unit(quantity) : superscripts(limit.unit);
+  const speed = objective === "m/s";
+  const price = speed ? units.convert("speed", limit.price) : limit.price;
+  return `${number(quantity ? price / units.convert(quantity, 1) : price, 3)} ${speed ? units.unit("speed") : objective} per ${unit}`;
+}
+
+export function limitTable(doc, store, units) {
   if (doc.limits.length === 0) return null;
+  const body = element("tbody");
+  const draw = () => body.replaceChildren(...doc.limits.map((limit) => element("tr", { class: limit.status },
+    element("th", { scope: "row" }, element("span", { class: "limit-name" }, limit.name), element("code", { class: "key" }, limit.limit)),
+    element("td", {}, boundText(limit, units)),
+    element("td", {}, reachedText(limit, units)),
+    element("td", {}, placeText(limit, units)),
+    element("td", {}, limit.status),
+    element("td", {}, priceText(limit, units)))));
+  draw();
+  store.on("units", draw);
   return section("limits", "Limits and what they cost",
-    element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Table of limits" },
-      element("table", { class: "limits" },
-        element("thead", {}, element("tr", {}, ["Limit", "Bound", "Reached", "Where", "Status", "Price"]
-          .map((head) => element("th", { scope: "col" }, head)))),
-        element("tbody", {}, doc.limits.map((limit) => element("tr", { class: limit.status },
-          element("th", { scope: "row" }, limit.name),
-          element("td", {}, superscripts(limit.bound)),
-          element("td", {}, superscripts(limit.reached)),
-          element("td", {}, limit.where),
-          element("td", {}, limit.status),
-          element("td", {}, limit.price === null ? "\u2013" : `${number(limit.price, 3)} ${superscripts(limit.price_unit)}`)))))),
-    element("p", { class: "note" }, "Active: the track lies at this bound. The price is what one unit of relief wins."));
+    scrollable("Table of limits", element("table", { class: "limits" },
+      element("thead", {}, element("tr", {}, ["Limit", "Bound", "Reached", "Where", "Status", "Price"]
+        .map((head) => element("th", { scope: "col" }, head)))),
+      body)),
+    element("p", { class: "note" }, "Active: the track lies at this bound. The price is what one unit of relief wins."
+      + (doc.rides.length > 1 ? " Limits hold over the whole range of friction; each row tells the friction that comes nearest to its bound." : "")));
 }

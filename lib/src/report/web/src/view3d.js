@@ -389,7 +389,7 @@ export function viewSection(doc, store, units) {
       describe();
       paint();
     });
-    store.on("theme", paint);
+    for (const change of ["theme", "friction"]) store.on(change, paint);
     store.on("paper", () => {
       paint();
       // Paper does not wait for a frame.

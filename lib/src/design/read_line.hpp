@@ -1,0 +1,17 @@
+#pragma once
+
+#include "glissade/task/limits.hpp"
+
+#include "design/map_reader.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace glissade::design_file {
+
+/// A line of ground or of a roof: its points in the design, or in a CSV file beside it.
+/// @param directory  what a relative name of the file is taken from
+[[nodiscard]] std::optional<Profile> read_line(const Value& value, const std::filesystem::path& directory,
+                                               Findings& findings);
+
+}  // namespace glissade::design_file

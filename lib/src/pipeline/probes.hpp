@@ -1,0 +1,12 @@
+#pragma once
+
+#include "glissade/pipeline.hpp"
+
+#include <vector>
+
+namespace glissade::pipeline {
+
+/// @return a problem for each probe that the track does not pass
+[[nodiscard]] std::vector<Issue> probes_beside_track(const Design& design, const Track& track);
+
+}  // namespace glissade::pipeline

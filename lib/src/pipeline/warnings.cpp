@@ -1,0 +1,36 @@
+// What a user should hear of beside the answer.
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "pipeline/probes.hpp"
+
+namespace glissade {
+
+using namespace pipeline;
+
+namespace {
+
+/// A lowest speed that begins to hold behind the end of the track asks for nothing.
+std::optional<Issue> never_applies(const Design& design, const Track& track) {
+  if (!design.limits || !design.limits->speed.lowest) return {};
+  const double from = design.limits->lowest_speed_from;
+  const double length = track.centerline->length();
+  if (from < length) return {};
+  const auto [start, end] = texts_apart(from, length, &length_text);
+  return Issue{
+      design.where("limits.speed.lowest_from"),
+      "speed.lowest holds from " + start + " on, but the track ends after " + end + ": it never applies",
+      "lowest_from is an arc length from the start.", "a place before the end, or exit_speed: {lowest: ...}"};
+}
+
+}  // namespace
+
+std::vector<Issue> warnings(const Design& design, const Track& track) {
+  std::vector<Issue> found;
+  if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
+  for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));
+  return found;
+}
+
+}  // namespace glissade

@@ -1,0 +1,104 @@
+#include "glissade/pipeline/probes.hpp"
+
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+const std::string kStraight =
+    "glissade: 1\n"
+    "track: {start: {x: 2 m, z: 5 m}, finish: {x: 6 m, z: 2 m}}\n"
+    "body: {friction_coefficient: {low: 0.1, nominal: 0.3, high: 0.4}}\n"
+    "centerline: {kind: straight}\n";
+
+std::string refusal(const std::string& probes) {
+  try {
+    static_cast<void>(parse_design(kStraight + "probes: " + probes + "\n", "d.yaml"));
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("probes on a straight ramp: the closed form of its motion, at every friction") {
+  const Design design = parse_design(
+      kStraight + "probes: [{from_start: 2 m}, {from_finish: 1 m, name: sill}, {x: 4 m}]\n", "d.yaml");
+  const Track track = solve(design);
+  const std::vector<ProbeReading> probes = probe_readings(design, track);
+  REQUIRE(probes.size() == 3);
+  CHECK(probes[0].name == "2 m from the start");
+  CHECK(probes[1].name == "sill");
+  CHECK(probes[2].name == "x = 4 m");
+  // 5 m long, sine 0.6, cosine 0.8.
+  const double places[] = {2.0, 4.0, 2.5};
+  const double frictions[] = {0.1, 0.3, 0.4};
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(probes[i].point.arc_length == Approx(places[i]).epsilon(1e-12));
+    CHECK(probes[i].position.x == Approx(2.0 + 0.8 * places[i]).epsilon(1e-12));
+    CHECK(probes[i].position.z == Approx(5.0 - 0.6 * places[i]).epsilon(1e-12));
+    REQUIRE(probes[i].states.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double acceleration = 9.81 * (0.6 - frictions[k] * 0.8);
+      CHECK(probes[i].states[k].motion->speed ==
+            Approx(std::sqrt(2.0 * acceleration * places[i])).epsilon(1e-10));
+      CHECK(probes[i].states[k].motion->normal_load == Approx(9.81 * 0.8).epsilon(1e-10));
+    }
+  }
+  const json document = json::parse(track_json(design, track));
+  REQUIRE(document["probes"].size() == 3);
+  CHECK(document["probes"][1]["states"][2]["friction"] == "high");
+  CHECK(document["probes"][1]["states"][2]["speed_m_per_s"] == probes[1].states[2].motion->speed);
+}
+
+TEST_CASE("a track that leads the other way is probed at the same places") {
+  std::string text = kStraight + "probes: [{x: 4 m}]\n";
+  text.replace(text.find("x: 6 m"), 6, "x: 0 m");
+  text.replace(text.find("x: 4 m"), 6, "x: 1 m");
+  const Design design = parse_design(text, "d.yaml");
+  const std::vector<ProbeReading> probes = probe_readings(design, solve(design));
+  REQUIRE(probes.size() == 1);
+  CHECK(probes[0].position.x == Approx(1.0));
+}
+
+TEST_CASE("a probe beside the track is left out, with a warning that names it") {
+  const Design design =
+      parse_design(kStraight + "probes: [{from_start: 7 m}, {x: 1 m}, {x: 6 m}]\n", "d.yaml");
+  const Track track = solve(design);
+  CHECK(probe_readings(design, track).size() == 1);
+  const std::vector<Issue> found = warnings(design, track);
+  REQUIRE(found.size() == 2);
+  CHECK_THAT(found[0].what, Contains("probes[0], 7 m from the start, does not lie on the track"));
+  CHECK_THAT(found[1].what, Contains("probes[1], x = 1 m"));
+}
+
+TEST_CASE("a probe has exactly one place, of the right sign and dimension") {
+  CHECK_THAT(refusal("[{name: here}]"), Contains("probes[0] has no place"));
+  CHECK_THAT(refusal("[{x: 1 m, from_start: 1 m}]"), Contains("probes[0] has more than one place"));
+  CHECK_THAT(refusal("[{from_start: -1 m}]"), Contains("from_start: -1 m is negative"));
+  CHECK_THAT(refusal("[{from_start: 3 s}]"), Contains("not a length"));
+  CHECK_THAT(refusal("[{from_strat: 3 m}]"),
+             Contains("unknown key from_strat") && Contains("Try: from_start"));
+  CHECK_THAT(refusal("{x: 1 m}"), Contains("probes is a group of keys, not a list"));
+}
+
+TEST_CASE("a lowest speed that begins to hold behind the end is told") {
+  std::string text = kStraight + "limits: {speed: {lowest: 3 m/s, lowest_from: 30 m}}\n";
+  const Design design = parse_design(text, "d.yaml");
+  const std::vector<Issue> found = warnings(design, solve(design));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0].what,
+             Contains("speed.lowest holds from 30 m on, but the track ends after 5 m: it never applies"));
+}
