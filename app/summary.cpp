@@ -116,19 +116,19 @@ std::string radius_text(const Track& track) {
 }
 
 std::string solid_lines(const Design& design, const Build& build) {
-  const MeshFacts& facts = build.facts;
+  const MeshFacts& facts = build.swept().facts;
   std::string text =
-      count_text(facts.triangles) + " triangles, volume " + volume_text(build.solid.exact_volume, 4) + ", " +
-      length_text(facts.upper.x - facts.lower.x) + " x " + length_text(facts.upper.y - facts.lower.y) +
+      count_text(facts.triangles) + " triangles, volume " + volume_text(build.swept().solid.exact_volume, 4) +
+      ", " + length_text(facts.upper.x - facts.lower.x) + " x " + length_text(facts.upper.y - facts.lower.y) +
       " x " + length_text(facts.upper.z - facts.lower.z);
-  text += "\ndeparts from the exact shape by " + length_text(build.max_deviation, 2) +
+  text += "\ndeparts from the exact shape by " + length_text(build.swept().max_deviation, 2) +
           " at most (tolerance " + length_text(design.mesh.tolerance, 3) + ")";
-  if (build.offset) {
+  if (build.swept().offset) {
     text += "\nin the files' own frame: their origin is the start of the track, at (" +
-            decimal_text(build.offset->x) + ", " + decimal_text(build.offset->y) + ", " +
-            decimal_text(build.offset->z) + ") m of the site";
+            decimal_text(build.swept().offset->x) + ", " + decimal_text(build.swept().offset->y) + ", " +
+            decimal_text(build.swept().offset->z) + ") m of the site";
   }
-  if (build.solid.trimmed) text += "\ntrimmed where the section would have folded over itself";
+  if (build.swept().solid.trimmed) text += "\ntrimmed where the section would have folded over itself";
   return text;
 }
 

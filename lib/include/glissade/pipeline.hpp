@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -152,14 +153,8 @@ void write_track_csv(const std::filesystem::path& file, const Track& track);
 /// @throws InputError if the measures do not make a cross-section
 [[nodiscard]] CrossSection make_cross_section(const CrossSectionDesign& design);
 
-struct WrittenFile {
-  std::filesystem::path path;
-  std::uintmax_t bytes = 0;
-};
-
-struct Build {
-  Track track;
-  CrossSection section;
+/// A solid with what was measured on it.
+struct ProvenSolid {
   Solid solid;
   /// Of the mesh as the least precise of the files holds it, confirmed on each file read back.
   MeshFacts facts;
@@ -167,18 +162,75 @@ struct Build {
   double max_deviation = 0.0;
   /// Where the origin of the mesh files lies in the frame of the site [m]; none: they are in that frame.
   std::optional<Vec3> offset;
-  std::vector<WrittenFile> files;
+};
+
+/// One thing that a build makes: the solid swept along the track is one, with its own facts and files.
+struct Part {
+  std::string name;                  ///< "track" of the swept solid
+  std::optional<ProvenSolid> solid;  ///< none of a part that has no mesh
+  std::vector<std::string> files;    ///< names of those that tell of it alone, relative to the directory
+};
+
+/// A file of a build that is not on a disk yet.
+struct PendingFile {
+  std::string name;   ///< relative to the directory of the build; may have folders
+  double cost = 1.0;  ///< of writing and reading back, for progress: a mesh file is 1
+  /// Writes it under a name that it keeps only for now. Throws as the writers of io/.
+  std::function<void(const std::filesystem::path&, const std::stop_token&)> write;
+  /// Reads it again and throws InternalError if it is not what was meant; empty of a file that is not read back.
+  std::function<void(const std::filesystem::path&, const std::stop_token&)> read_back;
+};
+
+/// A build in memory: parts with their facts, and the files to be made of each part and of the whole set.
+struct Assembly {
+  std::string stem;  ///< of the files' names, and the owner of the files: that of the design file
+  Track track;
+  CrossSection section;
+  std::vector<Part> parts;         ///< the swept solid first
+  std::vector<PendingFile> files;  ///< in the order in which they are written and told
+  double cost = 0.0;               ///< of what has been done, in units of PendingFile::cost
+  double total_cost = 1.0;         ///< of that and all files
+
+  [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
+};
+
+struct WrittenFile {
+  std::filesystem::path path;
+  std::uintmax_t bytes = 0;
+};
+
+/// A build on disk.
+struct Build {
+  Track track;
+  CrossSection section;
+  std::vector<Part> parts;         ///< the swept solid first
+  std::vector<WrittenFile> files;  ///< all of them, the report last
   /// Files of an earlier build of this design that this one does not make, unchanged since they were written.
   std::vector<std::filesystem::path> removed;
   /// Files in the way that no build of this design wrote, or that were changed since: by their new names.
   std::vector<std::filesystem::path> set_aside;
+
+  [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
 };
 
 struct BuildOptions {
   bool report = true;  ///< write NAME.report.html beside the meshes
 };
 
-/// Design to files in `directory` (made if missing), each named after the design file, and NAME.report.html, which
+/// Makes and proves everything of a build in memory; touches no disk.
+/// @throws InputError if the design has no cross_section or the section cannot follow the track; InfeasibleError if
+///         the body does not arrive or a limit is broken; Interrupted if the context's stop token asks for it;
+///         InternalError if a mesh turns out faulty
+[[nodiscard]] Assembly assemble(const Design& design, Track track, const RunContext& context = {},
+                                const BuildOptions& options = {});
+
+/// Writes, reads back and reports an assembly: all of its files appear in `directory`, or none, as build() says.
+/// @param options  those of assemble()
+/// @throws FileError if a file cannot be written; Interrupted; InternalError if a file read back differs
+[[nodiscard]] Build publish(const Design& design, Assembly assembly, const std::filesystem::path& directory,
+                            const RunContext& context = {}, const BuildOptions& options = {});
+
+/// solve(), assemble() and publish(): design to files in `directory` (made if missing), each named after the design file, and NAME.report.html, which
 /// shows all of them to people. Either all of them appear, or the directory stays as it was, files of an
 /// earlier build included.
 ///

@@ -26,11 +26,11 @@ const Words<CrossSectionKind>& cross_section_words() {
 }
 
 const Words<ExportFormat>& export_words() {
-  static const Words<ExportFormat> words = {
-      {"stl", ExportFormat::stl}, {"stl-ascii", ExportFormat::stl_ascii},
-      {"off", ExportFormat::off}, {"scad", ExportFormat::scad},
-      {"csv", ExportFormat::csv},
-  };
+  static const Words<ExportFormat> words = [] {
+    Words<ExportFormat> all;
+    for (const FileFormat& row : kFileFormats) all.emplace_back(row.word, row.format);
+    return all;
+  }();
   return words;
 }
 
@@ -62,9 +62,6 @@ std::string_view word(CenterlineKind kind) {
 }
 std::string_view word(CrossSectionKind kind) {
   return design_file::word_of(kind, design_file::cross_section_words());
-}
-std::string_view word(ExportFormat format) {
-  return design_file::word_of(format, design_file::export_words());
 }
 
 std::optional<CenterlineKind> centerline_kind(std::string_view word) {

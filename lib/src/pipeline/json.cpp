@@ -124,14 +124,14 @@ std::string conflict_json(const Design& design, const OptimizeReport& report) {
 
 std::string build_json(const Design& design, const Build& build) {
   Json json = pipeline::track_document(design, build.track);
-  json["mesh"] = report::mesh_json(build.facts);
+  json["mesh"] = report::mesh_json(build.swept().facts);
   // Of a mesh that is known to follow a solid, the volume is that solid's.
-  json["mesh"]["volume_m3"] = build.solid.exact_volume;
-  json["mesh"]["mesh_volume_m3"] = build.facts.volume;
-  json["mesh"]["max_deviation_m"] = build.max_deviation;
-  const Vec3 offset = build.offset.value_or(Vec3{});
+  json["mesh"]["volume_m3"] = build.swept().solid.exact_volume;
+  json["mesh"]["mesh_volume_m3"] = build.swept().facts.volume;
+  json["mesh"]["max_deviation_m"] = build.swept().max_deviation;
+  const Vec3 offset = build.swept().offset.value_or(Vec3{});
   json["mesh"]["offset_m"] = {offset.x, offset.y, offset.z};
-  json["mesh"]["trimmed"] = build.solid.trimmed;
+  json["mesh"]["trimmed"] = build.swept().solid.trimmed;
   json["files"] = Json::array();
   for (const WrittenFile& file : build.files) {
     json["files"].push_back({{"path", file.path.generic_string()}, {"bytes", file.bytes}});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/file_format.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 #include "glissade/design/probe_design.hpp"
@@ -106,11 +107,6 @@ struct MeshDesign {
   /// The greatest angle at which facets that follow a curve meet; none: as the tolerance asks.
   std::optional<Angle> largest_kink;
 };
-
-enum class ExportFormat { stl, stl_ascii, off, scad, csv };
-
-/// @return the word that a design file uses, e.g. "stl-ascii"
-[[nodiscard]] std::string_view word(ExportFormat format);
 
 /// Where the origin of a mesh file lies; its axes are always those of the design.
 enum class MeshFrame {

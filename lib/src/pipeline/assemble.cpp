@@ -1,0 +1,283 @@
+// Everything of a build in memory: solids swept, rounded as each file will hold them, measured, and the files that are
+// to be made of them. Nothing here touches a disk.
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "pipeline/cross_section.hpp"
+#include "pipeline/formats.hpp"
+#include "pipeline/located.hpp"
+#include "pipeline/stations.hpp"
+#include "pipeline/steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace glissade {
+
+using namespace pipeline;
+
+namespace {
+
+// As shares of time measured on meshes of 0.25 and 1 million triangles, writing one mesh file being 1.
+constexpr double kSweepCost = 0.1;
+constexpr double kCheckCost = 5.0;  // of one rounding of the mesh
+constexpr double kReportCost = 1.0;
+
+/// A mesh as one or more of the formats hold it, and what was measured on it.
+struct MeasuredMesh {
+  std::vector<MeshFormat> formats;
+  std::shared_ptr<const TriangleMesh> mesh;
+  MeshFacts facts;
+  double moved = 0.0;  // farthest that rounding took a vertex [m]
+
+  [[nodiscard]] bool is_held_by(MeshFormat format) const {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  }
+};
+
+/// A rounding that equals another one is checked once, and ends sooner.
+double cost_of_assembly(const std::vector<ExportFormat>& formats) {
+  std::vector<MeshFormat> roundings;
+  for (const ExportFormat exported : formats) {
+    const auto rounding = format_writer(exported).rounding;
+    if (rounding && std::find(roundings.begin(), roundings.end(), *rounding) == roundings.end()) {
+      roundings.push_back(*rounding);
+    }
+  }
+  return kSweepCost + kCheckCost * static_cast<double>(std::max(roundings.size(), std::size_t{1}));
+}
+
+double cost_of_files(const std::vector<ExportFormat>& formats, const BuildOptions& options) {
+  double cost = options.report ? kReportCost : 0.0;
+  for (const ExportFormat format : formats) cost += format_writer(format).cost;
+  return cost;
+}
+
+bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles;
+}
+
+void require_valid(const MeshFacts& facts, const Solid& solid) {
+  std::vector<std::string> faults = facts.faults();
+  if (facts.components != 1) faults.push_back(std::to_string(facts.components) + " separate pieces");
+  if (facts.euler_characteristic != solid.expected_euler) {
+    faults.push_back("Euler characteristic " + std::to_string(facts.euler_characteristic) + " instead of " +
+                     std::to_string(solid.expected_euler));
+  }
+  if (faults.empty()) return;
+  std::string what = "the mesh is faulty:";
+  for (const std::string& fault : faults) what += " " + fault + ";";
+  what.pop_back();
+  throw InternalError({"", what, "A faulty mesh is never written.", "another mesh.tolerance"});
+}
+
+double farthest_move(const TriangleMesh& exact, const TriangleMesh& rounded) {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < exact.vertices.size(); ++i) {
+    const Vec3 move = rounded.vertices[i] - exact.vertices[i];
+    squared = std::max(squared, dot(move, move));
+  }
+  return std::sqrt(squared);
+}
+
+/// Every rounding of the mesh that a file of this build holds, each measured once; the mesh itself where none does.
+std::vector<MeasuredMesh> measured(const Design& design, const Solid& solid, Steps& steps) {
+  std::vector<MeasuredMesh> meshes;
+  const auto add = [&](std::vector<MeshFormat> formats, TriangleMesh mesh, double moved) {
+    const MeshFacts facts = measure(mesh, steps.stop());
+    require_valid(facts, solid);
+    meshes.push_back(
+        {std::move(formats), std::make_shared<const TriangleMesh>(std::move(mesh)), facts, moved});
+  };
+  for (const ExportFormat exported : design.exports.formats) {
+    const auto format = format_writer(exported).rounding;
+    const bool known = format && std::any_of(meshes.begin(), meshes.end(), [&](const MeasuredMesh& mesh) {
+                         return mesh.is_held_by(*format);
+                       });
+    if (!format || known) continue;
+    steps.enter("checking the mesh", kCheckCost);
+    TriangleMesh rounded = at_place(design.where("export"), [&] {
+      return as_written(solid.mesh, *format, design.exports.unit, steps.stop());
+    });
+    const auto same = std::find_if(meshes.begin(), meshes.end(), [&](const MeasuredMesh& other) {
+      return same_mesh(*other.mesh, rounded);
+    });
+    if (same != meshes.end()) {
+      same->formats.push_back(*format);
+      continue;
+    }
+    const double moved = farthest_move(solid.mesh, rounded);
+    add({*format}, std::move(rounded), moved);
+  }
+  if (meshes.empty()) {
+    steps.enter("checking the mesh", kCheckCost);
+    add({}, solid.mesh, 0.0);
+  }
+  return meshes;
+}
+
+std::shared_ptr<const TriangleMesh> held_by(const std::vector<MeasuredMesh>& meshes,
+                                            std::optional<MeshFormat> format) {
+  if (!format) return std::make_shared<const TriangleMesh>();
+  for (const MeasuredMesh& mesh : meshes) {
+    if (mesh.is_held_by(*format)) return mesh.mesh;
+  }
+  throw InternalError({"", "a mesh was not measured before it was written", "", ""});
+}
+
+/// The centerline in the frame of the mesh.
+std::vector<Vec3> positions(const Track& track, const Solid& solid) {
+  std::vector<Vec3> positions;
+  positions.reserve(solid.stations.size());
+  for (const double s : solid.stations) {
+    const CenterlinePoint point = track.centerline->at(s);
+    positions.push_back(solid.placement.to_space(point.x, point.drop, 0.0));
+  }
+  return positions;
+}
+
+std::optional<Vec3> offset_in_files(const Design& design, const Track& track) {
+  if (design.exports.frame == MeshFrame::site) return {};
+  return track.placement.start();
+}
+
+/// By how much the least precise of the files may move a vertex, before there is a mesh to measure it on.
+/// @throws InputError if that leaves nothing of the tolerance
+double rounding_in_files(const Design& design, const Centerline& centerline, const CrossSection& section,
+                         const Placement& placement) {
+  const std::vector<ExportFormat>& formats = design.exports.formats;
+  const bool rounds = std::any_of(formats.begin(), formats.end(), [](ExportFormat format) {
+    return file_format(format).content == FileContent::rounded_mesh;
+  });
+  if (!rounds) return 0.0;
+  const Vec3 start = placement.start();
+  const double farthest = std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) +
+                          centerline.length() + section.highest() - section.lowest();
+  // Half a step of single precision on each axis; one whole step where two vertices would become one.
+  const double step = 0x1p-23 * farthest;
+  const double rounding = std::sqrt(3.0) * step;
+  constexpr double kMostOfTolerance = 0.5;
+  if (rounding <= kMostOfTolerance * design.mesh.tolerance) return rounding;
+  const bool far_away = norm(start) > 2.0 * centerline.length();
+  throw InputError(
+      {design.where("mesh.tolerance"),
+       "tolerance: " + length_text(design.mesh.tolerance) + " is finer than binary STL can hold",
+       "It holds single precision: at " + length_text(farthest, 3) +
+           " from the origin of the file, positions move by up to " + length_text(rounding, 2) + ".",
+       far_away ? "frame: local in export, whose origin is the start of the track; or off or stl-ascii"
+                : "off or stl-ascii, which hold double precision; or a tolerance of at least " +
+                      length_text(rounding / kMostOfTolerance, 2)});
+}
+
+void require_within_tolerance(const Design& design, double max_deviation) {
+  if (max_deviation <= design.mesh.tolerance) return;
+  throw InternalError({"",
+                       "the files depart by " + length_text(max_deviation, 3) + ", the tolerance is " +
+                           length_text(design.mesh.tolerance, 3),
+                       "", ""});
+}
+
+/// The mesh as the least precise of the files holds it: binary STL rounds to single precision.
+const MeasuredMesh& least_precise(const std::vector<MeasuredMesh>& meshes) {
+  const auto rounded = std::find_if(meshes.begin(), meshes.end(), [](const MeasuredMesh& mesh) {
+    return mesh.is_held_by(MeshFormat::stl_binary);
+  });
+  return rounded == meshes.end() ? meshes.front() : *rounded;
+}
+
+/// What the files of this build ask for and no more: a mesh may be large.
+std::shared_ptr<const SolidForFiles> material_for_files(const Design& design, const Track& track,
+                                                        const Solid& solid,
+                                                        const std::optional<Vec3>& offset) {
+  auto material = std::make_shared<SolidForFiles>();
+  material->name = design.name;
+  material->section = section_in_words(*design.cross_section);
+  material->unit = design.exports.unit;
+  material->offset = offset;
+  for (const ExportFormat format : design.exports.formats) {
+    if (format == ExportFormat::scad) {
+      material->exact = solid.mesh;
+      material->centerline = positions(track, solid);
+    }
+    if (file_format(format).content == FileContent::stations) {
+      material->stations = stations_of(track, solid.stations);
+    }
+  }
+  return material;
+}
+
+/// What is to be written of the swept solid, in the order of the design.
+std::vector<PendingFile> files_of(const Design& design, const std::string& stem,
+                                  const std::shared_ptr<const SolidForFiles>& solid,
+                                  const std::vector<MeasuredMesh>& meshes) {
+  std::vector<PendingFile> files;
+  for (const ExportFormat format : design.exports.formats) {
+    const FormatWriter& writer = format_writer(format);
+    const auto mesh = held_by(meshes, writer.rounding);
+    PendingFile file;
+    file.name = file_name(stem, format, design.exports.formats);
+    file.cost = writer.cost;
+    file.write = [solid, mesh, write = writer.write](const std::filesystem::path& path,
+                                                     const std::stop_token& stop) {
+      write(path, *solid, *mesh, stop);
+    };
+    if (writer.read_back) {
+      file.read_back = [solid, mesh](const std::filesystem::path& path, const std::stop_token& stop) {
+        require_same_on_disk(path, *mesh, solid->unit, stop);
+      };
+    }
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+}  // namespace
+
+Assembly assemble(const Design& design, Track track, const RunContext& context, const BuildOptions& options) {
+  require_cross_section(design);
+  if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
+  if (const auto problem = limits_problem(design, track)) throw InfeasibleError(*problem);
+
+  const std::vector<ExportFormat>& formats = design.exports.formats;
+  const double cost = cost_of_assembly(formats);
+  const double total = cost + cost_of_files(formats, options);
+  Steps steps(context, total);
+  steps.enter("making the mesh", kSweepCost);
+  const std::string place = design.where("cross_section");
+  CrossSection section = at_place(place, [&] { return make_cross_section(*design.cross_section); });
+  const Placement placement =
+      design.exports.frame == MeshFrame::local ? track.placement.at_origin() : track.placement;
+  const double rounding = rounding_in_files(design, *track.centerline, section, placement);
+  Solid solid = at_place(place, [&] {
+    return sweep(*track.centerline, section, placement,
+                 {.tolerance = design.mesh.tolerance - rounding,
+                  .largest_kink = design.mesh.largest_kink,
+                  .stop = context.stop});
+  });
+
+  const std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
+  const MeasuredMesh& reference = least_precise(meshes);
+  const double max_deviation = solid.max_deviation + reference.moved;
+  require_within_tolerance(design, max_deviation);
+  const std::optional<Vec3> offset = offset_in_files(design, track);
+  const auto for_files = material_for_files(design, track, solid, offset);
+
+  std::string stem = design.file.stem().string();
+  if (stem.empty()) stem = "track";
+  std::vector<PendingFile> files = files_of(design, stem, for_files, meshes);
+  Part part{.name = "track",
+            .solid = ProvenSolid{std::move(solid), reference.facts, max_deviation, offset},
+            .files = {}};
+  for (const PendingFile& file : files) part.files.push_back(file.name);
+  std::vector<Part> parts;
+  parts.push_back(std::move(part));
+  return {
+      std::move(stem), std::move(track), std::move(section), std::move(parts), std::move(files), cost, total};
+}
+
+}  // namespace glissade

@@ -1,0 +1,92 @@
+// From memory to a directory: every file is made and read back beside the others before any of them appears.
+
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "pipeline/cross_section.hpp"
+#include "pipeline/report.hpp"
+#include "pipeline/staging.hpp"
+#include "pipeline/steps.hpp"
+
+#include <string>
+#include <utility>
+
+namespace glissade {
+
+using namespace pipeline;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReportEnding = ".report.html";
+
+void write_report(const fs::path& path, const Design& design, const BuildForReport& build) {
+  AtomicFile file(path);
+  file.write(report_html(report_input(design, build)));
+  file.commit();
+}
+
+/// Writes a file that gets its own name later; in what goes wrong it has that name already.
+template <typename Write>
+void named_as(const fs::path& staged, const fs::path& file, Write&& write) {
+  try {
+    std::forward<Write>(write)();
+  } catch (const FileError& error) {
+    std::vector<Issue> issues = error.issues();
+    for (Issue& issue : issues) {
+      if (issue.where == staged.string()) issue.where = file.string();
+    }
+    throw FileError(std::move(issues));
+  }
+}
+
+}  // namespace
+
+Build publish(const Design& design, Assembly assembly, const fs::path& directory, const RunContext& context,
+              const BuildOptions& options) {
+  Steps steps(context, assembly.total_cost, assembly.cost);
+  Staging staging(directory, assembly.stem);
+  std::vector<fs::path> made;
+  std::vector<fs::path> read_back;
+  for (const PendingFile& file : assembly.files) {
+    steps.enter("writing " + file.name, file.cost);
+    const fs::path path = made.emplace_back(staging.path_for(file.name));
+    named_as(path, directory / file.name, [&] {
+      file.write(path, context.stop);
+      if (file.read_back) file.read_back(path, context.stop);
+    });
+    if (file.read_back) read_back.push_back(path);
+  }
+  const ProvenSolid& swept = assembly.swept();
+  if (options.report) {
+    // Last of all: it lists the others.
+    const std::string name = assembly.stem + kReportEnding;
+    steps.enter("writing " + name, assembly.total_cost - assembly.cost);
+    const fs::path page = staging.path_for(name);
+    named_as(page, directory / name, [&] {
+      write_report(page, design,
+                   {assembly.track, assembly.section, swept.solid, swept.facts, swept.max_deviation,
+                    std::move(made), std::move(read_back), context.stop});
+    });
+  }
+  require_going(context.stop);
+
+  Published published = staging.publish();
+  std::vector<WrittenFile> files;
+  for (const fs::path& path : published.files) files.push_back({path, fs::file_size(path)});
+  return {std::move(assembly.track), std::move(assembly.section),  std::move(assembly.parts),
+          std::move(files),          std::move(published.removed), std::move(published.set_aside)};
+}
+
+Build build(const Design& design, const fs::path& directory, const RunContext& given_context,
+            const BuildOptions& options) {
+  RunContext context = given_context;
+  require_cross_section(design);
+  Track track = solve(design, context);
+  // The request to stop has been met: the search ended with the best track so far, which is built.
+  if (track.search && context.stop.stop_requested()) context.stop = {};
+  return publish(design, assemble(design, std::move(track), context, options), directory, context, options);
+}
+
+}  // namespace glissade

@@ -1,0 +1,114 @@
+// A build in memory, and what of it comes to a disk.
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/file_format.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace glissade;
+using Names = std::vector<std::string>;
+
+namespace {
+
+Design chute() {
+  return read_design(designs_path("grain_chute.yaml"), {{"export", "[stl, stl-ascii, scad, csv]"}});
+}
+
+Names names_of(const std::vector<PendingFile>& files) {
+  Names names;
+  for (const PendingFile& file : files) names.push_back(file.name);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("assemble makes and proves everything, and leaves the disk alone") {
+  const TempDir place;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(place.path());
+  const Design design = chute();
+  const Assembly assembly = assemble(design, solve(design));
+  std::filesystem::current_path(before);
+  CHECK(place.names().empty());
+  CHECK(assembly.stem == "grain_chute");
+  CHECK(names_of(assembly.files) ==
+        Names{"grain_chute.stl", "grain_chute.ascii.stl", "grain_chute.scad", "grain_chute.csv"});
+  REQUIRE(assembly.parts.size() == 1);
+  CHECK(assembly.parts[0].name == "track");
+  CHECK(assembly.parts[0].files == names_of(assembly.files));
+  CHECK(assembly.swept().facts.watertight());
+  CHECK(assembly.swept().max_deviation <= design.mesh.tolerance);
+  CHECK(assembly.cost < assembly.total_cost);
+}
+
+TEST_CASE("solve, assemble and publish one by one write the bytes of build") {
+  const TempDir place;
+  const Design design = chute();
+  const Build at_once = build(design, place / "build");
+  const Build in_steps = publish(design, assemble(design, solve(design)), place / "steps");
+  REQUIRE(at_once.files.size() == in_steps.files.size());
+  for (std::size_t i = 0; i < at_once.files.size(); ++i) {
+    INFO(at_once.files[i].path);
+    CHECK(bytes_of(at_once.files[i].path) == bytes_of(in_steps.files[i].path));
+  }
+  CHECK(in_steps.parts.size() == 1);
+  CHECK(in_steps.swept().facts.triangles == at_once.swept().facts.triangles);
+}
+
+TEST_CASE("files of a set may lie in folders, and are removed from there when the set no longer has them") {
+  const TempDir place;
+  const Design design = chute();
+  const auto text_file = [](const std::string& name) {
+    PendingFile file;
+    file.name = name;
+    file.write = [](const std::filesystem::path& path, const std::stop_token&) {
+      put_bytes(path, "plate\n");
+    };
+    return file;
+  };
+  Assembly assembly = assemble(design, solve(design));
+  assembly.files = {text_file("plates/01_floor.dxf"), text_file("cut_list.csv")};
+  const Build first = publish(design, std::move(assembly), place / "out", {}, {.report = false});
+  REQUIRE(first.files.size() == 2);
+  CHECK(first.files[0].path == place / "out/plates/01_floor.dxf");
+  CHECK(bytes_of(place / "out/plates/01_floor.dxf") == "plate\n");
+
+  assembly = assemble(design, solve(design));
+  assembly.files = {text_file("cut_list.csv")};
+  const Build second = publish(design, std::move(assembly), place / "out", {}, {.report = false});
+  CHECK(second.removed == std::vector<std::filesystem::path>{place / "out/plates/01_floor.dxf"});
+  CHECK_FALSE(std::filesystem::exists(place / "out/plates/01_floor.dxf"));
+}
+
+TEST_CASE("a file that does not read back as meant ends the build, and none appears") {
+  const TempDir place;
+  const Design design = chute();
+  Assembly assembly = assemble(design, solve(design));
+  assembly.files.back().read_back = [](const std::filesystem::path& path, const std::stop_token&) {
+    throw InternalError({path.string(), "the file read back differs from what was written", "", ""});
+  };
+  CHECK_THROWS_AS(publish(design, std::move(assembly), place / "out"), InternalError);
+  CHECK(place.names().empty());
+}
+
+TEST_CASE("every format has a word and an ending of its own in a set") {
+  std::vector<std::string> words;
+  for (const FileFormat& row : kFileFormats) {
+    CHECK(&file_format(row.format) == &row);
+    CHECK(word(row.format) == row.word);
+    CHECK(row.ending.starts_with('.'));
+    CHECK(std::count(words.begin(), words.end(), row.word) == 0);
+    words.emplace_back(row.word);
+  }
+}
