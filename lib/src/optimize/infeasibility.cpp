@@ -101,7 +101,12 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
     return arrives ? std::nullopt : std::optional(too_slow(problem, friction));
   }
   const double run = std::fabs(problem.endpoints.run);
-  if (problem.endpoints.drop > friction.coefficient() * run) return std::nullopt;
+  const double mu = friction.coefficient();
+  // The theorem is about the centre of mass, whose ends lie up to this much more favourably than the track's.
+  const double height = problem.body.law ? problem.body.law->centre_height() : 0.0;
+  const double favour = height == 0.0 ? 0.0 : height * (std::sqrt(1.0 + mu * mu) + mu);
+  if (problem.endpoints.drop + favour > mu * run) return std::nullopt;
+  if (problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0) return std::nullopt;
   Conflict conflict;
   conflict.limits = {{{LimitId::friction}, {}}, {{LimitId::finish}, {}}};
   conflict.relaxations.push_back(
