@@ -263,6 +263,7 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   if (height > 0.0) {
     list.add_built_in(LimitId::room_for_body, Measure::curvature,
                       (limits.smallest_valley_radius ? kFits : kFitsWell) / height);
+    out.limits.back().scale = out.limits.back().bound;
   }
   // No track is shorter than a chord; none that is worth building is many times longer.
   constexpr double kShortest = 0.9;
@@ -354,7 +355,8 @@ void require_searchable(const Problem& problem) {
   require_valid(problem);
   if (!problem.body.friction_changes.empty()) {
     throw InputError({"", "body.friction_changes: friction that changes along the track",
-                      "A search knows one friction for all of it.", "one friction, or a track that is given"});
+                      "A search knows one friction for all of it.",
+                      "one friction, or a track that is given"});
   }
   if (problem.limits.lowest_normal_load) return;
   throw InputError({"", "lowest_normal_load is lifted",

@@ -223,7 +223,7 @@ std::optional<Issue> problem_of_ride(const Design& design, const Track& track, c
                      ", tighter than gravity can make it follow.",
                  "a larger radius at that crest, or less speed"};
   }
-  if (const auto& end = track.motion.law_end()) return law_end_problem(design, *end, length);
+  if (const auto& end = motion.law_end()) return law_end_problem(design, *end, length);
   return {};
 }
 
