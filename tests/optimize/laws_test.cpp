@@ -83,9 +83,9 @@ TEST_CASE("laws: the fastest track of a frictionless ball is the cycloid, sqrt(7
   CHECK_FALSE(optimum.report.unlimited_travel_time);
 }
 
-TEST_CASE("laws: with its ends given, the centre of a frictionless ball takes the cycloid beside the track") {
-  // The centre's cycloid, x = a (t - sin t), y = a (1 - cos t), slope 90 deg - t/2, to t = 2.4; the track lies h
-  // below it, square to it.
+TEST_CASE("laws: with its exit given, the centre of a frictionless ball takes the cycloid beside the track") {
+  // It starts vertical, which is as steep as a track may be. The centre's cycloid, x = a (t - sin t),
+  // y = a (1 - cos t), slope 90 deg - t/2, to t = 2.4; the track lies h below it, square to it.
   constexpr double kA = 1.0;
   constexpr double kEnd = 2.4;
   constexpr double kHeight = 0.15;
@@ -93,13 +93,12 @@ TEST_CASE("laws: with its ends given, the centre of a frictionless ball takes th
   const double x = kA * (kEnd - std::sin(kEnd)) - kHeight * (std::sin(exit) - 1.0);
   const double y = kA * (1.0 - std::cos(kEnd)) + kHeight * std::cos(exit);
   Problem given = problem(x, y, 0.0, 0.0, ball(kHeight));
-  given.limits.entry_slope_angle = Range::fixed(0.5 * std::numbers::pi);
   given.limits.exit_slope_angle = Range::fixed(exit);
   given.limits.smallest_valley_radius = kHeight / 0.98;
   const Optimum optimum = optimize(given);
   REQUIRE(optimum.report.status == OptimizeStatus::optimal);
   const double exact = std::sqrt(1.4) * kEnd * std::sqrt(kA / kGravity);
-  CHECK(optimum.report.travel_time == Approx(exact).epsilon(1e-5));
+  CHECK(optimum.report.travel_time == Approx(exact).epsilon(1e-6));
   CHECK(optimum.report.travel_time > exact * (1.0 - 1e-9));
 }
 

@@ -171,7 +171,16 @@ class Transcription {
     Part part = Part::core;
     double ds[8] = {};  ///< ds/dtau at the nodes, per core length or absolute
   };
-  struct HessianParts;
+  /// What a Hessian is made of: at each station multiples of dzeta dzeta, of dzeta dv + dv dzeta and of dv dv, and
+  /// one row and column of the length.
+  struct HessianParts {
+    Vector zeta_zeta;
+    std::vector<Vector> zeta_v;  ///< for each ride
+    std::vector<Vector> v_v;
+    Vector length;  ///< enters as e_L a^T + a e_L^T
+    Matrix
+        curvature;  ///< its rows a of the unknowns that curvature depends on enter as e a^T + a e^T; of laws
+  };
   /// Flow of any law: collocation at the panels' nodes, exact derivatives through its equations (law_flow.cpp).
   void law_flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out, bool derivatives) const;
   void add_law_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
@@ -197,16 +206,6 @@ class Transcription {
   /// Knots of both kinds, with what the fine ones add there; empty where there are none of those.
   Vector own_sigma_, own_turn_, own_angle_;
   Vector station_turn_, station_angle_;  ///< of the same, at every station
-};
-
-/// What a Hessian is made of: at each station multiples of dzeta dzeta, of dzeta dv + dv dzeta and of dv dv, and
-/// one row and column of the length.
-struct Transcription::HessianParts {
-  Vector zeta_zeta;
-  std::vector<Vector> zeta_v;  ///< for each ride
-  std::vector<Vector> v_v;
-  Vector length;     ///< enters as e_L a^T + a e_L^T
-  Matrix curvature;  ///< its rows a of the unknowns that curvature depends on enter as e a^T + a e^T; of laws
 };
 
 /// 1/sqrt(v), continued below a floor by its second-order Taylor polynomial, so that a body that would not

@@ -1,5 +1,6 @@
 #include "pipeline/report.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 
@@ -46,8 +47,8 @@ ReportCheck energy(const Track& track, double gravity) {
   const LawPtr& law = motion.body().law;
   const double inertia = law ? law->inertia() : 1.0;
   const double rise =
-      law ? law->centre_height() * (std::cos(track.centerline->slope_angle(motion.distance())) -
-                                    std::cos(track.centerline->slope_angle(0.0)))
+      law ? law->centre_height() * (math::cos(track.centerline->slope_angle(motion.distance())) -
+                                    math::cos(track.centerline->slope_angle(0.0)))
           : 0.0;
   const double drop = track.centerline->at(motion.distance()).drop - rise;
   const double entry = motion.body().entry_speed;
