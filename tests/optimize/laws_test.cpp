@@ -135,7 +135,8 @@ TEST_CASE("laws: no neighbour of the fastest track is faster, whatever moves") {
     // Neighbours differ in their end slopes too: what those are worth is known from the multipliers.
     double price = 0.0;
     for (const ActiveLimit& active : optimum.report.active) {
-      if (active.limit == "entry_slope_angle" || active.limit == "exit_slope_angle") price += active.price;
+      if (active.limit.id == LimitId::entry_slope_angle || active.limit.id == LimitId::exit_slope_angle)
+        price += active.price;
     }
     for (int i = 0; i < 400; ++i) {
       const CenterlinePtr other = neighbour(*spline, random, random.between(-0.05, 0.05));
@@ -165,7 +166,7 @@ TEST_CASE("laws: limits hold for what rolls and flows, by the referee") {
   CAPTURE(optimum.report.message);
   REQUIRE(optimum.report.status == OptimizeStatus::optimal);
   for (const LimitCheck& check : optimum.report.checks) {
-    CAPTURE(check.limit, check.reached, check.value);
+    CAPTURE(check.limit.key(), check.reached, check.value);
     CHECK(check.kept());
   }
   // The load is that of the centre's own path.

@@ -265,6 +265,14 @@ std::string_view unit_for_people(Dimension dimension) {
       return "s";
     case Dimension::time_per_speed:
       return "s/(m/s)";
+    case Dimension::mass:
+      return "kg";
+    case Dimension::area:
+      return "m^2";
+    case Dimension::density:
+      return "kg/m^3";
+    case Dimension::temperature:
+      return "K";
   }
   throw InternalError({"", "a dimension without a unit", "", ""});
 }
