@@ -10,6 +10,7 @@
 #include "app/comparison.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
+#include "app/law_text.hpp"
 #include "app/limits_text.hpp"
 #include "app/option_value.hpp"
 #include "app/progress_line.hpp"
@@ -66,6 +67,7 @@ struct Options {
 
 std::string ride_text(const Motion& motion) {
   if (motion.arrived()) return time_text(motion.travel_time());
+  if (motion.law_end()) return std::string(ride_status(motion));
   return motion.stall() ? "stalls" : "lifts off";
 }
 

@@ -2,6 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include "app/law_text.hpp"
 #include "app/summary.hpp"
 
 #include <utility>
@@ -15,6 +16,8 @@ constexpr int kDigits = 4;
 std::string time_of(const Motion& motion) {
   if (motion.arrived()) return time_text(motion.travel_time());
   if (motion.stall()) return "stalls after " + length_text(motion.stall()->arc_length, kDigits);
+  if (motion.law_end())
+    return std::string(ride_status(motion)) + " after " + length_text(motion.distance(), kDigits);
   return "leaves after " + length_text(motion.lift_off()->arc_length, kDigits);
 }
 
@@ -27,8 +30,9 @@ std::string stall_text(const Track& track, const std::optional<Angle>& stall_ang
   if (!stall_angle) return "at no friction angle below 89.9 deg";
   if (stall_angle->radians() == 0.0) return "even without friction";
   const double margin = stall_angle->radians() - track.motion.body().friction.angle().radians();
-  return "a friction angle of " + angle_text(stall_angle->radians()) + " (margin " + angle_text(margin, 3) +
-         ")";
+  const bool rolls = track.motion.body().law && track.motion.body().law->kind() == "rolling";
+  return (rolls ? "an angle of rolling resistance of " : "a friction angle of ") +
+         angle_text(stall_angle->radians()) + " (margin " + angle_text(margin, 3) + ")";
 }
 
 }  // namespace

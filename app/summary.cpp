@@ -6,6 +6,7 @@
 #include "glissade/core/units.hpp"
 
 #include "app/console.hpp"
+#include "app/law_text.hpp"
 #include "app/limits_text.hpp"
 #include "app/probes_text.hpp"
 #include "app/rides_text.hpp"
@@ -34,11 +35,14 @@ std::string kind_text(const Design& design, const Track& track) {
   const Centerline& centerline = *track.centerline;
   if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline))
     return profile_text(*profile);
+  const bool point = is_sliding_point(track.motion.body());
   if (track.search) return searched_name(design);
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
   if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
-    return "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)\n" +
-           "a body fed at " + speed_text(std::sqrt(curve->p())) + " keeps that speed, for " +
+    const std::string name =
+        "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)";
+    if (!point) return name;
+    return name + "\n" + "a body fed at " + speed_text(std::sqrt(curve->p())) + " keeps that speed, for " +
            time_text(curve->travel_time_at_constant_speed());
   }
   if (centerline.kind() == "no-curvature-load") return "no-curvature-load (for comparison only)";
@@ -84,6 +88,7 @@ std::string ride_lines(const Track& track) {
                                 length_text(motion.stall()->arc_length) + " of " +
                                 length_text(track.centerline->length()));
   }
+  if (motion.law_end()) return labelled("Ride", law_end_text(*motion.law_end()));
   return labelled("Ride", emphasised("leaves the track", Emphasis::bad) + " after " +
                               length_text(motion.lift_off()->arc_length) + " at " +
                               speed_text(motion.lift_off()->speed));
@@ -202,11 +207,7 @@ std::string span_line(const Design& design, const Endpoints& endpoints) {
 }
 
 std::string task_line(const Design& design, const Endpoints& endpoints) {
-  const Friction friction = design.body.friction;
-  const std::string text = span_line(design, endpoints);
-  if (friction.coefficient() == 0.0) return text + ", no friction";
-  return text + ", friction angle " + angle_text(friction.angle().radians()) + " (coefficient " +
-         rounded_text(friction.coefficient(), 4) + ")";
+  return span_line(design, endpoints) + resistance_text(design);
 }
 
 std::string track_summary(const Design& design, const Track& track) {
@@ -215,8 +216,9 @@ std::string track_summary(const Design& design, const Track& track) {
          labelled("Centerline", kind_text(design, track)) + ride_lines(track) +
          labelled("Slope angle", slope_text(track)) +
          labelled("Arc length", length_text(track.centerline->length())) +
-         labelled("Normal load", load_lines(track.motion)) + labelled("Smallest radius", radius_text(track)) +
-         friction_lines(track) + limits_lines(design, track) + probes_lines(design, track);
+         labelled("Normal load", load_lines(track.motion)) + law_lines(design, track) +
+         labelled("Smallest radius", radius_text(track)) + friction_lines(track) +
+         limits_lines(design, track) + probes_lines(design, track);
 }
 
 std::string build_summary(const Design& design, const Build& build) {

@@ -2,6 +2,9 @@
 // they and the Hessian against central differences carried out in the unknowns, and the limits' rows
 // likewise. Steps and differences are the test's; the product has none.
 
+#include "glissade/motion/laws/bulk_stream.hpp"
+#include "glissade/motion/laws/rolling_ball.hpp"
+
 #include "optimize/rows.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/transcription.hpp"
@@ -9,6 +12,8 @@
 
 #include <cmath>
 #include <complex>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -24,10 +29,37 @@ struct Setup {
   Vector z;
 };
 
-Setup make_setup(double entry_speed) {
+/// What rides in a test, and with which name.
+struct Rider {
+  std::string name;
+  double entry_speed = 0.0;
+  LawPtr law;
+  double head_wind = 0.0;
+};
+
+std::vector<Rider> riders() {
+  BallShape ball;
+  ball.radius = 0.3;
+  ball.groove_half_angle = Angle::from_degrees(50.0);
+  StreamShape stream;
+  stream.mass_flow = 500.0;
+  stream.bulk_density = 1000.0;
+  stream.widths = {{0.0, 1.0}, {30.0, 0.7}};
+  return {{"point from rest", 0.0, nullptr},
+          {"point", 2.5, nullptr},
+          {"ball from rest", 0.0, std::make_shared<const RollingBall>(ball)},
+          {"ball", 2.5, std::make_shared<const RollingBall>(ball)},
+          {"wind", 2.5, nullptr, 3.0},
+          {"stream", 2.5, std::make_shared<const BulkStream>(stream)}};
+}
+
+Setup make_setup(const Rider& rider) {
   Problem given;
   given.endpoints = {10.0, 5.0};
+  const double entry_speed = rider.entry_speed;
   given.body = {Friction::from_coefficient(0.2), entry_speed, 0.01};
+  given.body.law = rider.law;
+  given.body.head_wind = rider.head_wind;
   given.high_friction = Friction::from_coefficient(0.3);
   Limits& limits = given.limits;
   limits.lead_in = entry_speed > 0.0 ? 0.7 : 0.0;
@@ -58,11 +90,21 @@ Setup make_setup(double entry_speed) {
 }
 
 /// The same with fine knots, whose turning rates are no unknowns.
-Setup make_fine_setup(double entry_speed) {
-  Setup setup = make_setup(entry_speed);
+Setup make_fine_setup(const Rider& rider) {
+  Setup setup = make_setup(rider);
   setup.mesh.fine = {0.15, 0.2, 0.6, 0.7};
   setup.mesh.fine_turns = {0.2, -0.3, 0.15, 0.1};
   return setup;
+}
+
+/// Every rider, on plain knots and with fine ones.
+std::vector<Setup> setups() {
+  std::vector<Setup> all;
+  for (const Rider& rider : riders()) {
+    all.push_back(make_setup(rider));
+    all.push_back(make_fine_setup(rider));
+  }
+  return all;
 }
 
 // Truncation h^2 f'''/6 and rounding 1e-16/h balance near here.
@@ -162,7 +204,7 @@ TEST_CASE("time and exit speed carry the derivatives that complex steps in long 
   // The transcription's own quadrature is resolved to some 1e-11.
   constexpr double kAgreement = 1e-9;
   constexpr long double kTiny = 1e-30L;
-  const Setup setup = make_setup(0.0);
+  const Setup setup = make_setup(riders().front());
   const Transcription track(setup.mesh);
   const Rows rows(setup.problem, track);
   const State state = rows.state(setup.z, true);
@@ -187,7 +229,7 @@ TEST_CASE("time and exit speed carry the derivatives that complex steps in long 
 }
 
 TEST_CASE("every row and the objective carry their exact gradient") {
-  for (const Setup& setup : {make_setup(0.0), make_setup(2.5), make_fine_setup(0.0), make_fine_setup(2.5)}) {
+  for (const Setup& setup : setups()) {
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);
     const State state = rows.state(setup.z, true);
@@ -225,9 +267,10 @@ TEST_CASE("every row and the objective carry their exact gradient") {
 }
 
 TEST_CASE("a track of fine knots is the clothoid spline that has them all") {
-  const Setup setup = make_fine_setup(2.5);
+  const Rider rider = riders()[1];
+  const Setup setup = make_fine_setup(rider);
   const Transcription track(setup.mesh);
-  Setup spline = make_setup(2.5);
+  Setup spline = make_setup(rider);
   spline.mesh.knots = {0.0, 0.1, 0.15, 0.2, 0.25, 0.5, 0.6, 0.7, 0.8, 1.0};
   const Vector& z = setup.z;
   const auto between = [](double a, double b, double share) { return a + share * (b - a); };
@@ -296,7 +339,7 @@ double hessian_error(const Setup& setup, const Rows& rows, const Vector& equalit
 }  // namespace
 
 TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
-  for (Setup setup : {make_setup(0.0), make_setup(2.5), make_fine_setup(0.0), make_fine_setup(2.5)}) {
+  for (Setup setup : setups()) {
     setup.problem.speed_weight = 0.3;
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);

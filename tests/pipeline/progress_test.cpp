@@ -13,7 +13,7 @@ using namespace glissade;
 TEST_CASE("a build tells each step and what part of the work is done, from none to less than all") {
   const TempDir place;
   const Design design =
-      read_design(designs_path("marble_run.yaml"), {{"export", "[stl, stl-ascii, off, scad, csv]"}});
+      read_design(designs_path("powder_chute.yaml"), {{"export", "[stl, stl-ascii, off, scad, csv]"}});
   std::vector<std::string> stages;
   std::vector<std::optional<double>> fractions;
   RunContext context;

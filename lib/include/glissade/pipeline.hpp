@@ -92,6 +92,10 @@ class LimitsConflict : public InfeasibleError {
 /// range.
 [[nodiscard]] Endpoints endpoints_of(const Design& design);
 
+/// What slides or rolls, as Motion takes it.
+/// @throws InputError if a measure of the body breaks its bound
+[[nodiscard]] Body body_of(const Design& design);
+
 /// A design as the optimiser takes it: run and drop from the start.
 [[nodiscard]] Problem problem_of(const Design& design);
 
@@ -116,7 +120,8 @@ class LimitsConflict : public InfeasibleError {
 /// The friction angle from which on a track's body stalls on it: stall_friction_angle() of the nominal ride.
 [[nodiscard]] std::optional<Angle> stall_angle_of(const Track& track);
 
-/// Design to centerline and motion. With limits, the kind fastest is searched for within them; on other kinds
+/// Design to centerline and motion. With limits, the kind fastest is searched for within them, and so it is for a
+/// body that is not a sliding point; on other kinds
 /// they are checked. A body that stalls or leaves the track is a result, not an error, and so is a broken
 /// limit, or a search that ends early with a track (Track::search).
 /// @throws InputError with everything that check() finds; LimitsConflict if no track keeps the limits;
@@ -128,9 +133,13 @@ class LimitsConflict : public InfeasibleError {
 ///         where the search had another reason (drag, a free finish)
 [[nodiscard]] std::string searched_name(const Design& design);
 
-/// Why a ride is not what was wanted: the body stalls or leaves the track.
+/// Why a ride is not what was wanted: the body stalls or leaves the track, or its law ends.
 /// @return the problem with the place and what is missing there; none if the body arrives
 [[nodiscard]] std::optional<Issue> ride_problem(const Design& design, const Track& track);
+
+/// Where a law holds no longer although the ride goes on: a ball that slips.
+/// @return the problem with the place and what is missing; none where the law holds all along
+[[nodiscard]] std::optional<Issue> law_problem(const Design& design, const Track& track);
 
 /// Why a track is not what its limits ask for.
 /// @return the problem, every broken limit with the place and by how much; none if all are kept

@@ -17,13 +17,14 @@ namespace glissade {
 namespace {
 
 /// One spelling of a unit. Its size in SI units is multiply / divide: of the two one is 1 wherever a decimal
-/// fraction would round, so that 400 mm is the double nearest to 0.4.
+/// fraction would round, so that 400 mm is the double nearest to 0.4. Degrees Celsius count from `zero`.
 struct Unit {
   std::string_view text;
   Dimension dimension;
   double multiply;
   double divide;
   bool listed;  ///< named in messages; further spellings are accepted silently
+  double zero = 0.0;
 };
 
 constexpr std::array kUnits = {
@@ -64,6 +65,23 @@ constexpr std::array kUnits = {
     Unit{"s", Dimension::time, 1.0, 1.0, true},
     Unit{"ms", Dimension::time, 1.0, 1e3, true},
     Unit{"min", Dimension::time, 60.0, 1.0, true},
+    Unit{"kg", Dimension::mass, 1.0, 1.0, true},
+    Unit{"t", Dimension::mass, 1e3, 1.0, true},
+    Unit{"lb", Dimension::mass, 45359237.0, 1e8, true},
+    Unit{"m^2", Dimension::area, 1.0, 1.0, true},
+    Unit{"m2", Dimension::area, 1.0, 1.0, false},
+    Unit{"m\u00b2", Dimension::area, 1.0, 1.0, false},
+    Unit{"cm^2", Dimension::area, 1.0, 1e4, true},
+    Unit{"ft^2", Dimension::area, 9290304.0, 1e8, true},
+    Unit{"kg/m^3", Dimension::density, 1.0, 1.0, true},
+    Unit{"kg/m3", Dimension::density, 1.0, 1.0, false},
+    Unit{"kg/m\u00b3", Dimension::density, 1.0, 1.0, false},
+    Unit{"t/m^3", Dimension::density, 1e3, 1.0, true},
+    Unit{"t/m3", Dimension::density, 1e3, 1.0, false},
+    Unit{"t/m\u00b3", Dimension::density, 1e3, 1.0, false},
+    Unit{"degC", Dimension::temperature, 1.0, 1.0, true, 273.15},
+    Unit{"\u00b0C", Dimension::temperature, 1.0, 1.0, false, 273.15},
+    Unit{"K", Dimension::temperature, 1.0, 1.0, true},
     Unit{"s/(m/s)", Dimension::time_per_speed, 1.0, 1.0, true},
     Unit{"s^2/m", Dimension::time_per_speed, 1.0, 1.0, true},
 };
@@ -90,12 +108,21 @@ std::string_view noun(Dimension dimension) {
       return "time";
     case Dimension::time_per_speed:
       return "time per speed";
+    case Dimension::mass:
+      return "mass";
+    case Dimension::area:
+      return "area";
+    case Dimension::density:
+      return "density";
+    case Dimension::temperature:
+      return "temperature";
   }
   throw InternalError({"", "a dimension without a name", "", ""});
 }
 
 std::string with_article(Dimension dimension) {
-  const bool vowel = dimension == Dimension::angle || dimension == Dimension::acceleration;
+  const bool vowel =
+      dimension == Dimension::angle || dimension == Dimension::acceleration || dimension == Dimension::area;
   return std::string(vowel ? "an " : "a ").append(noun(dimension));
 }
 
@@ -205,7 +232,7 @@ std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimen
   if (unit == nullptr || unit->dimension != dimension) {
     return wrong_unit(name, text, number_text, unit_text, dimension);
   }
-  const double value = number * unit->multiply / unit->divide;
+  const double value = number * unit->multiply / unit->divide + unit->zero;
   if (!std::isfinite(value)) return out_of_range(name, text);
   return value;
 }
@@ -238,6 +265,14 @@ std::string_view unit_for_people(Dimension dimension) {
       return "s";
     case Dimension::time_per_speed:
       return "s/(m/s)";
+    case Dimension::mass:
+      return "kg";
+    case Dimension::area:
+      return "m^2";
+    case Dimension::density:
+      return "kg/m^3";
+    case Dimension::temperature:
+      return "K";
   }
   throw InternalError({"", "a dimension without a unit", "", ""});
 }

@@ -34,6 +34,8 @@ bool is_given(CenterlineKind kind) {
 }
 
 std::string friction_key(const Design& design) {
+  if (design.body.rolling) return "rolling_resistance";
+  if (!design.body.friction_changes.empty()) return "friction";
   return design.locations.contains("body.friction_coefficient") ? "friction_coefficient" : "friction_angle";
 }
 
@@ -87,27 +89,35 @@ Finding too_slow(const Design& design, Friction friction) {
 
 std::optional<Finding> find_unreachable(const Design& design) {
   const TrackDesign& track = design.track;
+  const BodyDesign& body = design.body;
   const double run = run_of(track);
   const double drop = drop_of(track);
-  const Friction friction = design.body.high_friction.value_or(design.body.friction);
+  const Friction friction = least_friction(body);
   const double mu = friction.coefficient();
   if (finish_is_unbounded(track) || is_given(design.centerline.kind)) return {};
-  if (can_arrive({run, drop}, friction, design.body.entry_speed, design.gravity)) return {};
-  if (design.body.entry_speed > 0.0) return too_slow(design, friction);
+  // A wind from behind can blow a body where no slope takes it; with speed, the theorem is told of the sliding point.
+  if (body.head_wind < 0.0 && body.drag_per_metre > 0.0) return {};
+  if (body.entry_speed > 0.0 && !is_sliding_point(body)) return {};
+  // It is about the centre of mass, whose ends lie up to this much more favourably than the track's.
+  const double height = centre_height(body);
+  const double favour = height == 0.0 ? 0.0 : height * (std::sqrt(1.0 + mu * mu) + mu);
+  if (can_arrive({run, drop + favour}, friction, body.entry_speed, design.gravity)) return {};
+  if (body.entry_speed > 0.0) return too_slow(design, friction);
   if (!(drop > 0.0)) return {};
 
   // Hints are rounded to the side on which they hold.
   constexpr double kBelow = 1.0 - 1e-3;
   constexpr double kAbove = 1.0 + 1e-3;
   const std::string key = friction_key(design);
-  const bool by_coefficient = key == "friction_coefficient";
+  const bool by_coefficient = key == "friction_coefficient" || key == "rolling_resistance";
   const double mean_slope = math::atan2(drop, run);
   const auto [angle, slope] = texts_apart(math::atan(mu), mean_slope, &angle_text);
   const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle + ")" : angle;
   const std::string better =
       by_coefficient ? rounded_text(kBelow * drop / run, 4) : angle_text(kBelow * mean_slope);
   Issue issue;
-  issue.what = key + ": " + value + (angle == slope ? " is as steep as" : " is steeper than") +
+  issue.what = key + ": " + value + (key == "friction" ? " at least" : "") +
+               (angle == slope ? " is as steep as" : " is steeper than") +
                " the mean slope from start to finish, " + slope + " (" + drop_over_run(track) + ")";
   issue.why =
       "From rest, no track between these points reaches the finish, whatever its shape (docs/theory.md, "

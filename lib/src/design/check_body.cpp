@@ -1,15 +1,41 @@
+#include "glissade/core/air.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <string>
+#include <numbers>
+#include <utility>
 
-namespace glissade::design_file {
+namespace glissade {
+
+double DragDesign::drag_per_metre() const {
+  const double thickness =
+      density.value_or(air_density(altitude, temperature.value_or(standard_temperature(altitude))));
+  return thickness * drag_area / (2.0 * mass);
+}
+
+namespace design_file {
 namespace {
 
-constexpr double kHighestSpeed = 1e4;  // [m/s]
+constexpr double kHighestSpeed = 1e4;   // [m/s]
+constexpr double kLargestBall = 1e3;    // [m]
+constexpr double kSmallestBall = 1e-6;  // [m]
+constexpr double kHighestWind = 150.0;  // [m/s], beyond any storm
+constexpr double kHeaviest = 1e9;       // [kg]
+constexpr double kFreezing = 273.15;    // [K]
+constexpr double kColdest = kFreezing - 100.0;
+constexpr double kHottest = kFreezing + 100.0;
+
+/// @param value  with its unit, as the message shows it
+void check_range(bool fine, const std::string& key, const std::string& value, const std::string& why,
+                 const std::string& hint, Collected& findings) {
+  if (fine) return;
+  const std::string last = key.substr(key.rfind('.') + 1);
+  report(findings, {key}, {"", last + ": " + value + " is out of range", why, hint});
+}
 
 void check_friction_range(const Design& design, Collected& findings) {
   const BodyDesign& body = design.body;
@@ -26,21 +52,119 @@ void check_friction_range(const Design& design, Collected& findings) {
   }
 }
 
+void check_friction_changes(const Design& design, Collected& findings) {
+  const std::vector<FrictionFrom>& changes = design.body.friction_changes;
+  if (changes.empty()) return;
+  if (changes.front().from != 0.0) {
+    report(findings, {"body.friction.0.from", "body.friction"},
+           {"", "friction: the first entry begins at " + length_text(changes.front().from),
+            "The track rubs from its start on.", "from: 0 m"});
+  }
+  for (std::size_t i = 1; i < changes.size(); ++i) {
+    if (changes[i - 1].from < changes[i].from && std::isfinite(changes[i].from)) continue;
+    report(findings, {"body.friction." + std::to_string(i) + ".from", "body.friction"},
+           {"", "from: " + length_text(changes[i].from) + " after " + length_text(changes[i - 1].from),
+            "Entries stand in the order of the track, each from further on than the one before.", ""});
+  }
+  if (design.centerline.kind != CenterlineKind::fastest) return;
+  report(findings, {"body.friction", "centerline.kind"},
+         {"", "friction: a list, on the kind fastest",
+          "The fastest track is found for one friction along all of it.",
+          "friction_angle or friction_coefficient; or another kind, to see how it rides"});
+}
+
+void check_rolling(const BodyDesign& body, Collected& findings) {
+  const RollingDesign& ball = *body.rolling;
+  check_range(ball.radius >= kSmallestBall && ball.radius <= kLargestBall, "body.radius",
+              length_text(ball.radius), "A ball's radius lies between 0.001 mm and 1 km.", "8 mm", findings);
+  const double angle = ball.groove_half_angle.radians();
+  constexpr double kFlat = std::numbers::pi / 2.0;
+  check_range(angle > 0.0 && angle <= kFlat, "body.groove_half_angle", angle_text(angle),
+              "It lies above 0 and is at most 90 deg, which is a flat floor.",
+              "half the angle between the walls of the groove", findings);
+}
+
+void check_drag_parts(const DragDesign& drag, Collected& findings) {
+  check_range(drag.mass > 0.0 && drag.mass <= kHeaviest, "body.mass", rounded_text(drag.mass, 4) + " kg",
+              "It is positive, and at most 1e9 kg.", "85 kg, with all that moves along", findings);
+  check_range(drag.drag_area >= 0.0 && std::isfinite(drag.drag_area), "body.drag_area",
+              rounded_text(drag.drag_area, 4) + " m^2", "Drag slows the body down.",
+              "drag coefficient x frontal area: 0.25 m^2 of a skier's tuck", findings);
+  check_range(!drag.density || (*drag.density >= 0.0 && std::isfinite(*drag.density)), "body.air.density",
+              rounded_text(drag.density.value_or(0.0), 4) + " kg/m^3", "Air weighs something.", "1.2 kg/m^3",
+              findings);
+  check_range(drag.altitude >= kLowestAltitude && drag.altitude <= kHighestAltitude, "body.air.altitude",
+              length_text(drag.altitude), "It lies between -500 m and 11000 m, in the troposphere.",
+              "metres above sea level", findings);
+  const double temperature = drag.temperature.value_or(kFreezing);
+  check_range(temperature >= kColdest && temperature <= kHottest, "body.air.temperature",
+              rounded_text(temperature - kFreezing, 4) + " degC", "Air is between -100 and 100 degC.",
+              "-5 degC", findings);
+}
+
+void check_drag(const BodyDesign& body, Collected& findings) {
+  if (body.drag) {
+    check_drag_parts(*body.drag, findings);
+  } else if (!(body.drag_per_metre >= 0.0 && std::isfinite(body.drag_per_metre))) {
+    report(findings, {"body.drag"},
+           {"", "drag: " + rounded_text(body.drag_per_metre, 4) + " 1/m is negative",
+            "Drag slows the body down.", "air density x drag coefficient x frontal area / (2 x mass)"});
+  }
+  check_range(std::fabs(body.head_wind) <= kHighestWind, "body.head_wind",
+              rounded_text(body.head_wind, 4) + " m/s", "It lies between -150 m/s, from behind, and 150 m/s.",
+              "3 m/s", findings);
+  if (body.head_wind == 0.0 || body.drag_per_metre != 0.0) return;
+  report(findings, {"body.head_wind"},
+         {"", "head_wind: " + rounded_text(body.head_wind, 4) + " m/s on a body without drag",
+          "Without drag the air does nothing.", "drag, or mass and drag_area"});
+}
+
+void check_closed_forms(const Design& design, Collected& findings) {
+  const bool constant_speed = design.centerline.kind == CenterlineKind::constant_speed;
+  if (!constant_speed || is_sliding_point(design.body) || design.centerline.constant_speed_p) return;
+  report(findings, {"centerline.kind", "body"},
+         {"", "constant-speed without p, for a body that is not a sliding point",
+          "The p with the least travel time is known for the sliding point alone.",
+          "p: 9 m^2/s^2, the square of the speed"});
+}
+
 }  // namespace
 
+Friction least_friction(const BodyDesign& body) {
+  Friction least = body.high_friction.value_or(body.friction);
+  for (const FrictionFrom& change : body.friction_changes) least = std::min(least, change.friction);
+  return least;
+}
+
+bool is_sliding_point(const BodyDesign& body) {
+  return !body.rolling && centre_height(body) == 0.0 && body.friction_changes.empty() &&
+         body.head_wind == 0.0;
+}
+
+double centre_height(const BodyDesign& body) {
+  if (body.centre_height) return *body.centre_height;
+  return body.rolling ? body.rolling->radius : 0.0;
+}
+
 void check_body(const Design& design, Collected& findings) {
-  check_friction_range(design, findings);
   const BodyDesign& body = design.body;
+  check_friction_range(design, findings);
+  check_friction_changes(design, findings);
+  if (body.rolling) check_rolling(body, findings);
+  if (body.centre_height) {
+    const double height = *body.centre_height;
+    const bool fine =
+        std::isfinite(height) && height <= kLargestBall && (body.rolling ? height > 0.0 : height >= 0.0);
+    check_range(fine, "body.centre_height", length_text(height),
+                "The centre of mass lies above the track, by at most 1 km.", "0.6 m of a skier", findings);
+  }
   if (!(body.entry_speed >= 0.0 && body.entry_speed <= kHighestSpeed)) {
     report(findings, {"body.entry_speed"},
            {"", "entry_speed: " + rounded_text(body.entry_speed, 4) + " m/s is out of range",
             "It lies between 0 and 10000 m/s.", "0 m/s, or no entry_speed, for a start from rest"});
   }
-  if (!(body.drag_per_metre >= 0.0 && std::isfinite(body.drag_per_metre))) {
-    report(findings, {"body.drag"},
-           {"", "drag: " + rounded_text(body.drag_per_metre, 4) + " 1/m is negative",
-            "Drag slows the body down.", "air density x drag coefficient x frontal area / (2 x mass)"});
-  }
+  check_drag(body, findings);
+  check_closed_forms(design, findings);
   if (!(design.gravity > 0.0 && design.gravity <= 1e4)) {
     report(findings, {"gravity"},
            {"", "gravity: " + rounded_text(design.gravity, 4) + " m/s^2 is out of range",
@@ -48,4 +172,5 @@ void check_body(const Design& design, Collected& findings) {
   }
 }
 
-}  // namespace glissade::design_file
+}  // namespace design_file
+}  // namespace glissade

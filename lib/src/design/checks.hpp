@@ -41,7 +41,13 @@ inline void report(Collected& findings, std::vector<std::string> key_paths, Issu
 /// Whether a track of this kind is drawn by the design, and not found by Glissade.
 [[nodiscard]] bool is_given(CenterlineKind kind);
 
-/// @return the key that the design gives its friction by
+/// @return the key by which the design says what resists: "friction_angle", "rolling_resistance", ...
 [[nodiscard]] std::string friction_key(const Design& design);
+/// @return what resists least anywhere on the track, at the highest friction of a range
+[[nodiscard]] Friction least_friction(const BodyDesign& body);
+/// @return height of the centre of mass above the track [m]
+[[nodiscard]] double centre_height(const BodyDesign& body);
+/// @return true for what the closed forms of the fastest and the constant-speed track are about
+[[nodiscard]] bool is_sliding_point(const BodyDesign& body);
 
 }  // namespace glissade::design_file

@@ -3,6 +3,7 @@
 #include "glissade/core/words.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <optional>
@@ -64,13 +65,16 @@ Node* step(Node& node, const std::string& part, Position position) {
 
 void drop_alternative(Node& root, const std::vector<std::string>& parts) {
   if (parts.size() != 2 || parts[0] != "body") return;
-  std::string_view other;
-  if (parts[1] == "friction_angle") other = "friction_coefficient";
-  if (parts[1] == "friction_coefficient") other = "friction_angle";
+  constexpr std::array<std::string_view, 3> kFrictions = {"friction_angle", "friction_coefficient",
+                                                          "friction"};
+  const auto is_friction = [&](std::string_view key) {
+    return std::find(kFrictions.begin(), kFrictions.end(), key) != kFrictions.end();
+  };
   Entry* const body = find_entry(root, "body");
-  if (other.empty() || body == nullptr) return;
-  std::erase_if(body->value.entries,
-                [&](const Entry& entry) { return entry.key == other && entry.key_at.override_index < 0; });
+  if (!is_friction(parts[1]) || body == nullptr) return;
+  std::erase_if(body->value.entries, [&](const Entry& entry) {
+    return is_friction(entry.key) && entry.key != parts[1] && entry.key_at.override_index < 0;
+  });
 }
 
 std::optional<Node> parse_value(const Override& change, Position position, Findings& findings) {

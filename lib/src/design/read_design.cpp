@@ -8,6 +8,7 @@
 #include "design/findings.hpp"
 #include "design/map_reader.hpp"
 #include "design/overrides.hpp"
+#include "design/read_body.hpp"
 #include "design/read_limits.hpp"
 #include "design/read_probes.hpp"
 #include "design/schema_words.hpp"
@@ -132,76 +133,6 @@ TrackDesign read_track(MapReader& top, bool finish_may_follow, Findings& finding
   if (finish) read_finish(*finish, track, findings);
   map.refuse_unknown_keys();
   return track;
-}
-
-/// A friction angle or coefficient: one value, or a range with a nominal value.
-struct FrictionValues {
-  std::optional<double> low;
-  std::optional<double> nominal;
-  std::optional<double> high;
-};
-
-FrictionValues read_friction_values(const Value& value, Dimension dimension, Findings& findings) {
-  FrictionValues values;
-  if (value.node->kind != Node::Kind::map) {
-    values.nominal = as_quantity(value, dimension, findings);
-    return values;
-  }
-  MapReader map(value, "A friction range", "", findings);
-  map.expect({"low", "nominal", "high"});
-  values.nominal =
-      map.needed_quantity("nominal", dimension, "nominal: the value that the objective is taken at");
-  values.low = map.quantity("low", dimension);
-  values.high = map.quantity("high", dimension);
-  map.refuse_unknown_keys();
-  return values;
-}
-
-std::optional<Friction> to_friction(const std::optional<double>& value, bool by_coefficient,
-                                    const std::string& key_path, Findings& findings) {
-  if (!value) return {};
-  try {
-    return by_coefficient ? Friction::from_coefficient(*value)
-                          : Friction::from_angle(Angle::from_radians(*value));
-  } catch (const InputError& error) {
-    findings.add(findings.position(key_path), key_path, error.issues().front());
-    return {};
-  }
-}
-
-void read_friction(MapReader& map, BodyDesign& body, Findings& findings) {
-  const bool by_coefficient = map.has("friction_coefficient");
-  if (by_coefficient && map.has("friction_angle")) {
-    findings.add(findings.position(map.path_of("")), map.path_of("friction_angle"),
-                 {"", "both friction_angle and friction_coefficient are given",
-                  "They say the same: the coefficient is the tangent of the angle.", "one of the two"});
-  }
-  const auto coefficient = map.find("friction_coefficient");
-  const auto angle =
-      by_coefficient ? map.find("friction_angle")
-                     : map.need("friction_angle", "friction_angle: 17 deg, or friction_coefficient: 0.306");
-  if (coefficient && angle) static_cast<void>(read_friction_values(*angle, Dimension::angle, findings));
-  const std::optional<Value>& value = coefficient ? coefficient : angle;
-  if (!value) return;
-  const FrictionValues values =
-      read_friction_values(*value, coefficient ? Dimension::number : Dimension::angle, findings);
-  const std::string path = value->key_path;
-  body.friction = to_friction(values.nominal, by_coefficient, path, findings).value_or(Friction{});
-  body.low_friction = to_friction(values.low, by_coefficient, path + ".low", findings);
-  body.high_friction = to_friction(values.high, by_coefficient, path + ".high", findings);
-}
-
-BodyDesign read_body(MapReader& top, Findings& findings) {
-  BodyDesign body;
-  const std::optional<Value> value = top.need("body", "body: {friction_angle: 17 deg}");
-  if (!value) return body;
-  MapReader map(*value, "A body", "{friction_angle: 17 deg}", findings);
-  map.expect({"friction_angle", "friction_coefficient", "entry_speed", "drag"});
-  read_friction(map, body, findings);
-  body.entry_speed = map.quantity("entry_speed", Dimension::speed).value_or(0.0);
-  body.drag_per_metre = map.quantity("drag", Dimension::per_length).value_or(0.0);
-  map.refuse_unknown_keys();
-  return body;
 }
 
 SegmentDesign read_segment(const Value& value, Findings& findings) {
@@ -427,7 +358,7 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   if (!top.readable()) return design;
   top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "probes",
               "cross_section", "mesh", "export"});
-  for (const std::string_view key : {"friction_angle", "friction_coefficient", "entry_speed", "drag"}) {
+  for (const std::string_view key : body_keys()) {
     top.add_stranger(key, "two spaces before it, below body:");
   }
   for (const std::string_view key : {"start", "finish"})

@@ -81,8 +81,14 @@ track:
   start: {x: 0 mm, z: 120 mm}
   finish: {x: 200 mm, z: 0 mm}
 body:
-  friction_coefficient: 0.02
+  kind: rolling
+  radius: 8 mm
+  rolling_resistance: 0.01             # force over load, of a steel marble on a printed track
+  friction_coefficient: 0.3            # while it slips: what keeps it rolling
 centerline: {kind: fastest}
+limits:
+  slope_angle: {lowest: 0 deg, highest: 42 deg}  # steeper, it would slip: rolling needs 2/7 tan(slope)
+  smallest_valley_radius: 40 mm
 cross_section:
   kind: polygon                        # [across, height]; [0 mm, 0 mm] is the centerline, on the floor
   outline:

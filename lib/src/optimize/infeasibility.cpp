@@ -94,14 +94,21 @@ Conflict too_slow(const Problem& problem, Friction friction) {
 }  // namespace
 
 std::optional<Conflict> beyond_reach(const Problem& problem) {
-  if (problem.finish.kind != FinishKind::point || !is_sliding_point(problem.body)) return std::nullopt;
+  if (problem.finish.kind != FinishKind::point) return std::nullopt;
   const Friction friction = problem.high_friction.value_or(problem.body.friction);
   if (problem.body.entry_speed > 0.0) {
+    // With speed, the theorem is told of the sliding point.
+    if (!is_sliding_point(problem.body)) return std::nullopt;
     const bool arrives = can_arrive(problem.endpoints, friction, problem.body.entry_speed, problem.gravity);
     return arrives ? std::nullopt : std::optional(too_slow(problem, friction));
   }
   const double run = std::fabs(problem.endpoints.run);
-  if (problem.endpoints.drop > friction.coefficient() * run) return std::nullopt;
+  const double mu = friction.coefficient();
+  // The theorem is about the centre of mass, whose ends lie up to this much more favourably than the track's.
+  const double height = problem.body.law ? problem.body.law->centre_height() : 0.0;
+  const double favour = height == 0.0 ? 0.0 : height * (std::sqrt(1.0 + mu * mu) + mu);
+  if (problem.endpoints.drop + favour > mu * run) return std::nullopt;
+  if (problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0) return std::nullopt;
   Conflict conflict;
   conflict.limits = {{{LimitId::friction}, {}}, {{LimitId::finish}, {}}};
   conflict.relaxations.push_back(

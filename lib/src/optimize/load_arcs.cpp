@@ -40,7 +40,10 @@ double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const 
   const LimitSpec& spec = problem.limits[limit];
   const double bound = spec.bound - spec.side * rows.margins()[limit] * spec.scale;
   const double weight = spec.measure == Measure::normal_load ? state.shape.cos[station] : 0.0;
-  const auto at_ride = [&](std::size_t ride) { return (bound - weight) / state.flows[ride].v[station]; };
+  const auto at_ride = [&](std::size_t ride) {
+    const double of_centre = (bound - weight) / state.flows[ride].v[station];
+    return of_centre / (1.0 + of_centre * problem.rides[ride].height);
+  };
   const double first = at_ride(0);
   // The rides at which the limit is held are those of Rows::candidates.
   if (spec.side > 0 || problem.rides.size() == 1) return first;

@@ -176,7 +176,8 @@ class Searcher {
   [[nodiscard]] bool is_unlimited() const {
     Limits limits;
     return problem_.limits == limits && problem_.finish.kind == FinishKind::point &&
-           problem_.body.entry_speed == 0.0 && problem_.objective.kind == ObjectiveKind::travel_time;
+           problem_.body.entry_speed == 0.0 && problem_.objective.kind == ObjectiveKind::travel_time &&
+           is_sliding_point(problem_.body);
   }
 
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const {

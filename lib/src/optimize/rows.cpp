@@ -161,6 +161,11 @@ void Rows::equalities(const State& state, Vector& value, Matrix& jacobian) const
   }
 }
 
+Ride::CurvatureLoad Rows::curvature_load(const State& state, const Row& row) const {
+  return problem_.rides[row.ride].curvature_load(state.shape.curvature[row.place],
+                                                 state.flows[row.ride].v[row.place]);
+}
+
 double Rows::measure(const State& state, const LimitSpec& limit, const Row& row) const {
   const Shape& shape = state.shape;
   const Layout& layout = track_.layout();
@@ -179,9 +184,9 @@ double Rows::measure(const State& state, const LimitSpec& limit, const Row& row)
              ((knots[row.place + 1] - knots[row.place]) * length * length);
     }
     case Measure::normal_load:
-      return shape.cos[row.place] + shape.curvature[row.place] * state.flows[row.ride].v[row.place];
+      return shape.cos[row.place] + curvature_load(state, row).value;
     case Measure::curvature_load:
-      return shape.curvature[row.place] * state.flows[row.ride].v[row.place];
+      return curvature_load(state, row).value;
     case Measure::speed:
     case Measure::exit_speed:
       return state.flows[row.ride].v[row.place];
@@ -222,11 +227,12 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
   const auto add_load = [&](bool weight) {
     const Flow& flow = state.flows[row.ride];
     const double curvature = shape.curvature[row.place];
+    const Ride::CurvatureLoad load = curvature_load(state, row);
     if (weight) add_scaled(out, -shape.sin[row.place], track_.dzeta(row.place), n);
-    add_scaled(out, curvature, flow.dv.row(row.place), n);
+    add_scaled(out, load.by_v, flow.dv.row(row.place), n);
     const Station& station = track_.stations()[row.place];
     if (station.part != Part::core) return;
-    const double v = flow.v[row.place];
+    const double v = load.by_curvature;
     out[layout.turn(station.piece)] += v * (1.0 - station.share) / length;
     out[layout.turn(station.piece + 1)] += v * station.share / length;
     out[layout.length()] -= v * curvature / length;
@@ -449,10 +455,10 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
   switch (limit.measure) {
     case Measure::normal_load:
       weights.zeta_zeta[row.place] -= factor * shape.cos[row.place];
-      weights.v[row.ride][row.place] += factor * shape.curvature[row.place];
+      weights.v[row.ride][row.place] += factor * curvature_load(state, row).by_v;
       return;
     case Measure::curvature_load:
-      weights.v[row.ride][row.place] += factor * shape.curvature[row.place];
+      weights.v[row.ride][row.place] += factor * curvature_load(state, row).by_v;
       return;
     case Measure::speed:
     case Measure::exit_speed:
@@ -572,9 +578,13 @@ void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Ro
       by_curvature[layout.turn(station.piece + 1)] = station.share / length;
       by_curvature[at_length] = -curvature / length;
       const double* dv = flow.dv.row(row.place);
-      add_symmetric(hessian, factor, by_curvature, Vector(dv, dv + n));
+      const Ride::CurvatureLoad load = curvature_load(state, row);
+      add_symmetric(hessian, factor * load.by_curvature_v, by_curvature, Vector(dv, dv + n));
+      if (load.by_curvature_curvature != 0.0) {
+        add_symmetric(hessian, 0.5 * factor * load.by_curvature_curvature, by_curvature, by_curvature);
+      }
       add_curvature_terms(hessian, layout.turn(station.piece), 1.0 - station.share, station.share, at_length,
-                          curvature, length, factor * flow.v[row.place]);
+                          curvature, length, factor * load.by_curvature);
       return;
     }
     case Measure::curvature: {

@@ -71,6 +71,7 @@ class Rows {
 
  private:
   [[nodiscard]] Row row_of_equality(std::size_t index) const;
+  [[nodiscard]] Ride::CurvatureLoad curvature_load(const State& state, const Row& row) const;
   [[nodiscard]] double measure(const State& state, const LimitSpec& limit, const Row& row) const;
   void measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
   void add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,

@@ -226,6 +226,20 @@ void add_obstacles(const Limits& limits, const Passages& passages, LimitList& li
   }
 }
 
+Ride scaled_ride(const Body& body, double friction, const ScaledProblem& units) {
+  Ride ride;
+  ride.friction = friction;
+  ride.entry_speed2 = units.entry_speed2;
+  ride.drag = units.drag;
+  // Without drag there is no air to feel.
+  if (units.drag > 0.0) ride.head_wind = body.head_wind / units.speed;
+  if (!body.law) return ride;
+  ride.gain = 2.0 / body.law->inertia();
+  ride.height = body.law->centre_height() / units.chord;
+  if (body.law->depends_on_speed()) ride.law = body.law->in_units(units.chord, units.speed);
+  return ride;
+}
+
 void add_limits(const Problem& problem, const Passages& passages, ScaledProblem& out) {
   const Limits& limits = problem.limits;
   LimitList list(problem, out);
@@ -239,6 +253,17 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   }
   if (!limits.slope_angle.lowest) {
     list.add_built_in(LimitId::no_climb_beyond_vertical, Measure::slope_angle, -kUpright);
+  }
+  // In a valley hardly wider than the body is high its centre hardly moves and is pressed without bound: a ball
+  // would roll up the tightest bend there is to touch the finish. Unless a radius is asked for, it is at least
+  // twice the height.
+  constexpr double kFits = 0.98;
+  constexpr double kFitsWell = 0.5;
+  const double height = out.rides.front().height;
+  if (height > 0.0) {
+    list.add_built_in(LimitId::room_for_body, Measure::curvature,
+                      (limits.smallest_valley_radius ? kFits : kFitsWell) / height);
+    out.limits.back().scale = out.limits.back().bound;
   }
   // No track is shorter than a chord; none that is worth building is many times longer.
   constexpr double kShortest = 0.9;
@@ -287,7 +312,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   if (problem.high_friction) frictions.push_back(problem.high_friction->coefficient());
   std::sort(frictions.begin(), frictions.end());
   frictions.erase(std::unique(frictions.begin(), frictions.end()), frictions.end());
-  for (const double mu : frictions) out.rides.push_back({mu, out.entry_speed2, out.drag});
+  for (const double mu : frictions) out.rides.push_back(scaled_ride(problem.body, mu, out));
   const auto nominal = std::find(frictions.begin(), frictions.end(), problem.body.friction.coefficient());
   out.nominal_ride = static_cast<std::size_t>(nominal - frictions.begin());
   out.objective_ride = problem.objective.worst_case ? frictions.size() - 1 : out.nominal_ride;
@@ -328,6 +353,11 @@ void require_valid(const OptimizeOptions& options) {
 
 void require_searchable(const Problem& problem) {
   require_valid(problem);
+  if (!problem.body.friction_changes.empty()) {
+    throw InputError({"", "body.friction_changes: friction that changes along the track",
+                      "A search knows one friction for all of it.",
+                      "one friction, or a track that is given"});
+  }
   if (problem.limits.lowest_normal_load) return;
   throw InputError({"", "lowest_normal_load is lifted",
                     "The friction of a body held from both sides is not modelled.", "0 or a positive value"});
@@ -340,6 +370,7 @@ Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
   mesh.lead_out = problem.lead_out;
   mesh.core_length = core_length;
   mesh.entry_speed2 = problem.entry_speed2;
+  mesh.centre_height = problem.rides.front().height;
   return mesh;
 }
 

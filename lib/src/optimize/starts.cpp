@@ -60,6 +60,17 @@ GuessCurve clipped(GuessCurve curve, const ScaledProblem& problem) {
   return curve;
 }
 
+/// Turning no faster than the body fits into.
+GuessCurve widened(GuessCurve curve, double height) {
+  constexpr double kShare = 0.5;  // of the curvature at which it no longer fits
+  if (height == 0.0) return curve;
+  for (std::size_t i = curve.sigma.size() - 1; i-- > 0;) {
+    const double ds = (curve.sigma[i + 1] - curve.sigma[i]) * curve.length;
+    curve.zeta[i] = std::min(curve.zeta[i], curve.zeta[i + 1] + kShare * ds / height);
+  }
+  return curve;
+}
+
 }  // namespace
 
 std::vector<GuessCurve> starts(const ScaledProblem& problem) {
@@ -77,6 +88,7 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
     curves.push_back(clipped(curves.front(), problem));
   }
   curves.push_back(straight(finish));
+  for (GuessCurve& curve : curves) curve = widened(std::move(curve), problem.rides.front().height);
   for (GuessCurve& curve : curves) curve.length = std::max(curve.length - ends, 0.2 * curve.length);
   return curves;
 }

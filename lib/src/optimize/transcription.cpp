@@ -205,8 +205,15 @@ bool Transcription::is_track(const Vector& z) const {
   constexpr double kSteepest = 3.0;
   constexpr double kShortest = 0.01;
   constexpr double kLongest = 100.0;
+  constexpr double kTightest = 0.999;  // curvature times height: at 1 the body does not fit in
   const double length = z[layout_.length()];
   if (!(length > kShortest && length < kLongest)) return false;
+  for (std::size_t i = 0; i < layout_.knots; ++i) {
+    if (!(z[layout_.turn(i)] * mesh_.centre_height < kTightest * length)) return false;
+  }
+  for (std::size_t i = 0; i < fine_.size(); ++i) {
+    if (!(fine_turn(z, i) * mesh_.centre_height < kTightest * length)) return false;
+  }
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const double zeta = dot(dzeta_.row(i), z.data(), layout_.size()) + station_angle_[i];
     if (!(std::fabs(zeta) < kSteepest)) return false;
@@ -386,8 +393,13 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
   }
 }
 
+double Transcription::slowest(const Ride& ride, std::size_t station) const {
+  return kSlowest * (stations_[station].arc_length(mesh_.core_length) + 0.5 * ride.entry_speed2);
+}
+
 void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
                          bool derivatives) const {
+  if (!ride.sliding_point()) return law_flow(z, shape, ride, out, derivatives);
   const PanelRule& rule = panel_rule();
   const std::size_t count = stations_.size();
   const std::size_t n = layout_.size();
@@ -470,15 +482,6 @@ void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, 
     }
   }
 }
-
-/// What a Hessian is made of: at each station multiples of dzeta dzeta, of dzeta dv + dv dzeta and of dv dv, and
-/// one row and column of the length.
-struct Transcription::HessianParts {
-  Vector zeta_zeta;
-  std::vector<Vector> zeta_v;  ///< for each ride
-  std::vector<Vector> v_v;
-  Vector length;  ///< enters as e_L a^T + a e_L^T
-};
 
 void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
                                     HessianParts& parts) const {
@@ -593,7 +596,12 @@ Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::ve
   parts.length.assign(n, 0.0);
   add_shape_parts(z, shape, weights, parts);
   for (std::size_t r = 0; r < rides.size(); ++r) {
-    if (flows[r].dv.rows() > 0) add_flow_parts(z, shape, rides[r], flows[r], weights, r, parts);
+    if (flows[r].dv.rows() == 0) continue;
+    if (rides[r].sliding_point()) {
+      add_flow_parts(z, shape, rides[r], flows[r], weights, r, parts);
+    } else {
+      add_law_parts(z, shape, rides[r], flows[r], weights, r, parts);
+    }
   }
 
   Matrix h(n, n);
@@ -621,6 +629,9 @@ Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::ve
   }
   for (std::size_t j = 0; j < n; ++j) h(at_length, j) += parts.length[j];
   h(at_length, at_length) += parts.length[at_length];
+  for (std::size_t i = 0; i < parts.curvature.rows(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) h(i, j) += parts.curvature(i, j) + parts.curvature(j, i);
+  }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) h(j, i) = h(i, j);
   }

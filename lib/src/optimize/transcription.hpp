@@ -1,5 +1,7 @@
 #pragma once
 
+#include "glissade/motion/law.hpp"
+
 #include "optimize/dense.hpp"
 
 #include <cstddef>
@@ -34,6 +36,7 @@ struct Mesh {
   double lead_out = 0.0;     ///< straight after it
   double core_length = 1.0;  ///< of the guess: places the nodes of the substitution only
   double entry_speed2 = 0.0;
+  double centre_height = 0.0;  ///< of the body: no track turns upwards more tightly
 };
 
 enum class Part { lead_in, core, lead_out };
@@ -54,6 +57,30 @@ struct Ride {
   double friction = 0.0;      ///< mu
   double entry_speed2 = 0.0;  ///< v at the start
   double drag = 0.0;          ///< k [1/chord]
+  double gain = 2.0;          ///< 2/f
+  double height = 0.0;        ///< h, of the centre of mass above the track [chords]
+  double head_wind = 0.0;     ///< [sqrt(gravity chord)]
+  LawPtr law = nullptr;       ///< where c depends on the speed, in these units; none otherwise
+
+  /// kappa v/(1 - kappa h): what curvature adds to the load, and its derivatives.
+  struct CurvatureLoad {
+    double value = 0.0;
+    double by_curvature = 0.0;
+    double by_v = 0.0;
+    double by_curvature_curvature = 0.0;
+    double by_curvature_v = 1.0;
+  };
+  [[nodiscard]] CurvatureLoad curvature_load(double curvature, double v) const {
+    if (height == 0.0) return {curvature * v, v, curvature, 0.0, 1.0};
+    const double path = 1.0 - curvature * height;
+    return {curvature * v / path, v / (path * path), curvature / path,
+            2.0 * height * v / (path * path * path), 1.0 / (path * path)};
+  }
+
+  /// Coulomb's law, whose flow has a closed integrating factor.
+  [[nodiscard]] bool sliding_point() const {
+    return gain == 2.0 && height == 0.0 && head_wind == 0.0 && law == nullptr;
+  }
 };
 
 /// A further knot of the curvature, between two that are unknowns.
@@ -144,7 +171,21 @@ class Transcription {
     Part part = Part::core;
     double ds[8] = {};  ///< ds/dtau at the nodes, per core length or absolute
   };
-  struct HessianParts;
+  /// What a Hessian is made of: at each station multiples of dzeta dzeta, of dzeta dv + dv dzeta and of dv dv, and
+  /// one row and column of the length.
+  struct HessianParts {
+    Vector zeta_zeta;
+    std::vector<Vector> zeta_v;  ///< for each ride
+    std::vector<Vector> v_v;
+    Vector length;  ///< enters as e_L a^T + a e_L^T
+    Matrix
+        curvature;  ///< its rows a of the unknowns that curvature depends on enter as e a^T + a e^T; of laws
+  };
+  /// Flow of any law: collocation at the panels' nodes, exact derivatives through its equations (law_flow.cpp).
+  void law_flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out, bool derivatives) const;
+  void add_law_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
+                     const StationWeights& weights, std::size_t index, HessianParts& parts) const;
+  [[nodiscard]] double slowest(const Ride& ride, std::size_t station) const;
   void add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
                        HessianParts& parts) const;
   void add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,

@@ -40,9 +40,8 @@ std::vector<RangeRide> rides_of_range(const Design& design, const CenterlinePtr&
   std::vector<RangeRide> rides;
   const auto add = [&](FrictionLevel level, const std::optional<Friction>& friction) {
     if (!friction) return;
-    const Body body{.friction = *friction,
-                    .entry_speed = design.body.entry_speed,
-                    .drag_per_metre = design.body.drag_per_metre};
+    Body body = body_of(design);
+    body.friction = *friction;
     rides.push_back({level, Motion(centerline, body, design.gravity)});
   };
   add(FrictionLevel::low, design.body.low_friction);

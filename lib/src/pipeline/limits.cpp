@@ -169,7 +169,7 @@ Problem problem_of(const Design& design) {
   Problem problem;
   problem.endpoints = endpoints_of(design);
   problem.finish = finish_of(design.track);
-  problem.body = {design.body.friction, design.body.entry_speed, design.body.drag_per_metre};
+  problem.body = body_of(design);
   problem.low_friction = design.body.low_friction;
   problem.high_friction = design.body.high_friction;
   problem.gravity = design.gravity;

@@ -1,5 +1,6 @@
 #include "pipeline/report.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/pipeline/probes.hpp"
@@ -44,10 +45,16 @@ ReportCheck contact(const Track& track) {
 ReportCheck energy(const Track& track, double gravity) {
   const Motion& motion = track.motion;
   const MotionState end = motion.at(motion.distance());
-  const double drop = track.centerline->at(motion.distance()).drop;
+  const LawPtr& law = motion.body().law;
+  const double inertia = law ? law->inertia() : 1.0;
+  const double rise =
+      law ? law->centre_height() * (math::cos(track.centerline->slope_angle(motion.distance())) -
+                                    math::cos(track.centerline->slope_angle(0.0)))
+          : 0.0;
+  const double drop = track.centerline->at(motion.distance()).drop - rise;
   const double entry = motion.body().entry_speed;
-  const double given = gravity * drop + 0.5 * entry * entry;
-  const double found = 0.5 * end.speed * end.speed + end.friction_loss + end.drag_loss;
+  const double given = gravity * drop + 0.5 * inertia * entry * entry;
+  const double found = 0.5 * inertia * end.speed * end.speed + end.friction_loss + end.drag_loss;
   const double scale = std::fabs(given) + end.friction_loss + end.drag_loss;
   const double error = std::fabs(found - given) / scale;
   return {"Energy is accounted for", verdict(error <= kAgreement),
@@ -58,7 +65,8 @@ ReportCheck energy(const Track& track, double gravity) {
 ReportCheck optimality(const Track& track) {
   const std::string name = "No faster than the exact optimum";
   if (!track.optimum_travel_time) {
-    return {name, Verdict::not_checked, "the exact optimum is known from rest and without drag only"};
+    return {name, Verdict::not_checked,
+            "the exact optimum is known for a sliding point, from rest and without drag only"};
   }
   const double excess = track.motion.travel_time() / *track.optimum_travel_time - 1.0;
   if (track.centerline->kind() == "fastest") {
@@ -68,6 +76,22 @@ ReportCheck optimality(const Track& track) {
   }
   return {name, verdict(excess >= -kAgreement),
           "travel time is " + rounded_text(100.0 * excess, 3) + " % above the closed form of the optimum"};
+}
+
+/// Whether a ball rolls all the way; fail where it slips.
+std::optional<ReportCheck> rolling(const Design& design, const Track& track) {
+  if (!design.body.rolling) return {};
+  const QuantityPeak peak = track.motion.highest(0);
+  const std::string needed =
+      std::isinf(peak.value) ? "friction without bound" : "friction of " + rounded_text(peak.value, 3);
+  const std::string place = " at s = " + length_text(peak.arc_length);
+  const std::optional<Friction>& grip = design.body.rolling->grip;
+  const std::string name = "The ball rolls and does not slip";
+  if (!grip)
+    return ReportCheck{name, Verdict::not_checked,
+                       "it needs " + needed + place + "; the design does not say what there is"};
+  return ReportCheck{name, verdict(!peak.beyond_from),
+                     "it needs " + needed + place + ", there is " + rounded_text(grip->coefficient(), 3)};
 }
 
 ReportCheck watertight(const MeshFacts& facts, const Solid& solid) {
@@ -157,6 +181,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
                   deviation(design, build.max_deviation),
                   read_back(build.read_back_files)};
   if (track.search) input.checks.insert(input.checks.begin() + 4, search(design, *track.search));
+  if (const auto rolls = rolling(design, track)) input.checks.insert(input.checks.begin() + 3, *rolls);
   return input;
 }
 

@@ -11,6 +11,7 @@
 #include "glissade/io/profile_csv.hpp"
 #include "glissade/pipeline.hpp"
 
+#include "pipeline/body.hpp"
 #include "pipeline/extremes.hpp"
 #include "pipeline/friction_range.hpp"
 #include "pipeline/limits.hpp"
@@ -120,10 +121,6 @@ bool has_closed_optimum(const Body& body) {
   return is_sliding_point(body) && body.drag_per_metre == 0.0;
 }
 
-Body body_of(const Design& design) {
-  return {design.body.friction, design.body.entry_speed, design.body.drag_per_metre};
-}
-
 }  // namespace
 
 std::optional<double> Track::straight_travel_time() const {
@@ -182,7 +179,8 @@ Track ride(const Design& design, CenterlinePtr centerline) {
 Track solve(const Design& design, const RunContext& context) {
   require_sound(design);
   if (context.progress) context.progress("finding the track", {});
-  // The closed form knows neither limits, nor a finish that it may choose, nor drag.
+  // The closed form knows neither limits, nor a finish that it may choose, nor drag, nor bodies but the sliding
+  // point.
   const bool searched =
       design.limits || design.track.free_finish != FinishKind::point || !has_closed_optimum(body_of(design));
   if (!searched || design.centerline.kind != CenterlineKind::fastest) {
@@ -211,8 +209,8 @@ std::optional<Issue> problem_of_ride(const Design& design, const Track& track, c
                                   : "the body stalls after " + length_text(stall->arc_length);
     return Issue{design.where("centerline"), when + place + ", before the finish at " + length_text(length),
                  "The slope angle there is " + angle_text(track.centerline->slope_angle(stall->arc_length)) +
-                     ", " + angle_text(stall->missing_slope) + " less than the friction angle, " +
-                     angle_text(motion.body().friction.angle().radians()) + ".",
+                     ", " + angle_text(stall->missing_slope) + " less than " +
+                     friction_text(motion.body(), *stall) + ".",
                  std::string("a steeper track, less friction, or ") +
                      (design.body.entry_speed > 0.0 ? "a higher entry_speed" : "an entry_speed")};
   }
@@ -225,6 +223,7 @@ std::optional<Issue> problem_of_ride(const Design& design, const Track& track, c
                      ", tighter than gravity can make it follow.",
                  "a larger radius at that crest, or less speed"};
   }
+  if (const auto& end = motion.law_end()) return law_end_problem(design, *end, length);
   return {};
 }
 

@@ -198,7 +198,7 @@ class Watches {
   void at_state(const MotionState& state, const CenterlinePoint& point) {
     const double s = state.arc_length;
     // Unbounded curvature at a start from rest loads the track all the same no more than finitely.
-    const double curvature_load = std::isfinite(point.curvature)
+    const double curvature_load = std::isfinite(point.curvature) && !problem_.body.law
                                       ? point.curvature * state.speed * state.speed
                                       : state.normal_load - problem_.gravity * math::cos(point.slope_angle);
     see(LimitId::highest_normal_load, state.normal_load, s);
@@ -480,6 +480,7 @@ Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int sa
       judgement.arrived = false;
       if (motion.lift_off()) judgement.lift_off = motion.lift_off()->arc_length;
       if (motion.stall()) judgement.stall = motion.stall()->arc_length;
+      if (motion.law_end()) judgement.stall = motion.law_end()->arc_length;
       if (broken_rides == BrokenRides::left_out) continue;
     }
     if (!arrival) {

@@ -124,6 +124,8 @@ constexpr std::array kCatalogue = {
             Dimension::angle),
     implied(LimitId::not_shorter_than_chord, "no shorter than the chord", Bound::lowest, Dimension::length),
     implied(LimitId::not_many_chords_long, "no longer than 20 chords", Bound::highest, Dimension::length),
+    implied(LimitId::room_for_body, "a valley that the body fits into", Bound::highest,
+            Dimension::per_length),
 };
 
 constexpr bool is_in_order() {

@@ -20,6 +20,10 @@ enum class Dimension {
   specific_energy,  ///< energy per mass, the square of a speed [m^2/s^2]
   time,             ///< [s]
   time_per_speed,   ///< what a unit of speed is worth in time [s/(m/s)]
+  mass,             ///< [kg]
+  area,             ///< [m^2]
+  density,          ///< [kg/m^3]
+  temperature,      ///< [K]
 };
 
 /// As parse_quantity().

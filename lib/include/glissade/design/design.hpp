@@ -4,6 +4,7 @@
 #include "glissade/core/file_format.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
+#include "glissade/design/body_design.hpp"
 #include "glissade/design/probe_design.hpp"
 #include "glissade/task/finish.hpp"
 #include "glissade/task/limits.hpp"
@@ -45,14 +46,6 @@ inline constexpr double kFinishAgreement = 1e-3;
 /// @param point  (x, z) as a design file gives the points of its limits
 /// @return (run, drop) in the plane of the centerline: run from the start, positive towards the finish
 [[nodiscard]] Vec2 in_track_plane(const TrackDesign& track, Vec2 point);
-
-struct BodyDesign {
-  Friction friction;                      ///< the nominal one
-  std::optional<Friction> low_friction;   ///< <= friction; limits hold there too
-  std::optional<Friction> high_friction;  ///< >= friction; limits hold there too
-  double entry_speed = 0.0;               ///< [m/s]; >= 0
-  double drag_per_metre = 0.0;            ///< [1/m]; >= 0
-};
 
 enum class CenterlineKind { fastest, constant_speed, straight, cycloid, no_curvature_load, segments, points };
 

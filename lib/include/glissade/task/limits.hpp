@@ -125,6 +125,7 @@ enum class LimitId {
   no_climb_beyond_vertical,
   not_shorter_than_chord,
   not_many_chords_long,
+  room_for_body,  ///< whose centre of mass runs above the track
 };
 
 }  // namespace glissade

@@ -3,17 +3,13 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "report/serial/law.hpp"
+
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 namespace glissade::report {
 namespace {
-
-std::string_view status_of(const Motion& motion) {
-  if (motion.arrived()) return "arrived";
-  return motion.stall() ? "stalled" : "lifted off";
-}
 
 Json stall_json(const std::optional<Stall>& stall) {
   if (!stall) return nullptr;
@@ -86,6 +82,7 @@ void add_body(Json& json, const Design& design) {
   json["entry_speed_m_per_s"] = design.body.entry_speed;
   json["drag_per_m"] = design.body.drag_per_metre;
   json["gravity_m_per_s2"] = design.gravity;
+  add_law_body(json, design.body);
 }
 
 void add_ride(Json& json, const Motion& motion) {
@@ -107,6 +104,7 @@ void add_ride(Json& json, const Motion& motion) {
   json["drag_loss_j_per_kg"] = end.drag_loss;
   json["stall"] = stall_json(motion.stall());
   json["lift_off"] = lift_off_json(motion.lift_off());
+  add_law(json, motion);
 }
 
 Json ride_json(FrictionLevel level, const Motion& motion, const std::optional<Angle>& stall_angle) {

@@ -1,0 +1,93 @@
+#include "app/law_text.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include "app/console.hpp"
+#include "app/summary.hpp"
+#include "app/table.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace glissade::app {
+namespace {
+
+std::string angle_and_coefficient(Friction friction) {
+  return angle_text(friction.angle().radians()) + " (coefficient " + rounded_text(friction.coefficient(), 4) +
+         ")";
+}
+
+std::string rolling_text(const BodyDesign& body) {
+  std::string text = ", rolls: radius " + length_text(body.rolling->radius);
+  if (body.rolling->groove_half_angle < Angle::from_degrees(90.0)) {
+    text += " in a groove of " + angle_text(2.0 * body.rolling->groove_half_angle.radians());
+  }
+  return text + ", rolling resistance " + rounded_text(body.friction.coefficient(), 4);
+}
+
+std::string quantity_text(const LawQuantity& quantity, double value) {
+  if (std::isinf(value)) return "no bound";
+  return quantity.unit == "m" ? length_text(value) : rounded_text(value, 4);
+}
+
+}  // namespace
+
+std::string resistance_text(const Design& design) {
+  const BodyDesign& body = design.body;
+  std::string text;
+  if (body.rolling) {
+    text = rolling_text(body);
+  } else if (body.friction_changes.size() > 1) {
+    text = ", friction angle";
+    for (const FrictionFrom& change : body.friction_changes) {
+      text += (change.from == 0.0 ? " " : ", from " + length_text(change.from) + " on ") +
+              angle_text(change.friction.angle().radians());
+    }
+  } else if (body.friction.coefficient() == 0.0) {
+    text = ", no friction";
+  } else {
+    text = ", friction angle " + angle_and_coefficient(body.friction);
+  }
+  if (body.centre_height) text += ", centre of mass " + length_text(*body.centre_height) + " above the track";
+  if (body.head_wind != 0.0) {
+    text += std::string(body.head_wind > 0.0 ? ", head wind " : ", tail wind ") +
+            speed_text(std::fabs(body.head_wind));
+  }
+  return text;
+}
+
+std::string_view ride_status(const Motion& motion) {
+  if (motion.arrived()) return "arrived";
+  if (motion.stall()) return "stalled";
+  if (motion.lift_off()) return "lifted off";
+  return motion.law_end()->what == "valley_radius_m" ? "does not fit" : "choked";
+}
+
+std::string law_end_text(const LawEnd& end) {
+  const std::string how = end.what == "valley_radius_m" ? "does not fit into the valley" : "chokes";
+  return emphasised(how, Emphasis::bad) + " after " + length_text(end.arc_length) + " at " +
+         speed_text(end.speed);
+}
+
+std::string law_lines(const Design& design, const Track& track) {
+  const Motion& motion = track.motion;
+  const std::vector<LawQuantity> quantities = motion.quantities();
+  std::string lines;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const LawQuantity& quantity = quantities[i];
+    const QuantityPeak peak = motion.highest(i);
+    std::string text = std::string(quantity.name) + " " + quantity_text(quantity, peak.value) +
+                       (std::isinf(peak.value) ? ", " : " at most, ") + length_text(peak.arc_length) +
+                       " down the track";
+    if (quantity.highest) {
+      const std::string there = rounded_text(*quantity.highest, 4) + " there is";
+      text += peak.beyond_from ? "\n" + emphasised("slips", Emphasis::bad) + " from " +
+                                     length_text(*peak.beyond_from) + " on: more than the " + there
+                               : "\nless than the " + there + ": it does not slip";
+    }
+    lines += labelled(design.body.rolling ? "Rolling" : "Law", text);
+  }
+  return lines;
+}
+
+}  // namespace glissade::app

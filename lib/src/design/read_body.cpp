@@ -1,0 +1,266 @@
+#include "design/read_body.hpp"
+
+#include "glissade/core/air.hpp"
+#include "glissade/design/body_design.hpp"
+
+#include "design/map_reader.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace glissade::design_file {
+namespace {
+
+enum class BodyKind { sliding, rolling };
+
+/// A friction angle or coefficient: one value, or a range with a nominal value.
+struct FrictionValues {
+  std::optional<double> low;
+  std::optional<double> nominal;
+  std::optional<double> high;
+};
+
+FrictionValues read_friction_values(const Value& value, Dimension dimension, Findings& findings) {
+  FrictionValues values;
+  if (value.node->kind != Node::Kind::map) {
+    values.nominal = as_quantity(value, dimension, findings);
+    return values;
+  }
+  MapReader map(value, "A friction range", "", findings);
+  map.expect({"low", "nominal", "high"});
+  values.nominal =
+      map.needed_quantity("nominal", dimension, "nominal: the value that the objective is taken at");
+  values.low = map.quantity("low", dimension);
+  values.high = map.quantity("high", dimension);
+  map.refuse_unknown_keys();
+  return values;
+}
+
+std::optional<Friction> to_friction(const std::optional<double>& value, bool by_coefficient,
+                                    const std::string& key_path, Findings& findings) {
+  if (!value) return {};
+  try {
+    return by_coefficient ? Friction::from_coefficient(*value)
+                          : Friction::from_angle(Angle::from_radians(*value));
+  } catch (const InputError& error) {
+    findings.add(findings.position(key_path), key_path, error.issues().front());
+    return {};
+  }
+}
+
+/// The same as values of the schema; none where a value is missing or bad.
+struct FrictionRange {
+  std::optional<Friction> low;
+  std::optional<Friction> nominal;
+  std::optional<Friction> high;
+};
+
+FrictionRange to_range(const FrictionValues& values, bool by_coefficient, const std::string& path,
+                       Findings& findings) {
+  return {to_friction(values.low, by_coefficient, path + ".low", findings),
+          to_friction(values.nominal, by_coefficient, path, findings),
+          to_friction(values.high, by_coefficient, path + ".high", findings)};
+}
+
+void set_friction(const FrictionRange& range, BodyDesign& body) {
+  body.friction = range.nominal.value_or(Friction{});
+  body.low_friction = range.low;
+  body.high_friction = range.high;
+}
+
+/// @param needed  a missing friction is a problem
+FrictionRange read_friction(MapReader& map, bool needed, Findings& findings) {
+  const bool by_coefficient = map.has("friction_coefficient");
+  if (by_coefficient && map.has("friction_angle")) {
+    findings.add(findings.position(map.path_of("")), map.path_of("friction_angle"),
+                 {"", "both friction_angle and friction_coefficient are given",
+                  "They say the same: the coefficient is the tangent of the angle.", "one of the two"});
+  }
+  const auto coefficient = map.find("friction_coefficient");
+  const auto angle =
+      by_coefficient || !needed
+          ? map.find("friction_angle")
+          : map.need("friction_angle", "friction_angle: 17 deg, or friction_coefficient: 0.306");
+  if (coefficient && angle) static_cast<void>(read_friction_values(*angle, Dimension::angle, findings));
+  const std::optional<Value>& value = coefficient ? coefficient : angle;
+  if (!value) return {};
+  const FrictionValues values =
+      read_friction_values(*value, coefficient ? Dimension::number : Dimension::angle, findings);
+  return to_range(values, by_coefficient, value->key_path, findings);
+}
+
+/// One entry of a list of frictions: from where on, and which.
+std::optional<FrictionFrom> read_friction_from(const Value& value, Findings& findings) {
+  MapReader map(value, "A friction along the track", "{from: 0 m, angle: 4 deg}", findings);
+  map.expect({"from", "angle", "coefficient"});
+  FrictionFrom change;
+  const auto from = map.needed_quantity("from", Dimension::length, "from: 12 m, along the track");
+  const bool by_coefficient = map.has("coefficient");
+  const auto angle =
+      by_coefficient ? map.find("angle") : map.need("angle", "angle: 4 deg, or coefficient: 0.07");
+  const auto coefficient = map.find("coefficient");
+  if (angle && coefficient) {
+    findings.add(value.node->at, value.key_path,
+                 {"", value.key + ": both angle and coefficient are given",
+                  "They say the same: the coefficient is the tangent of the angle.", "one of the two"});
+  }
+  std::optional<Friction> friction;
+  if (const auto& given = coefficient ? coefficient : angle) {
+    const auto number = as_quantity(*given, coefficient ? Dimension::number : Dimension::angle, findings);
+    friction = to_friction(number, coefficient.has_value(), given->key_path, findings);
+  }
+  map.refuse_unknown_keys();
+  if (!from || !friction) return {};
+  return FrictionFrom{*from, *friction};
+}
+
+void read_friction_list(const Value& value, BodyDesign& body, Findings& findings) {
+  constexpr std::string_view kExample = "[{from: 0 m, angle: 3 deg}, {from: 40 m, angle: 8 deg}]";
+  for (const Value& item : as_list(value, kExample, findings)) {
+    if (const auto change = read_friction_from(item, findings)) body.friction_changes.push_back(*change);
+  }
+  if (body.friction_changes.empty()) {
+    if (value.node->kind != Node::Kind::sequence || !value.node->items.empty()) return;
+    findings.add(
+        value.node->at, value.key_path,
+        {"", "friction: the list is empty", "A track rubs from its start on.", std::string(kExample)});
+    return;
+  }
+  // The first holds from the start; check_body() asks that it says so.
+  body.friction = body.friction_changes.front().friction;
+}
+
+void read_sliding(MapReader& map, BodyDesign& body, Findings& findings) {
+  for (const std::string_view key : {"rolling_resistance", "radius", "groove_half_angle"}) {
+    map.add_stranger(key, "kind: rolling, which has rolling_resistance, radius and groove_half_angle");
+  }
+  const auto list = map.find("friction");
+  const FrictionRange range = read_friction(map, !list, findings);
+  if (!list) return set_friction(range, body);
+  if (map.has("friction_angle") || map.has("friction_coefficient")) {
+    findings.add(list->node->at, list->key_path,
+                 {"", "friction: a list, and a friction for the whole track beside it", "",
+                  "the list alone, from 0 m on"});
+  }
+  read_friction_list(*list, body, findings);
+}
+
+void read_rolling(MapReader& map, BodyDesign& body, Findings& findings) {
+  map.add_stranger("friction", "kind: sliding, which has a friction that changes along the track");
+  body.rolling.emplace();
+  if (const auto value = map.need("rolling_resistance", "rolling_resistance: 0.01, force over load")) {
+    const FrictionValues values = read_friction_values(*value, Dimension::number, findings);
+    set_friction(to_range(values, true, value->key_path, findings), body);
+  }
+  body.rolling->radius = map.needed_quantity("radius", Dimension::length, "radius: 8 mm").value_or(0.0);
+  if (const auto angle = map.quantity("groove_half_angle", Dimension::angle)) {
+    body.rolling->groove_half_angle = Angle::from_radians(*angle);
+  }
+  const FrictionRange grip = read_friction(map, false, findings);
+  body.rolling->grip = grip.nominal;
+  if (!grip.low && !grip.high) return;
+  const std::string key = map.has("friction_coefficient") ? "friction_coefficient" : "friction_angle";
+  findings.add(findings.position(map.path_of(key)), map.path_of(key),
+               {"", key + ": a range, of a body that rolls",
+                "It decides whether the ball slips; what slows it down is its rolling_resistance.",
+                "one value, the lowest; a range of rolling_resistance"});
+}
+
+void read_air(const Value& value, DragDesign& drag, Findings& findings) {
+  MapReader map(value, "The air", "{altitude: 1200 m, temperature: -5 degC}", findings);
+  map.expect({"altitude", "temperature", "density"});
+  drag.density = map.quantity("density", Dimension::density);
+  drag.altitude = map.quantity("altitude", Dimension::length).value_or(0.0);
+  drag.temperature = map.quantity("temperature", Dimension::temperature);
+  if (drag.density && (map.has("altitude") || map.has("temperature"))) {
+    findings.add(value.node->at, value.key_path,
+                 {"", "air: a density, and what it follows from beside it",
+                  "The density follows from altitude and temperature.", "density alone, or the other two"});
+  }
+  map.refuse_unknown_keys();
+}
+
+void read_drag(MapReader& map, BodyDesign& body, Findings& findings) {
+  const auto drag = map.quantity("drag", Dimension::per_length);
+  const bool by_area = map.has("drag_area");
+  const auto area = map.quantity("drag_area", Dimension::area);
+  const auto mass =
+      by_area ? map.needed_quantity("mass", Dimension::mass, "mass: 85 kg, with all that moves along")
+              : map.quantity("mass", Dimension::mass);
+  const auto air = map.find("air");
+  DragDesign by_parts;
+  if (air) read_air(*air, by_parts, findings);
+  body.drag_per_metre = drag.value_or(0.0);
+  if (!by_area) {
+    for (const char* const key : {"mass", "air"}) {
+      if (!map.has(key)) continue;
+      findings.add(findings.position(map.path_of(key)), map.path_of(key),
+                   {"", std::string(key) + ": without a drag_area it changes nothing",
+                    "How a body slides does not depend on its mass, nor on air that does not hold it back.",
+                    "drag_area: 0.25 m^2, drag coefficient x frontal area"});
+    }
+    return;
+  }
+  if (drag) {
+    findings.add(findings.position(map.path_of("drag_area")), map.path_of("drag_area"),
+                 {"", "both drag and drag_area are given", "drag = air density x drag_area / (2 x mass).",
+                  "one of the two"});
+  }
+  by_parts.drag_area = area.value_or(0.0);
+  by_parts.mass = mass.value_or(0.0);
+  body.drag = by_parts;
+  body.drag_per_metre = by_parts.drag_per_metre();
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& body_keys() {
+  static const std::vector<std::string_view> keys = {"kind",
+                                                     "friction_angle",
+                                                     "friction_coefficient",
+                                                     "friction",
+                                                     "rolling_resistance",
+                                                     "radius",
+                                                     "groove_half_angle",
+                                                     "centre_height",
+                                                     "entry_speed",
+                                                     "drag",
+                                                     "drag_area",
+                                                     "mass",
+                                                     "air",
+                                                     "head_wind"};
+  return keys;
+}
+
+BodyDesign read_body(MapReader& top, Findings& findings) {
+  BodyDesign body;
+  const std::optional<Value> value = top.need("body", "body: {friction_angle: 17 deg}");
+  if (!value) return body;
+  MapReader map(*value, "A body", "{friction_angle: 17 deg}", findings);
+  static const std::vector<std::pair<std::string_view, BodyKind>> kKinds = {{"sliding", BodyKind::sliding},
+                                                                            {"rolling", BodyKind::rolling}};
+  const auto kind_value = map.find("kind");
+  const auto kind = kind_value ? map.choice(*kind_value, kKinds) : BodyKind::sliding;
+  if (!kind) return body;
+  const bool rolls = *kind == BodyKind::rolling;
+  if (rolls) {
+    map.rename("A rolling body");
+    map.expect({"kind", "rolling_resistance", "radius", "groove_half_angle", "centre_height",
+                "friction_coefficient", "friction_angle", "entry_speed", "drag", "drag_area", "mass", "air",
+                "head_wind"});
+    read_rolling(map, body, findings);
+  } else {
+    map.expect({"kind", "friction_angle", "friction_coefficient", "friction", "centre_height", "entry_speed",
+                "drag", "drag_area", "mass", "air", "head_wind"});
+    read_sliding(map, body, findings);
+  }
+  body.centre_height = map.quantity("centre_height", Dimension::length);
+  body.entry_speed = map.quantity("entry_speed", Dimension::speed).value_or(0.0);
+  read_drag(map, body, findings);
+  body.head_wind = map.quantity("head_wind", Dimension::speed).value_or(0.0);
+  map.refuse_unknown_keys();
+  return body;
+}
+
+}  // namespace glissade::design_file

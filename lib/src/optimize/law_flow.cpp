@@ -1,0 +1,352 @@
+// Speed and time of bodies that are not the sliding point, by collocation of docs/theory.md (M2) at the nodes of
+// each panel, and the derivatives of that very collocation: forward through its linearised equations, and
+// backward for the Hessian. Where c does not depend on the speed and no wind blows the equations are linear and
+// one step of Newton's method solves them.
+
+#include "optimize/quadrature.hpp"
+#include "optimize/transcription.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace glissade::optimizer {
+namespace {
+
+constexpr std::size_t kNodes = PanelRule::kNodes;
+using NodeValues = std::array<double, kNodes>;
+using NodeMatrix = std::array<NodeValues, kNodes>;
+
+// What a law or the wind asks for at lower speeds is continued by its second-order Taylor polynomial: below this
+// share of the squared speed at which a law ends, and below this squared speed where wind blows.
+constexpr double kContinued = 0.25;
+constexpr double kStill = 1e-6;
+constexpr int kMostSteps = 30;
+
+/// A function of v and its derivatives, continued below a floor.
+struct Term {
+  double value = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+
+  [[nodiscard]] Term continued(double by) const {
+    return {value + by * (first + 0.5 * by * second), first + by * second, second};
+  }
+};
+
+/// D(v): drag over k.
+Term dragged(double v, double wind) {
+  if (wind == 0.0) return {v, 1.0, 0.0};
+  const double at = std::max(v, kStill);
+  const double u = std::sqrt(at);
+  const double sign = u + wind < 0.0 ? -1.0 : 1.0;
+  const Term term{sign * (u + wind) * (u + wind), sign * (1.0 + wind / u), -0.5 * sign * wind / (u * at)};
+  return term.continued(v - at);
+}
+
+/// (M2) at one place: dv/ds and its derivatives by slope angle, curvature, v and arc length.
+struct Slope {
+  double value = 0.0;
+  double zeta = 0.0, curvature = 0.0, v = 0.0, s = 0.0;
+  double zeta_zeta = 0.0, zeta_curvature = 0.0, zeta_v = 0.0, curvature_v = 0.0, v_v = 0.0;
+  double s_zeta = 0.0, s_curvature = 0.0, s_v = 0.0, s_s = 0.0;
+};
+
+struct Place {
+  double sin = 0.0;
+  double cos = 0.0;
+  double curvature = 0.0;
+  double s = 0.0;
+};
+
+Slope slope_at(const Ride& ride, const Place& at, double v) {
+  const double h = ride.height;
+  const double mu = ride.friction;
+  Resistance c;
+  if (ride.law) {
+    const double floor = std::max(v, kContinued * ride.law->least_v(at.s));
+    c = ride.law->resistance(at.s, floor);
+    const Term by_v = Term{c.factor, c.by_v, c.by_v_v}.continued(v - floor);
+    c.factor = by_v.value;
+    c.by_v = by_v.first;
+    c.by_s += (v - floor) * c.by_s_v;
+  }
+  const Term drag = dragged(v, ride.head_wind);
+  const double path = 1.0 - at.curvature * h;
+  const double driven = at.sin - ride.drag * drag.value;
+  const double pressing = path * at.cos + at.curvature * v;
+  const double pressing_by_curvature = v - h * at.cos;
+  const double g = ride.gain;
+  Slope slope;
+  slope.value = g * (path * driven - mu * c.factor * pressing);
+  slope.zeta = g * path * (at.cos + mu * c.factor * at.sin);
+  slope.curvature = -g * (h * driven + mu * c.factor * pressing_by_curvature);
+  slope.v = -g * (path * ride.drag * drag.first + mu * (c.by_v * pressing + c.factor * at.curvature));
+  slope.s = -g * mu * c.by_s * pressing;
+  slope.zeta_zeta = g * path * (mu * c.factor * at.cos - at.sin);
+  slope.zeta_curvature = -g * h * (at.cos + mu * c.factor * at.sin);
+  slope.zeta_v = g * mu * c.by_v * path * at.sin;
+  slope.curvature_v = g * (h * ride.drag * drag.first - mu * (c.by_v * pressing_by_curvature + c.factor));
+  slope.v_v =
+      -g * (path * ride.drag * drag.second + mu * (c.by_v_v * pressing + 2.0 * c.by_v * at.curvature));
+  slope.s_zeta = g * mu * c.by_s * path * at.sin;
+  slope.s_curvature = -g * mu * c.by_s * pressing_by_curvature;
+  slope.s_v = -g * mu * (c.by_s_v * pressing + c.by_s * at.curvature);
+  slope.s_s = -g * mu * c.by_s_s * pressing;
+  return slope;
+}
+
+/// (I - A diag(factor))^-1 with A the panel's integration matrix: how nodes answer to what is added at them.
+NodeMatrix response(const NodeValues& factor) {
+  const PanelRule& rule = panel_rule();
+  NodeMatrix matrix{};
+  NodeMatrix inverse{};
+  for (std::size_t q = 0; q < kNodes; ++q) {
+    for (std::size_t k = 0; k < kNodes; ++k) matrix[q][k] = -rule.to_node[q][k] * factor[k];
+    matrix[q][q] += 1.0;
+    inverse[q][q] = 1.0;
+  }
+  for (std::size_t column = 0; column < kNodes; ++column) {
+    std::size_t pivot = column;
+    for (std::size_t q = column + 1; q < kNodes; ++q) {
+      if (std::fabs(matrix[q][column]) > std::fabs(matrix[pivot][column])) pivot = q;
+    }
+    std::swap(matrix[pivot], matrix[column]);
+    std::swap(inverse[pivot], inverse[column]);
+    const double scale = 1.0 / matrix[column][column];
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      matrix[column][k] *= scale;
+      inverse[column][k] *= scale;
+    }
+    for (std::size_t q = 0; q < kNodes; ++q) {
+      const double share = matrix[q][column];
+      if (q == column || share == 0.0) continue;
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        matrix[q][k] -= share * matrix[column][k];
+        inverse[q][k] -= share * inverse[column][k];
+      }
+    }
+  }
+  return inverse;
+}
+
+/// A panel whose nodes' speeds are known.
+struct Solved {
+  NodeValues v{};
+  std::array<Slope, kNodes> slopes;
+  NodeMatrix response{};
+};
+
+/// @param ds  of the nodes, in full
+Solved solve(const Ride& ride, const std::array<Place, kNodes>& places, const NodeValues& ds,
+             double v_start) {
+  const PanelRule& rule = panel_rule();
+  Solved solved;
+  solved.v.fill(v_start);
+  for (int step = 0; step < kMostSteps; ++step) {
+    NodeValues factor{};
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      solved.slopes[k] = slope_at(ride, places[k], solved.v[k]);
+      factor[k] = ds[k] * solved.slopes[k].v;
+    }
+    solved.response = response(factor);
+    NodeValues missing{};
+    for (std::size_t q = 0; q < kNodes; ++q) {
+      missing[q] = v_start - solved.v[q];
+      for (std::size_t k = 0; k < kNodes; ++k)
+        missing[q] += rule.to_node[q][k] * ds[k] * solved.slopes[k].value;
+    }
+    double moved = 0.0;
+    double size = 0.0;
+    for (std::size_t q = 0; q < kNodes; ++q) {
+      double change = 0.0;
+      for (std::size_t k = 0; k < kNodes; ++k) change += solved.response[q][k] * missing[k];
+      solved.v[q] += change;
+      moved = std::max(moved, std::fabs(change));
+      size = std::max(size, std::fabs(solved.v[q]));
+    }
+    // From here on a step of Newton's method gains nothing but rounding.
+    if (moved <= 1e-15 * size) break;
+  }
+  for (std::size_t k = 0; k < kNodes; ++k) solved.slopes[k] = slope_at(ride, places[k], solved.v[k]);
+  return solved;
+}
+
+/// The unknowns that the curvature at a station depends on, and how.
+struct CurvatureRow {
+  std::array<std::size_t, 3> unknown{};
+  std::array<double, 3> value{};
+  std::size_t count = 0;
+};
+
+CurvatureRow curvature_row(const Layout& layout, const Station& station, double curvature, double length) {
+  if (station.part != Part::core) return {};
+  return {{layout.turn(station.piece), layout.turn(station.piece + 1), layout.length()},
+          {(1.0 - station.share) / length, station.share / length, -curvature / length},
+          3};
+}
+
+}  // namespace
+
+void Transcription::law_flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
+                             bool derivatives) const {
+  const PanelRule& rule = panel_rule();
+  const std::size_t n = layout_.size();
+  const std::size_t at_length = layout_.length();
+  const double length = z[at_length];
+  out.v.assign(stations_.size(), 0.0);
+  out.v[0] = ride.entry_speed2;
+  out.time = 0.0;
+  if (derivatives) {
+    out.dv = Matrix(stations_.size(), n);
+    out.dtime.assign(n, 0.0);
+  }
+  std::vector<Vector> source(kNodes, Vector(n, 0.0));  // d(ds F) of each node at fixed v
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Panel& panel = panels_[p];
+    const std::size_t start = start_station(p);
+    const bool is_core = panel.part == Part::core;
+    const double scale = is_core ? length : 1.0;
+    std::array<Place, kNodes> places;
+    NodeValues ds{};
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const std::size_t at = panel.first + k;
+      places[k] = {shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
+      ds[k] = scale * panel.ds[k];
+    }
+    const Solved solved = solve(ride, places, ds, out.v[start]);
+    const std::size_t end = panel.first + kNodes;
+    out.v[end] = out.v[start];
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      out.v[panel.first + k] = solved.v[k];
+      out.v[end] += rule.weight[k] * ds[k] * solved.slopes[k].value;
+    }
+    if (derivatives) {
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        const std::size_t at = panel.first + k;
+        const Slope& slope = solved.slopes[k];
+        Vector& b = source[k];
+        std::fill(b.begin(), b.end(), 0.0);
+        add_scaled(b.data(), ds[k] * slope.zeta, dzeta_.row(at), std::min(panel.columns, at_length));
+        const CurvatureRow bend = curvature_row(layout_, stations_[at], places[k].curvature, length);
+        for (std::size_t i = 0; i < bend.count; ++i) {
+          b[bend.unknown[i]] += ds[k] * slope.curvature * bend.value[i];
+        }
+        b[at_length] += ds[k] * slope.s * stations_[at].sigma;
+        if (is_core) b[at_length] += panel.ds[k] * slope.value;
+      }
+      // Nodes: dv = R (dv_start + A b); end: dv_start + w (b + ds F_v dv).
+      double* dv_end = out.dv.row(end);
+      std::copy_n(out.dv.row(start), n, dv_end);
+      for (std::size_t q = 0; q < kNodes; ++q) {
+        double* dv = out.dv.row(panel.first + q);
+        double share_of_start = 0.0;
+        NodeValues share{};
+        for (std::size_t i = 0; i < kNodes; ++i) {
+          share_of_start += solved.response[q][i];
+          for (std::size_t k = 0; k < kNodes; ++k) share[k] += solved.response[q][i] * rule.to_node[i][k];
+        }
+        add_scaled(dv, share_of_start, out.dv.row(start), n);
+        for (std::size_t k = 0; k < kNodes; ++k) add_scaled(dv, share[k], source[k].data(), n);
+        add_scaled(dv_end, rule.weight[q], source[q].data(), n);
+        add_scaled(dv_end, rule.weight[q] * ds[q] * solved.slopes[q].v, dv, n);
+      }
+    }
+    for (std::size_t q = 0; q < kNodes; ++q) {
+      const std::size_t at = panel.first + q;
+      const Slowness slow = slowness(out.v[at], slowest(ride, at));
+      const double path = 1.0 - places[q].curvature * ride.height;
+      const double part = rule.weight[q] * ds[q];
+      out.time += part * path * slow.value;
+      if (!derivatives) continue;
+      add_scaled(out.dtime.data(), part * path * slow.first, out.dv.row(at), n);
+      if (is_core) out.dtime[at_length] += rule.weight[q] * panel.ds[q] * path * slow.value;
+      const CurvatureRow bend = curvature_row(layout_, stations_[at], places[q].curvature, length);
+      for (std::size_t i = 0; i < bend.count; ++i) {
+        out.dtime[bend.unknown[i]] -= part * ride.height * slow.value * bend.value[i];
+      }
+    }
+  }
+}
+
+void Transcription::add_law_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
+                                  const StationWeights& weights, std::size_t index,
+                                  HessianParts& parts) const {
+  // L depends on the nodes' v directly and through the end of the panel. With theta_k = dL/d(ds F)_k, the
+  // multipliers of the collocation, its second derivative is sum theta_k d2(ds F)_k and the direct terms.
+  const PanelRule& rule = panel_rule();
+  const std::size_t n = layout_.size();
+  const std::size_t at_length = layout_.length();
+  const double length = z[at_length];
+  if (parts.curvature.rows() == 0) parts.curvature = Matrix(n, n);
+  double by_end = 0.0;  // dL/dv at the end of the panel
+  for (std::size_t p = panels_.size(); p-- > 0;) {
+    const Panel& panel = panels_[p];
+    const bool is_core = panel.part == Part::core;
+    const double scale = is_core ? length : 1.0;
+    by_end += weights.v[index][panel.first + kNodes];
+    std::array<Slope, kNodes> slopes;
+    std::array<Slowness, kNodes> slow;
+    NodeValues factor{};
+    NodeValues by_v{};
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const std::size_t at = panel.first + k;
+      const Place place{shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
+      slopes[k] = slope_at(ride, place, flow.v[at]);
+      slow[k] = slowness(flow.v[at], slowest(ride, at));
+      factor[k] = scale * panel.ds[k] * slopes[k].v;
+      const double path = 1.0 - place.curvature * ride.height;
+      const double timed = weights.time[index] * rule.weight[k] * panel.ds[k];
+      by_v[k] =
+          weights.v[index][at] + scale * timed * path * slow[k].first + factor[k] * rule.weight[k] * by_end;
+    }
+    const NodeMatrix responding = response(factor);
+    NodeValues multiplier{};
+    for (std::size_t q = 0; q < kNodes; ++q) {
+      for (std::size_t k = 0; k < kNodes; ++k) multiplier[q] += responding[k][q] * by_v[k];
+    }
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const std::size_t at = panel.first + k;
+      const Slope& slope = slopes[k];
+      const double* dv = flow.dv.row(at);
+      const double* dz = dzeta_.row(at);
+      const std::size_t columns = std::min(panel.columns, at_length);
+      double theta = rule.weight[k] * by_end;
+      for (std::size_t q = 0; q < kNodes; ++q) theta += rule.to_node[q][k] * multiplier[q];
+      theta *= panel.ds[k];
+      const double full = theta * scale;
+      const double path = 1.0 - shape.curvature[at] * ride.height;
+      const double timed = weights.time[index] * rule.weight[k] * panel.ds[k];
+      parts.zeta_zeta[at] += full * slope.zeta_zeta;
+      parts.zeta_v[index][at] += full * slope.zeta_v;
+      parts.v_v[index][at] += full * slope.v_v + scale * timed * path * slow[k].second;
+
+      // Everything that meets the length: ds by it in the core, and s = sigma L.
+      const double sigma = stations_[at].sigma;
+      const double own = is_core ? theta : 0.0;
+      const double own_time = is_core ? timed : 0.0;
+      const double by_s = full * sigma;
+      const double with_curvature =
+          own * slope.curvature - own_time * ride.height * slow[k].value + by_s * slope.s_curvature;
+      add_scaled(parts.length.data(), own * slope.zeta + by_s * slope.s_zeta, dz, columns);
+      add_scaled(parts.length.data(), own * slope.v + own_time * path * slow[k].first + by_s * slope.s_v, dv,
+                 n);
+      parts.length[at_length] += own * slope.s * sigma + 0.5 * by_s * sigma * slope.s_s;
+
+      // Curvature: with zeta and v, and c/L by itself.
+      const CurvatureRow bend = curvature_row(layout_, stations_[at], shape.curvature[at], length);
+      const double itself = full * slope.curvature - scale * timed * ride.height * slow[k].value;
+      const double with_v = full * slope.curvature_v - scale * timed * ride.height * slow[k].first;
+      for (std::size_t i = 0; i < bend.count; ++i) {
+        double* row = parts.curvature.row(bend.unknown[i]);
+        add_scaled(row, bend.value[i] * full * slope.zeta_curvature, dz, columns);
+        add_scaled(row, bend.value[i] * with_v, dv, n);
+        parts.length[bend.unknown[i]] += bend.value[i] * (with_curvature - itself / length);
+      }
+    }
+    for (const double value : multiplier) by_end += value;
+  }
+}
+
+}  // namespace glissade::optimizer

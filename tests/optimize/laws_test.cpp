@@ -1,0 +1,189 @@
+// The search for bodies that are not the sliding point: against optima that are known, and against neighbours.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
+#include "glissade/motion/laws/rider.hpp"
+#include "glissade/motion/laws/rolling_ball.hpp"
+#include "glissade/optimize/optimize.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+
+namespace {
+
+constexpr double kGravity = kDefaultGravity;
+
+LawPtr ball(double radius, std::optional<double> centre_height = {}) {
+  BallShape shape;
+  shape.radius = radius;
+  shape.centre_height = centre_height;
+  return std::make_shared<const RollingBall>(shape);
+}
+
+LawPtr stream(double mass_flow) {
+  return std::make_shared<const BulkStream>(StreamShape{mass_flow, 1000.0, 0.5, {{0.0, 0.5}}, {}});
+}
+
+Problem problem(double run, double drop, double mu, double entry_speed, LawPtr law) {
+  Problem problem;
+  problem.endpoints = {run, drop};
+  problem.body.friction = Friction::from_coefficient(mu);
+  problem.body.entry_speed = entry_speed;
+  problem.body.law = std::move(law);
+  return problem;
+}
+
+/// A track with its curvature changed a little and turned and scaled so that it ends where the other does.
+CenterlinePtr neighbour(const ClothoidSpline& track, testing::Random& random, double size) {
+  std::vector<ClothoidSegment> segments = track.segments();
+  const double scale = size / track.length();
+  const double wave = random.between(0.0, 4.0);
+  const double phase = random.between(0.0, 6.3);
+  double s = 0.0;
+  const auto change = [&](double at) {
+    return scale * std::cos(phase + wave * std::numbers::pi * at / track.length());
+  };
+  for (ClothoidSegment& segment : segments) {
+    segment.entry_curvature += change(s);
+    s += segment.length;
+    segment.exit_curvature += change(s);
+  }
+  const ClothoidSpline bent(track.entry_slope_angle(), segments);
+  const Endpoints from = bent.endpoints();
+  const Endpoints to = track.endpoints();
+  const double stretch = std::hypot(to.run, to.drop) / std::hypot(from.run, from.drop);
+  const double turn = std::atan2(to.drop, to.run) - std::atan2(from.drop, from.run);
+  for (ClothoidSegment& segment : segments) {
+    segment.length *= stretch;
+    segment.entry_curvature /= stretch;
+    segment.exit_curvature /= stretch;
+  }
+  return std::make_shared<const ClothoidSpline>(
+      Angle::from_radians(track.entry_slope_angle().radians() + turn), segments);
+}
+
+}  // namespace
+
+TEST_CASE("laws: the fastest track of a frictionless ball is the cycloid, sqrt(7/5) times as slow") {
+  // So small a height of the centre that its path is the track.
+  const Optimum optimum = optimize(problem(10.0, 5.0, 0.0, 0.0, ball(0.1, 1e-7)));
+  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+  const double cycloid = solve_coulomb_brachistochrone({10.0, 5.0}, Friction{}).travel_time;
+  CHECK(optimum.report.travel_time == Approx(std::sqrt(1.4) * cycloid).epsilon(1e-6));
+  CHECK(optimum.report.travel_time > std::sqrt(1.4) * cycloid * (1.0 - 1e-9));
+  CHECK_FALSE(optimum.report.unlimited_travel_time);
+}
+
+TEST_CASE("laws: with its exit given, the centre of a frictionless ball takes the cycloid beside the track") {
+  // It starts vertical, which is as steep as a track may be. The centre's cycloid, x = a (t - sin t),
+  // y = a (1 - cos t), slope 90 deg - t/2, to t = 2.4; the track lies h below it, square to it.
+  constexpr double kA = 1.0;
+  constexpr double kEnd = 2.4;
+  constexpr double kHeight = 0.15;
+  const double exit = 0.5 * (std::numbers::pi - kEnd);
+  const double x = kA * (kEnd - std::sin(kEnd)) - kHeight * (std::sin(exit) - 1.0);
+  const double y = kA * (1.0 - std::cos(kEnd)) + kHeight * std::cos(exit);
+  Problem given = problem(x, y, 0.0, 0.0, ball(kHeight));
+  given.limits.exit_slope_angle = Range::fixed(exit);
+  given.limits.smallest_valley_radius = kHeight / 0.98;
+  const Optimum optimum = optimize(given);
+  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+  const double exact = std::sqrt(1.4) * kEnd * std::sqrt(kA / kGravity);
+  CHECK(optimum.report.travel_time == Approx(exact).epsilon(1e-6));
+  CHECK(optimum.report.travel_time > exact * (1.0 - 1e-9));
+}
+
+TEST_CASE("laws: no neighbour of the fastest track is faster, whatever moves") {
+  auto random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  struct Case {
+    std::string name;
+    Problem problem;
+  };
+  std::vector<Case> cases = {
+      {"ball", problem(2.0, 1.0, 0.05, 0.0, ball(0.02))},
+      {"ball with speed", problem(2.0, 0.3, 0.05, 2.0, ball(0.02))},
+      {"rider", problem(60.0, 30.0, 0.03, 3.0, std::make_shared<const Rider>(0.6))},
+      {"stream", problem(4.0, 5.0, 0.4, 2.0, stream(150.0))},
+      {"wind", problem(60.0, 30.0, 0.03, 3.0, nullptr)},
+  };
+  cases.back().problem.body.drag_per_metre = 0.01;
+  cases.back().problem.body.head_wind = 8.0;
+  for (Case& one : cases) {
+    // Away from the vertical and from bends that the neighbours would break.
+    one.problem.limits.slope_angle.highest = 1.3;
+    one.problem.limits.entry_slope_angle = Range::fixed(1.1);
+    one.problem.limits.exit_slope_angle = Range::fixed(0.2);
+    const Optimum optimum = optimize(one.problem);
+    CAPTURE(one.name, optimum.report.message);
+    REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+    const auto* spline = dynamic_cast<const ClothoidSpline*>(optimum.centerline.get());
+    REQUIRE(spline != nullptr);
+    const double best = Motion(optimum.centerline, one.problem.body).travel_time();
+    CHECK(best == optimum.report.travel_time);
+    int faster = 0;
+    int rides = 0;
+    // Neighbours differ in their end slopes too: what those are worth is known from the multipliers.
+    double price = 0.0;
+    for (const ActiveLimit& active : optimum.report.active) {
+      if (active.limit.id == LimitId::entry_slope_angle || active.limit.id == LimitId::exit_slope_angle)
+        price += active.price;
+    }
+    for (int i = 0; i < 400; ++i) {
+      const CenterlinePtr other = neighbour(*spline, random, random.between(-0.05, 0.05));
+      const Motion ride(other, one.problem.body);
+      const double end = other->length();
+      const double turned =
+          std::fabs(other->slope_angle(0.0) - 1.1) + std::fabs(other->slope_angle(end) - 0.2);
+      if (!ride.arrived()) continue;
+      ++rides;
+      if (ride.travel_time() < best - 1.05 * price * turned - 1e-7 * best) ++faster;
+    }
+    CHECK(rides > 20);
+    CHECK(faster == 0);
+  }
+}
+
+TEST_CASE("laws: limits hold for what rolls and flows, by the referee") {
+  Problem given = problem(2.0, 1.2, 0.03, 0.0, ball(0.03));
+  given.limits.slope_angle.highest = 0.8;
+  given.limits.exit_slope_angle = Range::fixed(0.0);
+  given.limits.smallest_valley_radius = 0.4;
+  given.limits.highest_normal_load = 2.5 * kGravity;
+  given.limits.speed.highest = 4.2;
+  given.low_friction = Friction::from_coefficient(0.01);
+  given.high_friction = Friction::from_coefficient(0.06);
+  const Optimum optimum = optimize(given);
+  CAPTURE(optimum.report.message);
+  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+  for (const LimitCheck& check : optimum.report.checks) {
+    CAPTURE(check.limit.key(), check.reached, check.value);
+    CHECK(check.kept());
+  }
+  // The load is that of the centre's own path.
+  const Motion motion(optimum.centerline, given.body);
+  CHECK(motion.highest_load().normal_load <= 2.5 * kGravity * (1.0 + 1e-6));
+}
+
+TEST_CASE("laws: what the search does not know is refused") {
+  Problem given = problem(2.0, 1.2, 0.03, 0.0, nullptr);
+  given.body.friction_changes = {{1.0, Friction::from_coefficient(0.1)}};
+  CHECK_THROWS_WITH(optimize(given), Catch::Matchers::Contains("friction that changes along the track"));
+}
+
+TEST_CASE("laws: a finish beyond reach is beyond it for a ball, unless its own height helps") {
+  CHECK(optimize(problem(2.0, 0.1, 0.2, 0.0, ball(0.02))).report.status == OptimizeStatus::infeasible);
+  // (H + h (sqrt(1 + c^2) + c))/L > c: the theorem is silent.
+  const Optimum near = optimize(problem(2.0, 0.399, 0.2, 0.0, ball(0.02)));
+  if (near.centerline)
+    CHECK(Motion(near.centerline, problem(2.0, 0.399, 0.2, 0.0, ball(0.02)).body).arrived());
+}
