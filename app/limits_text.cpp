@@ -73,6 +73,18 @@ std::vector<std::string> row_of(const Design& design, const Track& track, const 
   return row;
 }
 
+/// What clearances are measured from.
+std::string clearances_text(const Design& design) {
+  const Envelope envelope = envelope_of(design);
+  if (envelope.is_line()) return "from the centerline";
+  std::string text = design.cross_section
+                         ? "from the whole solid, " + length_text(envelope.below, 3) + " below to " +
+                               length_text(envelope.above, 3) + " above the floor"
+                         : "from the floor";
+  if (envelope.headroom > 0.0) text += ", and a headroom of " + length_text(envelope.headroom, 3);
+  return text;
+}
+
 std::string search_text(const Track& track) {
   const OptimizeReport& search = *track.search;
   const bool optimal = search.status == OptimizeStatus::optimal;
@@ -87,6 +99,8 @@ std::string search_text(const Track& track) {
 std::string limits_lines(const Design& design, const Track& track) {
   std::string text;
   if (track.search) text += labelled("Search", search_text(track));
+  if (design.limits && design.limits->has_clearances())
+    text += labelled("Clearances", clearances_text(design));
   if (track.limit_checks.empty()) return text;
   Table table({"Limit", "bound", "reached", "at", "price or verdict"});
   for (const LimitCheck& check : track.limit_checks) table.add(row_of(design, track, check));

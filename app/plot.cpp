@@ -57,16 +57,25 @@ bool is_png(const std::filesystem::path& file) {
 
 void add_keep_outs(Figure& figure, const Design& design) {
   for (const ReportKeepOut& area : report_keep_outs(design)) {
-    FigureArea drawn{area.name, {}, {}};
+    FigureArea drawn{area.name, {}, {}, area.clearance, area.open};
     for (const Vec2& point : area.points) {
       drawn.xs.push_back(point.x);
       drawn.ys.push_back(point.y - design.track.start.z);
     }
-    if (area.open) {
-      figure.lines.push_back({drawn.name, drawn.xs, drawn.ys, true});
-    } else {
-      figure.areas.push_back(std::move(drawn));
+    figure.areas.push_back(std::move(drawn));
+  }
+}
+
+/// The walls and the underside that obstacles are kept clear of, and the headroom.
+void add_envelope(Figure& figure, const Design& design, const Track& track) {
+  if (!design.limits) return;
+  for (EnvelopeEdge& edge : envelope_edges(*track.centerline, envelope_of(design))) {
+    FigureLine line{std::move(edge.name), {}, {}, edge.dashed};
+    for (const Vec2 point : edge.points) {
+      line.xs.push_back(point.x);
+      line.ys.push_back(point.y);
     }
+    figure.lines.push_back(std::move(line));
   }
 }
 
@@ -79,6 +88,7 @@ Figure figure_of(RideQuantity quantity, const Design& design, const Track& track
   }
   if (track.straight && kind != "straight") rides.push_back({"straight line", &*track.straight, true});
   Figure figure = ride_figure(quantity, rides);
+  add_envelope(figure, design, track);
   add_keep_outs(figure, design);
   return figure;
 }

@@ -132,7 +132,7 @@ std::vector<Vec2> random_outline(testing::Random& random, const Centerline& trac
 
 /// @return whether a place of the mesh lies over the area's runs and below its lower side, by more than `slack`
 bool mesh_below(const testing::SideView& facets, const std::vector<Vec2>& outline, double slack) {
-  constexpr int kPlaces = 64;
+  constexpr int kPlaces = 16;
   const auto is_below = [&](Vec2 point) {
     double highest = INFINITY;
     for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -266,3 +266,99 @@ TEST_CASE("the shipped designs with limits are solved to the optimum") {
     for (const json& check : track["limits"]) CHECK(check["kept"] == true);
   }
 }
+
+namespace {
+
+/// A channel whose floor keeps clear of a beam by itself while its walls run through it.
+constexpr const char* kPastBeam =
+    "glissade: 1\n"
+    "name: U-channel past a beam\n"
+    "track: {start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}\n"
+    "body: {friction_angle: 17 deg}\n"
+    "limits:\n"
+    "  keep_outs:\n"
+    "    - {outline: [[1.2 m, 5 m], [1.6 m, 5 m], [1.6 m, 5.5 m], [1.2 m, 5.5 m]], clearance: 100 mm}\n"
+    "cross_section: {kind: u-channel, width: 400 mm, wall_height: 600 mm, thickness: 4 mm}\n"
+    "mesh: {tolerance: 2 mm}\n"
+    "export: [stl]\n";
+
+}  // namespace
+
+TEST_CASE("walls keep clear of a beam that the floor passes by far") {
+  const DesignFile file(kPastBeam);
+  const json solid = solved(file);
+  CHECK(solid["clearances_from"] == "solid");
+  CHECK(solid["search"]["status"] == "optimal");
+  const json check = check_of(solid, "keep_outs[0]");
+  CHECK(check["kept"] == true);
+  CHECK(check["reached"].get<double>() == Approx(0.1).epsilon(1e-4));
+  CHECK(check["closest"]["part"] == "rim");
+  CHECK(check["closest"]["height_m"].get<double>() == Approx(0.6));
+
+  const json floor = solved(file, {"--set", "limits.clearances_from=centerline"});
+  CHECK(floor["clearances_from"] == "centerline");
+  CHECK(floor["travel_time_s"].get<double>() < solid["travel_time_s"].get<double>());
+  CHECK(check_of(floor, "keep_outs[0]")["closest"].is_null());
+  CHECK(check_of(floor, "keep_outs[0]")["reached"].get<double>() > 0.5);
+}
+
+TEST_CASE("a track whose walls run through a beam is not called kept, whatever its kind") {
+  const DesignFile file(kPastBeam);
+  for (const char* kind : {"straight", "cycloid", "constant-speed", "no-curvature-load"}) {
+    const Outcome outcome =
+        solve(file, {"--set", std::string("centerline.kind=") + kind, "--set",
+                     "limits.keep_outs.0.outline=[[1.2 m, 4.3 m], [1.6 m, 4.3 m], [1.6 m, "
+                     "5.5 m], [1.2 m, 5.5 m]]"});
+    INFO(kind << ": " << outcome.output << outcome.errors);
+    CHECK(outcome.exit_code == 3);
+    CHECK_THAT(outcome.errors,
+               Contains("keep_outs[0] 100 mm is broken by") && Contains("reaches in by") && Contains(", x "));
+  }
+}
+
+TEST_CASE("headroom counts where it is higher than the walls, and without a section too") {
+  const DesignFile file(kPastBeam);
+  const json high = solved(file, {"--set", "limits.headroom=700mm"});
+  CHECK(check_of(high, "keep_outs[0]")["closest"]["part"] == "headroom");
+  const json low = solved(file, {"--set", "limits.headroom=200mm"});
+  CHECK(check_of(low, "keep_outs[0]")["closest"]["part"] == "rim");
+  const Outcome unused = solve(file, {"--set", "limits={headroom: 200 mm}"});
+  CHECK(unused.exit_code == 2);
+  CHECK_THAT(unused.errors, Contains("headroom: 200 mm is kept clear of nothing"));
+  const Outcome contradiction =
+      solve(file, {"--set", "limits.headroom=200mm", "--set", "limits.clearances_from=centerline"});
+  CHECK(contradiction.exit_code == 2);
+  CHECK_THAT(contradiction.errors, Contains("headroom: 200 mm contradicts clearances_from: centerline"));
+}
+
+TEST_CASE("the summary says what clearances are measured from") {
+  const DesignFile file(kPastBeam);
+  CHECK_THAT(solve(file).output, Contains("from the whole solid, 4 mm below to 600 mm above the floor"));
+  CHECK_THAT(solve(file, {"--set", "limits.clearances_from=centerline"}).output,
+             Contains("from the centerline"));
+}
+
+TEST_CASE("a finish without room for the section is said at once, with what would do") {
+  const DesignFile file(kPastBeam);
+  // A ceiling 0.4 m above the finish: walls of 0.6 m do not fit under it, whatever the slope there.
+  const std::vector<std::string> low = {
+      "--set",
+      "limits={exit_slope_angle: {lowest: 0 deg, highest: 30 deg}, stay_below: [{line: [[3 m, 1.5 m], [7 m, "
+      "1.5 m]], clearance: 50 mm}]}"};
+  const Outcome outcome = solve(file, low);
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors, Contains("the finish lies too close to stay_below[0] for the solid") &&
+                                 Contains("reaches 4 mm below and 600 mm above the floor") &&
+                                 Contains("no direction of the track there keeps the clearance"));
+  std::vector<std::string> lower = low;
+  lower.insert(lower.end(), {"--set", "cross_section.wall_height=200mm"});
+  CHECK(solve(file, lower).exit_code == 0);
+  // Upright to the ceiling walls may be higher.
+  const Outcome before =
+      solve(file, {"--set",
+                   "limits={entry_slope_angle: 10 deg, keep_outs: [{outline: [[-1 m, 6.4 m], [1 m, 6.4 m], "
+                   "[1 m, 6.6 m], [-1 m, 6.6 m]], clearance: 50 mm}]}"});
+  CHECK(before.exit_code == 3);
+  CHECK_THAT(before.errors, Contains("the start lies too close to keep_outs[0]") &&
+                                Contains("a solid and headroom that reach at most"));
+}

@@ -5,6 +5,7 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/motion/laws/rolling_ball.hpp"
 
+#include "optimize/differences.hpp"
 #include "optimize/rows.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/transcription.hpp"
@@ -105,33 +106,6 @@ std::vector<Setup> setups() {
     all.push_back(make_fine_setup(rider));
   }
   return all;
-}
-
-// Truncation h^2 f'''/6 and rounding 1e-16/h balance near here.
-constexpr double kStep = 1e-5;
-constexpr double kDifferenceError = 2e-8;
-// The curvature between a foot and the stations beside it is interpolated.
-constexpr double kFootError = 2e-3;
-
-/// Greatest distance between a gradient and central differences of its function, over the gradient's size.
-template <class Function>
-double gradient_error(const Function& function, const Vector& z, const Vector& gradient) {
-  double worst = 0.0;
-  double size = 1.0;
-  for (std::size_t j = 0; j < z.size(); ++j) {
-    Vector above = z;
-    Vector below = z;
-    above[j] += kStep;
-    below[j] -= kStep;
-    // Richardson: fourth order from two second-order differences.
-    const double wide = (function(above) - function(below)) / (2.0 * kStep);
-    above[j] = z[j] + 2.0 * kStep;
-    below[j] = z[j] - 2.0 * kStep;
-    const double wider = (function(above) - function(below)) / (4.0 * kStep);
-    worst = std::max(worst, std::fabs((4.0 * wide - wider) / 3.0 - gradient[j]));
-    size = std::max(size, std::fabs(gradient[j]));
-  }
-  return worst / size;
 }
 
 using Complex = std::complex<long double>;
@@ -308,36 +282,6 @@ TEST_CASE("a track of fine knots is the clothoid spline that has them all") {
   CHECK(foot.y == Approx(same.y).margin(kRounding));
 }
 
-namespace {
-
-/// Greatest distance of the Lagrangian's Hessian from central differences of its gradient.
-double hessian_error(const Setup& setup, const Rows& rows, const Vector& equality,
-                     const std::vector<Row>& active, const Vector& inequality) {
-  const Matrix hessian = rows.hessian(rows.state(setup.z, true), equality, active, inequality, 1.0);
-  double worst = 0.0;
-  for (std::size_t j = 0; j < setup.z.size(); ++j) {
-    const auto slope = [&](const Vector& z) {
-      const State at = rows.state(z, true);
-      Vector value;
-      Matrix jacobian;
-      rows.equalities(at, value, jacobian);
-      double sum = rows.objective_gradient(at)[j];
-      for (std::size_t i = 0; i < value.size(); ++i) sum += equality[i] * jacobian(i, j);
-      Vector gradient(z.size());
-      for (std::size_t i = 0; i < active.size(); ++i) {
-        rows.gradient(at, active[i], gradient.data());
-        sum += inequality[i] * gradient[j];
-      }
-      return sum;
-    };
-    worst = std::max(worst,
-                     gradient_error(slope, setup.z, Vector(hessian.row(j), hessian.row(j) + setup.z.size())));
-  }
-  return worst;
-}
-
-}  // namespace
-
 TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
   for (Setup setup : setups()) {
     setup.problem.speed_weight = 0.3;
@@ -347,7 +291,7 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
     Vector equality(rows.equality_count(), 0.0);
     equality[0] = 0.4;
     equality[1] = -0.7;
-    CHECK(hessian_error(setup, rows, equality, {}, {}) < 10.0 * kDifferenceError);
+    CHECK(hessian_error(setup.z, rows, equality, {}, {}) < 10.0 * kDifferenceError);
     // One row of every limit and ride.
     std::size_t limit = setup.problem.limits.size();
     std::size_t ride = 0;
@@ -359,9 +303,9 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
       ride = row.ride;
       CAPTURE(setup.problem.limits[row.limit].name.key(), row.place, row.ride, row.foot);
       const double allowed = row.foot ? kFootError : 10.0 * kDifferenceError;
-      CHECK(hessian_error(setup, rows, equality, {row}, {0.9}) < allowed);
+      CHECK(hessian_error(setup.z, rows, equality, {row}, {0.9}) < allowed);
     }
     equality.back() = 0.8;
-    CHECK(hessian_error(setup, rows, equality, {}, {}) < kFootError);
+    CHECK(hessian_error(setup.z, rows, equality, {}, {}) < kFootError);
   }
 }

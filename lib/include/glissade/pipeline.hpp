@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/clearance/envelope.hpp"
 #include "glissade/core/friction_level.hpp"
 #include "glissade/core/progress.hpp"
 #include "glissade/design/design.hpp"
@@ -64,7 +65,7 @@ struct Track {
   /// names and the frame of the design file: finish.x, finish.z.
   std::optional<OptimizeReport> search;
   /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without
-  /// limits.
+  /// limits. Places of an envelope are (x, z) as the design's limits give them.
   std::vector<LimitCheck> limit_checks;
   /// The same body at the ends of the design's friction range; empty where it has none.
   std::vector<RangeRide> range;
@@ -98,6 +99,14 @@ class LimitsConflict : public InfeasibleError {
 
 /// A design as the optimiser takes it: run and drop from the start.
 [[nodiscard]] Problem problem_of(const Design& design);
+
+/// What the clearances of a design are measured from: the solid of its cross_section and the headroom; all 0
+/// where that is the centerline, or where nothing is kept clear of.
+/// @throws InputError if the measures do not make a cross-section
+[[nodiscard]] Envelope envelope_of(const Design& design);
+
+/// A part of a design's envelope in words: "wall rim", "underside", "finish face".
+[[nodiscard]] std::string part_text(const Design& design, EnvelopePart part);
 
 /// A design whose finish is where its centerline ends, for those that leave it to `segments` or `points`;
 /// with it, other kinds of centerline can be put in its place.

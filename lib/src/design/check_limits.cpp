@@ -269,7 +269,30 @@ void check_shapes(const Limits& limits, Collected& findings) {
   check_profiles(limits.stay_below, "stay_below");
 }
 
+void check_headroom(const Limits& limits, Collected& findings) {
+  const double headroom = limits.envelope.headroom;
+  if (!(headroom >= 0.0 && headroom <= 1e6)) {
+    report(findings, {path("headroom")},
+           {"", "headroom: " + length_text(headroom) + " is out of range",
+            "It is what slides needs above the floor, 0 to 1000 km.", ""});
+    return;
+  }
+  if (headroom == 0.0) return;
+  if (limits.clearances_from == ClearancesFrom::centerline) {
+    report(findings, {path("headroom"), path("clearances_from")},
+           {"", "headroom: " + length_text(headroom) + " contradicts clearances_from: centerline",
+            "Measured from the centerline, clearances know nothing above the floor.",
+            "clearances_from: solid, or a larger clearance instead of the headroom"});
+  } else if (!limits.has_clearances()) {
+    report(findings, {path("headroom")},
+           {"", "headroom: " + length_text(headroom) + " is kept clear of nothing",
+            "It counts for half_planes, keep_outs, stay_above and stay_below, and there are none.",
+            "no headroom, or the obstacle that it is about"});
+  }
+}
+
 void check_clearances(const Design& design, Collected& findings) {
+  check_headroom(*design.limits, findings);
   const std::size_t before = findings.size();
   check_shapes(*design.limits, findings);
   if (findings.size() != before || !design.track.finish_given) return;

@@ -168,6 +168,12 @@ std::vector<Thing> read_list(MapReader& map, std::string_view key, std::string_v
 
 void read_clearances(MapReader& map, Limits& limits, const std::filesystem::path& directory,
                      Findings& findings) {
+  static const Words<ClearancesFrom> origins = {{"solid", ClearancesFrom::solid},
+                                                {"centerline", ClearancesFrom::centerline}};
+  if (const auto from = map.find("clearances_from")) {
+    limits.clearances_from = map.choice(*from, origins).value_or(ClearancesFrom::solid);
+  }
+  limits.envelope.headroom = map.quantity("headroom", Dimension::length).value_or(0.0);
   limits.half_planes = read_list(map, "half_planes", "[{line: [[0 m, 2 m], [5 m, 2 m]], stay: below}]",
                                  &read_half_plane, findings);
   limits.keep_outs = read_list(map, "keep_outs", "[{outline: [[2 m, 3 m], [2.4 m, 3 m], [2 m, 3.4 m]]}]",

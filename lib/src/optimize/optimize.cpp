@@ -6,6 +6,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/error.hpp"
 
+#include "optimize/end_conflict.hpp"
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/load_arcs.hpp"
@@ -530,7 +531,9 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   };
 
-  if (const std::optional<Conflict> conflict = beyond_reach(problem)) {
+  std::optional<Conflict> at_once = beyond_reach(problem);
+  if (!at_once) at_once = too_close_at_an_end(problem);
+  if (const std::optional<Conflict>& conflict = at_once) {
     report.status = OptimizeStatus::infeasible;
     report.conflict = *conflict;
     report.message = conflict->text;

@@ -13,8 +13,8 @@ double free_fall(const Transcription& track, std::size_t station, double entry_s
   return 2.0 * track.stations()[station].arc_length(track.mesh().core_length) + entry_speed2;
 }
 
-/// Signed distance of a corner from the track at its foot: positive where the corner lies on the side that
-/// `side` calls forbidden; unsigned beyond the ends of the track.
+}  // namespace
+
 double corner_distance(const Foot& foot, Vec2 corner, double side) {
   const double dx = corner.x - foot.x;
   const double dy = corner.y - foot.y;
@@ -22,7 +22,6 @@ double corner_distance(const Foot& foot, Vec2 corner, double side) {
   return side * (-foot.sin * dx + foot.cos * dy);
 }
 
-/// What a distance at a foot weighs the stations beside it with.
 void add_foot_weights(const Foot& foot, double factor, StationWeights& weights) {
   weights.x[foot.base] += factor * foot.sin * (1.0 - foot.share);
   weights.y[foot.base] -= factor * foot.cos * (1.0 - foot.share);
@@ -36,9 +35,6 @@ Vec2 edge_normal(Vec2 from, Vec2 to, double side) {
   return {-side * along.y / size, side * along.x / size};
 }
 
-/// Whether an edge of a chain tells how far a point lies from what the chain bounds. A point on its free side
-/// is as far from it as from the line through it where it lies beside the edge; one behind that line lies within
-/// only over the edge's own runs: elsewhere, in a gully or beyond a cliff, other edges stand before this one.
 bool concerns(Vec2 point, Vec2 from, Vec2 to, double side) {
   const Vec2 along = to - from;
   const Vec2 rest = point - from;
@@ -47,11 +43,10 @@ bool concerns(Vec2 point, Vec2 from, Vec2 to, double side) {
   return share >= 0.0 && share <= 1.0;
 }
 
-}  // namespace
-
 Rows::Rows(const ScaledProblem& problem, const Transcription& track)
     : problem_(problem),
       track_(track),
+      envelope_(problem, track),
       fixed_equalities_(problem.finish == FinishKind::point ? 2 : 1),
       margins_(problem.limits.size(), 0.0) {
   if (problem.lead_in > 0.0) ++fixed_equalities_;
@@ -69,6 +64,7 @@ State Rows::state(const Vector& z, bool derivatives) const {
   State state;
   state.z = z;
   track_.shape(z, state.shape, derivatives);
+  if (has_envelope()) state.zones = envelope_.zones(state.shape);
   state.flows.resize(problem_.rides.size());
   for (std::size_t r = 0; r < problem_.rides.size(); ++r) {
     track_.flow(z, state.shape, problem_.rides[r], state.flows[r], derivatives);
@@ -196,6 +192,7 @@ double Rows::measure(const State& state, const LimitSpec& limit, const Row& row)
       return problem_.finish == FinishKind::level ? shape.x[last] : shape.y[last];
     case Measure::distance: {
       const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
+      if (has_envelope()) return envelope_.measure(state, obstacle, row);
       if (row.foot) {
         const Vec2 corner = obstacle.corners[row.place];
         return corner_distance(track_.foot(state.z, shape, corner.x, corner.y), corner, obstacle.side);
@@ -276,6 +273,10 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
       return;
     case Measure::distance: {
       const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
+      if (has_envelope()) {
+        envelope_.gradient(state, obstacle, row, out);
+        return;
+      }
       if (!row.foot) {
         const Vec2 forbidden = obstacle.endless ? obstacle.forbidden
                                                 : edge_normal(obstacle.corners[row.edge],
@@ -347,7 +348,7 @@ double Rows::place(const State& state, const Row& row) const {
     return problem_.lead_in + length * track_.mesh().knots[row.place];
   }
   if (row.foot) {
-    const Vec2 corner = problem_.obstacles[limit.obstacle].corners[row.place];
+    const Vec2 corner = problem_.obstacles[limit.obstacle].corner(row.place);
     return track_.foot(state.z, state.shape, corner.x, corner.y).at.arc_length(length);
   }
   return track_.stations()[row.place].arc_length(length);
@@ -420,6 +421,10 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
         everywhere(last_ride, 1);
         break;
       case Measure::distance: {
+        if (has_envelope()) {
+          for (const Row& place : envelope_.rows(state, i)) consider(place);
+          break;
+        }
         const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
         if (obstacle.endless) {
           everywhere(0, 0);
@@ -473,6 +478,10 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
       return;
     case Measure::distance: {
       const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
+      if (has_envelope()) {
+        envelope_.add_weights(state, obstacle, row, factor, weights);
+        return;
+      }
       if (row.foot) {
         const Vec2 corner = obstacle.corners[row.place];
         const Foot foot = track_.foot(state.z, shape, corner.x, corner.y);
@@ -538,13 +547,6 @@ StationWeights Rows::weights(const State& state, const Vector& equality, const s
 
 namespace {
 
-void add_symmetric(Matrix& hessian, double factor, const Vector& a, const Vector& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    add_scaled(hessian.row(i), factor * a[i], b.data(), b.size());
-    add_scaled(hessian.row(i), factor * b[i], a.data(), a.size());
-  }
-}
-
 /// Second derivative of c/L, c = first z_i + second z_(i+1).
 void add_curvature_terms(Matrix& hessian, std::size_t at, double first, double second, std::size_t at_length,
                          double curvature, double length, double factor) {
@@ -558,6 +560,42 @@ void add_curvature_terms(Matrix& hessian, std::size_t at, double first, double s
 }
 
 }  // namespace
+
+void add_symmetric(Matrix& hessian, double factor, const Vector& a, const Vector& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    add_scaled(hessian.row(i), factor * a[i], b.data(), b.size());
+    add_scaled(hessian.row(i), factor * b[i], a.data(), a.size());
+  }
+}
+
+double curvature_at(const Transcription& track, const Vector& z, const Foot& foot) {
+  const Layout& layout = track.layout();
+  if (foot.at.part != Part::core) return 0.0;
+  return ((1.0 - foot.at.share) * z[layout.turn(foot.at.piece)] +
+          foot.at.share * z[layout.turn(foot.at.piece + 1)] + track.own_turn(foot.at.sigma)) /
+         z[layout.length()];
+}
+
+// D'' = m.p'' + (b t t - t a - a t - D a a)/(1 + b D) with m = -side normal, t the derivative along the track,
+// a that of the direction across it, b how the track bends towards m.
+void add_foot_terms(const Transcription& track, const State& state, const Foot& foot, double distance,
+                    double side, double factor, Matrix& hessian) {
+  const Layout& layout = track.layout();
+  const std::size_t n = layout.size();
+  Vector dx;
+  Vector dy;
+  track.foot_derivatives(state.z, state.shape, foot, dx, dy);
+  Vector along(n);
+  for (std::size_t j = 0; j < n; ++j) along[j] = foot.cos * dx[j] + foot.sin * dy[j];
+  Vector across(n);
+  track.turning_row(foot.at, across.data());
+  for (double& entry : across) entry *= -side;
+  const double bend = side * curvature_at(track, state.z, foot);
+  const double share = factor / (1.0 + bend * distance);
+  add_symmetric(hessian, 0.5 * share * bend, along, along);
+  add_symmetric(hessian, -share, along, across);
+  add_symmetric(hessian, -0.5 * share * distance, across, across);
+}
 
 void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
                             Matrix& hessian) const {
@@ -608,36 +646,18 @@ void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Ro
     }
     case Measure::distance:
     case Measure::waypoint: {
-      if (!row.foot) return;
-      // The foot slides: D'' = m.p'' + (b t t - t a - a t - D a a)/(1 + b D) with m = -side normal, t the
-      // derivative along the track, a that of the direction across it, b how the track bends towards m.
       const bool obstacle = limit.measure == Measure::distance;
+      if (obstacle && has_envelope()) {
+        envelope_.add_direct_terms(state, problem_.obstacles[limit.obstacle], row, factor, hessian);
+        return;
+      }
+      if (!row.foot) return;
       const Vec2 corner = obstacle ? problem_.obstacles[limit.obstacle].corners[row.place]
                                    : problem_.waypoints[limit.obstacle];
       const double side = obstacle ? problem_.obstacles[limit.obstacle].side : 1.0;
       const Foot foot = track_.foot(state.z, state.shape, corner.x, corner.y);
       if (foot.end) return;
-      const double distance = corner_distance(foot, corner, side);
-      Vector dx;
-      Vector dy;
-      track_.foot_derivatives(state.z, state.shape, foot, dx, dy);
-      Vector along(n);
-      for (std::size_t j = 0; j < n; ++j) along[j] = foot.cos * dx[j] + foot.sin * dy[j];
-      Vector across(n);
-      track_.turning_row(foot.at, across.data());
-      for (double& entry : across) entry *= -side;
-      double curvature = 0.0;
-      if (foot.at.part == Part::core) {
-        curvature =
-            ((1.0 - foot.at.share) * state.z[layout.turn(foot.at.piece)] +
-             foot.at.share * state.z[layout.turn(foot.at.piece + 1)] + track_.own_turn(foot.at.sigma)) /
-            length;
-      }
-      const double bend = side * curvature;
-      const double share = factor / (1.0 + bend * distance);
-      add_symmetric(hessian, 0.5 * share * bend, along, along);
-      add_symmetric(hessian, -share, along, across);
-      add_symmetric(hessian, -0.5 * share * distance, across, across);
+      add_foot_terms(track_, state, foot, corner_distance(foot, corner, side), side, factor, hessian);
       return;
     }
     case Measure::entry_slope_angle:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "optimize/envelope_rows.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/sqp.hpp"
 #include "optimize/transcription.hpp"
@@ -17,6 +18,8 @@ struct Row {
   std::size_t place = 0;  ///< station; knot (fine ones behind the others) or piece; corner of a foot row
   std::size_t edge = 0;   ///< of an obstacle's chain
   bool foot = false;      ///< measured at the foot of a corner instead of at a station
+  bool face = false;      ///< of an envelope: measured at a corner of the end face at that station
+  std::size_t level = 0;  ///< of an envelope: 0 at the underside, 1 at the top
 
   // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 within a defaulted <=> for a pointer.
   friend auto operator<=>(const Row&, const Row&) = default;
@@ -27,6 +30,7 @@ struct State {
   Vector z;
   Shape shape;
   std::vector<Flow> flows;
+  EnvelopeRows::Zones zones;  ///< where the end planes may cut an envelope
 };
 
 /// The limits of a problem as rows over one transcription. Inequalities are kept where value <= 0, in units
@@ -86,11 +90,14 @@ class Rows {
   };
   /// The knot of a row of Measure::curvature.
   [[nodiscard]] Bend bend(const Vector& z, std::size_t place) const;
+  /// Whether clearances are measured from more than the centerline.
+  [[nodiscard]] bool has_envelope() const { return problem_.envelope_high > problem_.envelope_low; }
   [[nodiscard]] double effective_bound(const LimitSpec& limit) const;
   [[nodiscard]] double effective_scale(const LimitSpec& limit) const;
 
   const ScaledProblem& problem_;
   const Transcription& track_;
+  EnvelopeRows envelope_;
   std::vector<std::pair<std::size_t, std::size_t>> equality_limits_;  ///< limit, ride
   std::size_t fixed_equalities_ = 0;
   Vector margins_;

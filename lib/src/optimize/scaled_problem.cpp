@@ -50,6 +50,27 @@ int side_of(Bound bound) {
   return bound == Bound::highest ? 1 : bound == Bound::lowest ? -1 : 0;
 }
 
+/// What an area's outline has beside its chain.
+void add_others(Obstacle& obstacle) {
+  const std::vector<Vec2>& outline = obstacle.outline;
+  const std::vector<Vec2>& chain = obstacle.corners;
+  double area = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    area += cross(outline[i], outline[(i + 1) % outline.size()]);
+  const auto in_chain = [&](Vec2 a, Vec2 b) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      if ((chain[i] == a && chain[i + 1] == b) || (chain[i] == b && chain[i + 1] == a)) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 a = outline[i];
+    const Vec2 b = outline[(i + 1) % outline.size()];
+    if (!in_chain(a, b)) obstacle.other_sides.push_back(area > 0.0 ? std::pair(a, b) : std::pair(b, a));
+    if (std::find(chain.begin(), chain.end(), a) == chain.end()) obstacle.other_corners.push_back(a);
+  }
+}
+
 /// Collects the limits of one problem, scaled.
 class LimitList {
  public:
@@ -82,6 +103,8 @@ class LimitList {
 
   void add_obstacle(const LimitName& name, Obstacle obstacle, double clearance) {
     for (Vec2& corner : obstacle.corners) corner = (1.0 / out_.chord) * corner;
+    for (Vec2& corner : obstacle.outline) corner = (1.0 / out_.chord) * corner;
+    if (!obstacle.outline.empty()) add_others(obstacle);
     LimitSpec& limit = add(name, clearance);
     limit.measure = Measure::distance;
     limit.obstacle = out_.obstacles.size();
@@ -211,6 +234,7 @@ void add_obstacles(const Limits& limits, const Passages& passages, LimitList& li
     const bool above = passages[i] == Passage::above;
     obstacle.side = above ? 1.0 : -1.0;
     obstacle.corners = chain(limits.keep_outs[i].outline, above);
+    obstacle.outline = limits.keep_outs[i].outline;
     list.add_obstacle({LimitId::keep_outs, Bound::lowest, i}, obstacle, limits.keep_outs[i].clearance);
   }
   for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
@@ -328,6 +352,8 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
       break;
   }
 
+  out.envelope_low = -limits.envelope.below / out.chord;
+  out.envelope_high = limits.envelope.top() / out.chord;
   add_limits(problem, passages, out);
   return out;
 }

@@ -8,6 +8,7 @@
 #include "optimize/transcription.hpp"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -49,6 +50,16 @@ struct Obstacle {
   bool endless = false;       ///< a half-plane: the line goes on beyond its corners
   double side = 1.0;          ///< +1: forbidden below (larger drop), -1: forbidden above; of chains
   Vec2 forbidden;             ///< unit vector, of half-planes
+  std::vector<Vec2> outline;  ///< of areas: all corners around it, of which the chain has one side
+  /// Of areas: the sides that are not in the chain, in an order that leaves the area to their left where drop
+  /// points down, and the corners that are not.
+  std::vector<std::pair<Vec2, Vec2>> other_sides;
+  std::vector<Vec2> other_corners;
+
+  /// @return a corner of the chain, or one of the others after them
+  [[nodiscard]] Vec2 corner(std::size_t index) const {
+    return index < corners.size() ? corners[index] : other_corners[index - corners.size()];
+  }
 };
 
 /// The problem without dimension: lengths in chords, speeds in sqrt(gravity chord), gravity 1.
@@ -72,6 +83,8 @@ struct ScaledProblem {
   double speed_weight = 0.0;
   std::vector<LimitSpec> limits;
   std::vector<Obstacle> obstacles;
+  double envelope_low = 0.0;   ///< heights that clearances are measured from: of the underside, <= 0
+  double envelope_high = 0.0;  ///< and of the top, >= 0
   std::vector<Vec2> waypoints;
 };
 

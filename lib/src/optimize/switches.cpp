@@ -548,7 +548,7 @@ std::vector<std::vector<Span>> bindings_of(const ScaledProblem& problem, const F
   for (const Row& row : found.rows->candidates(state, HUGE_VAL)) {
     const double slack = -found.rows->value(state, row);
     // How far a corner is tells of the track at one place, not along it.
-    if (row.foot && slack > kAtBound) continue;
+    if ((row.foot || row.face) && slack > kAtBound) continue;
     const double at = found.rows->place(state, row);
     places[row.limit].push_back({at, slack});
     if (problem.limits[row.limit].measure != Measure::curvature_rate) continue;

@@ -278,7 +278,7 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   }
 }
 
-Foot Transcription::advance(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
+Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
                             double share) const {
   const PanelRule& rule = panel_rule();
   const double length = z[layout_.length()];
@@ -355,12 +355,12 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
   const double gap =
       stations_[towards].arc_length(z[layout_.length()]) - stations_[nearest].arc_length(z[layout_.length()]);
   double share = std::min(1.0, std::fabs(along / gap));
-  Foot foot = advance(z, shape, nearest, towards, share);
+  Foot foot = between(z, shape, nearest, towards, share);
   for (int step = 0; step < 8; ++step) {
     const double rest = (target_x - foot.x) * foot.cos + (target_y - foot.y) * foot.sin;
     if (std::fabs(rest) < 1e-15) break;
     share = std::clamp(share + rest / gap, 0.0, 1.0);
-    foot = advance(z, shape, nearest, towards, share);
+    foot = between(z, shape, nearest, towards, share);
   }
   return foot;
 }

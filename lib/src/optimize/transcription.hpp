@@ -154,6 +154,9 @@ class Transcription {
   void turning_row(const Station& station, double* row) const;
   /// Position of the point closest to `target`, by its own quadrature from the nearest station.
   [[nodiscard]] Foot foot(const Vector& z, const Shape& shape, double target_x, double target_y) const;
+  /// The point a share of the way from one station to one next to it.
+  [[nodiscard]] Foot between(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
+                             double share) const;
   /// Derivatives of a foot's position at fixed sigma.
   void foot_derivatives(const Vector& z, const Shape& shape, const Foot& foot, Vector& dx, Vector& dy) const;
 
@@ -191,8 +194,6 @@ class Transcription {
   void add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
                       const StationWeights& weights, std::size_t index, HessianParts& parts) const;
   void add_panels(double a, double b, Part part, std::size_t piece);
-  [[nodiscard]] Foot advance(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
-                             double share) const;
   void add_station(double at, Part part, std::size_t piece);
   void add_fine_knots();
   [[nodiscard]] std::size_t start_station(std::size_t panel) const;

@@ -61,6 +61,11 @@ Json limits_json(const std::vector<LimitCheck>& checks) {
   return limits;
 }
 
+Json clearances_from_json(const Design& design) {
+  if (!design.limits || !design.limits->has_clearances()) return nullptr;
+  return envelope_of(design).is_line() ? "centerline" : "solid";
+}
+
 Json rides_of(const Track& track, pipeline::StallMargin margin) {
   const std::optional<Angle> stall_angle =
       margin == pipeline::StallMargin::yes ? stall_angle_of(track) : std::nullopt;
@@ -90,6 +95,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
     json[key] = nullptr;
   }
   json["rides"] = Json::array();
+  json["clearances_from"] = clearances_from_json(design);
   json["limits"] = limits_json(report.checks);
   json["search"] = search_json(report);
   json["probes"] = Json::array();
@@ -107,6 +113,7 @@ Json pipeline::track_document(const Design& design, const Track& track, StallMar
   json["optimum_travel_time_s"] = number(track.optimum_travel_time);
   add_curve(json, track);
   json["rides"] = rides_of(track, margin);
+  json["clearances_from"] = clearances_from_json(design);
   json["limits"] = limits_json(track.limit_checks);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
   json["probes"] = probes_json(probe_readings(design, track));

@@ -80,6 +80,12 @@ class FinishNames {
   explicit FinishNames(const TrackDesign& track)
       : start_(track.start), mirrored_(is_mirrored(track)), level_(track.start.y == track.finish.y) {}
 
+  /// Where an envelope comes closest, as the design's limits count.
+  void place(LimitCheck& check) const {
+    if (!check.closest) return;
+    const Vec2 point = check.closest->point;
+    check.closest->point = {(level_ ? start_.x : 0.0) + (mirrored_ ? -point.x : point.x), start_.z - point.y};
+  }
   /// @param values  coordinates that belong to the limit
   void rename(LimitName& limit, std::initializer_list<double*> values) const {
     const bool drop = limit.id == LimitId::finish_drop;
@@ -135,13 +141,17 @@ Issue conflict_issue(const Design& design, const OptimizeReport& report) {
   }
   if (conflict.relaxations.size() > 1) hint += " (each alone would do)";
   std::string why = "Even the track that breaks them least still breaks them.";
+  if (!conflict.why.empty()) why = conflict.why;
   if (const auto leads = long_leads(design)) why = *leads;
   return {place, conflict.text, std::move(why), std::move(hint)};
 }
 
 void rename_finish(const Design& design, OptimizeReport& report) {
   const FinishNames names(design.track);
-  for (LimitCheck& check : report.checks) names.rename(check.limit, {&check.value, &check.reached});
+  for (LimitCheck& check : report.checks) {
+    names.rename(check.limit, {&check.value, &check.reached});
+    names.place(check);
+  }
   for (ActiveLimit& active : report.active) names.rename(active.limit, {&active.value});
   for (StatedLimit& stated : report.conflict.limits) {
     double nothing = 0.0;
@@ -152,18 +162,61 @@ void rename_finish(const Design& design, OptimizeReport& report) {
   }
   // Out of reach is a sentence of its own, and knows no free finish.
   if (design.track.free_finish == FinishKind::point || report.conflict.limits.empty()) return;
+  if (!report.conflict.why.empty()) return;
   report.conflict.text = conflict_text(report.conflict);
   report.message = report.conflict.text;
 }
 
-std::string broken_text(const LimitCheck& check) {
+/// "at the wall rim, x 1.38 m, z 5.1 m"
+std::string closest_text(const Design& design, const EnvelopePlace& place) {
+  return "at the " + part_text(design, place.part) + ", x " + length_text(place.point.x) + ", z " +
+         length_text(place.point.y);
+}
+
+std::string broken_text(const Design& design, const LimitCheck& check) {
   const Dimension dimension = check.limit.dimension();
   std::string text = check.limit.key() + " " + quantity_text(check.value, dimension) + " is broken";
   if (std::isfinite(check.violation)) text += " by " + quantity_text(check.violation, dimension);
-  return text + " (" + quantity_text(check.reached, dimension) + " after " + length_text(check.where) + ")";
+  text += " (";
+  // Less than nothing is no clearance: the solid reaches into the obstacle.
+  if (check.closest && check.reached < 0.0) {
+    text += "reaches in by " + quantity_text(-check.reached, dimension);
+  } else {
+    text += quantity_text(check.reached, dimension);
+  }
+  if (check.closest) text += " " + closest_text(design, *check.closest) + ",";
+  return text + " after " + length_text(check.where) + ")";
 }
 
 }  // namespace
+
+Envelope envelope_of(const Design& design) {
+  if (!design.limits) return {};
+  const Limits& limits = *design.limits;
+  if (limits.clearances_from == ClearancesFrom::centerline || !limits.has_clearances()) return {};
+  Envelope envelope;
+  envelope.headroom = limits.envelope.headroom;
+  if (!design.cross_section) return envelope;
+  const CrossSection section = make_cross_section(*design.cross_section);
+  envelope.below = -section.lowest();
+  envelope.above = section.highest();
+  return envelope;
+}
+
+std::string part_text(const Design& design, EnvelopePart part) {
+  if (part == EnvelopePart::side) return "side of the solid";
+  if (part != EnvelopePart::rim || !design.cross_section) return std::string(to_text(part));
+  switch (design.cross_section->kind) {
+    case CrossSectionKind::pipe:
+      return "top of the pipe";
+    case CrossSectionKind::slab:
+      return "top of the curbs";
+    case CrossSectionKind::polygon:
+      return "top of the section";
+    default:
+      return "wall rim";
+  }
+}
 
 Problem problem_of(const Design& design) {
   Problem problem;
@@ -175,6 +228,8 @@ Problem problem_of(const Design& design) {
   problem.gravity = design.gravity;
   if (!design.limits) return problem;
   problem.limits = in_plane(design.track, *design.limits);
+  problem.limits.envelope = envelope_of(design);
+  problem.limits.clearances_from = ClearancesFrom::solid;
   problem.objective = design.objective;
   return problem;
 }
@@ -205,7 +260,10 @@ std::vector<LimitCheck> pipeline::checked_limits(const Design& design, const End
   std::vector<LimitCheck> checks =
       at_place(design.where("limits"), [&] { return check_limits(problem, centerline); });
   const FinishNames names(design.track);
-  for (LimitCheck& check : checks) names.rename(check.limit, {&check.value, &check.reached});
+  for (LimitCheck& check : checks) {
+    names.rename(check.limit, {&check.value, &check.reached});
+    names.place(check);
+  }
   return checks;
 }
 
@@ -215,7 +273,7 @@ std::optional<Issue> limits_problem(const Design& design, const Track& track) {
   for (const LimitCheck& check : track.limit_checks) {
     if (check.kept()) continue;
     if (place.empty()) place = place_of(design, check.limit);
-    broken += (broken.empty() ? "" : "; ") + broken_text(check);
+    broken += (broken.empty() ? "" : "; ") + broken_text(design, check);
   }
   if (broken.empty()) return {};
   return Issue{place, "this track breaks limits of the design: " + broken,

@@ -167,6 +167,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.probes = probe_readings(design, track);
   input.warnings = warnings(design, track);
   input.keep_outs = report_keep_outs(design);
+  if (design.limits) input.envelope = envelope_of(design);
   input.limits = limits_of(track);
   for (const fs::path& file : build.files) {
     input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file, build.stop)});

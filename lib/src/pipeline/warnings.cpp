@@ -28,6 +28,7 @@ std::optional<Issue> never_applies(const Design& design, const Track& track) {
 
 std::vector<Issue> warnings(const Design& design, const Track& track) {
   std::vector<Issue> found;
+  if (auto issue = law_problem(design, track)) found.push_back(*std::move(issue));
   if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));
   return found;

@@ -5,6 +5,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/motion/motion.hpp"
 
+#include "clearance/region.hpp"
+#include "clearance/strip.hpp"
 #include "core/plane_geometry.hpp"
 
 #include <algorithm>
@@ -80,7 +82,8 @@ class Watch {
   Watch(const LimitName& limit, double bound, double scale)
       : check_{limit, bound, 0.0, 0.0, scale, 0.0, {}} {}
 
-  void see(double value, double where, std::optional<FrictionLevel> friction = {}) {
+  void see(double value, double where, std::optional<FrictionLevel> friction = {},
+           const std::optional<EnvelopePlace>& closest = {}) {
     const double excess = excess_of(value);
     see_broken(excess / check_.scale, where);
     // A friction that changes nothing but the last digits is not the one at which a limit binds.
@@ -92,6 +95,7 @@ class Watch {
     check_.reached = value;
     check_.where = where;
     check_.friction = friction;
+    check_.closest = closest;
     check_.violation = std::max(0.0, excess);
   }
   [[nodiscard]] bool seen() const { return seen_; }
@@ -151,6 +155,21 @@ std::vector<double> sampled(const Centerline& track, const Limits& limits, int s
   return stations;
 }
 
+/// By so much, as a share of the chord, the least clearance of an envelope may be overstated.
+constexpr double kClearanceAccuracy = 1e-9;
+
+clearance::Pass pass_of(Passage passage) {
+  switch (passage) {
+    case Passage::either:
+      return clearance::Pass::either;
+    case Passage::above:
+      return clearance::Pass::above;
+    case Passage::below:
+      return clearance::Pass::below;
+  }
+  return clearance::Pass::either;
+}
+
 /// All watches of a problem, and how to feed them.
 class Watches {
  public:
@@ -160,6 +179,7 @@ class Watches {
     const Limits& limits = problem_.limits;
     const double s = point.arc_length;
     see(LimitId::slope_angle, point.slope_angle, s);
+    if (!limits.envelope.is_line()) return;
     const Vec2 place{point.x, point.drop};
     for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
       const HalfPlane& plane = limits.half_planes[i];
@@ -177,6 +197,38 @@ class Watches {
     for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
       const Profile& profile = limits.stay_below[i];
       see_item(LimitId::stay_below, i, profile.clearance, distance_to_profile(place, profile.line, -1.0), s);
+    }
+  }
+
+  /// Clearances of the solid and of what slides on it.
+  void at_envelope(const Centerline& track, const std::vector<CenterlinePoint>& points) {
+    const Limits& limits = problem_.limits;
+    if (limits.envelope.is_line()) return;
+    const clearance::Strip strip(track, limits.envelope, points);
+    const auto see = [&](LimitId id, std::size_t index, double bound, const clearance::Region& region) {
+      Watch& clear = watch({id, Bound::lowest, index}, bound, chord_);
+      const std::vector<clearance::Approach> stations = strip.along(region);
+      for (const clearance::Approach& near : stations) clear.see(near.value, near.arc_length, {}, near.place);
+      const clearance::Approach least = strip.least(region, stations, kClearanceAccuracy * chord_);
+      clear.see(least.value, least.arc_length, {}, least.place);
+    };
+    for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
+      const HalfPlane& plane = limits.half_planes[i];
+      see(LimitId::half_planes, i, plane.clearance,
+          clearance::Region::half_plane(plane.point, plane.forbidden));
+    }
+    for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
+      const KeepOut& keep_out = limits.keep_outs[i];
+      see(LimitId::keep_outs, i, keep_out.clearance,
+          clearance::Region::area(keep_out.outline, pass_of(keep_out.passage)));
+    }
+    for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
+      const Profile& profile = limits.stay_above[i];
+      see(LimitId::stay_above, i, profile.clearance, clearance::Region::line(profile.line, true));
+    }
+    for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
+      const Profile& profile = limits.stay_below[i];
+      see(LimitId::stay_below, i, profile.clearance, clearance::Region::line(profile.line, false));
     }
   }
 
@@ -459,6 +511,7 @@ Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int sa
 
   Watches watches(problem, chord);
   for (const CenterlinePoint& point : points) watches.at_point(point);
+  watches.at_envelope(*track, points);
   see_curvature(*track, samples, watches);
   const auto [lead_in, lead_out] = straight_ends(points);
   watches.at_leads(lead_in, lead_out, track->length());

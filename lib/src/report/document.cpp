@@ -208,9 +208,33 @@ Json keep_outs_of(const ReportInput& input) {
   for (const ReportKeepOut& area : input.keep_outs) {
     Json points = Json::array();
     for (const Vec2& point : area.points) points.push_back({point.x, point.y});
-    areas.push_back({{"name", area.name}, {"open", area.open}, {"points_m", std::move(points)}});
+    areas.push_back({{"name", area.name},
+                     {"open", area.open},
+                     {"clearance_m", area.clearance},
+                     {"points_m", std::move(points)}});
   }
   return areas;
+}
+
+/// The side view of the solid and its headroom: null where clearances are measured from the centerline.
+Json envelope_of(const ReportInput& input) {
+  if (input.envelope.is_line()) return nullptr;
+  const double height = input.design->track.start.z;
+  Json edges = Json::array();
+  for (const EnvelopeEdge& edge : envelope_edges(input.motion->centerline(), input.envelope)) {
+    Json xs = Json::array();
+    Json zs = Json::array();
+    for (const Vec2 point : edge.points) {
+      xs.push_back(point.x);
+      zs.push_back(height + point.y);
+    }
+    edges.push_back(
+        {{"name", edge.name}, {"dashed", edge.dashed}, {"x_m", std::move(xs)}, {"z_m", std::move(zs)}});
+  }
+  return {{"below_m", input.envelope.below},
+          {"above_m", input.envelope.above},
+          {"headroom_m", input.envelope.headroom},
+          {"edges", std::move(edges)}};
 }
 
 }  // namespace
@@ -239,6 +263,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["checks"] = checks_of(input);
   document["limits"] = limits_of(input);
   document["keep_outs"] = keep_outs_of(input);
+  document["envelope"] = envelope_of(input);
   document["mesh"] = mesh_of(input);
   document["files"] = files_of(input);
   document["stations"] = ride_line(*input.motion, height);

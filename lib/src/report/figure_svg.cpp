@@ -106,8 +106,15 @@ class Panel {
     const auto to_x = [this](double x) { return at_x(x); };
     const auto to_y = [this](double y) { return at_y(y); };
     for (const FigureArea& area : figure_.areas) {
-      text += fmt::format("<path class=\"area\" d=\"{}Z\"><title>{}</title></path>\n",
-                          points_text(area.xs, area.ys, to_x, to_y), escaped_markup(area.name));
+      const std::string path = points_text(area.xs, area.ys, to_x, to_y) + (area.open ? "" : "Z");
+      const std::string name = escaped_markup(area.name);
+      if (area.margin > 0.0 && figure_.to_scale) {
+        text += fmt::format(
+            "<path class=\"margin\" stroke-width=\"{:.2f}\" d=\"{}\"><title>{}: clearance</title></path>\n",
+            2.0 * (to_x(area.margin) - to_x(0.0)), path, name);
+      }
+      text += fmt::format("<path class=\"{}\" d=\"{}\"><title>{}</title></path>\n",
+                          area.open ? "line border" : "area", path, name);
     }
     for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
       const FigureLine& line = figure_.lines[i];
@@ -279,7 +286,8 @@ std::string figures_svg(const std::vector<Figure>& figures, double width) {
              "<style>.title{{font-size:15px;font-weight:bold}}.grid{{stroke:#dfe4e8;fill:none}}.frame{{"
              "stroke:#7b8794;fill:none}}"
              ".line{{fill:none;stroke-width:2;stroke-linejoin:round}}.area{{fill:#c0282d;fill-opacity:.18;"
-             "stroke:#c0282d}}</style>\n"
+             "stroke:#c0282d}}.margin{{fill:none;stroke:#c0282d;stroke-opacity:.12;stroke-linejoin:round;"
+             "stroke-linecap:round}}.border{{stroke:#c0282d}}</style>\n"
              "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
              width, std::ceil(height)) +
          body + "</svg>\n";

@@ -1,5 +1,6 @@
 #include "glissade/core/math.hpp"
 #include "glissade/report/report.hpp"
+#include "glissade/solid/level_line.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -32,19 +33,20 @@ std::vector<ReportKeepOut> report_keep_outs(const Design& design) {
     const Vec2 plane = in_track_plane(design.track, point);
     return Vec2{plane.x, height - plane.y};
   };
-  const auto add = [&](const std::string& name, const std::vector<Vec2>& points, bool open) {
-    ReportKeepOut area{name, {}, open};
+  const auto add = [&](const std::string& name, const std::vector<Vec2>& points, bool open,
+                       double clearance) {
+    ReportKeepOut area{name, {}, open, clearance};
     for (const Vec2 point : points) area.points.push_back(in_profile(point));
     areas.push_back(std::move(area));
   };
   const Limits& limits = *design.limits;
   const auto key = [](LimitId id, std::size_t index) { return LimitName{id, Bound::lowest, index}.key(); };
   for (std::size_t i = 0; i < limits.keep_outs.size(); ++i)
-    add(key(LimitId::keep_outs, i), limits.keep_outs[i].outline, false);
+    add(key(LimitId::keep_outs, i), limits.keep_outs[i].outline, false, limits.keep_outs[i].clearance);
   for (std::size_t i = 0; i < limits.stay_above.size(); ++i)
-    add(key(LimitId::stay_above, i), limits.stay_above[i].line, true);
+    add(key(LimitId::stay_above, i), limits.stay_above[i].line, true, limits.stay_above[i].clearance);
   for (std::size_t i = 0; i < limits.stay_below.size(); ++i)
-    add(key(LimitId::stay_below, i), limits.stay_below[i].line, true);
+    add(key(LimitId::stay_below, i), limits.stay_below[i].line, true, limits.stay_below[i].clearance);
   const Vec3 way = design.track.finish - design.track.start;
   const double reach = math::hypot(way.x, way.y, way.z);
   for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
@@ -52,9 +54,22 @@ std::vector<ReportKeepOut> report_keep_outs(const Design& design) {
     const Vec2 along{-side.forbidden.y * reach, side.forbidden.x * reach};
     add(key(LimitId::half_planes, i),
         {{side.point.x - along.x, side.point.y - along.y}, {side.point.x + along.x, side.point.y + along.y}},
-        true);
+        true, side.clearance);
   }
   return areas;
+}
+
+std::vector<EnvelopeEdge> envelope_edges(const Centerline& centerline, const Envelope& envelope) {
+  // Half a line's width where the track is a thousand wide.
+  const double tolerance = 5e-4 * centerline.length();
+  std::vector<EnvelopeEdge> edges;
+  const auto add = [&](const char* name, double height, bool dashed) {
+    edges.push_back({name, level_line(centerline, height, tolerance), dashed});
+  };
+  if (envelope.below > 0.0) add("underside", -envelope.below, false);
+  if (envelope.above > 0.0) add("top of the solid", envelope.above, false);
+  if (envelope.headroom > envelope.above) add("headroom", envelope.headroom, true);
+  return edges;
 }
 
 }  // namespace glissade

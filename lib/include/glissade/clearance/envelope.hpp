@@ -3,6 +3,7 @@
 #include "glissade/core/vec.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace glissade {
 
@@ -32,6 +33,9 @@ enum class EnvelopePart {
   start_face,
   finish_face
 };
+
+/// @return "floor", "underside", "rim", "headroom", "side", "start face", "finish face"
+[[nodiscard]] std::string_view to_text(EnvelopePart part);
 
 /// The place of an envelope that comes closest to an obstacle.
 struct EnvelopePlace {

@@ -65,6 +65,7 @@ struct Conflict {
   std::vector<StatedLimit> limits;      ///< those that cannot be met together
   std::vector<Relaxation> relaxations;  ///< each of them alone would do; empty if no single change helps
   std::string text;                     ///< all of it as one sentence, angles in degrees
+  std::string why;                      ///< what confirms it; empty: the search for the least violation
 };
 
 /// @return the limits that contradict each other and what would do, as one sentence

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/clearance/envelope.hpp"
 #include "glissade/core/friction_level.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 #include "glissade/task/problem.hpp"
@@ -24,6 +25,8 @@ struct LimitCheck {
   /// Of a problem with a friction range: at which of its frictions the worst value was reached; none where
   /// friction has no part in it.
   std::optional<FrictionLevel> friction = {};
+  /// Of a clearance measured from an envelope: the part of it that comes closest.
+  std::optional<EnvelopePlace> closest = std::nullopt;
 
   /// @return violation <= kLimitAccuracy * scale
   [[nodiscard]] bool kept() const { return violation <= kLimitAccuracy * scale; }

@@ -14,11 +14,13 @@ struct FigureLine {
   bool dashed = false;
 };
 
-/// A closed area, filled; for keep-outs.
+/// A closed area, filled, or an open line; for keep-outs.
 struct FigureArea {
   std::string name;
   std::vector<double> xs;
   std::vector<double> ys;
+  double margin = 0.0;  ///< a paler band of this width around it, in the figure's unit; figures to scale only
+  bool open = false;
 };
 
 /// One panel: axes with round ticks, lines, a legend.

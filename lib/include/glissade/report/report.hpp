@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/clearance/envelope.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
 #include "glissade/motion/probe.hpp"
@@ -47,6 +48,7 @@ struct ReportKeepOut {
   std::string name;
   std::vector<Vec2> points;  ///< x run from the start, y height z [m]
   bool open = false;
+  double clearance = 0.0;  ///< the band around it that is kept free too [m]
 };
 
 struct ReportFile {
@@ -86,6 +88,7 @@ struct ReportInput {
   std::vector<ProbeReading> probes;
   std::vector<Issue> warnings;  ///< what to hear of beside the answer
   std::vector<ReportKeepOut> keep_outs;
+  Envelope envelope;  ///< what the keep-outs are kept clear of; all 0: the centerline
   std::vector<ReportFile> files;
   std::stop_token stop = {};  ///< report_html() throws Interrupted if it asks for it
 };
@@ -96,8 +99,20 @@ struct ReportInput {
                                                      const std::vector<ActiveLimit>& active = {});
 
 /// Where a design keeps its track out: polygons, grounds and ceilings (open lines), half-planes (an open line
-/// as long as the chord). Clearances are not drawn.
+/// as long as the chord).
 [[nodiscard]] std::vector<ReportKeepOut> report_keep_outs(const Design& design);
+
+/// One edge of an envelope, as a line to draw.
+struct EnvelopeEdge {
+  std::string name;          ///< "underside", "top of the solid", "headroom"
+  std::vector<Vec2> points;  ///< x run from the start, y height above it [m]; from start to finish face
+  bool dashed = false;       ///< the headroom: nothing is built there
+};
+
+/// The edges of an envelope over a track, cut at the end faces and creases as the solid is; the underside
+/// first, none for a side on which it does not reach beyond the centerline.
+[[nodiscard]] std::vector<EnvelopeEdge> envelope_edges(const Centerline& centerline,
+                                                       const Envelope& envelope);
 
 /// The report's data as one JSON document, "glissade-report/2": docs/report-data.md describes each field.
 /// Bytes depend on the input alone. The view of a solid above kViewTriangles is swept anew at a coarser

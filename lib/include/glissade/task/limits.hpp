@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/clearance/envelope.hpp"
 #include "glissade/core/vec.hpp"
 
 #include <optional>
@@ -22,9 +23,10 @@ struct Range {
 
 /// One side of a straight line that the track must stay on.
 struct HalfPlane {
-  Vec2 point;              ///< on the line [m]
-  Vec2 forbidden;          ///< direction square to the line, towards the forbidden side; any length > 0
-  double clearance = 0.0;  ///< dot(track - point, forbidden/|forbidden|) <= -clearance [m]; >= 0
+  Vec2 point;      ///< on the line [m]
+  Vec2 forbidden;  ///< direction square to the line, towards the forbidden side; any length > 0
+  double clearance =
+      0.0;  ///< distance from the envelope to the line >= clearance, on the free side [m]; >= 0
 
   friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
 };
@@ -34,7 +36,7 @@ enum class Passage { either, above, below };
 
 struct KeepOut {
   std::vector<Vec2> outline;          ///< simple polygon [m], either winding, at least 3 corners
-  double clearance = 0.0;             ///< distance from the track to the polygon >= clearance [m]; >= 0
+  double clearance = 0.0;             ///< distance from the envelope to the polygon >= clearance [m]; >= 0
   Passage passage = Passage::either;  ///< either: both are tried, the faster one is taken
 
   friend bool operator==(const KeepOut&, const KeepOut&) = default;
@@ -44,9 +46,16 @@ struct KeepOut {
 /// beside itself only, not beyond its ends.
 struct Profile {
   std::vector<Vec2> line;
-  double clearance = 0.0;  ///< distance from the track to the line >= clearance, on the free side [m]; >= 0
+  double clearance =
+      0.0;  ///< distance from the envelope to the line >= clearance, on the free side [m]; >= 0
 
   friend bool operator==(const Profile&, const Profile&) = default;
+};
+
+/// What the clearances of a design are measured from.
+enum class ClearancesFrom {
+  solid,      ///< the whole solid that the cross_section makes, and the headroom
+  centerline  ///< the middle line of the floor
 };
 
 /// What a job asks of a track. Every limit is optional; each holds at every point of the track, and at every
@@ -78,12 +87,22 @@ struct Limits {
   double lead_in = 0.0;   ///< the track starts with a straight exactly this long [m]; >= 0
   double lead_out = 0.0;  ///< the track ends with a straight exactly this long [m]; >= 0
 
+  /// What half_planes, keep_outs, stay_above and stay_below are measured from: the solid round the centerline
+  /// and what slides on it; by default the centerline itself. In a Design the headroom alone, its
+  /// cross_section tells the rest.
+  Envelope envelope;
+  ClearancesFrom clearances_from = ClearancesFrom::solid;  ///< of a Design; a Problem's envelope says it all
   std::vector<HalfPlane> half_planes;
   std::vector<KeepOut> keep_outs;
   std::vector<Profile> stay_above;  ///< terrain, floors
   std::vector<Profile> stay_below;  ///< roofs, ceilings
 
   std::vector<Vec2> waypoints;  ///< points that the track passes through, in this order [m]
+
+  /// @return whether anything is to be kept clear of
+  [[nodiscard]] bool has_clearances() const {
+    return !half_planes.empty() || !keep_outs.empty() || !stay_above.empty() || !stay_below.empty();
+  }
 
   friend bool operator==(const Limits&, const Limits&) = default;
 };

@@ -119,6 +119,14 @@ Json ride_json(FrictionLevel level, const Motion& motion, const std::optional<An
   return json;
 }
 
+Json closest_json(const std::optional<EnvelopePlace>& closest) {
+  if (!closest) return nullptr;
+  return {{"part", to_text(closest->part)},
+          {"height_m", closest->height},
+          {"x_m", closest->point.x},
+          {"z_m", closest->point.y}};
+}
+
 Json check_json(const LimitCheck& check) {
   return {{"limit", check.limit.key()},
           {"side", side_name(check.limit.bound)},
@@ -126,6 +134,7 @@ Json check_json(const LimitCheck& check) {
           {"reached", in_unit(check.reached, check.limit)},
           {"unit", unit_for_people(check.limit.dimension())},
           {"at_m", check.where},
+          {"closest", closest_json(check.closest)},
           {"friction", level_json(check.friction)},
           {"kept", check.kept()},
           {"violation", in_unit(check.violation, check.limit)},

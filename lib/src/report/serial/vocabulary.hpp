@@ -40,6 +40,8 @@ void add_ride(Json& json, const Motion& motion);
 [[nodiscard]] Json ride_json(FrictionLevel level, const Motion& motion,
                              const std::optional<Angle>& stall_angle);
 
+/// @return the part of an envelope that comes closest to an obstacle; null where there is none
+[[nodiscard]] Json closest_json(const std::optional<EnvelopePlace>& closest);
 [[nodiscard]] Json check_json(const LimitCheck& check);
 [[nodiscard]] Json active_json(const ActiveLimit& active, const Objective& objective);
 /// @return how a search ended; conflict and relaxations are null unless the limits contradict each other

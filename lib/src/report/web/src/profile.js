@@ -43,7 +43,7 @@ class Profile {
 
   wholeView() {
     let [x0, x1, z0, z1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const [, line] of this.lines()) {
+    for (const line of [...this.lines().map(([, one]) => one), ...(this.doc.envelope?.edges ?? [])]) {
       for (let i = 0; i < line.x_m.length; i += 1) {
         x0 = Math.min(x0, line.x_m[i]);
         x1 = Math.max(x1, line.x_m[i]);
@@ -75,6 +75,26 @@ class Profile {
   path(line) {
     const { px, pz } = this.at;
     return line.x_m.map((x, i) => `${i ? "L" : "M"}${px(x).toFixed(2)} ${pz(line.z_m[i]).toFixed(2)}`).join("");
+  }
+
+  // The solid from the side, between its outermost edges, and the headroom above it.
+  body() {
+    if (!this.doc.envelope) return [];
+    const { px, pz } = this.at;
+    const { edges } = this.doc.envelope;
+    const built = edges.filter((edge) => !edge.dashed);
+    const floor = this.doc.stations;
+    const below = built.find((edge) => edge.name === "underside") ?? floor;
+    const above = built.find((edge) => edge.name !== "underside") ?? floor;
+    const corners = [
+      ...below.x_m.map((x, i) => [x, below.z_m[i]]), ...above.x_m.map((x, i) => [x, above.z_m[i]]).reverse(),
+    ];
+    return [
+      svgElement("polygon", { class: "solid", points: corners.map(([x, z]) => `${px(x).toFixed(2)},${pz(z).toFixed(2)}`).join(" ") },
+        svgElement("title", {}, "the solid from the side")),
+      ...edges.filter((edge) => edge.dashed).map((edge) => svgElement("path", { class: "line headroom", d: this.path(edge) },
+        svgElement("title", {}, edge.name))),
+    ];
   }
 
   axes() {
@@ -119,11 +139,17 @@ class Profile {
       straight: svgElement("circle", { class: "body body-straight", r: 6, visibility: "hidden", "data-screen-only": true }),
     };
     const clip = svgElement("clipPath", { id: "profile-clip" }, svgElement("rect", frame));
+    const outline = (area) => area.points_m.map(([x, z]) => `${at.px(x).toFixed(2)},${at.pz(z).toFixed(2)}`).join(" ");
     const curves = svgElement("g", { "clip-path": "url(#profile-clip)" },
+      // The band around an obstacle that is kept free: a stroke of twice its width.
+      doc.keep_outs.filter((area) => area.clearance_m > 0).map((area) => svgElement(area.open ? "polyline" : "polygon", {
+        class: "clearance", points: outline(area), "stroke-width": (2 * area.clearance_m * at.scale).toFixed(2),
+      }, svgElement("title", {}, `${area.name}: clearance`))),
       doc.keep_outs.map((area) => svgElement(area.open ? "polyline" : "polygon", {
         class: area.open ? "keep-out open" : "keep-out",
-        points: area.points_m.map(([x, z]) => `${at.px(x).toFixed(2)},${at.pz(z).toFixed(2)}`).join(" "),
+        points: outline(area),
       }, svgElement("title", {}, area.name))),
+      this.body(),
       this.lines().map(([name, line, style]) => svgElement("path", { class: `line ${style}`, d: this.path(line) }, svgElement("title", {}, name))),
       this.marker, this.bodies.straight, this.bodies.track);
     this.svg.setAttribute("viewBox", `0 0 ${at.width} ${at.height}`);
@@ -299,7 +325,10 @@ export function profileSection(doc, store, units) {
   const ride = new Ride(doc, profile, store);
   const legend = element("ul", { class: "legend" }, profile.lines().map(([name, , style]) =>
     element("li", {}, element("span", { class: `swatch ${style}` }), name)),
-    doc.keep_outs.length === 0 ? null : element("li", {}, element("span", { class: "swatch swatch-area" }), "where the track may not go"));
+    doc.envelope ? element("li", {}, element("span", { class: "swatch swatch-solid" }), "the solid from the side") : null,
+    doc.envelope?.edges.some((edge) => edge.dashed) ? element("li", {}, element("span", { class: "swatch headroom" }), "headroom") : null,
+    doc.keep_outs.length === 0 ? null : element("li", {}, element("span", { class: "swatch swatch-area" }),
+      doc.envelope ? "where the solid may not go; paler: clearance" : "where the track may not go; paler: clearance"));
   const node = section("profile", "Profile, to scale",
     element("div", { class: "controls" }, ride.controls(),
       button("Zoom in", () => profile.key({ key: "+", preventDefault() {} })),

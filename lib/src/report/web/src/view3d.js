@@ -1,6 +1,6 @@
 import {
   AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Mesh,
-  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer,
+  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Scene, ShapeUtils, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { decodeArray, interpolate } from "./data.js";
@@ -73,6 +73,7 @@ class View {
     this.scene.add(this.frame, new AmbientLight(0xffffff, 1.7));
     this.lamp = new DirectionalLight(0xffffff, 1.9);
     this.scene.add(this.lamp);
+    this.addObstacles();
     this.controls = new OrbitControls(this.camera, canvas);
     // The wheel scrolls the page past the view unless the view is what the reader works with.
     canvas.addEventListener("wheel", (event) => {
@@ -84,6 +85,44 @@ class View {
       this.direction = null;
     });
     this.look("Three-quarter");
+  }
+
+  // Obstacles as translucent bodies across the track, a little wider than the solid; lines as sheets. They do not count
+  // for the frame of the picture.
+  addObstacles() {
+    const { placement, view, keep_outs: areas } = this.doc;
+    const [c, s] = [Math.cos(this.azimuth), Math.sin(this.azimuth)];
+    const middle = [0, 1, 2].map((axis) => (view.lower_m[axis] + view.upper_m[axis]) / 2);
+    const { positions } = this.solid;
+    let half = 0;
+    for (let i = 0; i < positions.length; i += 3) {
+      const [x, y] = [positions[i] + middle[0] - placement.start_m[0], positions[i + 1] + middle[1] - placement.start_m[1]];
+      half = Math.max(half, Math.abs(y * c - x * s));
+    }
+    const across = 1.3 * half;
+    const corner = ([x, z], left) => [
+      placement.start_m[0] + x * c - left * s - middle[0], placement.start_m[1] + x * s + left * c - middle[1], z - middle[2],
+    ];
+    const material = new MeshLambertMaterial({ color: 0xc0282d, transparent: true, opacity: 0.3, side: DoubleSide, depthWrite: false });
+    for (const area of areas) {
+      const { points_m: points, open } = area;
+      const corners = [...points.map((p) => corner(p, across)), ...points.map((p) => corner(p, -across))];
+      const count = points.length;
+      const indices = [];
+      for (let i = 0; i + (open ? 1 : 0) < count; i += 1) {
+        const next = (i + 1) % count;
+        indices.push(i, next, count + i, next, count + next, count + i);
+      }
+      if (!open) {
+        const flat = points.map(([x, z]) => new Vector2(x, z));
+        for (const [i, j, k] of ShapeUtils.triangulateShape(flat, [])) indices.push(i, j, k, count + i, count + k, count + j);
+      }
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(new Float32Array(corners.flat()), 3));
+      geometry.setIndex(indices);
+      geometry.computeVertexNormals();
+      this.scene.add(new Mesh(geometry, material));
+    }
   }
 
   colour(key) {

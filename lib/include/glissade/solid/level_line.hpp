@@ -1,0 +1,20 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/core/vec.hpp"
+
+#include <vector>
+
+namespace glissade {
+
+/// The curve that one height of a section runs along, as a line to draw: the offset curve of the centerline,
+/// cut at the end faces and where its branches cross (docs/solid.md, trims).
+///
+/// Frame: (x, z), run and height from the start [m].
+/// @param height     above the floor; negative below it [m]
+/// @param tolerance  greatest distance of the line from the curve [m]; > 0
+/// @return from the start face to the finish face; where nothing of that height leads through, the offset
+///         curve uncut
+[[nodiscard]] std::vector<Vec2> level_line(const Centerline& centerline, double height, double tolerance);
+
+}  // namespace glissade

@@ -1,0 +1,197 @@
+#include "optimize/end_conflict.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
+
+#include "clearance/region.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace glissade::optimizer {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kDirections = 2048;
+
+struct Obstructed {
+  LimitName limit;
+  double clearance = 0.0;
+  clearance::Region region;
+};
+
+std::vector<Obstructed> obstacles_of(const Limits& limits) {
+  std::vector<Obstructed> obstacles;
+  const auto name = [](LimitId id, std::size_t i) { return LimitName{id, Bound::lowest, i}; };
+  for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
+    const HalfPlane& plane = limits.half_planes[i];
+    obstacles.push_back({name(LimitId::half_planes, i), plane.clearance,
+                         clearance::Region::half_plane(plane.point, plane.forbidden)});
+  }
+  for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
+    const KeepOut& area = limits.keep_outs[i];
+    const auto pass = area.passage == Passage::above   ? clearance::Pass::above
+                      : area.passage == Passage::below ? clearance::Pass::below
+                                                       : clearance::Pass::either;
+    obstacles.push_back(
+        {name(LimitId::keep_outs, i), area.clearance, clearance::Region::area(area.outline, pass)});
+  }
+  for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
+    obstacles.push_back({name(LimitId::stay_above, i), limits.stay_above[i].clearance,
+                         clearance::Region::line(limits.stay_above[i].line, true)});
+  }
+  for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
+    obstacles.push_back({name(LimitId::stay_below, i), limits.stay_below[i].clearance,
+                         clearance::Region::line(limits.stay_below[i].line, false)});
+  }
+  return obstacles;
+}
+
+/// One end of the track, and the directions that it may have.
+struct End {
+  const char* name;
+  Vec2 point;
+  double flattest = 0.0;
+  double steepest = 0.0;
+
+  [[nodiscard]] double direction(int i) const {
+    return flattest + (steepest - flattest) * static_cast<double>(i) / kDirections;
+  }
+  [[nodiscard]] double step() const { return (steepest - flattest) / kDirections; }
+};
+
+End end_of(const char* name, Vec2 point, const Range& own, const Range& whole) {
+  constexpr double kUpright = 0.5 * std::numbers::pi;
+  End end{name, point, -kUpright, kUpright};
+  for (const Range* range : {&own, &whole}) {
+    if (range->lowest) end.flattest = std::max(end.flattest, *range->lowest);
+    if (range->highest) end.steepest = std::min(end.steepest, *range->highest);
+  }
+  return end;
+}
+
+double value_at(const End& end, double direction, const Envelope& envelope, const clearance::Region& region) {
+  const Vec2 normal{math::sin(direction), -math::cos(direction)};
+  const std::array<Vec2, 2> rib{end.point - envelope.below * normal, end.point + envelope.top() * normal};
+  return region.nearest(rib).value;
+}
+
+/// By how much the end lacks room in its best direction; not above 0 where it has some.
+double lacking(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles) {
+  double best = -kInfinity;
+  for (int i = 0; i <= kDirections; ++i) {
+    double spare = kInfinity;
+    for (const Obstructed& obstacle : obstacles) {
+      spare =
+          std::min(spare, value_at(end, end.direction(i), envelope, obstacle.region) - obstacle.clearance);
+    }
+    best = std::max(best, spare);
+  }
+  // No point of the normal moves further between two directions.
+  return -best - 0.5 * end.step() * std::max(envelope.below, envelope.top());
+}
+
+/// The largest top of the envelope that has room, the underside kept; below 0 if none does.
+double largest_top(const End& end, Envelope envelope, const std::vector<Obstructed>& obstacles) {
+  const auto fits = [&](double top) {
+    envelope.above = std::min(envelope.above, top);
+    envelope.headroom = top;
+    return lacking(end, envelope, obstacles) <= 0.0;
+  };
+  const Envelope asked = envelope;
+  if (!fits(0.0)) return -1.0;
+  double low = 0.0;
+  double high = asked.top();
+  constexpr int kHalvings = 20;
+  for (int i = 0; i < kHalvings; ++i) {
+    envelope = asked;
+    const double middle = 0.5 * (low + high);
+    (fits(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The clearance that is left in the best direction, all other obstacles kept.
+double best_clearance(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles,
+                      const Obstructed& asked) {
+  double best = -kInfinity;
+  for (int i = 0; i <= kDirections; ++i) {
+    bool kept = true;
+    for (const Obstructed& other : obstacles) {
+      if (&other == &asked) continue;
+      kept = kept && value_at(end, end.direction(i), envelope, other.region) >= other.clearance;
+    }
+    if (kept) best = std::max(best, value_at(end, end.direction(i), envelope, asked.region));
+  }
+  return best;
+}
+
+Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles) {
+  Conflict conflict;
+  std::vector<std::string> names;
+  std::string remedies;
+  for (const Obstructed& obstacle : obstacles) {
+    // What can do without is not to blame.
+    std::vector<Obstructed> others;
+    for (const Obstructed& other : obstacles) {
+      if (&other != &obstacle) others.push_back(other);
+    }
+    if (!others.empty() && lacking(end, envelope, others) > 0.0) continue;
+    conflict.limits.push_back({obstacle.limit, obstacle.clearance});
+    names.push_back(obstacle.limit.key());
+    const double left = best_clearance(end, envelope, obstacles, obstacle);
+    if (left < 0.0) continue;
+    conflict.relaxations.push_back({obstacle.limit, obstacle.clearance, left});
+    remedies += (remedies.empty() ? "" : ", ") + obstacle.limit.key() + " " + length_text(left, 3);
+  }
+  // Two of them, each of which is too close alone.
+  if (names.empty()) {
+    for (const Obstructed& obstacle : obstacles) {
+      if (lacking(end, envelope, {obstacle}) <= 0.0) continue;
+      conflict.limits.push_back({obstacle.limit, obstacle.clearance});
+      names.push_back(obstacle.limit.key());
+    }
+  }
+  const double top = largest_top(end, envelope, obstacles);
+  if (top > 0.0) {
+    remedies += (remedies.empty() ? "" : ", or ") + std::string("a solid and headroom that reach at most ") +
+                length_text(top, 3) + " above the floor";
+  }
+  conflict.text = std::string(end.name) + " lies too close to " + listed(names) +
+                  " for the solid, which reaches " + length_text(envelope.below, 3) + " below and " +
+                  length_text(envelope.top(), 3) +
+                  " above the floor: no direction of the track there keeps the clearance";
+  conflict.why =
+      "There the solid stands square to the track: every direction that the limits allow was tried.";
+  if (!remedies.empty()) conflict.text += "; it would take " + remedies;
+  return conflict;
+}
+
+}  // namespace
+
+std::optional<Conflict> too_close_at_an_end(const Problem& problem) {
+  const Limits& limits = problem.limits;
+  if (limits.envelope.is_line()) return std::nullopt;
+  const std::vector<Obstructed> obstacles = obstacles_of(limits);
+  if (obstacles.empty()) return std::nullopt;
+  std::vector<End> ends{end_of("the start", {0.0, 0.0}, limits.entry_slope_angle, limits.slope_angle)};
+  if (problem.finish.kind == FinishKind::point) {
+    ends.push_back(end_of("the finish", {std::fabs(problem.endpoints.run), problem.endpoints.drop},
+                          limits.exit_slope_angle, limits.slope_angle));
+  }
+  for (const End& end : ends) {
+    const bool given = end.flattest <= end.steepest;
+    if (given && lacking(end, limits.envelope, obstacles) > 0.0) {
+      return conflict_at(end, limits.envelope, obstacles);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace glissade::optimizer

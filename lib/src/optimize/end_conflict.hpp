@@ -1,0 +1,17 @@
+#pragma once
+
+#include "glissade/optimize/optimize.hpp"
+
+#include <optional>
+
+namespace glissade::optimizer {
+
+/// A start or a finish that lies too close to obstacles for the envelope, whatever way the track leads there.
+///
+/// Method: at an end the envelope holds at least the normal of the centerline, from the underside to the top,
+///   and its direction is the only thing that a track may choose. All slope angles that the limits allow are
+///   tried, some thousand of them; none keeps the clearances by so much that one in between could.
+/// @return the obstacles that no direction keeps clear of, and what would do; none if both ends have room
+[[nodiscard]] std::optional<Conflict> too_close_at_an_end(const Problem& problem);
+
+}  // namespace glissade::optimizer

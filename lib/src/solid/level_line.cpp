@@ -1,0 +1,30 @@
+#include "glissade/solid/level_line.hpp"
+
+#include "solid/level_curves.hpp"
+#include "solid/stations.hpp"
+
+#include <algorithm>
+
+namespace glissade {
+
+using namespace solid;
+
+std::vector<Vec2> level_line(const Centerline& centerline, double height, double tolerance) {
+  // Trims are placed this much more closely than the line follows the curve.
+  constexpr double kTrimShare = 0.1;
+  constexpr double kFewestSteps = 64.0;
+  const double below = std::max(0.0, -height);
+  const double above = std::max(0.0, height);
+  const StationLimits limits{tolerance, below, above, centerline.length() / kFewestSteps};
+  const LevelCurves curves(centerline, StationPlan(centerline, limits).stations(), below, above,
+                           kTrimShare * tolerance);
+  std::vector<Vec2> line;
+  if (curves.trims(height).obstacle) {
+    for (const Station& station : curves.stations()) line.push_back(offset(station, height));
+    return line;
+  }
+  for (const LevelNode& node : curves.level(height, {}).nodes) line.push_back(node.point);
+  return line;
+}
+
+}  // namespace glissade
