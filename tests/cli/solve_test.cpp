@@ -276,8 +276,9 @@ TEST_CASE("solve --csv writes the ride by stations, at every friction, without a
 TEST_CASE("a stall of a body that enters with speed asks for more of it") {
   const TempDir place;
   put_bytes(place / "d.yaml",
-            "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
-            "body: {friction_angle: 30 deg, entry_speed: 2 m/s}\ncenterline: {kind: straight}\n");
+            "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}}\n"
+            "body: {friction_angle: 30 deg, entry_speed: 2 m/s}\ncenterline: {kind: segments, "
+            "entry_slope_angle: 20 deg, segments: [{length: 10 m}]}\n");
   const Outcome outcome = glissade_run({"solve", (place / "d.yaml").string()});
   CHECK(outcome.exit_code == 3);
   CHECK_THAT(outcome.errors, Contains("or a higher entry_speed"));
