@@ -240,7 +240,7 @@ TEST_CASE("a profile that runs back is refused by the number of the point") {
   for (int i = 0; i < 60; ++i) points.push_back({2.5 * i - (i == 31 ? 4.0 : 0.0), 1.0 * i});
   const auto fault = profile_fault(points);
   REQUIRE(fault);
-  CHECK(fault->index == 31);
+  CHECK(fault->point == 31U);
   CHECK_THAT(fault->issue.what, Contains("runs back here"));
 }
 

@@ -100,7 +100,7 @@ Shard Shard::parse(std::string_view text) {
 }
 
 RunReport run(const Study& study, const RunOptions& options) {
-  if (options.progress) options.progress("preparing the sweep", -1.0);
+  if (options.progress) options.progress("preparing the sweep", {});
   check(study);
   const Evaluation evaluation(study, options.stop);
   const std::string manifest = manifest_text(study, evaluation.columns());
