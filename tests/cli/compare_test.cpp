@@ -66,7 +66,7 @@ TEST_CASE("a friction sweep at P = 100 gives the seven curves of the paper's fig
 
 TEST_CASE("--set replaces a value of every design that is compared") {
   const json tracks =
-      compared({shipped("grain_chute"), shipped("marble_run"), "--set", "body.friction_angle=5deg"});
+      compared({shipped("grain_chute"), shipped("powder_chute"), "--set", "body.friction_angle=5deg"});
   REQUIRE(tracks.size() == 2);
   for (const json& track : tracks) CHECK(track["friction_angle_deg"].get<double>() == Approx(5.0));
 }

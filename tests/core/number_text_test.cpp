@@ -39,7 +39,7 @@ TEST_CASE("lengths are shown in the unit that suits their size") {
 TEST_CASE("number text: decimals have no exponent and read back as the same number") {
   CHECK(decimal_text(4e6) == "4000000");
   CHECK(decimal_text(-0.1) == "-0.1");
-  CHECK(std::stod(decimal_text(5e-324)) == 5e-324);
+  CHECK(std::strtod(decimal_text(5e-324).c_str(), nullptr) == 5e-324);  // stod() refuses what is not normal
   CHECK(std::stod(decimal_text(-1.7976931348623157e308)) == -1.7976931348623157e308);
 }
 
