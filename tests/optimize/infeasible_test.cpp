@@ -8,6 +8,7 @@
 #include "referee/judgement.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -39,6 +40,12 @@ std::shared_ptr<ClothoidSpline> track_of(const Problem& problem, const std::vect
 double violation(const Problem& problem, const std::vector<double>& z) {
   constexpr double kNoTrack = 10.0;
   if (std::fabs(z[0]) > 1.5) return kNoTrack;
+  // Coils, and tracks of more than e^4 chords, are none; a spline refuses to be wound up without end.
+  constexpr double kCoil = 1e3;
+  constexpr double kLongest = 4.0;
+  if (std::any_of(z.begin(), z.end(), [](double value) { return !(std::fabs(value) < kCoil); }))
+    return kNoTrack;
+  if (z[1] > kLongest) return kNoTrack;
   const auto track = track_of(problem, z);
   if (!track) return kNoTrack;
   for (const double s : track->breaks()) {

@@ -218,6 +218,51 @@ TEST_CASE("prices are what a re-solve with the limit relaxed wins") {
       "arc_length.highest", [](Limits& l, double d) { *l.arc_length.highest += d; }, 0.01);
 }
 
+TEST_CASE(
+    "each limit has one price, and it is what a re-solve wins, where curvature is bounded in many ways") {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const auto check = [](const Problem& problem, const std::string& key, auto relax, double step,
+                        double accuracy = 0.02) {
+    const Optimum now = optimize(problem);
+    CAPTURE(key, now.report.brief());
+    const auto has_key = [&](const ActiveLimit& active) { return active.limit.key() == key; };
+    REQUIRE(std::count_if(now.report.active.begin(), now.report.active.end(), has_key) == 1);
+    Problem tight = problem;
+    Problem loose = problem;
+    relax(tight.limits, -step);
+    relax(loose.limits, step);
+    const double won =
+        (optimize(tight).report.travel_time - optimize(loose).report.travel_time) / (2.0 * step);
+    const auto active = std::find_if(now.report.active.begin(), now.report.active.end(), has_key);
+    CHECK(active->price == Approx(won).epsilon(accuracy));
+  };
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.highest_curvature_rate = 0.08;
+  problem.limits.smallest_valley_radius = 4.0;
+  problem.limits.smallest_crest_radius = 4.0;
+  check(
+      problem, "highest_curvature_rate", [](Limits& l, double d) { *l.highest_curvature_rate += d; }, 2e-3,
+      // Where the rate switches its side the knots are only near.
+      0.1);
+  check(
+      problem, "smallest_valley_radius", [](Limits& l, double d) { *l.smallest_valley_radius -= d; }, 0.05);
+  // A short crest before the exit.
+  problem = Problem{};
+  problem.endpoints = {8.0, 6.0};
+  problem.body.friction = Friction::from_coefficient(0.25);
+  problem.limits.slope_angle = {25.0 * kDegree, 70.0 * kDegree};
+  problem.limits.exit_slope_angle = Range::fixed(30.0 * kDegree);
+  problem.limits.smallest_valley_radius = 0.7;
+  problem.limits.smallest_crest_radius = 0.7;
+  check(
+      problem, "slope_angle.lowest", [](Limits& l, double d) { *l.slope_angle.lowest -= d; }, 0.005);
+  check(
+      problem, "exit_slope_angle",
+      [](Limits& l, double d) { l.exit_slope_angle = Range::fixed(*l.exit_slope_angle.lowest - d); }, 0.005);
+}
+
 TEST_CASE("what the report of a contradiction calls enough is enough, and a little less is not") {
   Problem problem;
   problem.endpoints = {83.48, 45.79};

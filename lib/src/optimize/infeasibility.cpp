@@ -152,80 +152,191 @@ void follow(Attempt& attempt, SearchControl& control) {
 
 }  // namespace
 
-Explanation explain(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control) {
-  std::optional<Attempt> best;
-  Explanation explanation;
-  for (std::size_t way = 0; way < passages.size(); ++way) {
-    const auto scaled_problem = std::make_shared<ScaledProblem>(scaled(problem, passages[way]));
-    const std::vector<GuessCurve> curves = starts(*scaled_problem);
-    for (auto start = curves.begin(); start != curves.end(); ++start) {
-      if (control.stop()) return explanation;
-      if (std::find(curves.begin(), start, *start) != start) continue;
-      Attempt attempt;
-      attempt.problem = scaled_problem;
-      attempt.mesh = mesh_of(*scaled_problem, graded_knots(*start, kPieces, 1.0), start->length);
-      attempt.relaxed = all_relaxed(*scaled_problem, attempt.mesh, *start, control);
-      if (attempt.relaxed.t < kNearly) follow(attempt, control);
-      if (best && best->relaxed.t <= attempt.relaxed.t) continue;
-      best = std::move(attempt);
-      explanation.passages = way;
-      if (best->relaxed.t > kContradiction) continue;
-      explanation.mesh = best->mesh;
-      explanation.z = best->relaxed.found.z;
-      return explanation;
-    }
-  }
+namespace {
 
-  if (best->relaxed.t >= kNearly) follow(*best, control);
-  if (best->relaxed.t <= kContradiction) {
-    explanation.mesh = best->mesh;
-    explanation.z = best->relaxed.found.z;
-    return explanation;
-  }
-
-  const std::vector<LimitSpec>& limits = best->problem->limits;
-  const Found& found = best->relaxed.found;
-  Vector share(limits.size(), 0.0);
+/// How much each limit holds the least violation up; the last entry is the finish and the straight ends.
+Vector shares_of(const Attempt& attempt) {
+  const Found& found = attempt.relaxed.found;
+  Vector share(attempt.problem->limits.size() + 1, 0.0);
   for (std::size_t i = 0; i < found.active.size(); ++i) share[found.active[i].limit] += found.inequality[i];
   for (std::size_t i = 0; i < found.equality.size(); ++i) {
     const std::size_t* limit = found.rows->limit_of_equality(i);
-    if (limit != nullptr) share[*limit] += std::fabs(found.equality[i]);
+    share[limit != nullptr ? *limit : share.size() - 1] += std::fabs(found.equality[i]);
   }
+  return share;
+}
+
+// A limit with less of a share in the least violation has none.
+constexpr double kPartOf = 1e-4;
+
+/// Whether the limits in conflict ask for energy to be worn down, or for length: then winding tracks may do.
+bool asks_for_bends(const Attempt& attempt) {
+  const Vector share = shares_of(attempt);
+  const std::vector<LimitSpec>& limits = attempt.problem->limits;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    if (share[i] <= kPartOf || limits[i].built_in) continue;
+    const bool slows = limits[i].measure == Measure::speed || limits[i].measure == Measure::exit_speed;
+    if (slows && limits[i].side >= 0) return true;
+    if (limits[i].measure == Measure::arc_length && limits[i].side <= 0) return true;
+  }
+  return false;
+}
+
+/// The search for the least violation on every way past the keep-outs, from one start after the other.
+class LeastViolation {
+ public:
+  LeastViolation(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control)
+      : control_(control) {
+    for (const Passages& way : passages)
+      ways_.push_back(std::make_shared<ScaledProblem>(scaled(problem, way)));
+  }
+
+  /// @return whether a track was found that keeps all limits
+  bool from(std::vector<GuessCurve> (*curves_of)(const ScaledProblem&)) {
+    for (std::size_t way = 0; way < ways_.size(); ++way) {
+      const std::vector<GuessCurve> curves = curves_of(*ways_[way]);
+      for (auto start = curves.begin(); start != curves.end(); ++start) {
+        if (control_.stop()) return false;
+        if (std::find(curves.begin(), start, *start) != start) continue;
+        if (from(way, mesh_of(*ways_[way], graded_knots(*start, kPieces, 1.0), start->length), *start))
+          return true;
+      }
+    }
+    return false;
+  }
+
+  /// From a track on its own mesh. @return as above
+  bool from(std::size_t way, const Mesh& mesh, const GuessCurve& curve) {
+    Attempt attempt;
+    attempt.problem = ways_[way];
+    attempt.mesh = mesh;
+    attempt.relaxed = all_relaxed(*ways_[way], mesh, curve, control_);
+    if (attempt.relaxed.t < kNearly) follow(attempt, control_);
+    if (!best_ || attempt.relaxed.t < best_->relaxed.t) {
+      best_ = std::move(attempt);
+      way_ = way;
+    }
+    return kept();
+  }
+
+  bool closely() {
+    if (best_->relaxed.t >= kNearly) follow(*best_, control_);
+    return kept();
+  }
+
+  /// Whether no step lowers the least violation, or the search from its end lowers it no further.
+  [[nodiscard]] bool confirmed() {
+    constexpr double kSame = 0.98;
+    if (best_->relaxed.settled) return true;
+    const double before = best_->relaxed.t;
+    const Transcription& track = *best_->relaxed.found.track;
+    const GuessCurve curve = curve_of(track, best_->relaxed.found.z);
+    (void)from(way_, Mesh(track.mesh()), curve);
+    return best_->relaxed.t > kSame * before;
+  }
+
+  [[nodiscard]] bool kept() const { return best_->relaxed.t <= kContradiction; }
+  [[nodiscard]] const Attempt& best() const { return *best_; }
+  [[nodiscard]] std::size_t way() const { return way_; }
+
+ private:
+  SearchControl& control_;
+  std::vector<std::shared_ptr<ScaledProblem>> ways_;
+  std::optional<Attempt> best_;
+  std::size_t way_ = 0;
+};
+
+/// What an equality limit measures on a track that has it give way.
+double measured_on(const Found& found, const LimitSpec& limit, std::size_t index) {
+  const Vector value = found.rows->equality_values(found.rows->state(found.z, false));
+  double measured = 0.0;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const std::size_t* owner = found.rows->limit_of_equality(k);
+    if (owner == nullptr || *owner != index) continue;
+    const bool squared = limit.measure == Measure::exit_speed;
+    measured = squared ? limit.bound * limit.bound + value[k] * 2.0 * limit.bound * limit.scale
+                       : limit.bound + value[k] * limit.scale;
+  }
+  return measured;
+}
+
+/// The bound that would do, a little beyond the least that a local search finds: it has to be found again.
+std::optional<double> needed_bound(const LimitSpec& limit, std::size_t index, const Relaxed& alone) {
+  constexpr double kBeyond = 1e-4;
+  constexpr double kAtLeast = 2e-6;
+  const double t = alone.t * (1.0 + kBeyond) + kAtLeast;
+  const double measured = limit.side == 0 ? measured_on(alone.found, limit, index) : 0.0;
+  const double needed = relaxed_bound(limit, t, measured);
+  // A beam cannot be closer than touched: then it is the beam that would have to move.
+  if (limit.name.id == LimitId::keep_outs && needed < 0.0) return std::nullopt;
+  if (limit.measure == Measure::normal_load && needed < 0.0) return std::nullopt;
+  return needed;
+}
+
+/// What stands against each other at the track that breaks all limits least; empty if nothing that the user set.
+Conflict conflict_at(LeastViolation& search, SearchControl& control) {
+  const Attempt attempt = search.best();
+  const std::vector<LimitSpec>& limits = attempt.problem->limits;
+  const Vector share = shares_of(attempt);
   Conflict conflict;
-  constexpr double kPartOf = 1e-4;
+  bool set_by_user = false;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     if (share[i] <= kPartOf) continue;
     const LimitSpec& limit = limits[i];
     const auto same = [&](const StatedLimit& known) { return known.limit == limit.name; };
     if (std::any_of(conflict.limits.begin(), conflict.limits.end(), same)) continue;
+    set_by_user = set_by_user || !limit.built_in;
     conflict.limits.push_back({limit.name, limit.built_in ? std::nullopt : std::optional(limit.bound_si)});
     if (limit.built_in || (limit.measure == Measure::curvature && limit.bound == 0.0)) continue;
     Elastic elastic;
     elastic.equalities = false;
     elastic.limits.assign(limits.size(), false);
     for (std::size_t k = 0; k < limits.size(); ++k) elastic.limits[k] = limits[k].name == limit.name;
-    const std::optional<Relaxed> least = relaxed_alone(*best, elastic, control);
-    if (!least) continue;
-    const Relaxed& alone = *least;
-    double measured = 0.0;
-    if (limit.side == 0) {
-      Vector value;
-      Matrix jacobian;
-      alone.found.rows->equalities(alone.found.rows->state(alone.found.z, true), value, jacobian);
-      for (std::size_t k = 0; k < value.size(); ++k) {
-        const std::size_t* owner = alone.found.rows->limit_of_equality(k);
-        const bool squared = limit.measure == Measure::exit_speed;
-        if (owner != nullptr && *owner == i) {
-          measured = squared ? limit.bound * limit.bound + value[k] * 2.0 * limit.bound * limit.scale
-                             : limit.bound + value[k] * limit.scale;
-        }
-      }
+    const std::optional<Relaxed> alone = relaxed_alone(attempt, elastic, control);
+    if (!alone) continue;
+    // A track that breaks one limit alone is another beginning: from there all of them may be kept after all.
+    const Transcription& track = *alone->found.track;
+    if (search.from(search.way(), track.mesh(), curve_of(track, alone->found.z))) return conflict;
+    if (const auto needed = needed_bound(limit, i, *alone)) {
+      conflict.relaxations.push_back({limit.name, limit.bound_si, *needed});
     }
-    const double needed = relaxed_bound(limit, alone.t, measured);
-    // A beam cannot be closer than touched: then it is the beam that would have to move.
-    if (limit.name.id == LimitId::keep_outs && needed < 0.0) continue;
-    if (limit.measure == Measure::normal_load && needed < 0.0) continue;
-    conflict.relaxations.push_back({limit.name, limit.bound_si, needed});
+  }
+  if (share.back() > kPartOf && !set_by_user && !conflict.limits.empty()) {
+    conflict.limits.insert(conflict.limits.begin(),
+                           {LimitName{LimitId::finish, Bound::exactly}, std::nullopt});
+  }
+  return conflict;
+}
+
+}  // namespace
+
+Explanation explain(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control) {
+  // From a better track the reasons are others; how often they are looked for anew.
+  constexpr int kMostRounds = 3;
+  constexpr double kBetter = 0.98;
+  Explanation explanation;
+  LeastViolation search(problem, passages, control);
+  bool found = search.from(starts);
+  if (control.stop()) return explanation;
+  found = found || search.closely();
+  if (!found && asks_for_bends(search.best())) found = search.from(winding_starts) || search.closely();
+  Conflict conflict;
+  for (int round = 0; !found && round < kMostRounds; ++round) {
+    const double before = search.best().relaxed.t;
+    conflict = conflict_at(search, control);
+    if (control.stop()) return explanation;
+    found = search.kept();
+    if (search.best().relaxed.t > kBetter * before) break;
+  }
+  explanation.passages = search.way();
+  if (found) {
+    explanation.mesh = search.best().mesh;
+    explanation.z = search.best().relaxed.found.z;
+    return explanation;
+  }
+  if (conflict.limits.empty() || !search.confirmed()) {
+    for (const StatedLimit& stated : conflict.limits) explanation.nearly.push_back(stated.limit.key());
+    return explanation;
   }
   conflict.text = conflict_text(conflict);
   explanation.conflict = std::move(conflict);

@@ -17,7 +17,9 @@ namespace glissade::optimizer {
 /// The end of the search for the least violation of all limits together.
 struct Explanation {
   std::optional<Conflict>
-      conflict;              ///< where some violation is left: who holds it up, and what each would take
+      conflict;  ///< where some violation is left: who holds it up, and what each would take
+  /// Where some violation is left and no conflict is confirmed: the limits that the closest track breaks.
+  std::vector<std::string> nearly;
   std::size_t passages = 0;  ///< otherwise a track that keeps all limits, and the passages it belongs to
   Mesh mesh;
   Vector z;

@@ -85,6 +85,12 @@ CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   return std::make_shared<ClothoidSpline>(Angle::from_radians(found.z[layout.angle()]), std::move(segments));
 }
 
+/// Whether the rate of curvature is limited: then nothing jumps.
+bool is_smooth(const ScaledProblem& problem) {
+  return std::any_of(problem.limits.begin(), problem.limits.end(),
+                     [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
+}
+
 /// Whether the fastest track would turn down at once from where a limit on the entry holds it: a body at rest
 /// loses nothing by that, the tighter the crest the better, and no crest is the tightest. How tight it may be is
 /// then up to the mesh, which has to be the same there for every such problem.
@@ -146,7 +152,9 @@ class Searcher {
       // It tightens the limits, with which a start must be tried anew.
       lost.clear();
       refine(candidate, *found, unlimited);
-      if (candidate.kept || candidate.stopped) break;
+      // A track that keeps the limits, but is no optimum, may have lost its way: the next start is tried too.
+      const bool converged = candidate.kept && candidate.found->residual <= options_.tolerance;
+      if (converged || candidate.stopped) break;
     }
     return candidate;
   }
@@ -159,6 +167,25 @@ class Searcher {
     const Found found = minimise(*candidate.problem, mesh, z, margins_, control_);
     refine(candidate, found, false);
     return candidate;
+  }
+
+  /// The track that prices are taken from. A jump that lies a little beside its knots costs next to nothing, but
+  /// its first order shows in the prices: here pieces next to jumps are halved a few times, with ripples that
+  /// nobody should build.
+  [[nodiscard]] Found priced(const ScaledProblem& problem, Found found) {
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<bool> beside = beside_jumps(found.track->mesh());
+      if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) break;
+      const MeshTrack finer = with_halved_pieces(*found.track, found.z, beside);
+      control_.tolerance = options_.tolerance;
+      control_.most_rounds = 3;
+      Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control_);
+      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
+        break;
+      found = std::move(next);
+    }
+    return found;
   }
 
  private:
@@ -362,12 +389,13 @@ class Searcher {
 
   /// Pieces are halved where a finer mesh has much left to win.
   [[nodiscard]] Found halved(const ScaledProblem& problem, Found found) {
-    constexpr int kMostRounds = 4;
-    constexpr double kLeft = 1e-6;
+    constexpr int kMostRounds = 6;
+    // Under a limit on the rate of curvature no jump tells where knots belong: halving alone makes prices exact.
+    const double left_at_most = is_smooth(problem) ? 1e-8 : 1e-6;
     constexpr std::size_t kMostPieces = 120;
     for (int round = 0; round < kMostRounds; ++round) {
       const Remainder left = remainder_of(problem, found, control_);
-      if (left.objective <= kLeft * std::fabs(found.objective)) break;
+      if (left.objective <= left_at_most * std::fabs(found.objective)) break;
       if (found.track->mesh().knots.size() > kMostPieces) break;
       const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
       control_.tolerance = options_.tolerance;
@@ -470,6 +498,32 @@ std::vector<Passages> all_passages(const Limits& limits) {
   return all;
 }
 
+std::string none_found_text(const std::vector<std::string>& nearly) {
+  std::string text = "no track was found that keeps every limit, and no conflict between them is certain";
+  for (std::size_t i = 0; i < nearly.size(); ++i) {
+    if (i == 0) text += "; the closest one breaks ";
+    if (i > 0) text += i + 1 == nearly.size() ? " and " : ", ";
+    text += nearly[i];
+  }
+  return text;
+}
+
+/// Stretches of two lists in one, in order.
+std::vector<Stretch> joined(std::vector<Stretch> stretches, const std::vector<Stretch>& others) {
+  stretches.insert(stretches.end(), others.begin(), others.end());
+  std::sort(stretches.begin(), stretches.end(),
+            [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
+  std::vector<Stretch> result;
+  for (const Stretch& stretch : stretches) {
+    if (!result.empty() && stretch.from <= result.back().to) {
+      result.back().to = std::max(result.back().to, stretch.to);
+    } else {
+      result.push_back(stretch);
+    }
+  }
+  return result;
+}
+
 std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
   // Seconds, or m/s where speed alone counts.
   const double objective_si = problem.time_weight > 0.0 ? problem.time : problem.speed;
@@ -495,7 +549,15 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
       active.where.push_back({span.from * problem.chord, span.to * problem.chord});
     }
     active.price = multiplier / limit.scale * limit.per_si * objective_si;
-    result.push_back(std::move(active));
+    // A limit with two sides under one name, as that on the rate of curvature, gives way on both.
+    const auto same = std::find_if(result.begin(), result.end(),
+                                   [&](const ActiveLimit& known) { return known.limit == active.limit; });
+    if (same == result.end()) {
+      result.push_back(std::move(active));
+      continue;
+    }
+    same->price += active.price;
+    same->where = joined(std::move(same->where), active.where);
   }
   std::sort(result.begin(), result.end(), [](const ActiveLimit& a, const ActiveLimit& b) {
     return a.limit == b.limit ? a.value < b.value : a.limit.key() < b.limit.key();
@@ -510,11 +572,13 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
                  const Progress& progress) {
   using namespace optimizer;
   require_searchable(problem);
+  require_passable_in_order(problem);
   require_valid(options);
   const auto begin = Clock::now();
   SearchControl control;
   control.limit_tolerance = 0.1 * options.limit_tolerance;
   bool out_of_time = false;
+  bool stopped = false;
   control.stop = [&] {
     if (stop.stop_requested()) return true;
     out_of_time = std::chrono::duration<double>(Clock::now() - begin).count() > options.time_budget;
@@ -526,6 +590,7 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
   report.objective = problem.objective;
   report.unlimited_travel_time = unlimited_travel_time(problem);
   const auto finish = [&] {
+    report.ended_early = stopped;
     report.iterations = control.rounds;
     report.evaluations = control.evaluations;
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -543,7 +608,6 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
 
   Searcher searcher(problem, options, control, progress);
   std::optional<Candidate> best;
-  bool stopped = false;
   const std::vector<Passages> all = all_passages(problem.limits);
   for (const Passages& passages : all) {
     Candidate candidate = searcher.search(passages);
@@ -555,10 +619,12 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
   }
 
   std::optional<Conflict> conflict;
+  std::vector<std::string> nearly;
   if (!best->kept && !stopped) {
     control.most_rounds = 10;
     Explanation explanation = explain(problem, all, control);
     conflict = std::move(explanation.conflict);
+    nearly = std::move(explanation.nearly);
     if (!conflict && !explanation.z.empty()) {
       best = searcher.search_from(all[explanation.passages], explanation.mesh, explanation.z);
     }
@@ -572,7 +638,7 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     report.exit_speed = best->judgement.exit_speed;
     report.checks = best->judgement.checks;
     report.first_order_residual = found.residual;
-    report.active = active_limits(*best->problem, found);
+    report.active = active_limits(*best->problem, searcher.priced(*best->problem, found));
     const bool converged = found.residual <= options.tolerance && !stopped;
     report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
     if (converged) {
@@ -593,8 +659,7 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
       report.message = conflict->text;
     } else {
       report.status = OptimizeStatus::no_track_found;
-      report.message =
-          "no track was found that keeps every limit to the tolerance, nor a proof that there is none";
+      report.message = none_found_text(nearly);
     }
   }
   finish();

@@ -81,6 +81,21 @@ Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchC
   return remainder;
 }
 
+std::vector<bool> beside_jumps(const Mesh& mesh) {
+  const std::size_t pieces = mesh.knots.size() - 1;
+  const auto is_jump = [&](std::size_t piece) {
+    // Next to the start pieces are short for another reason.
+    const double width = mesh.knots[piece + 1] - mesh.knots[piece];
+    return width <= kShortest && mesh.knots[piece] > 10.0 * kShortest && mesh.knots[piece + 1] < 1.0;
+  };
+  std::vector<bool> beside(pieces, false);
+  for (std::size_t i = 0; i < pieces; ++i) {
+    if (is_jump(i)) continue;
+    beside[i] = (i > 0 && is_jump(i - 1)) || (i + 1 < pieces && is_jump(i + 1));
+  }
+  return beside;
+}
+
 std::vector<bool> worth_halving(const Remainder& remainder) {
   std::vector<std::size_t> order(remainder.by_piece.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -26,6 +26,9 @@ struct Remainder {
 [[nodiscard]] Remainder remainder_of(const ScaledProblem& problem, const Found& found,
                                      SearchControl& control);
 
+/// The pieces on either side of a jump, one entry a piece.
+[[nodiscard]] std::vector<bool> beside_jumps(const Mesh& mesh);
+
 /// The fewest pieces to halve for most of what is left.
 [[nodiscard]] std::vector<bool> worth_halving(const Remainder& remainder);
 

@@ -43,6 +43,35 @@ bool concerns(Vec2 point, Vec2 from, Vec2 to, double side) {
   return share >= 0.0 && share <= 1.0;
 }
 
+namespace {
+
+/// The stations closest to some points, ascending, with the least sum of squared distances.
+std::vector<std::size_t> passed_in_order(const Shape& shape, const std::vector<Vec2>& points) {
+  const std::size_t count = shape.x.size();
+  // Of the points so far: the least sum with the last of them at or before a station, and which station that is.
+  Vector least(count, 0.0);
+  std::vector<std::vector<std::size_t>> best(points.size(), std::vector<std::size_t>(count, 0));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double dx = shape.x[i] - points[k].x;
+      const double dy = shape.y[i] - points[k].y;
+      const double sum = least[i] + dx * dx + dy * dy;
+      const bool earlier = i > 0 && least[i - 1] <= sum;
+      least[i] = earlier ? least[i - 1] : sum;
+      best[k][i] = earlier ? best[k][i - 1] : i;
+    }
+  }
+  std::vector<std::size_t> stations(points.size(), 0);
+  std::size_t last = count - 1;
+  for (std::size_t k = points.size(); k-- > 0;) {
+    stations[k] = best[k][last];
+    last = stations[k];
+  }
+  return stations;
+}
+
+}  // namespace
+
 Rows::Rows(const ScaledProblem& problem, const Transcription& track)
     : problem_(problem),
       track_(track),
@@ -64,6 +93,9 @@ State Rows::state(const Vector& z, bool derivatives) const {
   State state;
   state.z = z;
   track_.shape(z, state.shape, derivatives);
+  // One waypoint has no order.
+  if (problem_.waypoints.size() > 1)
+    state.waypoint_stations = passed_in_order(state.shape, problem_.waypoints);
   if (has_envelope()) state.zones = envelope_.zones(state.shape);
   state.flows.resize(problem_.rides.size());
   for (std::size_t r = 0; r < problem_.rides.size(); ++r) {
@@ -195,7 +227,7 @@ double Rows::measure(const State& state, const LimitSpec& limit, const Row& row)
       if (has_envelope()) return envelope_.measure(state, obstacle, row);
       if (row.foot) {
         const Vec2 corner = obstacle.corners[row.place];
-        return corner_distance(track_.foot(state.z, shape, corner.x, corner.y), corner, obstacle.side);
+        return corner_distance(foot_of(state, limit, row), corner, obstacle.side);
       }
       const Vec2 forbidden = obstacle.endless ? obstacle.forbidden
                                               : edge_normal(obstacle.corners[row.edge],
@@ -204,7 +236,7 @@ double Rows::measure(const State& state, const LimitSpec& limit, const Row& row)
     }
     case Measure::waypoint: {
       const Vec2 point = problem_.waypoints[limit.obstacle];
-      const Foot foot = track_.foot(state.z, shape, point.x, point.y);
+      const Foot foot = foot_of(state, limit, row);
       return corner_distance(foot, point, 1.0);
     }
     case Measure::arrival:
@@ -300,7 +332,7 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
   const Vec2 corner =
       obstacle ? problem_.obstacles[limit.obstacle].corners[row.place] : problem_.waypoints[limit.obstacle];
   const double side = obstacle ? problem_.obstacles[limit.obstacle].side : 1.0;
-  const Foot foot = track_.foot(state.z, shape, corner.x, corner.y);
+  const Foot foot = foot_of(state, limit, row);
   Vector dx;
   Vector dy;
   track_.foot_derivatives(state.z, shape, foot, dx, dy);
@@ -312,6 +344,16 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
   }
   add_scaled(out, -away.x, dx.data(), n);
   add_scaled(out, -away.y, dy.data(), n);
+}
+
+Foot Rows::foot_of(const State& state, const LimitSpec& limit, const Row& row) const {
+  const bool waypoint = limit.measure == Measure::waypoint;
+  const Vec2 point =
+      waypoint ? problem_.waypoints[limit.obstacle] : problem_.obstacles[limit.obstacle].corner(row.place);
+  if (!waypoint || state.waypoint_stations.empty()) {
+    return track_.foot(state.z, state.shape, point.x, point.y);
+  }
+  return track_.foot(state.z, state.shape, point.x, point.y, state.waypoint_stations[limit.obstacle]);
 }
 
 Rows::Bend Rows::bend(const Vector& z, std::size_t place) const {
@@ -348,8 +390,7 @@ double Rows::place(const State& state, const Row& row) const {
     return problem_.lead_in + length * track_.mesh().knots[row.place];
   }
   if (row.foot) {
-    const Vec2 corner = problem_.obstacles[limit.obstacle].corner(row.place);
-    return track_.foot(state.z, state.shape, corner.x, corner.y).at.arc_length(length);
+    return foot_of(state, limit, row).at.arc_length(length);
   }
   return track_.stations()[row.place].arc_length(length);
 }
@@ -483,8 +524,7 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
         return;
       }
       if (row.foot) {
-        const Vec2 corner = obstacle.corners[row.place];
-        const Foot foot = track_.foot(state.z, shape, corner.x, corner.y);
+        const Foot foot = foot_of(state, limit, row);
         add_foot_weights(foot, factor * obstacle.side, weights);
         return;
       }
@@ -496,8 +536,7 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
       return;
     }
     case Measure::waypoint: {
-      const Vec2 point = problem_.waypoints[limit.obstacle];
-      const Foot foot = track_.foot(state.z, shape, point.x, point.y);
+      const Foot foot = foot_of(state, limit, row);
       add_foot_weights(foot, factor, weights);
       return;
     }
@@ -655,7 +694,7 @@ void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Ro
       const Vec2 corner = obstacle ? problem_.obstacles[limit.obstacle].corners[row.place]
                                    : problem_.waypoints[limit.obstacle];
       const double side = obstacle ? problem_.obstacles[limit.obstacle].side : 1.0;
-      const Foot foot = track_.foot(state.z, state.shape, corner.x, corner.y);
+      const Foot foot = foot_of(state, limit, row);
       if (foot.end) return;
       add_foot_terms(track_, state, foot, corner_distance(foot, corner, side), side, factor, hessian);
       return;

@@ -30,6 +30,8 @@ struct State {
   Vector z;
   Shape shape;
   std::vector<Flow> flows;
+  /// The station at which the track comes closest to each waypoint, passing them in their order.
+  std::vector<std::size_t> waypoint_stations;
   EnvelopeRows::Zones zones;  ///< where the end planes may cut an envelope
 };
 
@@ -74,6 +76,8 @@ class Rows {
                                        double objective) const;
 
  private:
+  /// Where a row that is measured at a foot has it.
+  [[nodiscard]] Foot foot_of(const State& state, const LimitSpec& limit, const Row& row) const;
   [[nodiscard]] Row row_of_equality(std::size_t index) const;
   [[nodiscard]] Ride::CurvatureLoad curvature_load(const State& state, const Row& row) const;
   [[nodiscard]] double measure(const State& state, const LimitSpec& limit, const Row& row) const;

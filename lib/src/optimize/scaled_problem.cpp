@@ -389,6 +389,27 @@ void require_searchable(const Problem& problem) {
                     "The friction of a body held from both sides is not modelled.", "0 or a positive value"});
 }
 
+void require_passable_in_order(const Problem& problem) {
+  constexpr double kUpright = 0.5 * std::numbers::pi;
+  const Limits& limits = problem.limits;
+  const bool runs_back = limits.slope_angle.highest.value_or(kUpright) > kUpright ||
+                         limits.slope_angle.lowest.value_or(-kUpright) < -kUpright;
+  if (runs_back) return;
+  std::vector<Issue> issues;
+  for (std::size_t i = 0; i + 1 < limits.waypoints.size(); ++i) {
+    const double now = limits.waypoints[i].x;
+    const double next = limits.waypoints[i + 1].x;
+    if (!(next < now)) continue;
+    issues.push_back(
+        {"",
+         "waypoints[" + std::to_string(i + 1) + "]: " + length_text(next) +
+             " along the run lies before waypoints[" + std::to_string(i) + "], " + length_text(now),
+         "A track passes its waypoints in their order, and none that keeps within the vertical runs back.",
+         "the waypoints in the order of their runs"});
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
+}
+
 Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
   Mesh mesh;
   mesh.knots = std::move(knots);

@@ -103,5 +103,7 @@ using Passages = std::vector<Passage>;
 void require_searchable(const Problem& problem);
 /// @throws InputError listing every field that breaks its bound
 void require_valid(const OptimizeOptions& options);
+/// @throws InputError for waypoints that no track within the vertical passes in their order
+void require_passable_in_order(const Problem& problem);
 
 }  // namespace glissade::optimizer

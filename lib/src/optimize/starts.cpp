@@ -93,6 +93,34 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
   return curves;
 }
 
+std::vector<GuessCurve> winding_starts(const ScaledProblem& problem) {
+  constexpr int kSteps = 128;
+  constexpr int kMostWaves = 3;
+  constexpr double kAmplitudes[] = {0.4, 0.8};  // [rad]
+  const Vec2 finish = expected_finish(problem);
+  const double ends = problem.lead_in + problem.lead_out;
+  const double mean = math::atan2(finish.y, finish.x);
+  std::vector<GuessCurve> curves;
+  for (int waves = 1; waves <= kMostWaves; ++waves) {
+    for (const double amplitude : kAmplitudes) {
+      GuessCurve curve;
+      double along = 0.0;
+      for (int i = 0; i <= kSteps; ++i) {
+        const double share = static_cast<double>(i) / kSteps;
+        const double turned = amplitude * math::cos(2.0 * std::numbers::pi * waves * share);
+        curve.sigma.push_back(share);
+        curve.zeta.push_back(mean + turned);
+        if (i < kSteps) along += math::cos(turned) / kSteps;
+      }
+      curve.length = norm(finish) / along;
+      curve = clipped(std::move(curve), problem);
+      curve.length = std::max(curve.length - ends, 0.2 * curve.length);
+      curves.push_back(std::move(curve));
+    }
+  }
+  return curves;
+}
+
 std::optional<double> unlimited_travel_time(const Problem& problem) {
   const Body& body = problem.body;
   const bool applies = problem.finish.kind == FinishKind::point && is_sliding_point(body) &&

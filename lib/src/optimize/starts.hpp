@@ -12,6 +12,9 @@ namespace glissade::optimizer {
 /// the core, without the straight ends.
 [[nodiscard]] std::vector<GuessCurve> starts(const ScaledProblem& problem);
 
+/// Curves that wind about the straight line, from few bends to many: ways to wear energy down, or to be long.
+[[nodiscard]] std::vector<GuessCurve> winding_starts(const ScaledProblem& problem);
+
 /// Exact least travel time without limits, from rest, without drag, to a point [s]; none where that theory
 /// does not apply.
 [[nodiscard]] std::optional<double> unlimited_travel_time(const Problem& problem);

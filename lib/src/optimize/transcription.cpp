@@ -336,6 +336,11 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
       nearest = i;
     }
   }
+  return foot(z, shape, target_x, target_y, nearest);
+}
+
+Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y,
+                         std::size_t nearest) const {
   const double along =
       (target_x - shape.x[nearest]) * shape.cos[nearest] + (target_y - shape.y[nearest]) * shape.sin[nearest];
   const bool forward = along > 0.0;

@@ -154,6 +154,9 @@ class Transcription {
   void turning_row(const Station& station, double* row) const;
   /// Position of the point closest to `target`, by its own quadrature from the nearest station.
   [[nodiscard]] Foot foot(const Vector& z, const Shape& shape, double target_x, double target_y) const;
+  /// @param nearest  the station to start from
+  [[nodiscard]] Foot foot(const Vector& z, const Shape& shape, double target_x, double target_y,
+                          std::size_t nearest) const;
   /// The point a share of the way from one station to one next to it.
   [[nodiscard]] Foot between(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
                              double share) const;

@@ -249,7 +249,12 @@ Optimum pipeline::search_within_limits(const Design& design, const RunContext& c
   if (context.stop.stop_requested()) {
     throw Interrupted({place, "interrupted before any track kept every limit", "", ""});
   }
-  throw ConvergenceError({place, optimum.report.message, "", "a larger --time-budget, or wider limits"});
+  if (optimum.report.ended_early) {
+    throw ConvergenceError({place, optimum.report.message, "", "a larger --time-budget, or wider limits"});
+  }
+  throw ConvergenceError({place, optimum.report.message,
+                          "The search is local: there may be a track that none of its starts leads to.",
+                          "wider limits"});
 }
 
 std::vector<LimitCheck> pipeline::checked_limits(const Design& design, const Endpoints& endpoints,
@@ -284,12 +289,15 @@ std::optional<Issue> limits_problem(const Design& design, const Track& track) {
 
 std::optional<Issue> search_problem(const Design& design, const Track& track) {
   if (!track.search || track.search->status == OptimizeStatus::optimal) return {};
+  const bool ended_early = track.search->ended_early;
   return Issue{design.where("limits"),
-               "the search for the fastest track ended early: " + track.search->message,
+               (ended_early ? "the search for the fastest track ended early: "
+                            : "the search for the fastest track did not converge: ") +
+                   track.search->message,
                "Every limit holds, but a faster track may be near: the first-order residual is " +
                    rounded_text(track.search->first_order_residual, 2) + " instead of at most " +
                    rounded_text(OptimizeOptions{}.tolerance, 2) + ".",
-               "a larger --time-budget"};
+               ended_early ? "a larger --time-budget" : "other limits; more time would not help"};
 }
 
 }  // namespace glissade

@@ -137,13 +137,21 @@ class Watch {
   double worst_ = 0.0;
 };
 
+/// Fewer samples where a piece is short: a curvature follows a load in many of them.
+/// @param share  of the track that a piece takes up
+int samples_within(double share, int samples) {
+  constexpr double kUsualPieces = 32.0;
+  constexpr double kLeast = 0.3;
+  return std::max(static_cast<int>(std::ceil(samples * std::clamp(share * kUsualPieces, kLeast, 1.0))), 2);
+}
+
 std::vector<double> sampled(const Centerline& track, const Limits& limits, int samples) {
   const std::vector<double> breaks = track.breaks();
   std::vector<double> stations;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    for (int k = 0; k < samples; ++k) {
-      stations.push_back(breaks[i] + (breaks[i + 1] - breaks[i]) * k / samples);
-    }
+    const double width = breaks[i + 1] - breaks[i];
+    const int count = samples_within(width / breaks.back(), samples);
+    for (int k = 0; k < count; ++k) stations.push_back(breaks[i] + width * k / count);
     // At the break itself the values of the next piece hold.
     stations.push_back(std::nextafter(breaks[i + 1], breaks[i]));
   }
@@ -382,17 +390,38 @@ class Watches {
   std::vector<Watch> watches_;
 };
 
-double closest_approach(const Centerline& track, const std::vector<CenterlinePoint>& points, Vec2 target,
-                        double& where) {
-  std::size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double distance = norm(Vec2{points[i].x, points[i].drop} - target);
-    if (distance < least) {
-      least = distance;
-      nearest = i;
+/// The samples at which a track passes some points in their order, closest to all of them together.
+std::vector<std::size_t> passages_in_order(const std::vector<CenterlinePoint>& points,
+                                           const std::vector<Vec2>& targets) {
+  // From the last target back: the least sum of squares from a sample on, and the first sample that has it.
+  std::vector<double> rest(points.size() + 1, 0.0);
+  rest.back() = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<std::size_t>> at(targets.size());
+  for (std::size_t k = targets.size(); k-- > 0;) {
+    at[k].assign(points.size(), points.size() - 1);
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t where = points.size() - 1;
+    for (std::size_t i = points.size(); i-- > 0;) {
+      const Vec2 away = Vec2{points[i].x, points[i].drop} - targets[k];
+      const double sum = dot(away, away) + rest[i];
+      if (sum <= least) {
+        least = sum;
+        where = i;
+      }
+      rest[i] = least;
+      at[k][i] = where;
     }
   }
+  std::vector<std::size_t> passages;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    passages.push_back(at[k][passages.empty() ? 0 : passages.back()]);
+  }
+  return passages;
+}
+
+/// @param nearest  of the points, the one closest to the target
+double closest_approach(const Centerline& track, const std::vector<CenterlinePoint>& points,
+                        std::size_t nearest, Vec2 target, double& where) {
   double low = points[nearest == 0 ? 0 : nearest - 1].arc_length;
   double high = points[std::min(nearest + 1, points.size() - 1)].arc_length;
   for (int step = 0; step < 60; ++step) {
@@ -515,9 +544,10 @@ Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int sa
   see_curvature(*track, samples, watches);
   const auto [lead_in, lead_out] = straight_ends(points);
   watches.at_leads(lead_in, lead_out, track->length());
+  const std::vector<std::size_t> passages = passages_in_order(points, problem.limits.waypoints);
   for (std::size_t i = 0; i < problem.limits.waypoints.size(); ++i) {
     double where = 0.0;
-    const double distance = closest_approach(*track, points, problem.limits.waypoints[i], where);
+    const double distance = closest_approach(*track, points, passages[i], problem.limits.waypoints[i], where);
     watches.near(i, distance, where);
   }
 

@@ -25,7 +25,7 @@ enum class OptimizeStatus {
   optimal,                 ///< every limit holds, first-order conditions met
   feasible_not_converged,  ///< every limit holds, but the search ended early (message says why)
   infeasible,              ///< the limits contradict each other; see conflict
-  no_track_found           ///< the search ended early before any track held every limit
+  no_track_found           ///< no track held every limit: the search ended early, or confirmed no conflict
 };
 
 /// @return "optimal", "feasible, not converged", "infeasible", "no track found"
@@ -88,9 +88,10 @@ struct OptimizeReport {
   std::vector<ActiveLimit> active;  ///< by name
   Conflict conflict;                ///< of an infeasible problem
 
-  int iterations = 0;    ///< outer rounds: meshes, working sets, restarts
-  int evaluations = 0;   ///< of objective and limits with gradients
-  double seconds = 0.0;  ///< wall clock; the only field that differs between two runs
+  bool ended_early = false;  ///< asked to, or the time budget ran out
+  int iterations = 0;        ///< outer rounds: meshes, working sets, restarts
+  int evaluations = 0;       ///< of objective and limits with gradients
+  double seconds = 0.0;      ///< wall clock; the only field that differs between two runs
 
   /// @return a few lines for people
   [[nodiscard]] std::string brief() const;
