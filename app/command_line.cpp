@@ -51,6 +51,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_inspect(program, action);
   add_init(program, action);
   add_sweep(program, action);
+  add_schema(program, action);
 
   try {
     program.parse(argc, argv);

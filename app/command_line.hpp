@@ -22,6 +22,7 @@ void add_plot(CLI::App& program, Action& action);
 void add_inspect(CLI::App& program, Action& action);
 void add_init(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
+void add_schema(CLI::App& program, Action& action);
 
 /// Understands the arguments and does what they ask for.
 /// @return how it ended

@@ -1,4 +1,5 @@
 #include "glissade/core/error.hpp"
+#include "glissade/design/schema.hpp"
 #include "glissade/design/template.hpp"
 #include "glissade/io/atomic_file.hpp"
 
@@ -38,7 +39,10 @@ std::string footer() {
          "\n"
          "Examples:\n"
          "  glissade init > chute.yaml\n"
-         "  glissade init points -o wall.yaml                 with the profile that it reads beside it";
+         "  glissade init points -o wall.yaml                 with the profile that it reads beside it\n"
+         "\n"
+         "Beside a file goes its schema, glissade.schema.json, for editors that check and complete YAML;\n"
+         "'glissade schema' prints it.";
 }
 
 void require_new(const std::filesystem::path& path) {
@@ -76,6 +80,9 @@ ExitCode write_template(const Options& options) {
     if (needs_profile) require_new(profile);
   }
   write(path, text);
+  // What the first line of the design names; one that is there may be of a newer Glissade.
+  const std::filesystem::path schema = path.parent_path() / kSchemaName;
+  if (!std::filesystem::exists(schema)) write(schema, design_schema());
   if (needs_profile) write(profile, design_template_profile());
   return ExitCode::done;
 }

@@ -40,6 +40,16 @@ TEST_CASE("every kind of init reads as a design") {
   }
 }
 
+TEST_CASE("init puts the schema that a design names beside it, as schema prints it") {
+  const TempDir place;
+  REQUIRE(glissade_run({"init", "-o", (place / "chute.yaml").string()}).exit_code == 0);
+  CHECK(bytes_of(place / "chute.yaml").starts_with("# yaml-language-server: $schema=glissade.schema.json\n"));
+  const Outcome schema = glissade_run({"schema"});
+  CHECK(schema.exit_code == 0);
+  CHECK(bytes_of(place / "glissade.schema.json") == schema.output);
+  CHECK(nlohmann::json::parse(schema.output)["$schema"] == "http://json-schema.org/draft-07/schema#");
+}
+
 TEST_CASE("init never writes over a file unless it is told to") {
   const TempDir place;
   const std::string file = (place / "chute.yaml").string();

@@ -41,7 +41,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 const std::map<std::string, std::set<std::string>> kThirdParties = {
     {"CGAL/", {"solid"}},      {"nlopt", {"centerline", "optimize"}},
     {"yaml-cpp/", {"design"}}, {"boost/", {"centerline", "motion", "solid", "pipeline", "study"}},
-    {"fmt/", {"report"}},      {"nlohmann/", {"report", "pipeline", "study"}},
+    {"fmt/", {"report"}},      {"nlohmann/", {"design", "report", "pipeline", "study"}},
     {"openssl/", {"report"}},  {"librsvg/", {"report"}},
     {"cairo", {"report"}},     {"tbb/", {"study"}},
 };

@@ -5,6 +5,7 @@
 #include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -126,7 +127,7 @@ std::string with_article(Dimension dimension) {
   return std::string(vowel ? "an " : "a ").append(noun(dimension));
 }
 
-std::vector<std::string_view> units_of(Dimension dimension) {
+std::vector<std::string_view> listed_units_of(Dimension dimension) {
   std::vector<std::string_view> texts;
   for (const Unit& unit : kUnits) {
     if (unit.dimension == dimension && unit.listed) texts.push_back(unit.text);
@@ -143,12 +144,13 @@ const Unit* find_unit(std::string_view text) {
 
 std::string units_that_fit(Dimension dimension) {
   if (dimension == Dimension::number) return "It takes a plain number, or one with %.";
-  return "It takes " + with_article(dimension) + " with its unit: " + listed(units_of(dimension), "or") + ".";
+  return "It takes " + with_article(dimension) +
+         " with its unit: " + listed(listed_units_of(dimension), "or") + ".";
 }
 
 std::string example(std::string_view number, Dimension dimension) {
   if (dimension == Dimension::number) return std::string(number);
-  const std::vector<std::string_view> units = units_of(dimension);
+  const std::vector<std::string_view> units = listed_units_of(dimension);
   std::string text = std::string(number).append(" ").append(units[0]);
   if (dimension == Dimension::length) text.append(" or ").append(number).append(" ").append(units[1]);
   return text;
@@ -241,6 +243,32 @@ double parse_quantity(std::string_view text, Dimension dimension, std::string_vi
   const auto reading = read_quantity(text, dimension, name);
   if (const Issue* issue = std::get_if<Issue>(&reading)) throw InputError(*issue);
   return std::get<double>(reading);
+}
+
+std::vector<UnitName> units_of(Dimension dimension) {
+  std::vector<UnitName> units;
+  for (const Unit& unit : kUnits) {
+    if (unit.dimension == dimension) units.push_back({unit.text, unit.listed});
+  }
+  return units;
+}
+
+std::string written_quantity(double value, Dimension dimension) {
+  constexpr std::array<std::string_view, 5> kBesides = {"mm", "rad", "km/h", "g", "K"};
+  constexpr int kMostDigits = 17;
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    for (const Unit& unit : kUnits) {
+      const bool first = unit.text == unit_for_people(dimension);
+      const bool beside = std::find(kBesides.begin(), kBesides.end(), unit.text) != kBesides.end();
+      if (unit.dimension != dimension || !(first || beside)) continue;
+      const std::string text = rounded_text((value - unit.zero) / unit.multiply * unit.divide, digits) + " " +
+                               std::string(unit.text);
+      const auto read = read_quantity(text, dimension, "");
+      if (const double* const again = std::get_if<double>(&read); again != nullptr && *again == value)
+        return text;
+    }
+  }
+  return exact_text(value) + " " + std::string(unit_for_people(dimension));
 }
 
 std::string_view unit_for_people(Dimension dimension) {

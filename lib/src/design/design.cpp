@@ -27,6 +27,13 @@ std::string Design::where(std::string_view key_path) const {
   return file.empty() ? std::string(key_path) : file.string();
 }
 
+bool Design::asks_the_same(const Design& other) const {
+  return name == other.name && track == other.track && body == other.body && gravity == other.gravity &&
+         centerline == other.centerline && limits == other.limits && objective == other.objective &&
+         probes == other.probes && cross_section == other.cross_section && mesh == other.mesh &&
+         exports == other.exports;
+}
+
 Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {
   const double drop = track.start.z - point.y;
   if (track.start.y != track.finish.y) return {point.x, drop};

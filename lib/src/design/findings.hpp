@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/design/design.hpp"
 
+#include "design/notes.hpp"
 #include "design/yaml_tree.hpp"
 
 #include <filesystem>
@@ -35,6 +36,10 @@ class Findings {
   /// Adds a problem between values, unless one of them has a problem of its own already.
   void add_unless_spoiled(Finding finding);
 
+  /// Has the reading note what it asks for; `notes` outlives this.
+  void keep(Notes& notes) { notes_ = &notes; }
+  [[nodiscard]] Notes* notes() const { return notes_; }
+
   [[nodiscard]] bool empty() const { return problems_.empty(); }
   /// @return the problems by position, with `where` filled in; beyond kMostReported only how many more there
   /// are
@@ -56,6 +61,7 @@ class Findings {
   std::map<std::string, Position, std::less<>> positions_;
   std::vector<Problem> problems_;
   std::size_t left_out_ = 0;
+  Notes* notes_ = nullptr;
 };
 
 /// @return the key path without its last part; empty for a top-level key

@@ -51,6 +51,7 @@ std::string trimmed(const std::string& text) {
 }  // namespace
 
 std::optional<double> as_quantity(const Value& value, Dimension dimension, Findings& findings) {
+  if (Notes* const notes = findings.notes()) notes->quantity(value.key_path, dimension);
   if (value.node->kind != Node::Kind::scalar) {
     add_wrong_type(value, "a single value", "", findings);
     return {};
@@ -61,13 +62,20 @@ std::optional<double> as_quantity(const Value& value, Dimension dimension, Findi
   return {};
 }
 
+bool is_word(const Value& value, std::string_view word, Findings& findings) {
+  if (Notes* const notes = findings.notes()) notes->word(value.key_path, word);
+  return value.node->kind == Node::Kind::scalar && value.node->scalar == word;
+}
+
 std::optional<std::string> as_text(const Value& value, Findings& findings) {
+  if (Notes* const notes = findings.notes()) notes->text(value.key_path);
   if (value.node->kind == Node::Kind::scalar) return value.node->scalar;
   add_wrong_type(value, "a text", "", findings);
   return {};
 }
 
 std::optional<bool> as_flag(const Value& value, Findings& findings) {
+  if (Notes* const notes = findings.notes()) notes->flag(value.key_path);
   if (value.node->kind == Node::Kind::scalar) {
     if (value.node->scalar == "true") return true;
     if (value.node->scalar == "false") return false;
@@ -80,6 +88,7 @@ std::optional<bool> as_flag(const Value& value, Findings& findings) {
 }
 
 std::vector<Value> as_list(const Value& value, std::string_view example, Findings& findings) {
+  if (Notes* const notes = findings.notes()) notes->list(value.key_path);
   if (value.node->kind != Node::Kind::sequence) {
     add_wrong_type(value, "a list", example, findings);
     return {};
@@ -118,12 +127,21 @@ std::vector<Vec2> as_points(const Value& value, std::string_view example, Findin
 
 MapReader::MapReader(const Value& value, std::string_view noun, std::string_view example, Findings& findings)
     : key_path_(value.key_path), noun_(noun), findings_(findings) {
+  if (Notes* const notes = findings.notes()) notes->map(value.key_path);
   if (value.node->kind != Node::Kind::map) {
     add_wrong_type(value, "a group of keys", example, findings);
     return;
   }
   node_ = value.node;
   refuse_duplicates();
+}
+
+void MapReader::expect(std::initializer_list<std::string_view> keys) {
+  known_ = keys;
+  Notes* const notes = findings_.notes();
+  for (const std::string_view key : keys) {
+    if (notes != nullptr) notes->key(key_path_, key, false);
+  }
 }
 
 void MapReader::refuse_duplicates() {
@@ -150,6 +168,7 @@ bool MapReader::has(std::string_view key) const {
 
 std::optional<Value> MapReader::find(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (Notes* const notes = findings_.notes()) notes->key(key_path_, key, false);
   if (node_ == nullptr) return {};
   for (const Entry& entry : node_->entries) {
     if (entry.key != key) continue;
@@ -165,6 +184,7 @@ std::optional<Value> MapReader::find(std::string_view key) {
 }
 
 std::optional<Value> MapReader::need(std::string_view key, std::string_view example) {
+  if (Notes* const notes = findings_.notes()) notes->key(key_path_, key, true);
   if (readable() && !has(key)) {
     findings_.add(
         findings_.position(key_path_), path_of(key),
@@ -186,6 +206,9 @@ std::optional<double> MapReader::needed_quantity(std::string_view key, Dimension
 }
 
 std::optional<std::size_t> MapReader::choose(const Value& value, const std::vector<std::string_view>& words) {
+  if (Notes* const notes = findings_.notes()) {
+    for (const std::string_view word : words) notes->word(value.key_path, word);
+  }
   const std::optional<std::string> text = as_text(value, findings_);
   if (!text) return {};
   const auto found = std::find(words.begin(), words.end(), *text);

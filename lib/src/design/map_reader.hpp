@@ -24,6 +24,8 @@ struct Value {
 
 /// Each reads a value, or adds a finding and returns none.
 [[nodiscard]] std::optional<double> as_quantity(const Value& value, Dimension dimension, Findings& findings);
+/// @return true if the value is that word; nothing is found wrong with another
+[[nodiscard]] bool is_word(const Value& value, std::string_view word, Findings& findings);
 [[nodiscard]] std::optional<std::string> as_text(const Value& value, Findings& findings);
 [[nodiscard]] std::optional<bool> as_flag(const Value& value, Findings& findings);
 /// A pair of lengths: [5.4 m, 1.1 m].
@@ -44,7 +46,7 @@ class MapReader {
   void rename(std::string_view noun) { noun_ = noun; }
 
   /// Names the keys in the order in which messages list them; otherwise it is the order of asking.
-  void expect(std::initializer_list<std::string_view> keys) { known_ = keys; }
+  void expect(std::initializer_list<std::string_view> keys);
 
   /// @return false if the value is no map; every reading then returns none, without a problem of its own
   [[nodiscard]] bool readable() const { return node_ != nullptr; }

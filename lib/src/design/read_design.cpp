@@ -11,6 +11,7 @@
 #include "design/read_body.hpp"
 #include "design/read_limits.hpp"
 #include "design/read_probes.hpp"
+#include "design/read_tree.hpp"
 #include "design/schema_words.hpp"
 #include "design/yaml_tree.hpp"
 
@@ -34,8 +35,9 @@ constexpr std::size_t kLargestFile = std::size_t{4} << 20U;
 void read_version(MapReader& top, Findings& findings) {
   const std::optional<Value> value = top.need("glissade", "glissade: 1 as the first line");
   if (!value) return;
+  if (is_word(*value, "1", findings)) return;
   const std::optional<std::string> text = as_text(*value, findings);
-  if (!text || *text == "1") return;
+  if (!text) return;
   findings.add(value->node->at, value->key_path,
                {"", "glissade: " + shown(*text) + " is not a version of design files that this program reads",
                 "It reads version 1.", "glissade: 1"});
@@ -63,8 +65,8 @@ Vec3 read_position(const Value& value, std::string_view noun, Findings& findings
   return position;
 }
 
-bool is_free(const std::optional<Value>& value) {
-  return value && (value->node->kind == Node::Kind::map || value->node->scalar == "free");
+bool is_free(const std::optional<Value>& value, Findings& findings) {
+  return value && (is_word(*value, "free", findings) || value->node->kind == Node::Kind::map);
 }
 
 /// A coordinate that the fastest track may choose: `free`, or a range.
@@ -94,22 +96,22 @@ void read_finish(const Value& value, TrackDesign& track, Findings& findings) {
   const auto y = map.quantity("y", Dimension::length);
   const auto z = map.need("z", "z: 1.1 m, counted upwards");
   map.refuse_unknown_keys();
-  track.finish.y = y.value_or(is_free(x) ? track.start.y : 0.0);
-  if (is_free(x) && is_free(z)) {
+  track.finish.y = y.value_or(is_free(x, findings) ? track.start.y : 0.0);
+  if (is_free(x, findings) && is_free(z, findings)) {
     findings.add(
         findings.position(value.key_path), value.key_path,
         {"", "the finish is free both ways", "A finish is a point, or lies on a vertical line or on a level.",
          "one of x and z with a value"});
     return;
   }
-  if (x && !is_free(x)) track.finish.x = as_quantity(*x, Dimension::length, findings).value_or(0.0);
-  if (z && !is_free(z)) track.finish.z = as_quantity(*z, Dimension::length, findings).value_or(0.0);
-  if (is_free(x)) {
+  if (x && !is_free(x, findings)) track.finish.x = as_quantity(*x, Dimension::length, findings).value_or(0.0);
+  if (z && !is_free(z, findings)) track.finish.z = as_quantity(*z, Dimension::length, findings).value_or(0.0);
+  if (is_free(x, findings)) {
     track.free_finish = FinishKind::level;
     track.free_range = read_free_range(*x, findings);
     track.finish.x = easiest_run(track);
   }
-  if (is_free(z)) {
+  if (is_free(z, findings)) {
     track.free_finish = FinishKind::vertical_line;
     track.free_range = read_free_range(*z, findings);
     track.finish.z = easiest_height(track);
@@ -350,7 +352,9 @@ void complete_finish(Design& design, Findings& findings) {
   for (Finding& finding : check_values(design)) findings.add_unless_spoiled(std::move(finding));
 }
 
-Design read_tree(const Node& root, const std::filesystem::path& file, Findings& findings) {
+}  // namespace
+
+Design design_file::read_tree(const Node& root, const std::filesystem::path& file, Findings& findings) {
   Design design;
   design.file = file;
   findings.set_position("", root.at);
@@ -380,6 +384,8 @@ Design read_tree(const Node& root, const std::filesystem::path& file, Findings& 
   design.locations = findings.locations();
   return design;
 }
+
+namespace {
 
 Node parse_root(std::string_view text, const Findings& findings) {
   try {

@@ -18,9 +18,10 @@ Range read_range(MapReader& map, const LimitEntry& entry, Findings& findings) {
   const auto value = map.find(entry.key);
   if (!value) return {};
   if (value->node->kind == Node::Kind::map) return read_range(*value, entry.dimension, findings);
-  const auto number = as_quantity(*value, entry.dimension, findings);
-  if (!number) return {};
-  if (entry.fixable) return Range::fixed(*number);
+  if (entry.fixable) {
+    const auto number = as_quantity(*value, entry.dimension, findings);
+    return number ? Range::fixed(*number) : Range{};
+  }
   findings.add(value->node->at, value->key_path,
                {"",
                 value->key + ": " + shown(value->node->scalar) +
@@ -43,8 +44,7 @@ std::optional<double> read_value(MapReader& map, const LimitEntry& entry, std::o
                                  Findings& findings) {
   const auto value = map.find(entry.key);
   if (!value) return unsaid;
-  const bool lifted = value->node->kind == Node::Kind::scalar && value->node->scalar == "none";
-  if (unsaid && lifted) return {};
+  if (unsaid && is_word(*value, "none", findings)) return {};
   const auto number = as_quantity(*value, entry.dimension, findings);
   return number ? number : unsaid;
 }

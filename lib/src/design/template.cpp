@@ -8,7 +8,8 @@ namespace glissade {
 namespace {
 
 constexpr std::string_view kHead =
-    R"(# A design file of Glissade. Every value has its unit; docs/design-file.md lists all keys.
+    R"(# yaml-language-server: $schema=glissade.schema.json
+# A design file of Glissade. Every value has its unit; docs/design-file.md lists all keys.
 glissade: 1
 )";
 

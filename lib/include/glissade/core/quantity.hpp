@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace glissade {
 
@@ -39,6 +40,18 @@ enum class Dimension {
 /// @throws InputError if the number is malformed or out of the range of a double, the unit is missing,
 ///         unknown or of another dimension; the message lists the units that fit
 [[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension, std::string_view name);
+
+/// One spelling of a unit.
+struct UnitName {
+  std::string_view text;
+  bool listed = true;  ///< named in messages; further spellings are accepted silently
+};
+/// @return every spelling of a unit of that dimension
+[[nodiscard]] std::vector<UnitName> units_of(Dimension dimension);
+
+/// @param value  SI, rad; finite
+/// @return the shortest decimal with a metric unit that parse_quantity() reads as exactly `value`: "0.4 m", "2.5 g"
+[[nodiscard]] std::string written_quantity(double value, Dimension dimension);
 
 /// @return the unit that messages give such a value in: "deg", "m", "m/s^2", ...; empty for a number
 [[nodiscard]] std::string_view unit_for_people(Dimension dimension);

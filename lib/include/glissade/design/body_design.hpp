@@ -13,6 +13,8 @@ struct RollingDesign {
   /// Half the angle between the walls of the groove that it runs in; 90 deg is a flat floor. 0 to 90 deg.
   Angle groove_half_angle = Angle::from_degrees(90.0);
   std::optional<Friction> grip;  ///< while it slips; none: slip is not judged
+
+  friend bool operator==(const RollingDesign&, const RollingDesign&) = default;
 };
 
 /// Drag by what it comes from.
@@ -25,12 +27,16 @@ struct DragDesign {
 
   /// @return k = density drag_area / (2 mass) [1/m]; not finite where a value breaks its bound
   [[nodiscard]] double drag_per_metre() const;
+
+  friend bool operator==(const DragDesign&, const DragDesign&) = default;
 };
 
 /// From here on along the track, friction is another.
 struct FrictionFrom {
   double from = 0.0;  ///< arc length [m]
   Friction friction;
+
+  friend bool operator==(const FrictionFrom&, const FrictionFrom&) = default;
 };
 
 struct BodyDesign {
@@ -46,6 +52,8 @@ struct BodyDesign {
   /// Height of the centre of mass above the track [m]; none: 0 of a sliding body, the radius of a rolling one.
   std::optional<double> centre_height = {};
   std::optional<RollingDesign> rolling = {};  ///< none: it slides
+
+  friend bool operator==(const BodyDesign&, const BodyDesign&) = default;
 };
 
 }  // namespace glissade

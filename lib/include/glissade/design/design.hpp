@@ -31,6 +31,8 @@ struct TrackDesign {
   bool finish_given = true;  ///< false only for `segments` and `points` whose file leaves the finish out
   FinishKind free_finish = FinishKind::point;  ///< z is free on a vertical_line, x on a level
   Range free_range;                            ///< of the free coordinate, x or z [m]
+
+  friend bool operator==(const TrackDesign&, const TrackDesign&) = default;
 };
 
 /// How well a finish that is given must agree with the end of a drawn track, of the distance to the start.
@@ -61,6 +63,8 @@ struct SegmentDesign {
   double length = 0.0;           ///< [m]; > 0
   double entry_curvature = 0.0;  ///< [1/m]
   double exit_curvature = 0.0;   ///< [1/m]
+
+  friend bool operator==(const SegmentDesign&, const SegmentDesign&) = default;
 };
 
 struct CenterlineDesign {
@@ -76,6 +80,8 @@ struct CenterlineDesign {
   LengthUnit points_unit = LengthUnit::metre;  ///< of the CSV's numbers
   /// The farthest that the curve of `points` may pass one by [m]; none: chosen by their noise.
   std::optional<double> points_max_deviation;
+
+  friend bool operator==(const CenterlineDesign&, const CenterlineDesign&) = default;
 };
 
 enum class CrossSectionKind { slab, u_channel, trapezoid, half_pipe, pipe, polygon };
@@ -93,12 +99,16 @@ struct CrossSectionDesign {
   double curb_height = 0.0;  ///< of `slab`
   double curb_width = 0.0;
   std::vector<Vec2> outline;  ///< of `polygon`
+
+  friend bool operator==(const CrossSectionDesign&, const CrossSectionDesign&) = default;
 };
 
 struct MeshDesign {
   double tolerance = 0.5e-3;  ///< [m]; > 0
   /// The greatest angle at which facets that follow a curve meet; none: as the tolerance asks.
   std::optional<Angle> largest_kink;
+
+  friend bool operator==(const MeshDesign&, const MeshDesign&) = default;
 };
 
 /// Where the origin of a mesh file lies; its axes are always those of the design.
@@ -111,6 +121,8 @@ struct ExportDesign {
   std::vector<ExportFormat> formats = {ExportFormat::stl, ExportFormat::off, ExportFormat::scad};
   LengthUnit unit = LengthUnit::millimetre;
   MeshFrame frame = MeshFrame::local;
+
+  friend bool operator==(const ExportDesign&, const ExportDesign&) = default;
 };
 
 struct Design {
@@ -138,6 +150,9 @@ struct Design {
   /// @return the location of `key_path`, of its nearest parent that has one, or the file's name; `key_path`
   ///         itself where there is neither
   [[nodiscard]] std::string where(std::string_view key_path) const;
+
+  /// @return true if both ask for the same, wherever they were read from
+  [[nodiscard]] bool asks_the_same(const Design& other) const;
 };
 
 /// A value that replaces one of the file's, as `--set body.friction_angle=19deg` gives it. The value is read

@@ -16,6 +16,8 @@ struct ProbeDesign {
   std::string name;  ///< may be empty
   ProbeOrigin origin = ProbeOrigin::start;
   double at = 0.0;  ///< [m]; of start and finish >= 0
+
+  friend bool operator==(const ProbeDesign&, const ProbeDesign&) = default;
 };
 
 }  // namespace glissade

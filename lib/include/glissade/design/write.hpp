@@ -1,0 +1,18 @@
+#pragma once
+
+#include "glissade/design/design.hpp"
+
+#include <string>
+
+namespace glissade {
+
+/// A design as the text of a design file.
+///
+/// Identity: parse_design(design_text(d), d.file) is d but for Design::locations, for every d that parse_design() can
+///   return; the direction of a half-plane whose line is neither level nor vertical to rounding. Comments and
+///   the spelling of values are not kept: each number is the shortest decimal, in a metric unit, that reads as
+///   the very same value.
+/// @return UTF-8 where the design's texts are, ending in a newline
+[[nodiscard]] std::string design_text(const Design& design);
+
+}  // namespace glissade

@@ -1,0 +1,384 @@
+#include "glissade/design/write.hpp"
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/task/limit_catalogue.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace glissade {
+namespace {
+
+/// A group of keys on one line or on several, as it is put together.
+class Group {
+ public:
+  void add(std::string_view key, std::string value) { entries_.emplace_back(key, std::move(value)); }
+  void add(std::string_view key, double value, Dimension dimension) {
+    add(key, written_quantity(value, dimension));
+  }
+  void add(std::string_view key, const std::optional<double>& value, Dimension dimension) {
+    if (value) add(key, *value, dimension);
+  }
+  /// Leaves out what reads the same without it.
+  void add_unless(double left_out, std::string_view key, double value, Dimension dimension) {
+    if (value != left_out) add(key, value, dimension);
+  }
+
+  [[nodiscard]] std::string inlined() const {
+    std::string text;
+    for (const auto& [key, value] : entries_) text += (text.empty() ? "" : ", ") + key + ": " + value;
+    return "{" + text + "}";
+  }
+  [[nodiscard]] std::string lines() const {
+    if (entries_.empty()) return " {}\n";
+    std::string text = "\n";
+    for (const auto& [key, value] : entries_) text += "  " + key + ": " + value + "\n";
+    return text;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> entries_;
+};
+
+/// A text that YAML reads back byte for byte.
+std::string in_quotes(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string result = "\"";
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (letter == '"' || letter == '\\') {
+      result += {'\\', letter};
+    } else if (byte < 0x20U || byte == 0x7FU) {
+      result += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 15U]};
+    } else {
+      result += letter;
+    }
+  }
+  return result + "\"";
+}
+
+template <typename Things, typename Text>
+std::string list_of(const Things& things, Text text_of) {
+  std::string text;
+  for (const auto& thing : things) text += (text.empty() ? "" : ", ") + std::string(text_of(thing));
+  return "[" + text + "]";
+}
+
+std::string length(double value) {
+  return written_quantity(value, Dimension::length);
+}
+
+std::string point(Vec2 at) {
+  return "[" + length(at.x) + ", " + length(at.y) + "]";
+}
+
+std::string points(const std::vector<Vec2>& at) {
+  return list_of(at, point);
+}
+
+std::string range(const Range& range, Dimension dimension) {
+  Group group;
+  group.add("lowest", range.lowest, dimension);
+  group.add("highest", range.highest, dimension);
+  return group.inlined();
+}
+
+std::string track(const TrackDesign& design) {
+  Group start;
+  start.add("x", design.start.x, Dimension::length);
+  start.add("y", design.start.y, Dimension::length);
+  start.add("z", design.start.z, Dimension::length);
+  Group group;
+  group.add("start", start.inlined());
+  if (!design.finish_given) return group.lines();
+  const std::string free = design.free_range.limited() ? range(design.free_range, Dimension::length) : "free";
+  Group finish;
+  finish.add("x", design.free_finish == FinishKind::level ? free : length(design.finish.x));
+  finish.add("y", design.finish.y, Dimension::length);
+  finish.add("z", design.free_finish == FinishKind::vertical_line ? free : length(design.finish.z));
+  group.add("finish", finish.inlined());
+  return group.lines();
+}
+
+/// @return the angle of a friction as a text that reads as that very friction; none if no angle does
+std::optional<std::string> angle_of(Friction friction) {
+  constexpr int kMostDigits = 17;
+  const double angle = friction.angle().radians();
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    std::string text = angle_text(angle, digits);
+    const auto read = read_quantity(text, Dimension::angle, "friction_angle");
+    const double* const value = std::get_if<double>(&read);
+    if (value != nullptr && Friction::from_angle(Angle::from_radians(*value)) == friction) return text;
+  }
+  return {};
+}
+
+std::string coefficient_of(Friction friction) {
+  return exact_text(friction.coefficient());
+}
+
+/// A range of frictions, or the one value that there is.
+template <typename Text>
+std::string friction_range(const BodyDesign& body, Text text_of) {
+  if (!body.low_friction && !body.high_friction) return text_of(body.friction);
+  Group friction;
+  if (body.low_friction) friction.add("low", text_of(*body.low_friction));
+  friction.add("nominal", text_of(body.friction));
+  if (body.high_friction) friction.add("high", text_of(*body.high_friction));
+  return friction.inlined();
+}
+
+/// By angle where all of them are one, otherwise by coefficient.
+void add_friction(const BodyDesign& body, Group& group) {
+  const bool by_angle = angle_of(body.friction) && angle_of(body.low_friction.value_or(body.friction)) &&
+                        angle_of(body.high_friction.value_or(body.friction));
+  if (by_angle) {
+    group.add("friction_angle", friction_range(body, [](Friction friction) { return *angle_of(friction); }));
+  } else {
+    group.add("friction_coefficient", friction_range(body, coefficient_of));
+  }
+}
+
+std::string friction_from(const FrictionFrom& change) {
+  Group group;
+  group.add("from", change.from, Dimension::length);
+  const std::optional<std::string> angle = angle_of(change.friction);
+  group.add(angle ? "angle" : "coefficient", angle ? *angle : coefficient_of(change.friction));
+  return group.inlined();
+}
+
+void add_rolling(const BodyDesign& body, Group& group) {
+  const RollingDesign& rolling = *body.rolling;
+  group.add("kind", "rolling");
+  group.add("rolling_resistance", friction_range(body, coefficient_of));
+  group.add("radius", rolling.radius, Dimension::length);
+  if (rolling.groove_half_angle != RollingDesign{}.groove_half_angle) {
+    group.add("groove_half_angle", rolling.groove_half_angle.radians(), Dimension::angle);
+  }
+  if (rolling.grip) group.add("friction_coefficient", coefficient_of(*rolling.grip));
+}
+
+void add_drag(const BodyDesign& body, Group& group) {
+  if (!body.drag) {
+    group.add_unless(0.0, "drag", body.drag_per_metre, Dimension::per_length);
+    return;
+  }
+  group.add("drag_area", body.drag->drag_area, Dimension::area);
+  group.add("mass", body.drag->mass, Dimension::mass);
+  Group air;
+  air.add("density", body.drag->density, Dimension::density);
+  if (!body.drag->density) air.add_unless(0.0, "altitude", body.drag->altitude, Dimension::length);
+  air.add("temperature", body.drag->temperature, Dimension::temperature);
+  group.add("air", air.inlined());
+}
+
+std::string body(const BodyDesign& design) {
+  Group group;
+  if (design.rolling) {
+    add_rolling(design, group);
+  } else if (!design.friction_changes.empty()) {
+    group.add("friction", list_of(design.friction_changes, friction_from));
+  } else {
+    add_friction(design, group);
+  }
+  group.add("centre_height", design.centre_height, Dimension::length);
+  group.add_unless(0.0, "entry_speed", design.entry_speed, Dimension::speed);
+  add_drag(design, group);
+  group.add_unless(0.0, "head_wind", design.head_wind, Dimension::speed);
+  return group.lines();
+}
+
+std::string segment(const SegmentDesign& design) {
+  Group group;
+  group.add("length", design.length, Dimension::length);
+  if (design.entry_curvature != design.exit_curvature) {
+    group.add("entry_curvature", design.entry_curvature, Dimension::per_length);
+    group.add("exit_curvature", design.exit_curvature, Dimension::per_length);
+  } else if (design.entry_curvature != 0.0) {
+    const double radius = 1.0 / design.entry_curvature;
+    if (std::isfinite(radius) && 1.0 / radius == design.entry_curvature) {
+      group.add("radius", radius, Dimension::length);
+    } else {
+      group.add("curvature", design.entry_curvature, Dimension::per_length);
+    }
+  }
+  return group.inlined();
+}
+
+std::string centerline(const CenterlineDesign& design, const std::filesystem::path& file) {
+  const auto unit = [](LengthUnit unit) { return std::string(unit_symbol(unit)); };
+  Group group;
+  group.add("kind", std::string(word(design.kind)));
+  group.add("p", design.constant_speed_p, Dimension::specific_energy);
+  if (design.kind == CenterlineKind::segments) {
+    group.add("entry_slope_angle", design.entry_slope_angle.radians(), Dimension::angle);
+    group.add("segments", list_of(design.segments, segment));
+  }
+  if (design.kind == CenterlineKind::points) {
+    const std::filesystem::path beside = design.points_file.lexically_relative(file.parent_path());
+    group.add("file", in_quotes((beside.empty() ? design.points_file : beside).generic_string()));
+    group.add("columns", "[" + in_quotes(design.points_distance_column) + ", " +
+                             in_quotes(design.points_height_column) + "]");
+    group.add("unit", unit(design.points_unit));
+    group.add("max_deviation", design.points_max_deviation, Dimension::length);
+  }
+  return group.lines();
+}
+
+/// A line of the half-plane, far enough between its points for its direction to survive their rounding.
+std::string half_plane(const HalfPlane& plane) {
+  const double away = 1.0 + std::fabs(plane.point.x) + std::fabs(plane.point.y);
+  const double far = std::ldexp(1.0, std::ilogb(away) + 1);
+  const Vec2 along{plane.forbidden.y * far, -plane.forbidden.x * far};
+  const bool upright = plane.forbidden.y == 0.0;
+  const bool positive = upright ? plane.forbidden.x > 0.0 : plane.forbidden.y > 0.0;
+  Group group;
+  group.add("line", points({plane.point, plane.point + along}));
+  group.add("stay", upright ? (positive ? "left" : "right") : (positive ? "below" : "above"));
+  group.add_unless(0.0, "clearance", plane.clearance, Dimension::length);
+  return group.inlined();
+}
+
+std::string keep_out(const KeepOut& area) {
+  Group group;
+  group.add("outline", points(area.outline));
+  group.add_unless(0.0, "clearance", area.clearance, Dimension::length);
+  if (area.passage != Passage::either) group.add("pass", area.passage == Passage::above ? "above" : "below");
+  return group.inlined();
+}
+
+std::string profile(const Profile& profile) {
+  Group group;
+  group.add("line", points(profile.line));
+  group.add_unless(0.0, "clearance", profile.clearance, Dimension::length);
+  return group.inlined();
+}
+
+void add_number(const LimitEntry& entry, const Limits& limits, Group& group) {
+  if (entry.range != nullptr && (limits.*entry.range).limited()) {
+    const Range& bounds = limits.*entry.range;
+    Group ends;
+    ends.add("lowest", bounds.lowest, entry.dimension);
+    ends.add("highest", bounds.highest, entry.dimension);
+    if (entry.id == LimitId::speed) {
+      ends.add_unless(0.0, "lowest_from", limits.lowest_speed_from, Dimension::length);
+    }
+    const bool fixed = bounds.is_fixed() && entry.fixable;
+    group.add(entry.key, fixed ? written_quantity(*bounds.lowest, entry.dimension) : ends.inlined());
+  }
+  if (entry.value != nullptr && limits.*entry.value != Limits{}.*entry.value) {
+    const std::optional<double>& value = limits.*entry.value;
+    group.add(entry.key, value ? written_quantity(*value, entry.dimension) : "none");
+  }
+  if (entry.length != nullptr) group.add_unless(0.0, entry.key, limits.*entry.length, entry.dimension);
+  if (entry.id == LimitId::concave && limits.concave) group.add(entry.key, "true");
+}
+
+std::string objective(const Objective& objective) {
+  Group group;
+  switch (objective.kind) {
+    case ObjectiveKind::travel_time:
+      group.add("kind", "travel_time");
+      break;
+    case ObjectiveKind::exit_speed:
+      group.add("kind", "exit_speed");
+      break;
+    case ObjectiveKind::blend:
+      group.add("kind", "blend");
+      group.add("exit_speed_weight", objective.exit_speed_weight, Dimension::time_per_speed);
+      break;
+  }
+  if (objective.worst_case) group.add("worst_case", "true");
+  return group.inlined();
+}
+
+std::string limits(const Limits& design, const Objective& aim) {
+  Group group;
+  for (const LimitEntry& entry : limit_catalogue()) add_number(entry, design, group);
+  if (design.clearances_from == ClearancesFrom::centerline) group.add("clearances_from", "centerline");
+  group.add_unless(0.0, "headroom", design.envelope.headroom, Dimension::length);
+  if (!design.half_planes.empty()) group.add("half_planes", list_of(design.half_planes, half_plane));
+  if (!design.keep_outs.empty()) group.add("keep_outs", list_of(design.keep_outs, keep_out));
+  if (!design.stay_above.empty()) group.add("stay_above", list_of(design.stay_above, profile));
+  if (!design.stay_below.empty()) group.add("stay_below", list_of(design.stay_below, profile));
+  if (!design.waypoints.empty()) group.add("waypoints", points(design.waypoints));
+  if (aim != Objective{}) group.add("objective", objective(aim));
+  return group.lines();
+}
+
+std::string cross_section(const CrossSectionDesign& design) {
+  Group group;
+  group.add("kind", std::string(word(design.kind)));
+  if (design.kind == CrossSectionKind::polygon) {
+    group.add("outline", points(design.outline));
+    return group.lines();
+  }
+  group.add(design.kind == CrossSectionKind::pipe ? "inner_diameter" : "width", design.width,
+            Dimension::length);
+  group.add_unless(0.0, "wall_height", design.wall_height, Dimension::length);
+  if (design.kind == CrossSectionKind::trapezoid) {
+    group.add("wall_angle", design.wall_angle.radians(), Dimension::angle);
+  }
+  group.add_unless(0.0, "curb_height", design.curb_height, Dimension::length);
+  group.add_unless(0.0, "curb_width", design.curb_width, Dimension::length);
+  group.add("thickness", design.thickness, Dimension::length);
+  return group.lines();
+}
+
+std::string probe(const ProbeDesign& design) {
+  Group group;
+  if (!design.name.empty()) group.add("name", in_quotes(design.name));
+  switch (design.origin) {
+    case ProbeOrigin::start:
+      group.add("from_start", design.at, Dimension::length);
+      break;
+    case ProbeOrigin::finish:
+      group.add("from_finish", design.at, Dimension::length);
+      break;
+    case ProbeOrigin::x:
+      group.add("x", design.at, Dimension::length);
+      break;
+  }
+  return group.inlined();
+}
+
+std::string mesh(const MeshDesign& design) {
+  Group group;
+  group.add("tolerance", design.tolerance, Dimension::length);
+  if (design.largest_kink) group.add("largest_kink", design.largest_kink->radians(), Dimension::angle);
+  return group.lines();
+}
+
+std::string exports(const ExportDesign& design) {
+  Group group;
+  group.add("formats", list_of(design.formats, [](ExportFormat format) { return word(format); }));
+  group.add("unit", std::string(unit_symbol(design.unit)));
+  if (design.frame != ExportDesign{}.frame) {
+    group.add("frame", design.frame == MeshFrame::local ? "local" : "site");
+  }
+  return group.lines();
+}
+
+}  // namespace
+
+std::string design_text(const Design& design) {
+  std::string text = "glissade: 1\n";
+  if (!design.name.empty()) text += "name: " + in_quotes(design.name) + "\n";
+  text += "track:" + track(design.track);
+  text += "body:" + body(design.body);
+  if (design.gravity != kDefaultGravity) {
+    text += "gravity: " + written_quantity(design.gravity, Dimension::acceleration) + "\n";
+  }
+  text += "centerline:" + centerline(design.centerline, design.file);
+  if (design.limits) text += "limits:" + limits(*design.limits, design.objective);
+  if (!design.probes.empty()) text += "probes: " + list_of(design.probes, probe) + "\n";
+  if (design.cross_section) text += "cross_section:" + cross_section(*design.cross_section);
+  text += "mesh:" + mesh(design.mesh);
+  return text + "export:" + exports(design.exports);
+}
+
+}  // namespace glissade

@@ -1,0 +1,120 @@
+#include "glissade/design/write.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/design/template.hpp"
+
+#include "design/design_text.hpp"
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+
+using namespace glissade;
+using namespace glissade::test;
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::optional<Design> read(const std::string& text, const std::filesystem::path& file) {
+  try {
+    return parse_design(text, file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void check_written(const Design& design) {
+  const std::string text = design_text(design);
+  INFO(text);
+  const Design again = parse_design(text, design.file);
+  CHECK(again.asks_the_same(design));
+  CHECK(design_text(again) == text);
+}
+
+}  // namespace
+
+TEST_CASE("every shipped design, template and sound design of the corpus is written back as it was read") {
+  std::size_t count = 0;
+  for (const std::string& folder : {designs_path(), test_data_path("corpus/design")}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      if (!entry.is_regular_file() || entry.path().extension() == ".csv") continue;
+      const std::optional<Design> design = read(text_of(entry.path()), entry.path());
+      if (!design) continue;
+      INFO(entry.path());
+      check_written(*design);
+      ++count;
+    }
+  }
+  CHECK(count >= 10);
+  for (const DesignTemplate& entry : design_templates()) {
+    INFO(std::string(entry.kind));
+    check_written(parse_design(design_template(entry.kind), "d.yaml"));
+  }
+}
+
+TEST_CASE("every key is written back") {
+  const auto check = [](const std::string& from, const std::string& to) {
+    check_written(parse_design(sound_design_with(from, to), "d.yaml"));
+  };
+  check("name: Chute", "name: \"a: \\\"b\\\" \\x07 #c \u00e4\"");
+  check("friction_angle: 17 deg", "friction_coefficient: 0.30573");
+  check("friction_angle: 17 deg",
+        "friction_angle: 17.123456789 deg\n  entry_speed: 3.7 km/h\n  drag: 0.00123 1/m");
+  check("friction_angle: 17 deg", "friction: [{from: 0 m, angle: 3 deg}, {from: 4 m, coefficient: 0.21}]");
+  check("friction_angle: 17 deg",
+        "friction_angle: {low: 14 deg, nominal: 17 deg}\n  head_wind: 2 m/s\n  drag_area: 0.3 m^2\n  mass: "
+        "85 kg\n"
+        "  air: {altitude: 1200 m, temperature: -5 degC}\nlimits: {headroom: 1.9 m, clearances_from: "
+        "centerline}");
+  check("friction_angle: 17 deg",
+        "kind: rolling\n  rolling_resistance: 0.01\n  radius: 8 mm\n  groove_half_angle: 60 deg\n"
+        "  friction_coefficient: 0.3");
+  check("{x: 5.4 m, z: 1.1 m}", "{x: 5.4 m, y: 3 ft, z: {lowest: 1 m, highest: 2 m}}");
+  check("{x: 5.4 m, z: 1.1 m}", "{x: free, z: 1.1 m}");
+  check("{kind: fastest}", "{kind: constant-speed, p: 12.3 m^2/s^2}");
+  check("mesh:", "gravity: 1 g\nmesh:");
+  check("[stl, off, scad]", "{formats: [stl-ascii, csv], unit: m, frame: site}");
+  check("{tolerance: 0.5 mm}", "{tolerance: 0.51 mm, largest_kink: 0.25 deg}");
+  check("mesh:",
+        "limits: {entry_slope_angle: 40 deg, slope_angle: {lowest: -10 deg, highest: 61.7 deg}, "
+        "smallest_radius: 2 m, highest_curvature_rate: 0.8 1/m^2, concave: true, highest_normal_load: 2.5 g, "
+        "lowest_normal_load: 0.1 g, highest_curvature_load: 1 g, "
+        "speed: {lowest: 1 m/s, highest: 36 km/h, lowest_from: 50 cm}, exit_speed: 4 m/s, "
+        "arc_length: {highest: 9 m}, lead_in: 0.1 m, lead_out: 200 mm, "
+        "half_planes: [{line: [[0 m, 7 m], [1 m, 7 m]], stay: below, clearance: 10 cm}, "
+        "{line: [[6 m, 0 m], [6 m, 1 m]], stay: left}], "
+        "keep_outs: [{outline: [[2 m, 5 m], [2.4 m, 5 m], [2.4 m, 5.4 m], [2 m, 5.4 m]], pass: below}], "
+        "stay_above: [{line: [[0 m, 1 m], [6 m, 0 m]], clearance: 200 mm}], "
+        "stay_below: [{line: [[0 m, 8 m], [6 m, 6 m]]}], waypoints: [[2 m, 3 m]], "
+        "objective: {kind: blend, exit_speed_weight: 0.1 s/(m/s)}}\nmesh:");
+  check("mesh:", "limits: {}\nmesh:");
+  check("mesh:", "probes: [{from_start: 2 m, name: gate}, {from_finish: 10 cm}, {x: 3.1 m}]\nmesh:");
+}
+
+TEST_CASE("a quantity is written as the shortest decimal that reads as the same value") {
+  CHECK(written_quantity(0.4, Dimension::length) == "0.4 m");
+  CHECK(written_quantity(2.5 * 9.80665, Dimension::acceleration) == "2.5 g");
+  CHECK(written_quantity(10.0 / 36.0, Dimension::speed) == "1 km/h");
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 2000; ++i) {
+    for (const Dimension dimension : {Dimension::length, Dimension::angle, Dimension::speed,
+                                      Dimension::acceleration, Dimension::per_length, Dimension::per_area}) {
+      const double value = random.between(-1.0, 1.0) * std::pow(10.0, random.between(-9.0, 9.0));
+      const std::string text = written_quantity(value, dimension);
+      CAPTURE(text);
+      CHECK(parse_quantity(text, dimension, "it") == value);
+    }
+  }
+}
