@@ -121,11 +121,11 @@ TEST_CASE("the schema refuses unknown keys, missing keys, wrong units, words and
 }
 
 TEST_CASE("what hangs on a kind is asked of that kind alone") {
-  const auto section = [](const std::string& section) {
+  const auto section = [](const std::string& keys) {
     std::string text = sound_design_with("17 deg", "17 deg");
     const std::size_t at = text.find("cross_section:");
     if (at != std::string::npos) text.erase(at, text.find('\n', at) + 1 - at);
-    return fault_of(text + "\ncross_section: {" + section + "}\n");
+    return fault_of(text + "\ncross_section: {" + keys + "}\n");
   };
   CHECK(section("kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm") == "");
   CHECK(section("kind: u-channel, width: 400 mm, thickness: 4 mm") != "");

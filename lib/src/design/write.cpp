@@ -210,7 +210,7 @@ std::string segment(const SegmentDesign& design) {
 }
 
 std::string centerline(const CenterlineDesign& design, const std::filesystem::path& file) {
-  const auto unit = [](LengthUnit unit) { return std::string(unit_symbol(unit)); };
+  const auto unit = [](LengthUnit of) { return std::string(unit_symbol(of)); };
   Group group;
   group.add("kind", std::string(word(design.kind)));
   group.add("p", design.constant_speed_p, Dimension::specific_energy);
