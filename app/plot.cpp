@@ -2,6 +2,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/report/figure.hpp"
+#include "glissade/report/figure_png.hpp"
 #include "glissade/report/report.hpp"
 #include "glissade/report/ride_figure.hpp"
 

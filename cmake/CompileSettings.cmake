@@ -4,6 +4,8 @@ target_compile_features(glissade_compile_settings INTERFACE cxx_std_20)
 target_compile_options(glissade_compile_settings INTERFACE
   # Same input, same bytes: no fused multiply-add that one machine has and the next has not.
   -ffp-contract=off
+  # Nobody replaces single functions of ours when the program starts: they are inlined in a library's own code.
+  -fno-semantic-interposition
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
   # GCC before 13 sees overlapping copies in "text" + std::string where there are none (its bug 105651).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)

@@ -1,6 +1,7 @@
 #include "glissade/report/figure.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/report/figure_png.hpp"
 
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"

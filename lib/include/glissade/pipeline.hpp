@@ -1,15 +1,8 @@
 #pragma once
 
-#include "glissade/centerline/centerline.hpp"
-#include "glissade/clearance/envelope.hpp"
-#include "glissade/core/friction_level.hpp"
-#include "glissade/core/progress.hpp"
-#include "glissade/design/design.hpp"
-#include "glissade/motion/motion.hpp"
-#include "glissade/optimize/optimize.hpp"
+#include "glissade/pipeline/solve.hpp"
 #include "glissade/solid/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
-#include "glissade/solid/placement.hpp"
 #include "glissade/solid/sweep.hpp"
 
 #include <cstdint>
@@ -18,158 +11,16 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace glissade {
 
 /// The one way that data flow: design -> centerline -> motion -> solid -> files.
 
-/// How long work tells how far it is, and is asked to end.
-struct RunContext {
-  Progress progress;
-  std::stop_token stop;  ///< a search within limits ends with the best track so far
-  double time_budget = OptimizeOptions{}.time_budget;  ///< of a search within limits [s]; > 0
-};
-
-/// The ride at one end of a friction range.
-struct RangeRide {
-  FrictionLevel level = FrictionLevel::low;
-  Motion motion;  ///< its body has that friction
-};
-
-/// One of a track's rides by its friction.
-struct LevelRide {
-  FrictionLevel level = FrictionLevel::nominal;
-  const Motion* motion = nullptr;
-};
-
-/// A centerline with the ride down it and the two rides that it is measured by.
-struct Track {
-  Endpoints endpoints;
-  Placement placement;
-  CenterlinePtr centerline;
-  Motion motion;  ///< at the nominal friction
-  /// The same body on the straight line between the endpoints; none if it does not arrive there.
-  std::optional<Motion> straight;
-  /// The ride on the fastest track there is, which the theory gives from rest and without drag
-  /// (docs/theory.md, fastest track); none where it does not apply.
-  std::optional<Motion> optimum;
-  /// Travel time of `optimum` by its closed form, which shares nothing with Motion [s].
-  std::optional<double> optimum_travel_time;
-  /// Smallest radius of curvature [m]: 0 where the curvature is unbounded at the start, infinity on a
-  /// straight.
-  double min_radius = 0.0;
-  double steepest_slope_angle = 0.0;  ///< largest slope angle anywhere [rad]
-  /// How the search within the limits ended, of the kind fastest with limits; none otherwise. Limits have the
-  /// names and the frame of the design file: finish.x, finish.z.
-  std::optional<OptimizeReport> search;
-  /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without
-  /// limits. Places of an envelope are (x, z) as the design's limits give them.
-  std::vector<LimitCheck> limit_checks;
-  /// The same body at the ends of the design's friction range; empty where it has none.
-  std::vector<RangeRide> range;
-
-  /// @return the rides at every friction that the design names, from low to high; the nominal one is always
-  ///         among them. They live as long as the track.
-  [[nodiscard]] std::vector<LevelRide> rides() const;
-  /// @return travel time on the straight line [s]; none if the body does not arrive there
-  [[nodiscard]] std::optional<double> straight_travel_time() const;
-};
-
-/// No track keeps the limits of a design, or none was found. Its issue names those that contradict each other
-/// and the smallest relaxations that would do.
-class LimitsConflict : public InfeasibleError {
- public:
-  LimitsConflict(Issue issue, OptimizeReport report)
-      : InfeasibleError(std::move(issue)), report_(std::move(report)) {}
-  [[nodiscard]] const OptimizeReport& report() const noexcept { return report_; }
-
- private:
-  OptimizeReport report_;
-};
-
-/// Where a design's track leads, in the plane of its centerline. Of a free finish it is some place within its
-/// range.
-[[nodiscard]] Endpoints endpoints_of(const Design& design);
-
-/// What slides or rolls, as Motion takes it.
-/// @throws InputError if a measure of the body breaks its bound
-[[nodiscard]] Body body_of(const Design& design);
-
-/// A design as the optimiser takes it: run and drop from the start.
-[[nodiscard]] Problem problem_of(const Design& design);
-
-/// What the clearances of a design are measured from: the solid of its cross_section and the headroom; all 0
-/// where that is the centerline, or where nothing is kept clear of.
-/// @throws InputError if the measures do not make a cross-section
-[[nodiscard]] Envelope envelope_of(const Design& design);
-
-/// A part of a design's envelope in words: "wall rim", "underside", "finish face".
-[[nodiscard]] std::string part_text(const Design& design, EnvelopePart part);
-
-/// A design whose finish is where its centerline ends, for those that leave it to `segments` or `points`;
-/// with it, other kinds of centerline can be put in its place.
-/// @throws as make_centerline()
-[[nodiscard]] Design with_finish(Design design);
-
-/// The curve that a design asks for, its limits left aside.
-/// @throws InputError, InfeasibleError, ConvergenceError, FileError with the location in the design
-[[nodiscard]] CenterlinePtr make_centerline(const Design& design);
-
-/// The ride of the design's body down a given centerline, what it is measured by, and its limits checked.
-[[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline);
-
-/// A track that stays as it is, ridden at another friction: nothing is searched or chosen anew. Its limits are
-/// held against that friction alone.
-/// @param design      where the track and the rest of the body come from
-/// @param centerline  a track of that design
-[[nodiscard]] Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction);
-
-/// The friction angle from which on a track's body stalls on it: stall_friction_angle() of the nominal ride.
-[[nodiscard]] std::optional<Angle> stall_angle_of(const Track& track);
-
-/// Design to centerline and motion. With limits, the kind fastest is searched for within them, and so it is for a
-/// body that is not a sliding point; on other kinds
-/// they are checked. A body that stalls or leaves the track is a result, not an error, and so is a broken
-/// limit, or a search that ends early with a track (Track::search).
-/// @throws InputError with everything that check() finds; LimitsConflict if no track keeps the limits;
-///         ConvergenceError or Interrupted if the search ended before it found a track that does; else as
-///         make_centerline()
-[[nodiscard]] Track solve(const Design& design, const RunContext& context = {});
-
-/// @return what to call a track that was searched for: "fastest within the limits", or "fastest, searched for"
-///         where the search had another reason (drag, a free finish)
-[[nodiscard]] std::string searched_name(const Design& design);
-
-/// Why a ride is not what was wanted: the body stalls or leaves the track, or its law ends.
-/// @return the problem with the place and what is missing there; none if the body arrives
-[[nodiscard]] std::optional<Issue> ride_problem(const Design& design, const Track& track);
-
-/// Where a law holds no longer although the ride goes on: a ball that slips.
-/// @return the problem with the place and what is missing; none where the law holds all along
-[[nodiscard]] std::optional<Issue> law_problem(const Design& design, const Track& track);
-
-/// Why a track is not what its limits ask for.
-/// @return the problem, every broken limit with the place and by how much; none if all are kept
-[[nodiscard]] std::optional<Issue> limits_problem(const Design& design, const Track& track);
-
-/// Whether a search within limits ended before it converged.
-/// @return how it ended and what that means; none if it converged, or there was none
-[[nodiscard]] std::optional<Issue> search_problem(const Design& design, const Track& track);
-
 /// Writes a track and the ride down it by stations, as the format csv does: some 400, closer together near the
 /// start, and one at each jump of curvature. No cross-section is needed.
 /// @throws FileError as AtomicFile
 void write_track_csv(const std::filesystem::path& file, const Track& track);
-
-/// What a user should hear of beside a sound answer: something asked for that had no effect, or data that may
-/// not say what they seem to.
-[[nodiscard]] std::vector<Issue> warnings(const Design& design, const Track& track);
-
-/// The outline that a design asks for.
-/// @throws InputError if the measures do not make a cross-section
-[[nodiscard]] CrossSection make_cross_section(const CrossSectionDesign& design);
 
 /// A solid with what was measured on it.
 struct ProvenSolid {

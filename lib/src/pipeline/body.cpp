@@ -5,7 +5,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/motion/laws/rider.hpp"
 #include "glissade/motion/laws/rolling_ball.hpp"
-#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/solve.hpp"
 
 #include "pipeline/located.hpp"
 

@@ -1,7 +1,7 @@
 #include "pipeline/cross_section.hpp"
 
 #include "glissade/core/number_text.hpp"
-#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/solve.hpp"
 
 namespace glissade {
 

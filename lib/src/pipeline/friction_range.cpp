@@ -4,7 +4,7 @@
 
 #include "glissade/core/number_text.hpp"
 #include "glissade/motion/stall_friction.hpp"
-#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/solve.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/solve.hpp"
 
 #include <vector>
 

@@ -1,3 +1,5 @@
+#include "glissade/pipeline/solve.hpp"
+
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/cycloid.hpp"
@@ -9,7 +11,6 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/profile_csv.hpp"
-#include "glissade/pipeline.hpp"
 
 #include "pipeline/body.hpp"
 #include "pipeline/extremes.hpp"

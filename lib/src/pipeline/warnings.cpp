@@ -1,7 +1,7 @@
 // What a user should hear of beside the answer.
 
 #include "glissade/core/number_text.hpp"
-#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/solve.hpp"
 
 #include "pipeline/probes.hpp"
 

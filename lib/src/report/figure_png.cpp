@@ -1,6 +1,7 @@
+#include "glissade/report/figure_png.hpp"
+
 #include "glissade/core/error.hpp"
 #include "glissade/io/atomic_file.hpp"
-#include "glissade/report/figure.hpp"
 
 #include <cmath>
 #include <memory>

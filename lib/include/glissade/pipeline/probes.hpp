@@ -1,7 +1,7 @@
 #pragma once
 
 #include "glissade/motion/probe.hpp"
-#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/solve.hpp"
 
 #include <vector>
 

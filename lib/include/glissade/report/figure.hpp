@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -38,9 +37,5 @@ struct Figure {
 /// styles differ as well as colours; bytes depend on the arguments alone.
 /// @throws InputError if a panel has no finite point, or a line's xs and ys differ in number
 [[nodiscard]] std::string figures_svg(const std::vector<Figure>& figures, double width = 800.0);
-
-/// Draws an SVG into a PNG file at `scale` pixels per CSS pixel, on white.
-/// @throws InputError if the text is not an SVG drawing; FileError if the file cannot be written
-void write_png(const std::filesystem::path& file, const std::string& svg, double scale = 2.0);
 
 }  // namespace glissade
