@@ -43,4 +43,23 @@ wait $first || fail "the first of two at once"
 wait $second || fail "the second of two at once"
 "$program" sweep --merge both -o both.csv --quiet || fail "merging what two wrote"
 cmp alone.csv both.csv || fail "the rows differ where two worked at once"
+# A directory in which nothing may be written. Root may write everywhere unless that right is taken from it.
+guard=()
+[ "$(id -u)" -ne 0 ] || guard=(setpriv --bounding-set=-dac_override,-dac_read_search)
+if "${guard[@]}" true 2>/dev/null; then
+  mkdir -p locked/chunks
+  cp alone/manifest.json locked
+  chmod 555 locked/chunks
+  "${guard[@]}" "${sweep[@]}" -o locked 2>message
+  code=$?
+  [ $code -eq 5 ] || fail "in a read-only directory it ends with $code"
+  grep -q 'locked/chunks/000000.csv' message || fail "its message: $(cat message)"
+  [ -z "$(ls -A locked/chunks)" ] || fail "something lies in the read-only directory"
+  chmod 755 locked/chunks
+  "${sweep[@]}" -o locked || fail "made writable, it ends with $?"
+  "$program" sweep --merge locked -o locked.csv --quiet || fail "merging what was read-only"
+  cmp alone.csv locked.csv || fail "the rows differ after a read-only directory"
+else
+  echo "the read-only directory is not tried: setpriv cannot take root's right to write everywhere"
+fi
 echo "$killed kills, an interruption and two at once: the rows are the same"

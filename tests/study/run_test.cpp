@@ -152,6 +152,34 @@ TEST_CASE("another sweep's directory is refused with what differs, and keeps its
   CHECK(merged(place.path()) == before);
 }
 
+TEST_CASE("a file that a design names is part of what is studied, whichever key names it") {
+  const TempDir place;
+  const auto put = [&](const char* name, const char* rows) {
+    std::ofstream(place.path() / name) << "x,z\n" << rows;
+  };
+  put("ground.csv", "0,-9\n10,-9\n");
+  put("other.csv", "0,-8\n10,-8\n");
+  const std::string text =
+      std::string(kDesign) + "limits: {stay_above: [{file: ground.csv}], slope_angle: {highest: 60 deg}}\n";
+  const auto study = [&] {
+    Study made = study_of({vary("body.friction_angle=5deg,6deg"),
+                           vary("limits.stay_above.0.file=ground.csv,other.csv")});
+    made.source = DesignSource::parse(text, place.path() / "slide.yaml");
+    return made;
+  };
+  const std::filesystem::path rows = place.path() / "rows";
+  REQUIRE(run(study(), {.directory = rows}).chunks_computed == 1);
+  for (const Row& row : rows_of(rows)) CHECK(row.status == Status::arrived);
+  CHECK(run(study(), {.directory = rows}).chunks_found == 1);
+  for (const char* edited : {"ground.csv", "other.csv"}) {
+    const std::string before = bytes_of(place.path() / edited);
+    put(edited, "0,-7\n10,-7\n");
+    CHECK_THROWS_WITH(run(study(), {.directory = rows}), Contains("these differ: profiles"));
+    std::ofstream(place.path() / edited) << before;
+  }
+  CHECK(run(study(), {.directory = rows}).chunks_found == 1);
+}
+
 TEST_CASE("a key that the design does not know ends the sweep before it begins") {
   const TempDir place;
   CHECK_THROWS_WITH(

@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace glissade::design_file {
@@ -36,6 +37,10 @@ class Findings {
   /// Adds a problem between values, unless one of them has a problem of its own already.
   void add_unless_spoiled(Finding finding);
 
+  /// Notes a file that the design names.
+  void add_data_file(std::filesystem::path file) { data_files_.push_back(std::move(file)); }
+  [[nodiscard]] const std::vector<std::filesystem::path>& data_files() const { return data_files_; }
+
   /// Has the reading note what it asks for; `notes` outlives this.
   void keep(Notes& notes) { notes_ = &notes; }
   [[nodiscard]] Notes* notes() const { return notes_; }
@@ -60,6 +65,7 @@ class Findings {
   const std::vector<Override>& overrides_;
   std::map<std::string, Position, std::less<>> positions_;
   std::vector<Problem> problems_;
+  std::vector<std::filesystem::path> data_files_;
   std::size_t left_out_ = 0;
   Notes* notes_ = nullptr;
 };

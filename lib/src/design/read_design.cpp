@@ -199,7 +199,10 @@ void read_points(MapReader& map, CenterlineDesign& centerline, const std::filesy
                  Findings& findings) {
   if (const auto value = map.need("file", "file: profile.csv")) {
     const std::string text = as_text(*value, findings).value_or("");
-    if (!text.empty()) centerline.points_file = design_file.parent_path() / text;
+    if (!text.empty()) {
+      centerline.points_file = design_file.parent_path() / text;
+      findings.add_data_file(centerline.points_file);
+    }
   }
   read_point_columns(map, centerline, findings);
   if (const auto unit = map.find("unit")) {
@@ -382,6 +385,7 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.exports = read_export(top, findings);
   top.refuse_unknown_keys();
   design.locations = findings.locations();
+  design.data_files = findings.data_files();
   return design;
 }
 

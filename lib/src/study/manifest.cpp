@@ -5,11 +5,14 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/report/report.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -27,18 +30,41 @@ std::optional<std::string> text_of(const fs::path& file) {
   return text;
 }
 
-/// What a design takes from other files; their contents are part of what is studied.
+/// Settings of one key that are tried for the files that they name.
+constexpr std::uint64_t kMostSettings = 1000;
+
+/// The files that the designs of a study name: of the base, and of every word that a key takes.
+std::set<fs::path> data_files_of(const Study& study) {
+  std::set<fs::path> files;
+  const auto add = [&](const std::vector<Override>& values) {
+    try {
+      const Design design = study.source.with(values, ReachCheck::no);
+      files.insert(design.data_files.begin(), design.data_files.end());
+    } catch (const Error&) {
+      return;  // the point will say why
+    }
+  };
+  add(study.base);
+  for (const Factor& factor : study.plan.factors()) {
+    const bool has_words = std::any_of(factor.inputs.begin(), factor.inputs.end(),
+                                       [](const Input& input) { return !input.numeric; });
+    if (!has_words) continue;
+    for (std::uint64_t setting = 0; setting < std::min(factor.size, kMostSettings); ++setting) {
+      std::vector<Override> values = study.base;
+      const std::vector<std::string> texts = factor.at(setting);
+      for (std::size_t i = 0; i < texts.size(); ++i) values.push_back({factor.inputs[i].key, texts[i]});
+      add(values);
+    }
+  }
+  return files;
+}
+
+/// What designs take from other files; their contents are part of what is studied.
 Json profiles_of(const Study& study) {
   Json profiles = Json::array();
-  Design design;
-  try {
-    design = study.source.with(study.base, ReachCheck::no);
-  } catch (const Error&) {
-    return profiles;  // each point will say why
-  }
-  if (!design.centerline.points_file.empty()) {
-    profiles.push_back({{"file", design.centerline.points_file.filename().string()},
-                        {"sha256", sha256_of_file(design.centerline.points_file)}});
+  for (const fs::path& file : data_files_of(study)) {
+    if (!fs::is_regular_file(file)) continue;  // the point will say so
+    profiles.push_back({{"file", file.filename().string()}, {"sha256", sha256_of_file(file)}});
   }
   return profiles;
 }

@@ -143,6 +143,8 @@ struct Design {
 
   /// The file that this was read from; empty if it was not.
   std::filesystem::path file;
+  /// Other files that it names: profiles, ground lines. What they hold is part of the design.
+  std::vector<std::filesystem::path> data_files;
   /// Where each key stood, by its path, e.g. {"body.friction_angle", "chute.yaml:7:19"}.
   std::map<std::string, std::string, std::less<>> locations;
 
