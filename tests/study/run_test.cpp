@@ -162,8 +162,8 @@ TEST_CASE("a file that a design names is part of what is studied, whichever key 
   const std::string text =
       std::string(kDesign) + "limits: {stay_above: [{file: ground.csv}], slope_angle: {highest: 60 deg}}\n";
   const auto study = [&] {
-    Study made = study_of({vary("body.friction_angle=5deg,6deg"),
-                           vary("limits.stay_above.0.file=ground.csv,other.csv")});
+    Study made = study_of(
+        {vary("body.friction_angle=5deg,6deg"), vary("limits.stay_above.0.file=ground.csv,other.csv")});
     made.source = DesignSource::parse(text, place.path() / "slide.yaml");
     return made;
   };

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/core/arc_path.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace glissade {
+
+/// One arc or straight piece of an ArcSpline.
+struct TrackArc {
+  double start = 0.0;        ///< arc length where it begins [m]
+  double length = 0.0;       ///< [m]
+  double slope_angle = 0.0;  ///< zeta where it begins [rad]
+  double curvature = 0.0;    ///< kappa, positive in a valley; 0: straight [1/m]
+};
+
+/// A track of straight lines and circular arcs that meet with a common tangent: what a shop cuts, rolls and sets out.
+///
+/// Curve: curvature piecewise constant, position and slope angle continuous.
+/// Accuracy: joints are the vertices of the path to the last bit; kArcSplineAccuracy * length() in between.
+/// Identity: an offset of it is concentric arcs with the same joints, exactly.
+class ArcSpline final : public Centerline {
+ public:
+  /// @param path  open, in the frame (x, height): x as a centerline has it, height = -drop; starts at the origin
+  /// @throws InputError if there are fewer than two vertices, the first is not the origin, a piece has no length, or
+  ///   two pieces meet at more than kArcSplineKink; names the joint
+  explicit ArcSpline(ArcPath path);
+
+  [[nodiscard]] std::string_view kind() const noexcept override { return "arc-spline"; }
+  [[nodiscard]] double length() const noexcept override { return length_; }
+  [[nodiscard]] CenterlinePoint at(double s) const override;
+  [[nodiscard]] double slope_angle(double s) const override;
+  [[nodiscard]] Direction direction(double s) const override;
+  [[nodiscard]] std::vector<double> breaks() const override;
+
+  [[nodiscard]] const ArcPath& path() const noexcept { return path_; }
+  [[nodiscard]] const std::vector<TrackArc>& arcs() const noexcept { return arcs_; }
+  /// @return index of the arc at an arc length; at a joint, of the one after it
+  [[nodiscard]] std::size_t arc_at(double s) const;
+
+ private:
+  ArcPath path_;
+  std::vector<TrackArc> arcs_;
+  double length_ = 0.0;
+};
+
+/// Stated bound of the position error of ArcSpline between its joints, relative to the length of the track.
+inline constexpr double kArcSplineAccuracy = 1e-14;
+/// Largest angle at which two of its pieces may meet [rad].
+inline constexpr double kArcSplineKink = 1e-9;
+
+}  // namespace glissade

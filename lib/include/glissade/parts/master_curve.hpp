@@ -1,0 +1,53 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/parts/arc_spline.hpp"
+
+#include <cstddef>
+#include <memory>
+
+namespace glissade {
+
+/// Where an arc spline may depart from the track.
+enum class FitSide {
+  both,      ///< to either side, by at most the tolerance
+  away,      ///< away from the side that a body slides on; into it by at most kOneSidedSlip of the tolerance
+  into_flow  ///< into that side, away from it by as little
+};
+
+struct MasterCurveOptions {
+  double tolerance = 1e-4;  ///< greatest distance between the track and its arcs [m]; > 0
+  FitSide side = FitSide::both;
+};
+
+/// The floor line of a track as lines and arcs, which every edge of every part is an offset of.
+struct MasterCurve {
+  std::shared_ptr<const ArcSpline> spline;
+  std::size_t arcs = 0;         ///< pieces of the spline, straight ones among them
+  std::size_t lines = 0;        ///< straight ones
+  std::size_t kept = 0;         ///< lines and arcs of the track itself, kept exactly
+  std::size_t lower_bound = 0;  ///< no chain of fewer arcs, joined in whatever way, keeps the tolerance
+  double tolerance = 0.0;       ///< that was asked for [m]
+  double max_deviation = 0.0;   ///< greatest distance between track and spline, measured both ways [m]
+};
+
+/// Puts lines and arcs in place of a track.
+///
+/// Curve: straight lines and arcs of the track are kept as they are, with their ends and tangents. In between, joints
+///   lie where the error is the same for each arc, and the greatest distance is made least by a linear programme on
+///   the measured distance; arcs are added until that is within the tolerance. Start and finish are those of the
+///   track; the tangent there may turn by some 4 tolerances a length of the arc.
+/// Source: docs/fabrication.md. |dkappa/ds| h^3/192 is the error of separate arcs of length h, h^3/124.7 that of arcs
+///   with common tangents, so that some 1.16 times the lower bound is the least to hope for.
+/// Accuracy: max_deviation is measured at kPointsPerArc points of each arc by the nearest point of the track. The
+///   lower bound is certified by four points of the track for each of its pieces: no circle passes all four within
+///   the tolerance.
+/// Identity: same input, same bits. Works where the curvature is unbounded at the start.
+/// @throws InputError if the tolerance is not finite and positive, or finer than kFinestTolerance of the length
+[[nodiscard]] MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options = {});
+
+inline constexpr double kFinestTolerance = 1e-9;
+inline constexpr int kPointsPerArc = 32;
+inline constexpr double kOneSidedSlip = 0.02;
+
+}  // namespace glissade

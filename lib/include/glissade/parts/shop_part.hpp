@@ -1,0 +1,162 @@
+#pragma once
+
+#include "glissade/core/arc_path.hpp"
+#include "glissade/core/vec.hpp"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace glissade {
+
+/// What a workshop makes, piece by piece, as plain values: the writers of io/ need nothing else. Metres, radians,
+/// kilograms; files turn metres into millimetres.
+
+/// A right-handed frame in space: where a part lies in the assembly.
+struct Frame {
+  Vec3 origin;
+  Vec3 x{1.0, 0.0, 0.0};  ///< unit vectors, square to each other
+  Vec3 y{0.0, 1.0, 0.0};
+  Vec3 z{0.0, 0.0, 1.0};
+
+  [[nodiscard]] constexpr Vec3 to_space(Vec3 point) const {
+    return origin + point.x * x + point.y * y + point.z * z;
+  }
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
+
+/// A region of the part's x-y plane, moved along z from 0 to `depth`: plates cut from the plane, bars, and floors
+/// (the region is their side view, the depth their width). Faces are planes and cylinders.
+struct Prism {
+  PlaneRegion region;
+  double depth = 0.0;  ///< [m]; > 0
+};
+
+/// A section moved along a chain of lines and arcs, square to it: plates that lean, whose faces are planes and cones.
+struct SweptBody {
+  ArcPath path;  ///< open, in the part's x-y plane; tangents continuous
+  std::vector<Vec2>
+      section;  ///< counter-clockwise seen against the path; x: to the left of the path, y: along z [m]
+};
+
+/// A round tube cut off by two planes: a gore of a mitred pipe. Its axis runs along z through the origin.
+struct TubeGore {
+  double inner_radius = 0.0;  ///< [m]; > 0
+  double thickness = 0.0;     ///< [m]; > 0
+  double length = 0.0;        ///< along the axis, between the planes [m]
+  double start_tilt = 0.0;    ///< z of the first plane is x tan(start_tilt) [rad]
+  double end_tilt = 0.0;      ///< z of the second one is length + x tan(end_tilt) [rad]
+};
+
+using PartBody = std::variant<Prism, SweptBody, TubeGore>;
+
+/// A straight bend across a flat pattern.
+struct BendLine {
+  Vec2 from;
+  Vec2 to;
+  double angle = 0.0;         ///< [rad]; > 0
+  double inner_radius = 0.0;  ///< [m]
+  bool up = true;             ///< towards the viewer of the pattern
+};
+
+/// A line on the pattern of a rolled plate where its radius changes.
+struct RollLine {
+  Vec2 from;
+  Vec2 to;
+  double radius = 0.0;  ///< of the flow face after the line, positive where it curls up; infinity: flat [m]
+};
+
+/// What is cut from a sheet, in the sheet's plane, seen on the face that the body slides on where there is one.
+struct FlatPattern {
+  PlaneRegion region;
+  std::vector<BendLine> bends;
+  std::vector<RollLine> rolls;
+  std::vector<ArcPath> marks;  ///< engraved or drawn: lines alone, no letters; numbers are set by the writers
+  /// Where a writer may set the part's number, and how high; none: it does not fit.
+  std::optional<Vec2> number_at;  ///< lower left corner [m]
+  double number_height = 0.0;     ///< [m]
+};
+
+/// One row of a parts list.
+struct ShopPart {
+  int number = 0;    ///< from 1, in the order of the list
+  std::string name;  ///< lower case, words joined by "_": "floor", "left_wall_2"
+  std::string material;
+  double thickness = 0.0;                       ///< of the stock [m]; > 0
+  double density = 0.0;                         ///< [kg/m^3]; > 0
+  double volume = 0.0;                          ///< of one piece, exactly [m^3]
+  double mass = 0.0;                            ///< of one piece [kg]
+  Vec3 centre_of_gravity;                       ///< of the first piece, in the frame of the assembly [m]
+  std::array<double, 3> colour{0.7, 0.7, 0.7};  ///< red, green, blue: 0 to 1
+  std::optional<FlatPattern> pattern;           ///< of what is cut from a sheet
+  PartBody body;                                ///< finished, in the part's own frame
+  std::vector<Frame> places;                    ///< one a piece, in the frame of the assembly
+  bool bought_in = false;                       ///< a bar or fitting that nobody cuts from a sheet
+
+  [[nodiscard]] std::size_t quantity() const { return places.size(); }
+};
+
+/// Bolts, nuts, washers, anchors: what is counted and not drawn.
+struct BoughtInItem {
+  std::string name;      ///< "bolt M12 x 40"
+  std::string standard;  ///< "ISO 4017 8.8"
+  std::size_t quantity = 0;
+  std::string where;
+};
+
+/// One hit of the press along a bent floor, or one arc of a rolled one.
+struct BendStep {
+  int part = 0;  ///< number of the part
+  int hit = 0;   ///< from 1, along the plate
+  double distance =
+      0.0;  ///< of the bend's middle, or of the arc's start, from the upstream edge of the flat [m]
+  double length = 0.0;       ///< of an arc on the flat; 0 of a hit [m]
+  double angle = 0.0;        ///< positive where the plate curls up [rad]
+  double sum = 0.0;          ///< of the angles so far [rad]
+  double radius = 0.0;       ///< of the design there, infinity where flat; sign as of the angle [m]
+  double chord_error = 0.0;  ///< between the facet before this hit and the design [m]
+};
+
+/// A place on the track that is measured on site.
+struct SettingOutPoint {
+  std::string what;             ///< "station", "joint 2", "support 3"
+  double arc_length = 0.0;      ///< s [m]
+  double x = 0.0;               ///< horizontal distance from the start [m]
+  double z = 0.0;               ///< height above the start [m]
+  Vec3 site;                    ///< in the frame of the site [m]
+  double slope_angle = 0.0;     ///< positive downhill [rad]
+  double radius = 0.0;          ///< positive in a valley, infinity where straight [m]
+  double ordinate = 0.0;        ///< distance above the chord of its segment [m]
+  std::vector<double> offsets;  ///< heights z of the lines that the table follows below the track [m]
+};
+
+/// A rule of the shop held against one number.
+enum class ShopVerdict { pass, warn, fail };
+struct ShopCheck {
+  std::string rule;
+  ShopVerdict verdict = ShopVerdict::pass;
+  std::string value;  ///< with its unit
+  std::string bound;  ///< with its relation and unit: "at least 4 mm"
+  std::string where;
+  std::string source;
+};
+
+/// Everything that a workshop gets told.
+struct Workshop {
+  std::string name;  ///< of the design
+  std::vector<ShopPart> parts;
+  std::vector<BoughtInItem> items;
+  std::vector<BendStep> bends;
+  std::vector<SettingOutPoint> setting_out;
+  std::vector<std::string> offset_names;  ///< of SettingOutPoint::offsets
+  std::vector<ShopCheck> checks;
+  std::vector<std::string> notes;  ///< in words, for a drawing: fits, kerf, trims
+};
+
+/// @return NUMBER_name_material_thickness_quantity without an ending, as a shop sorts files: "03_left_wall_S235_4mm_2x"
+[[nodiscard]] std::string file_stem(const ShopPart& part);
+
+}  // namespace glissade

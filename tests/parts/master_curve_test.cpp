@@ -1,0 +1,232 @@
+// Tracks as arcs: how close, how few, how smooth, whatever the track.
+
+#include "glissade/parts/master_curve.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+Vec2 point_of(const Centerline& track, double s) {
+  const CenterlinePoint at = track.at(s);
+  return {at.x, -at.drop};
+}
+
+/// The greatest distance from the points of one track to the chords between many points of another.
+double brute_deviation(const Centerline& from, const Centerline& to) {
+  constexpr int kPoints = 4000;
+  std::vector<Vec2> line;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double share = static_cast<double>(i) / kPoints;
+    // Denser towards the start, where curvature may be unbounded.
+    line.push_back(point_of(to, to.length() * share * share * (1.5 - 0.5 * share)));
+  }
+  double most = 0.0;
+  std::size_t near = 0;
+  for (int i = 0; i <= kPoints / 4; ++i) {
+    const Vec2 point = point_of(from, from.length() * i / (kPoints / 4));
+    double least = 1e300;
+    const std::size_t low = near > 300 ? near - 300 : 0;
+    for (std::size_t k = low; k + 1 < std::min(near + 300, line.size()); ++k) {
+      const Vec2 along = line[k + 1] - line[k];
+      const double share = std::clamp(dot(point - line[k], along) / dot(along, along), 0.0, 1.0);
+      const double distance = norm(point - (line[k] + share * along));
+      if (distance < least) {
+        least = distance;
+        near = k;
+      }
+    }
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+std::size_t goal(std::size_t bound) {
+  return static_cast<std::size_t>(std::ceil(1.16 * static_cast<double>(bound))) + 2;
+}
+
+void check_ends(const Centerline& track, const ArcSpline& spline) {
+  CHECK(spline.path().vertices.front().at == Vec2{});
+  CHECK(norm(spline.path().vertices.back().at - point_of(track, track.length())) < 1e-12 * track.length());
+}
+
+/// A track of lines, arcs and clothoids that turns by little at a time.
+ClothoidSpline random_segments(testing::Random& random) {
+  std::vector<ClothoidSegment> segments;
+  double curvature = 0.0;
+  const int count = random.integer(1, 7);
+  for (int i = 0; i < count; ++i) {
+    const double next = random.integer(0, 3) == 0 ? 0.0 : random.between(-0.3, 0.3);
+    const bool constant = random.integer(0, 1) == 0;
+    segments.push_back({random.between(0.3, 3.0), constant ? next : curvature, next});
+    curvature = next;
+  }
+  return {Angle::from_degrees(random.between(0.0, 60.0)), segments};
+}
+
+}  // namespace
+
+TEST_CASE("master curve: the grain chute is 12 arcs at 0.1 mm, and no fewer than 11 of any kind would do") {
+  const Track track = solve(read_design(designs_path("grain_chute.yaml")));
+  const MasterCurve curve = fit_arcs(*track.centerline);
+  CHECK(curve.arcs == 12);
+  CHECK(curve.lower_bound == 11);  // measured by a second program, fabrication facts 4.1
+  CHECK(curve.max_deviation <= 1e-4);
+  CHECK(brute_deviation(*curve.spline, *track.centerline) <= 1e-4 + 1e-6);
+  CHECK(brute_deviation(*track.centerline, *curve.spline) <= 1e-4 + 1e-6);
+  CHECK(brute_deviation(*curve.spline, *track.centerline) > 0.8e-4);
+  check_ends(*track.centerline, *curve.spline);
+}
+
+TEST_CASE("master curve: fastest tracks, vertical start and all, are within the tolerance by few arcs") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 12; ++run) {
+    const double size = math::exp(random.between(-2.0, 5.0));
+    const double mean = random.between(0.4, 3.0);
+    const Angle friction = Angle::from_radians(random.between(0.0, 0.8) * math::atan(mean));
+    const CoulombBrachistochrone track({size, mean * size}, Friction::from_angle(friction));
+    const double tolerance = size * math::exp(random.between(-11.0, -6.0));
+    const MasterCurve curve = fit_arcs(track, {tolerance});
+    INFO("size " << size << " mean slope " << mean << " tolerance " << tolerance << " bound "
+                 << curve.lower_bound);
+    CHECK(curve.arcs >= curve.lower_bound);
+    CHECK(curve.arcs <= goal(curve.lower_bound));
+    CHECK(curve.max_deviation <= tolerance);
+    CHECK(brute_deviation(*curve.spline, track) <= 1.01 * tolerance + 1e-6 * track.length());
+    check_ends(track, *curve.spline);
+    // The same drawn a thousand times as large has the same arcs.
+    const CoulombBrachistochrone large({1000.0 * size, 1000.0 * mean * size}, Friction::from_angle(friction));
+    CHECK(fit_arcs(large, {1000.0 * tolerance}).arcs == curve.arcs);
+  }
+}
+
+TEST_CASE("master curve: lines and arcs of a drawn track stay what they are, with their tangents") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 20; ++run) {
+    const ClothoidSpline track = random_segments(random);
+    const MasterCurve curve = fit_arcs(track, {1e-3});
+    CHECK(curve.max_deviation <= 1e-3);
+    CHECK(curve.lower_bound <= curve.arcs);
+    check_ends(track, *curve.spline);
+    const std::vector<double> breaks = track.breaks();
+    for (std::size_t i = 0; i < track.segments().size(); ++i) {
+      const ClothoidSegment& segment = track.segments()[i];
+      if (segment.entry_curvature != segment.exit_curvature) continue;
+      const CenterlinePoint middle = track.at(0.5 * (breaks[i] + breaks[i + 1]));
+      const double s = curve.spline->arc_length_at_run(middle.x);
+      const CenterlinePoint found = curve.spline->at(s);
+      CHECK(std::fabs(found.drop - middle.drop) < 1e-9);
+      CHECK(std::fabs(found.slope_angle - middle.slope_angle) < 1e-9);
+      CHECK(std::fabs(found.curvature - segment.entry_curvature) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("master curve: a track that is lines and arcs is given back") {
+  const ClothoidSpline track(Angle::from_degrees(35.0),
+                             {{2.0, 0.0, 0.0}, {1.5, 0.3, 0.3}, {0.5, -0.1, -0.1}, {0.5, -0.1, -0.1}});
+  const MasterCurve curve = fit_arcs(track);
+  CHECK(curve.arcs == 3);
+  CHECK(curve.lines == 1);
+  CHECK(curve.kept == 3);
+  CHECK(curve.lower_bound == 3);
+  CHECK(curve.max_deviation < 1e-14);
+  CHECK(std::fabs(curve.spline->length() - 4.5) < 1e-14);
+  for (const double s : {0.7, 2.9, 4.1}) {
+    CHECK(norm(point_of(*curve.spline, s) - point_of(track, s)) < 1e-14);
+    CHECK(std::fabs(curve.spline->at(s).curvature - track.at(s).curvature) < 1e-14);
+  }
+}
+
+TEST_CASE("master curve: a clothoid takes the arcs that the error of separate arcs gives, k' h^3 / 192") {
+  const double rate = 0.05;
+  const double length = 10.0;
+  const ClothoidSpline track(Angle::from_degrees(70.0), {{length, 0.0, rate * length}});
+  for (const double tolerance : {1e-5, 1e-4, 1e-3}) {
+    const double expected = length * std::cbrt(rate / (192.0 * tolerance));
+    const MasterCurve curve = fit_arcs(track, {tolerance});
+    const auto bound = static_cast<double>(curve.lower_bound);
+    CHECK(bound <= std::ceil(expected) + 1.0);
+    CHECK(bound + 1.0 >= std::floor(0.98 * expected));
+    CHECK(curve.arcs <= goal(curve.lower_bound));
+  }
+}
+
+TEST_CASE("master curve: a finer tolerance never takes fewer arcs, nor is its bound lower") {
+  const Track track = solve(read_design(designs_path("powder_chute.yaml")));
+  std::size_t arcs = 0;
+  std::size_t bound = 0;
+  for (const double tolerance : {3e-3, 1e-3, 3e-4, 1e-4, 3e-5}) {
+    const MasterCurve curve = fit_arcs(*track.centerline, {tolerance});
+    CHECK(curve.arcs >= arcs);
+    CHECK(curve.lower_bound >= bound);
+    arcs = curve.arcs;
+    bound = curve.lower_bound;
+  }
+}
+
+TEST_CASE("master curve: a fit to one side stays on it") {
+  const CoulombBrachistochrone track({5.0, 4.0}, Friction::from_angle(Angle::from_degrees(15.0)));
+  for (const FitSide side : {FitSide::away, FitSide::into_flow}) {
+    const double tolerance = 2e-4;
+    const MasterCurve curve = fit_arcs(track, {tolerance, side});
+    CHECK(curve.max_deviation <= tolerance);
+    CHECK(curve.max_deviation > 0.7 * tolerance);
+    double farthest = 0.0;  // on the wrong side
+    for (int i = 1; i < 400; ++i) {
+      const CenterlinePoint at = curve.spline->at(curve.spline->length() * i / 400.0);
+      const CenterlinePoint near = track.at(track.arc_length_at_run(std::min(at.x, 5.0)));
+      const double up = (near.drop - at.drop) * math::cos(near.slope_angle);
+      farthest = std::max(farthest, side == FitSide::away ? up : -up);
+    }
+    CHECK(farthest < 1.05 * kOneSidedSlip * tolerance);
+    const std::size_t both = fit_arcs(track, {tolerance}).arcs;
+    // Measured: some twice as many. 2^(1/3) would do without the ends, where the band closes to nothing.
+    CHECK(curve.arcs <= 2 * both + 3);
+  }
+}
+
+TEST_CASE("master curve: a tolerance without sense is refused") {
+  const CoulombBrachistochrone track({5.0, 4.0}, Friction::from_angle(Angle::from_degrees(15.0)));
+  for (const double tolerance : {0.0, -1e-3, 1e-10, std::nan("")}) {
+    try {
+      (void)fit_arcs(track, {tolerance});
+      FAIL("no error");
+    } catch (const InputError& error) {
+      CHECK(error.issues().front().what.find("is finer than arcs can be held to the track") !=
+            std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("arc spline: a kink, a gap of no length and a wrong start are refused by joint") {
+  const auto message = [](std::vector<PathVertex> vertices) {
+    try {
+      (void)ArcSpline({std::move(vertices), false});
+    } catch (const InputError& error) {
+      return error.issues().front().what;
+    }
+    return std::string();
+  };
+  CHECK(message({{{0.0, 0.0}}, {{1.0, 0.0}}, {{2.0, 0.1}}}).find("a kink of 5.7") != std::string::npos);
+  CHECK(message({{{0.0, 0.0}}, {{1.0, 0.0}}, {{1.0, 0.0}}}) ==
+        "arc spline: the piece after joint 1 has no length");
+  CHECK(message({{{1.0, 0.0}}, {{2.0, 0.0}}}) == "arc spline: does not start at the origin");
+  CHECK(message({{{0.0, 0.0}}}) == "arc spline: fewer than two vertices");
+}
