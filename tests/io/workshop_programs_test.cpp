@@ -1,0 +1,104 @@
+// What the programs of workshops make of our files: opinions that share no code with ours.
+
+#include "glissade/io/dxf_file.hpp"
+#include "glissade/io/mesh_file.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+
+#include "support/catch.hpp"
+#include "support/openscad_check.hpp"
+#include "support/oracle.hpp"
+#include "support/paths.hpp"
+#include "support/temp_dir.hpp"
+#include "support/workshop_shapes.hpp"
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+/// A side plate with holes, a slot, its number and a bend line [mm].
+PlaneRegion plate_region(int arcs, int holes) {
+  PlaneRegion region = testing::band(arcs, 3000.0, 250.0, holes);
+  const Vec2 at = region.holes.back().centre + Vec2{60.0, 10.0};
+  region.cutouts.push_back(
+      {{{at, 0.0}, {at + Vec2{30.0, 0.0}, 1.0}, {at + Vec2{30.0, 12.0}, 0.0}, {at + Vec2{0.0, 12.0}, 1.0}},
+       true});
+  return region;
+}
+
+Drawing drawing_of(const PlaneRegion& region) {
+  Drawing drawing;
+  drawing.name = "plate";
+  drawing.add(drawing.layer({"CUT", LineStyle::continuous, 0.25, 7}), region);
+  const std::size_t mark = drawing.layer({"MARK", LineStyle::continuous, 0.18, 5});
+  for (const ArcPath& stroke : stroked_text("07", {40.0, -400.0}, 20.0)) drawing.add(mark, stroke);
+  drawing.line(drawing.layer({"BEND_UP", LineStyle::dashed, 0.18, 3}), {0.0, 0.0}, {100.0, 0.0});
+  return drawing;
+}
+
+}  // namespace
+
+TEST_CASE("ezdxf reads DXF files strictly, finds nothing to mend, and the same areas and holes",
+          "[external]") {
+  const auto python = python_with("ezdxf");
+  if (!python) return;
+  const TempDir directory;
+  std::vector<std::string> arguments{test_data_path("io/oracles/dxf_facts.py")};
+  std::vector<PlaneRegion> regions;
+  for (const int arcs : {1, 4, 15}) {
+    regions.push_back(plate_region(arcs, 2 + arcs));
+    for (const DxfVersion version : {DxfVersion::r2000, DxfVersion::r12}) {
+      const std::string name =
+          (directory / (std::to_string(arcs) + (version == DxfVersion::r12 ? "r12.dxf" : ".dxf"))).string();
+      write_dxf(name, drawing_of(regions.back()), {version});
+      arguments.push_back(name);
+    }
+  }
+  const Outcome run = run_program(*python, arguments);
+  INFO(run.errors);
+  REQUIRE(run.exit_code == 0);
+  std::istringstream lines(run.output);
+  for (const PlaneRegion& region : regions) {
+    for (const bool old : {false, true}) {
+      int errors = -1, fixes = -1, units = 0, open = 0, texts = -1, others = -1;
+      std::size_t circles = 0;
+      double area = 0.0;
+      REQUIRE(lines >> errors >> fixes >> units >> area >> circles >> open >> texts >> others);
+      CHECK(errors == 0);
+      CHECK(fixes == 0);
+      CHECK(units == 4);
+      CHECK(circles == region.holes.size());
+      CHECK(texts == 0);
+      if (old) continue;  // lines and arcs belong to no contour
+      CHECK(others == 0);
+      CHECK(open >= 3);
+      CHECK(area == Approx(moments(region).area).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("OpenSCAD takes R12 as the plate, and R2000 as the plate of its chords", "[external]") {
+  // OpenSCAD 2021.01 reads the corners of an LWPOLYLINE and not its bulges.
+  const TempDir directory;
+  const PlaneRegion region = plate_region(4, 5);
+  PlaneRegion chords = region;
+  for (PathVertex& vertex : chords.outline.vertices) vertex.bulge = 0.0;
+  for (PathVertex& vertex : chords.cutouts.front().vertices) vertex.bulge = 0.0;
+  Drawing drawing;
+  drawing.add(drawing.layer({"CUT", LineStyle::continuous, 0.25, 7}), region);
+  for (const DxfVersion version : {DxfVersion::r2000, DxfVersion::r12}) {
+    const auto file = directory / "plate.dxf";
+    write_dxf(file, drawing, {version});
+    const OpenscadResult result =
+        openscad_render("linear_extrude(1000) import(\"" + file.string() + "\", $fn = 720);");
+    INFO(result.output);
+    CHECK(result.clean());
+    put_bytes(directory / "plate.off", result.off);
+    const double area = measure(read_mesh(directory / "plate.off")).volume * 1e6;  // m^3 over 1 m, in mm^2
+    const double meant = moments(version == DxfVersion::r12 ? region : chords).area;
+    CHECK(area == Approx(meant).epsilon(3e-5));  // 720 chords a turn, six digits
+  }
+}
