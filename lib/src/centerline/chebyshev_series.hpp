@@ -28,12 +28,26 @@ double node_cosine(std::size_t k, std::size_t j) {
   return math::cos_pi(static_cast<double>(halves) / static_cast<double>(2 * kTerms));
 }
 
+/// Every node_cosine(k, j): tables of curves take thousands of series.
+template <std::size_t kTerms>
+const std::array<std::array<double, kTerms>, kTerms>& node_cosines() {
+  static const auto cosines = [] {
+    std::array<std::array<double, kTerms>, kTerms> table{};
+    for (std::size_t k = 0; k < kTerms; ++k) {
+      for (std::size_t j = 0; j < kTerms; ++j) table[k][j] = node_cosine<kTerms>(k, j);
+    }
+    return table;
+  }();
+  return cosines;
+}
+
 /// @param values  at the nodes node_cosine(1, j)
 template <std::size_t kTerms>
 std::array<double, kTerms> chebyshev_series(const std::array<double, kTerms>& values) {
+  const auto& cosines = node_cosines<kTerms>();
   std::array<double, kTerms> coefficients{};
   for (std::size_t k = 0; k < kTerms; ++k) {
-    for (std::size_t j = 0; j < kTerms; ++j) coefficients[k] += values[j] * node_cosine<kTerms>(k, j);
+    for (std::size_t j = 0; j < kTerms; ++j) coefficients[k] += values[j] * cosines[k][j];
     coefficients[k] *= (k == 0 ? 1.0 : 2.0) / static_cast<double>(kTerms);
   }
   return coefficients;

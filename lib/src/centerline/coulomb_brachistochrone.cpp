@@ -145,7 +145,7 @@ class CoulombBrachistochrone::Tabulation {
     Panel rest = panel;
     double rest_root = piece.first_root;
     for (std::size_t j = kTerms; j-- > 0;) {
-      const double root = piece.root_at(node_cosine<kTerms>(1, j));
+      const double root = piece.root_at(node_cosines<kTerms>()[1][j]);
       const double distance = (root - rest_root) * (root + rest_root);
       const double guess =
           rest.first == 0.0 ? panel.last * (root / piece.last_root) : midpoint_guess(shape_, rest, distance);

@@ -67,7 +67,7 @@ class SlopeTable::Builder {
     double last = from;
     double covered = 0.0;
     for (std::size_t j = kTerms; j-- > 0;) {
-      const double distance = 0.5 * length * (1.0 + node_cosine<kTerms>(1, j));
+      const double distance = 0.5 * length * (1.0 + node_cosines<kTerms>()[1][j]);
       last = turned_after(last, to, distance - covered);
       covered = distance;
       turned[j] = last;
