@@ -21,6 +21,7 @@ void add_compare(CLI::App& program, Action& action);
 void add_plot(CLI::App& program, Action& action);
 void add_inspect(CLI::App& program, Action& action);
 void add_init(CLI::App& program, Action& action);
+void add_rules(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_schema(CLI::App& program, Action& action);
 

@@ -4,12 +4,14 @@
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include "app/console.hpp"
 #include "app/law_text.hpp"
 #include "app/limits_text.hpp"
 #include "app/probes_text.hpp"
 #include "app/rides_text.hpp"
+#include "app/rules_text.hpp"
 #include "app/table.hpp"
 
 #include <array>
@@ -218,7 +220,7 @@ std::string track_summary(const Design& design, const Track& track) {
          labelled("Arc length", length_text(track.centerline->length())) +
          labelled("Normal load", load_lines(track.motion)) + law_lines(design, track) +
          labelled("Smallest radius", radius_text(track)) + friction_lines(track) +
-         limits_lines(design, track) + probes_lines(design, track);
+         limits_lines(design, track) + probes_lines(design, track) + rules_lines(judge_rules(design, track));
 }
 
 std::string build_summary(const Design& design, const Build& build) {

@@ -11,6 +11,8 @@
 #include "design/read_body.hpp"
 #include "design/read_limits.hpp"
 #include "design/read_probes.hpp"
+#include "design/read_rules.hpp"
+#include "design/read_text.hpp"
 #include "design/read_tree.hpp"
 #include "design/schema_words.hpp"
 #include "design/yaml_tree.hpp"
@@ -18,10 +20,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <memory>
 #include <numbers>
-#include <system_error>
 #include <utility>
 
 namespace glissade {
@@ -30,7 +30,6 @@ namespace {
 using namespace design_file;
 
 constexpr double kLongestFreeRun = 1e6;  // [m]
-constexpr std::size_t kLargestFile = std::size_t{4} << 20U;
 
 void read_version(MapReader& top, Findings& findings) {
   const std::optional<Value> value = top.need("glissade", "glissade: 1 as the first line");
@@ -363,7 +362,7 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
-  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "probes",
+  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "probes", "rules",
               "cross_section", "mesh", "export"});
   for (const std::string_view key : body_keys()) {
     top.add_stranger(key, "two spaces before it, below body:");
@@ -380,6 +379,7 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.gravity = top.quantity("gravity", Dimension::acceleration).value_or(kDefaultGravity);
   read_limits(top, design, findings);
   design.probes = read_probes(top, findings);
+  read_rules(top, design, findings);
   design.cross_section = read_cross_section(top, findings);
   design.mesh = read_mesh(top, findings);
   design.exports = read_export(top, findings);
@@ -399,32 +399,6 @@ Node parse_root(std::string_view text, const Findings& findings) {
     issue.where = findings.where(problem.at());
     throw InputError(std::move(issue));
   }
-}
-
-[[noreturn]] void throw_unreadable(const std::filesystem::path& file, const std::string& why,
-                                   const std::string& hint) {
-  throw FileError({file.string(), "cannot read the design file: " + why, "", hint});
-}
-
-std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    throw_unreadable(file, "no such file", "the path of a design file; glissade init makes one");
-  if (std::filesystem::is_directory(status))
-    throw_unreadable(file, "it is a directory", "the path of a file in it");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw_unreadable(file, "opening it is refused", "its permissions");
-  // Read at most one byte more than the limit: the size of a pipe or a device is not known before.
-  std::string text(kLargestFile + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) throw_unreadable(file, "reading fails", "");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kLargestFile) {
-    throw FileError({file.string(), "larger than 4 MiB", "A design file is a page of text.",
-                     "kind: points with a CSV file for a measured profile"});
-  }
-  return text;
 }
 
 }  // namespace
@@ -447,7 +421,7 @@ DesignSource DesignSource::parse(std::string text, std::filesystem::path file) {
 }
 
 DesignSource DesignSource::read(const std::filesystem::path& file) {
-  return parse(read_text(file), file);
+  return parse(read_text(file, "the design file", "glissade init makes one"), file);
 }
 
 const std::string& DesignSource::text() const noexcept {

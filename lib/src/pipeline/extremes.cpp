@@ -1,5 +1,7 @@
 #include "pipeline/extremes.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,7 +17,7 @@ namespace {
 using Quantity = std::function<double(double s)>;
 
 /// Highest value on one smooth stretch: sampled, then refined around the highest sample.
-double highest_between(double from, double to, const Quantity& quantity) {
+Extreme highest_between(double from, double to, const Quantity& quantity) {
   constexpr int kSamples = 64;
   constexpr int kBits = 26;  // a maximum is flat: half of the digits in s are all of those in the value
   // Right at `to` the values of the next stretch hold.
@@ -35,29 +37,40 @@ double highest_between(double from, double to, const Quantity& quantity) {
   const double left = station(std::max(highest_index - 1, 0));
   const double right = station(std::min(highest_index + 1, kSamples));
   const auto negated = [&](double s) { return -quantity(s); };
-  return std::max(highest, -boost::math::tools::brent_find_minima(negated, left, right, kBits).second);
-}
-
-double highest_along(const Centerline& centerline, const Quantity& quantity) {
-  const std::vector<double> breaks = centerline.breaks();
-  double highest = -std::numeric_limits<double>::infinity();
-  for (std::size_t index = 1; index < breaks.size(); ++index) {
-    highest = std::max(highest, highest_between(breaks[index - 1], breaks[index], quantity));
-  }
-  return highest;
+  const auto [at, lowest] = boost::math::tools::brent_find_minima(negated, left, right, kBits);
+  if (-lowest > highest) return {-lowest, at};
+  return {highest, station(highest_index)};
 }
 
 }  // namespace
 
+Extreme highest_along(const Centerline& centerline, const Quantity& quantity, double until) {
+  const std::vector<double> breaks = centerline.breaks();
+  Extreme highest{-std::numeric_limits<double>::infinity(), 0.0};
+  for (std::size_t index = 1; index < breaks.size() && breaks[index - 1] < until; ++index) {
+    const Extreme here = highest_between(breaks[index - 1], std::min(breaks[index], until), quantity);
+    if (here.value > highest.value) highest = here;
+  }
+  return highest;
+}
+
+Extreme highest_radial_acceleration(const Motion& motion) {
+  const Centerline& centerline = motion.centerline();
+  const auto radial = [&](double s) {
+    return motion.at(s).normal_load - motion.gravity() * math::cos(centerline.slope_angle(s));
+  };
+  return highest_along(centerline, radial, motion.distance());
+}
+
 double smallest_radius(const Centerline& centerline) {
   if (centerline.unbounded_curvature_at_start()) return 0.0;
   const double sharpest =
-      highest_along(centerline, [&](double s) { return std::fabs(centerline.at(s).curvature); });
+      highest_along(centerline, [&](double s) { return std::fabs(centerline.at(s).curvature); }).value;
   return sharpest == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / sharpest;
 }
 
 double steepest_slope_angle(const Centerline& centerline) {
-  return highest_along(centerline, [&](double s) { return centerline.slope_angle(s); });
+  return highest_along(centerline, [&](double s) { return centerline.slope_angle(s); }).value;
 }
 
 }  // namespace glissade::pipeline

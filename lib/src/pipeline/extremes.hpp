@@ -1,8 +1,26 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include <functional>
 
 namespace glissade::pipeline {
+
+/// A highest value and where it is.
+struct Extreme {
+  double value = 0.0;
+  double at = 0.0;  ///< arc length [m]
+};
+
+/// @param quantity  of an arc length; smooth between the breaks of the centerline
+/// @param until     as far as it is asked [m]; the whole centerline if it is longer
+/// @return its highest value, at a jump that of the higher side
+[[nodiscard]] Extreme highest_along(const Centerline& centerline,
+                                    const std::function<double(double s)>& quantity, double until = 1e300);
+
+/// @return the highest kappa u^2 of a ride [m/s^2]: how much more than its weight's share the body presses
+[[nodiscard]] Extreme highest_radial_acceleration(const Motion& motion);
 
 /// @return smallest radius of curvature along a centerline [m]: 0 where the curvature is unbounded at the
 ///         start, infinity on a straight

@@ -4,6 +4,7 @@
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/version.hpp"
 #include "glissade/pipeline/probes.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include "pipeline/track_document.hpp"
 #include "report/serial/vocabulary.hpp"
@@ -99,6 +100,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   json["limits"] = limits_json(report.checks);
   json["search"] = search_json(report);
   json["probes"] = Json::array();
+  json["rules"] = Json::array();
   json["warnings"] = Json::array();
   return json;
 }
@@ -117,6 +119,7 @@ Json pipeline::track_document(const Design& design, const Track& track, StallMar
   json["limits"] = limits_json(track.limit_checks);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
   json["probes"] = probes_json(probe_readings(design, track));
+  json["rules"] = report::rules_json(judge_rules(design, track));
   json["warnings"] = issues_json(warnings(design, track));
   return json;
 }
@@ -168,6 +171,32 @@ std::string comparison_json(const Design* common, const std::vector<ComparedTrac
                               {"friction_angle_deg", entry.design.body.friction.angle().degrees()},
                               {"problem", entry.problem}});
   }
+  return document_text(json);
+}
+
+std::string rules_json(const std::vector<RuleSet>& sets) {
+  Json list = Json::array();
+  for (const RuleSet& set : sets) {
+    // A rule that nothing was held against says all but its verdict.
+    std::vector<Judgement> unjudged;
+    for (const Rule& rule : set.rules) unjudged.emplace_back().rule = rule;
+    Json rules = report::rules_json(unjudged);
+    for (Json& rule : rules) {
+      for (const char* const key :
+           {"verdict", "value", "bound", "side", "margin", "where", "place", "reason"}) {
+        rule.erase(key);
+      }
+    }
+    list.push_back({{"name", set.name}, {"title", set.title}, {"rules", std::move(rules)}});
+  }
+  return document_text({{"glissade", version()}, {"sets", std::move(list)}});
+}
+
+std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements) {
+  Json json{{"glissade", version()}};
+  if (!design.name.empty()) json["name"] = design.name;
+  json["verdict"] = to_text(worst(judgements));
+  json["rules"] = report::rules_json(judgements);
   return document_text(json);
 }
 

@@ -6,6 +6,7 @@
 #include "glissade/core/vec.hpp"
 #include "glissade/design/body_design.hpp"
 #include "glissade/design/probe_design.hpp"
+#include "glissade/design/rules_design.hpp"
 #include "glissade/task/finish.hpp"
 #include "glissade/task/limits.hpp"
 #include "glissade/task/objective.hpp"
@@ -137,6 +138,7 @@ struct Design {
   std::optional<Limits> limits;
   Objective objective;              ///< what the search is for
   std::vector<ProbeDesign> probes;  ///< places whose speed, slope angle and load are told
+  RulesDesign rules;                ///< what a trade asks of the track; verdicts, no limits of a search
   std::optional<CrossSectionDesign> cross_section;
   MeshDesign mesh;
   ExportDesign exports;

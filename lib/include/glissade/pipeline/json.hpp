@@ -34,6 +34,12 @@ struct ComparedTrack {
 /// @param common  what all of them have in common; null where each is a design of its own
 [[nodiscard]] std::string comparison_json(const Design* common, const std::vector<ComparedTrack>& tracks);
 
+/// Rules as they are, without a track.
+[[nodiscard]] std::string rules_json(const std::vector<RuleSet>& sets);
+
+/// What rules say of a track.
+[[nodiscard]] std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements);
+
 /// A track that stays as it is, ridden at several frictions.
 /// @param rides  as ride_at() gives them
 [[nodiscard]] std::string rides_json(const Design& design, const Track& track,

@@ -198,6 +198,37 @@ Json probes_json(const std::vector<ProbeReading>& probes) {
   return list;
 }
 
+Json rules_json(const std::vector<Judgement>& judgements) {
+  Json list = Json::array();
+  for (const Judgement& judgement : judgements) {
+    const Rule& rule = judgement.rule;
+    const Dimension dimension = rule_quantity(rule.quantity)->dimension;
+    const auto in_unit = [&](const std::optional<double>& value) {
+      return value ? number(in_unit_for_people(*value, dimension)) : Json(nullptr);
+    };
+    list.push_back({{"id", rule.id},
+                    {"verdict", to_text(judgement.verdict)},
+                    {"value", in_unit(judgement.value)},
+                    {"bound", in_unit(judgement.bound)},
+                    {"side", judgement.bound ? Json(judgement.bound_is_highest ? "at most" : "at least")
+                                             : Json(nullptr)},
+                    {"margin", in_unit(judgement.margin)},
+                    {"unit", unit_for_people(dimension)},
+                    {"where", number(judgement.arc_length)},
+                    {"place", judgement.place},
+                    {"quantity", rule.quantity},
+                    {"lowest", in_unit(rule.bound.lowest)},
+                    {"highest", in_unit(rule.bound.highest)},
+                    {"advice", rule.advice},
+                    {"sentence", rule.sentence},
+                    {"source", rule.source},
+                    {"certainty", word(rule.certainty)},
+                    {"needs_checking", needs_checking(rule.certainty)},
+                    {"reason", judgement.reason.empty() ? Json(nullptr) : Json(judgement.reason)}});
+  }
+  return list;
+}
+
 Json issues_json(const std::vector<Issue>& issues) {
   Json list = Json::array();
   for (const Issue& issue : issues) {

@@ -8,6 +8,7 @@
 #include "glissade/motion/probe.hpp"
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/solid/mesh_facts.hpp"
+#include "glissade/trades/rules.hpp"
 
 #include <optional>
 #include <string>
@@ -47,6 +48,9 @@ void add_ride(Json& json, const Motion& motion);
 /// @return how a search ended; conflict and relaxations are null unless the limits contradict each other
 [[nodiscard]] Json search_json(const OptimizeReport& report);
 [[nodiscard]] Json probes_json(const std::vector<ProbeReading>& probes);
+
+/// @return list of verdicts; `where` is an arc length, null where a rule is about the whole track
+[[nodiscard]] Json rules_json(const std::vector<Judgement>& judgements);
 
 /// @return list of {where, what, why, hint}
 [[nodiscard]] Json issues_json(const std::vector<Issue>& issues);

@@ -1,0 +1,141 @@
+#include "glissade/pipeline/rules.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/words.hpp"
+#include "glissade/design/rule_sets.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress_line.hpp"
+#include "app/rules_text.hpp"
+#include "app/time_budget.hpp"
+#include "app/track_input.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "List the rules that tracks can be held against, or hold a design against its rules.\n"
+    "\n"
+    "Each rule has its bound, its source, and how sure the bound is: those that nobody read in the document\n"
+    "itself are marked, and to be checked before anyone relies on them. Given a design, the exit code is 1\n"
+    "if a rule fails; advice that is not followed is a warning.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade rules                          every rule of every set\n"
+    "  glissade rules slide                    those of a set, or that speak of a word\n"
+    "  glissade rules --quantities             what rules of your own may bound\n"
+    "  glissade rules designs/toboggan_run.yaml --set \"rules={sets: [summer-toboggan]}\"   the verdicts";
+
+struct Options {
+  std::string what;
+  Overrides overrides;
+  TimeBudget time_budget;
+  Verbosity verbosity;
+  bool quantities = false;
+  bool json = false;
+};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+bool speaks_of(const Rule& rule, const std::string& word) {
+  const std::vector<std::string> texts = {rule.id, rule.sentence, rule.quantity, rule.source};
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const std::string& text) { return lower(text).find(word) != std::string::npos; });
+}
+
+/// The sets that a word names, or else the rules in them that speak of it.
+std::vector<RuleSet> found(const std::string& given) {
+  const std::string word = lower(given);
+  std::vector<RuleSet> sets;
+  for (RuleSet set : shipped_rule_sets()) {
+    if (set.name.find(word) == std::string::npos) {
+      std::erase_if(set.rules, [&](const Rule& rule) { return !speaks_of(rule, word); });
+    }
+    if (!set.rules.empty()) sets.push_back(std::move(set));
+  }
+  if (!sets.empty()) return sets;
+  std::vector<std::string> names;
+  for (const RuleSet& set : shipped_rule_sets()) names.push_back(set.name);
+  throw InputError({"", "no rule speaks of " + shown(given), "The sets are " + listed(names) + ".",
+                    "glissade rules, which lists all; or the path of a design, which ends in .yaml"});
+}
+
+ExitCode list_rules(const Options& options) {
+  const std::vector<RuleSet> sets = found(options.what);
+  if (options.json) {
+    print(rules_json(sets));
+    return ExitCode::done;
+  }
+  std::string text;
+  for (const RuleSet& set : sets) {
+    text += (text.empty() ? "" : "\n") + emphasised(set.name, Emphasis::heading) + ": " + set.title + "\n";
+    for (const Rule& rule : set.rules) text += "\n" + rule_text(rule);
+  }
+  print(text);
+  return ExitCode::done;
+}
+
+ExitCode judge_design(const Options& options) {
+  const Design design = read_design(options.what, options.overrides.values());
+  if (design.rules.in_force.empty()) {
+    throw InputError({design.where("rules"), "the design has no rules to be held against", "",
+                      "rules: {sets: [...]} in it; 'glissade rules' lists the sets"});
+  }
+  const std::vector<Judgement> judgements = [&] {
+    const Interrupt interrupt;
+    ProgressLine progress(options.verbosity);
+    return judge_rules(
+        design, solve(design, {progress.callback(), interrupt.token(), options.time_budget.seconds()}));
+  }();
+  if (options.json) {
+    print(verdicts_json(design, judgements));
+  } else {
+    const std::string heading = design.name.empty() ? std::string("Track") : design.name;
+    print(emphasised(heading, Emphasis::heading) + "\n\n" + verdicts_table(judgements));
+  }
+  return worst(judgements) == RuleVerdict::fail ? ExitCode::faulty : ExitCode::done;
+}
+
+ExitCode run_rules(const Options& options) {
+  if (options.quantities) {
+    print(quantities_table());
+    return ExitCode::done;
+  }
+  const bool is_design = options.what.ends_with(".yaml") || options.what.ends_with(".yml");
+  return is_design ? judge_design(options) : list_rules(options);
+}
+
+}  // namespace
+
+void add_rules(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("rules", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  command
+      .add_option("what", options->what, "A word to look for, the name of a set, or a design file (.yaml)")
+      ->type_name("WORD|DESIGN.yaml");
+  options->overrides.add_to(command);
+  options->time_budget.add_to(command);
+  command.add_flag("--quantities", options->quantities, "List what rules may bound, with the unit");
+  command.add_flag("--json", options->json, "Print one JSON object with SI values instead");
+  options->verbosity.add_to(command, "Show no progress");
+  command.callback([options, &action] { action = [options] { return run_rules(*options); }; });
+}
+
+}  // namespace glissade::app

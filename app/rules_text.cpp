@@ -1,0 +1,107 @@
+#include "app/rules_text.hpp"
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+
+#include "app/console.hpp"
+#include "app/summary.hpp"
+#include "app/table.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace glissade::app {
+namespace {
+
+std::string verdict_text(RuleVerdict verdict) {
+  const std::string text(to_text(verdict));
+  if (verdict == RuleVerdict::pass) return emphasised(text, Emphasis::good);
+  return verdict == RuleVerdict::fail ? emphasised(text, Emphasis::bad) : text;
+}
+
+/// What stands behind every bound that nobody read in its document.
+std::string mark_of(const Rule& rule) {
+  return needs_checking(rule.certainty) ? "[" + std::string(word(rule.certainty)) + "]" : "";
+}
+
+std::string value_text(const Judgement& judgement) {
+  if (!judgement.value) return "-";
+  std::string text = quantity_text(*judgement.value, rule_quantity(judgement.rule.quantity)->dimension);
+  if (judgement.arc_length) text += " at " + length_text(*judgement.arc_length);
+  if (!judgement.place.empty()) text += " (" + judgement.place + ")";
+  return text;
+}
+
+std::string line_of(const Judgement& judgement) {
+  const Rule& rule = judgement.rule;
+  std::string text = verdict_text(judgement.verdict) + ": " + rule.id + ", " +
+                     std::string(rule_quantity(rule.quantity)->label);
+  if (judgement.value) text += " " + value_text(judgement);
+  text += ", " + bound_text(rule);
+  if (needs_checking(rule.certainty)) text += " " + mark_of(rule);
+  if (!judgement.reason.empty()) text += "\n  " + judgement.reason;
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return count_text(count) + " " + what;
+}
+
+}  // namespace
+
+std::string rules_lines(const std::vector<Judgement>& judgements) {
+  if (judgements.empty()) return "";
+  const auto count = [&](RuleVerdict verdict) {
+    return static_cast<std::size_t>(std::count_if(
+        judgements.begin(), judgements.end(), [&](const Judgement& one) { return one.verdict == verdict; }));
+  };
+  std::string text = counted(count(RuleVerdict::pass), "pass") + ", " +
+                     counted(count(RuleVerdict::warn), "warn") + ", " +
+                     counted(count(RuleVerdict::fail), "fail") + ", " +
+                     counted(count(RuleVerdict::cannot_be_judged), "cannot be judged");
+  bool marked = false;
+  for (const Judgement& judgement : judgements) {
+    marked = marked || needs_checking(judgement.rule.certainty);
+    if (judgement.verdict != RuleVerdict::pass) text += "\n" + line_of(judgement);
+  }
+  if (marked)
+    text += "\nbounds not read in the document itself; their certainty stands in [ ], \"glissade rules\"";
+  return labelled("Rules", text);
+}
+
+std::string verdicts_table(const std::vector<Judgement>& judgements) {
+  Table table({"rule", "verdict", "value", "bound", "certainty"});
+  for (const Judgement& judgement : judgements) {
+    table.add({judgement.rule.id, std::string(to_text(judgement.verdict)), value_text(judgement),
+               bound_text(judgement.rule), std::string(word(judgement.rule.certainty))});
+  }
+  std::string text = table.text();
+  for (const Judgement& judgement : judgements) {
+    if (!judgement.reason.empty()) text += "\n  " + judgement.rule.id + ": " + judgement.reason;
+  }
+  return text + (text.ends_with('\n') ? "" : "\n");
+}
+
+std::string rule_text(const Rule& rule) {
+  std::string text = rule.sentence + "\n" + std::string(rule_quantity(rule.quantity)->label) + " " +
+                     bound_text(rule) + (rule.advice ? ", advice" : "");
+  for (const RuleCondition& condition : rule.when) {
+    Rule as_rule;
+    as_rule.quantity = condition.quantity;
+    as_rule.bound = condition.range;
+    text += "\nwhere " + std::string(rule_quantity(condition.quantity)->label) + " " + bound_text(as_rule);
+  }
+  return "  " + emphasised(rule.id, Emphasis::heading) + "\n" + labelled("", text) +
+         labelled("", rule.source + " [" + std::string(word(rule.certainty)) + "]");
+}
+
+std::string quantities_table() {
+  Table table({"quantity", "unit", "meaning", ""});
+  for (const RuleQuantity& quantity : rule_quantities()) {
+    table.add({std::string(quantity.key), std::string(unit_for_people(quantity.dimension)),
+               std::string(quantity.label)});
+  }
+  return table.text();
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,128 @@
+#pragma once
+
+#include "glissade/core/quantity.hpp"
+#include "glissade/task/limits.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace glissade {
+
+/// Rules of a trade as data: what a standard, a guideline or a company asks of a track, each with where it comes
+/// from and how sure that is. Rules judge a track that is there; they neither find it nor stop a build.
+
+/// How a rule's bound is known. All but `document` and `own` are to be checked against the document before
+/// anyone relies on them, and are marked wherever they show.
+enum class Certainty {
+  document,        ///< from the document named, which was read
+  secondary,       ///< from a source named that reports the document
+  derived,         ///< worked out from sourced data by a method that is said
+  general_high,    ///< general knowledge, the document not read: very likely right
+  general_medium,  ///< likely right
+  general_low,     ///< a guess at the size
+  own              ///< a user's own rule
+};
+
+/// @return the word of rule files and JSON: "document", "secondary", "derived", "general-high", ..., "own"
+[[nodiscard]] std::string_view word(Certainty certainty);
+/// @return every certainty, surest first
+[[nodiscard]] const std::vector<Certainty>& certainties();
+/// @return true for a bound that nobody read in its document
+[[nodiscard]] bool needs_checking(Certainty certainty);
+
+/// Something that rules may bound. One number for a whole track, with its place where it has one.
+struct RuleQuantity {
+  std::string_view key;  ///< as in rule files: "table_time"
+  Dimension dimension = Dimension::number;
+  std::string_view label;  ///< for people: "time on the take-off table"
+};
+
+/// @return every quantity, in the order of docs/rules.md
+[[nodiscard]] const std::vector<RuleQuantity>& rule_quantities();
+/// @return the quantity of that key; null if there is none
+[[nodiscard]] const RuleQuantity* rule_quantity(std::string_view key);
+
+/// A rule holds only where this quantity lies in this range.
+struct RuleCondition {
+  std::string quantity;
+  Range range;  ///< SI, rad
+
+  friend bool operator==(const RuleCondition&, const RuleCondition&) = default;
+};
+
+struct Rule {
+  std::string id;        ///< unique, e.g. "fis.in-run.table-length"
+  std::string sentence;  ///< what it asks, in one sentence
+  std::string quantity;  ///< key of a RuleQuantity
+  Range bound;           ///< SI, rad; at least one side
+  bool advice = false;   ///< outside the bound it warns instead of failing
+  std::vector<RuleCondition> when;
+  std::string source;
+  Certainty certainty = Certainty::own;
+
+  friend bool operator==(const Rule&, const Rule&) = default;
+};
+
+/// The rules of one file.
+struct RuleSet {
+  std::string name;   ///< a word: "fis-in-run"
+  std::string title;  ///< one line
+  std::vector<Rule> rules;
+};
+
+/// The values of a track that rules ask about, each with its place, or why it is not known.
+class Measurements {
+ public:
+  struct Entry {
+    std::optional<double> value;       ///< SI, rad; may be infinite
+    std::optional<double> arc_length;  ///< where [m]
+    std::string place;                 ///< the same for people: "gate 49, slow"; may be empty
+    std::string missing;               ///< without a value: what would have to be known
+  };
+
+  /// @throws InternalError if there is no quantity of that key
+  void set(std::string_view key, double value, std::optional<double> arc_length = {}, std::string place = {});
+  /// Nothing is known, and this is what is missing: "hill: {size: ...}".
+  void set_missing(std::string_view key, std::string missing);
+  /// @return null for a quantity that nobody measured
+  [[nodiscard]] const Entry* find(std::string_view key) const;
+
+ private:
+  std::map<std::string, Entry, std::less<>> entries_;
+};
+
+enum class RuleVerdict { pass, warn, fail, cannot_be_judged };
+
+/// @return "pass", "warn", "fail", "cannot be judged"
+[[nodiscard]] std::string_view to_text(RuleVerdict verdict);
+
+/// A value as near to a bound as this, relative, keeps it; of a bound below 0.01 (SI) this times 0.01.
+inline constexpr double kRuleAccuracy = 1e-9;
+
+/// What one rule says of one track.
+struct Judgement {
+  Rule rule;
+  RuleVerdict verdict = RuleVerdict::cannot_be_judged;
+  std::optional<double> value;       ///< SI, rad
+  std::optional<double> bound;       ///< the side that is broken or next to the value
+  bool bound_is_highest = true;      ///< of `bound`
+  std::optional<double> margin;      ///< from the value to `bound`, negative where it is broken
+  std::optional<double> arc_length;  ///< where [m]
+  std::string place;                 ///< the same for people; may be empty
+  std::string reason;                ///< why it cannot be judged; otherwise empty
+};
+
+/// Holds rules against what was measured; a rule whose condition is not met is left out.
+[[nodiscard]] std::vector<Judgement> judge(const std::vector<Rule>& rules, const Measurements& measurements);
+
+/// @return the worst verdict; pass if there is nothing to judge. A rule that cannot be judged counts less than a
+///         warning.
+[[nodiscard]] RuleVerdict worst(const std::vector<Judgement>& judgements);
+
+/// @return ">= 0.25 s", "9 deg to 12 deg": a bound for people
+[[nodiscard]] std::string bound_text(const Rule& rule);
+
+}  // namespace glissade

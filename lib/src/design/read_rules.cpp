@@ -1,0 +1,285 @@
+#include "design/read_rules.hpp"
+
+#include "glissade/core/nearest_word.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/core/words.hpp"
+#include "glissade/design/rule_sets.hpp"
+#include "glissade/trades/rules.hpp"
+
+#include "data/shipped_data.hpp"
+#include "design/read_text.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace design_file {
+namespace {
+
+constexpr std::string_view kExampleRule =
+    "{id: own.exit, sentence: ..., quantity: exit_speed, highest: 9 m/s, source: ...}";
+
+const std::vector<std::pair<std::string_view, Certainty>>& certainty_words() {
+  static const std::vector<std::pair<std::string_view, Certainty>> words = [] {
+    std::vector<std::pair<std::string_view, Certainty>> all;
+    for (const Certainty certainty : certainties()) all.emplace_back(word(certainty), certainty);
+    return all;
+  }();
+  return words;
+}
+
+std::string needed_text(MapReader& map, std::string_view key, std::string_view example, Findings& findings) {
+  const auto value = map.need(key, example);
+  return value ? as_text(*value, findings).value_or("") : std::string();
+}
+
+/// A quantity by its key, or a finding that names the nearest.
+const RuleQuantity* read_quantity_key(MapReader& map, Findings& findings) {
+  const auto value = map.need("quantity", "quantity: steepest_slope_angle");
+  const auto key = value ? as_text(*value, findings) : std::nullopt;
+  if (!key) return nullptr;
+  if (const RuleQuantity* const quantity = rule_quantity(*key)) return quantity;
+  std::vector<std::string_view> keys;
+  for (const RuleQuantity& quantity : rule_quantities()) keys.push_back(quantity.key);
+  const std::string_view near = nearest_word(*key, keys);
+  findings.add(value->node->at, value->key_path,
+               {"", "quantity: " + shown(*key) + " is not known",
+                "Rules bound the quantities that 'glissade rules --quantities' lists.",
+                near.empty() ? "glissade rules --quantities" : std::string(near)});
+  return nullptr;
+}
+
+/// `lowest` and `highest` of a map, at least one of them.
+Range read_bound(MapReader& map, const Value& value, const RuleQuantity* quantity, Findings& findings) {
+  Range bound;
+  if (quantity == nullptr) {
+    // What unit belongs to them is not known.
+    for (const char* const key : {"lowest", "highest"}) {
+      if (const auto text = map.find(key)) static_cast<void>(as_text(*text, findings));
+    }
+    return bound;
+  }
+  bound.lowest = map.quantity("lowest", quantity->dimension);
+  bound.highest = map.quantity("highest", quantity->dimension);
+  if (!map.has("lowest") && !map.has("highest")) {
+    findings.add(findings.position(value.key_path), value.key_path,
+                 {"", value.key + " has neither lowest nor highest", "A rule bounds its quantity.",
+                  "highest: " + quantity_text(1.0, quantity->dimension)});
+  }
+  if (bound.lowest && bound.highest && *bound.lowest > *bound.highest) {
+    findings.add(findings.position(map.path_of("lowest")), map.path_of("lowest"),
+                 {"",
+                  "lowest: " + quantity_text(*bound.lowest, quantity->dimension) + " is above highest, " +
+                      quantity_text(*bound.highest, quantity->dimension),
+                  "Nothing keeps both.", "the two exchanged"});
+  }
+  return bound;
+}
+
+RuleCondition read_condition(const Value& value, Findings& findings) {
+  MapReader map(value, "A condition", "{quantity: hill_size, lowest: 110 m}", findings);
+  map.expect({"quantity", "lowest", "highest"});
+  RuleCondition condition;
+  const RuleQuantity* const quantity = read_quantity_key(map, findings);
+  if (quantity != nullptr) condition.quantity = quantity->key;
+  condition.range = read_bound(map, value, quantity, findings);
+  map.refuse_unknown_keys();
+  return condition;
+}
+
+Rule read_rule(const Value& value, Findings& findings) {
+  MapReader map(value, "A rule", kExampleRule, findings);
+  map.expect({"id", "sentence", "quantity", "lowest", "highest", "advice", "when", "source", "certainty"});
+  Rule rule;
+  rule.id = needed_text(map, "id", "id: own.exit-speed", findings);
+  rule.sentence = needed_text(map, "sentence", "sentence: what the rule asks, in one sentence", findings);
+  const RuleQuantity* const quantity = read_quantity_key(map, findings);
+  if (quantity != nullptr) rule.quantity = quantity->key;
+  rule.bound = read_bound(map, value, quantity, findings);
+  if (const auto advice = map.find("advice")) rule.advice = as_flag(*advice, findings).value_or(false);
+  if (const auto when = map.find("when")) {
+    for (const Value& item : as_list(*when, "[{quantity: hill_size, lowest: 110 m}]", findings)) {
+      rule.when.push_back(read_condition(item, findings));
+    }
+  }
+  rule.source = needed_text(map, "source", "source: document, clause", findings);
+  if (const auto certainty = map.find("certainty")) {
+    rule.certainty = map.choice(*certainty, certainty_words()).value_or(Certainty::own);
+  }
+  map.refuse_unknown_keys();
+  return rule;
+}
+
+std::vector<Rule> read_rule_list(const Value& list, Findings& findings) {
+  std::vector<Rule> rules;
+  std::set<std::string> ids;
+  for (const Value& item : as_list(list, kExampleRule, findings)) {
+    rules.push_back(read_rule(item, findings));
+    const std::string& id = rules.back().id;
+    if (id.empty() || ids.insert(id).second) continue;
+    findings.add(
+        item.node->at, item.key_path,
+        {"", "id: " + shown(id) + " is given twice", "Verdicts are told apart by it.", "another id"});
+  }
+  return rules;
+}
+
+RuleSet read_set(const Node& root, Findings& findings) {
+  RuleSet set;
+  findings.set_position("", root.at);
+  MapReader top({&root, "", ""}, "A file of rules", "glissade_rules: 1 as its first line", findings);
+  top.expect({"glissade_rules", "name", "title", "rules"});
+  const std::string version =
+      needed_text(top, "glissade_rules", "glissade_rules: 1 as the first line", findings);
+  if (!version.empty() && version != "1") {
+    findings.add(findings.position("glissade_rules"), "glissade_rules",
+                 {"", "glissade_rules: " + shown(version) + " is not a version that this program reads",
+                  "It reads version 1.", "glissade_rules: 1"});
+  }
+  set.name = needed_text(top, "name", "name: our-rules", findings);
+  if (const auto title = top.find("title")) set.title = as_text(*title, findings).value_or("");
+  if (const auto list = top.need("rules", "rules:")) set.rules = read_rule_list(*list, findings);
+  top.refuse_unknown_keys();
+  return set;
+}
+
+bool is_file(std::string_view name) {
+  return name.ends_with(".yaml") || name.ends_with(".yml");
+}
+
+/// A set by its name or file; a problem of its file is one of the design's, at the place that names it.
+const RuleSet* shipped(std::string_view name) {
+  for (const RuleSet& set : shipped_rule_sets()) {
+    if (set.name == name) return &set;
+  }
+  return nullptr;
+}
+
+std::vector<Rule> rules_of_set(const Value& value, const std::string& name,
+                               const std::filesystem::path& folder, Findings& findings) {
+  if (!is_file(name)) {
+    if (const RuleSet* const set = shipped(name)) return set->rules;
+    std::vector<std::string_view> names;
+    for (const RuleSet& set : shipped_rule_sets()) names.push_back(set.name);
+    findings.add(value.node->at, value.key_path,
+                 {"", value.key + ": there is no set of rules named " + shown(name),
+                  "There are " + listed(names) + "; a file of one's own ends in .yaml.",
+                  std::string(nearest_word(name, names))});
+    return {};
+  }
+  try {
+    return read_rule_set(folder / name).rules;
+  } catch (const Error& error) {
+    for (const Issue& issue : error.issues()) {
+      findings.add(value.node->at, value.key_path,
+                   {"", "in " + issue.where + ": " + issue.what, issue.why, issue.hint});
+    }
+    return {};
+  }
+}
+
+void replace_or_add(std::vector<Rule>& rules, const Rule& rule) {
+  const auto same =
+      std::find_if(rules.begin(), rules.end(), [&](const Rule& one) { return one.id == rule.id; });
+  if (same == rules.end()) {
+    rules.push_back(rule);
+  } else {
+    *same = rule;
+  }
+}
+
+/// The sets that a kind of centerline brings along.
+std::vector<std::string> suggested_sets(const Design& design) {
+  static_cast<void>(design);
+  return {};
+}
+
+void leave_out(const Value& list, RulesDesign& rules, Findings& findings) {
+  for (const Value& item : as_list(list, "[fis.in-run.load]", findings)) {
+    const std::string id = as_text(item, findings).value_or("");
+    if (id.empty()) continue;
+    rules.left_out.push_back(id);
+    if (std::erase_if(rules.in_force, [&](const Rule& rule) { return rule.id == id; }) != 0) continue;
+    std::vector<std::string_view> ids;
+    for (const Rule& rule : rules.in_force) ids.push_back(rule.id);
+    findings.add(item.node->at, item.key_path,
+                 {"", item.key + ": no rule of this design has the id " + shown(id),
+                  "'glissade rules' lists all of them.", std::string(nearest_word(id, ids))});
+  }
+}
+
+}  // namespace
+
+void read_rules(MapReader& top, Design& design, Findings& findings) {
+  RulesDesign& rules = design.rules;
+  const std::optional<Value> value = top.find("rules");
+  constexpr std::string_view kExample = "{sets: [fis-in-run]}";
+  if (!value) {
+    for (const std::string& name : suggested_sets(design)) {
+      for (const Rule& rule : shipped(name)->rules) replace_or_add(rules.in_force, rule);
+    }
+    return;
+  }
+  MapReader map(*value, "A group of rules", kExample, findings);
+  map.expect({"sets", "own", "leave_out"});
+  const auto add = [&](const std::vector<Rule>& more) {
+    for (const Rule& rule : more) replace_or_add(rules.in_force, rule);
+  };
+  if (const auto sets = map.find("sets")) {
+    rules.sets.emplace();
+    for (const Value& item : as_list(*sets, "[fis-in-run]", findings)) {
+      const std::string name = as_text(item, findings).value_or("");
+      if (name.empty()) continue;
+      rules.sets->push_back(name);
+      add(rules_of_set(item, name, design.file.parent_path(), findings));
+    }
+  } else {
+    for (const std::string& name : suggested_sets(design)) add(shipped(name)->rules);
+  }
+  if (const auto own = map.find("own")) {
+    rules.own = read_rule_list(*own, findings);
+    add(rules.own);
+  }
+  if (const auto list = map.find("leave_out")) leave_out(*list, rules, findings);
+  map.refuse_unknown_keys();
+}
+
+}  // namespace design_file
+
+RuleSet parse_rule_set(std::string_view text, const std::filesystem::path& file) {
+  const std::vector<Override> none;
+  design_file::Findings findings(file, none);
+  design_file::Node root;
+  try {
+    root = design_file::parse_tree(text);
+  } catch (const design_file::SyntaxProblem& problem) {
+    Issue issue = problem.issues().front();
+    issue.where = findings.where(problem.at());
+    throw InputError(std::move(issue));
+  }
+  RuleSet set = design_file::read_set(root, findings);
+  if (!findings.empty()) throw InputError(findings.issues());
+  return set;
+}
+
+RuleSet read_rule_set(const std::filesystem::path& file) {
+  return parse_rule_set(
+      design_file::read_text(file, "the file of rules", "glissade rules prints those that there are"), file);
+}
+
+const std::vector<RuleSet>& shipped_rule_sets() {
+  static const std::vector<RuleSet> sets = [] {
+    std::vector<RuleSet> all;
+    for (const data::DataFile& file : data::shipped_data("rules")) {
+      all.push_back(parse_rule_set(file.text, std::filesystem::path(file.path)));
+    }
+    return all;
+  }();
+  return sets;
+}
+
+}  // namespace glissade

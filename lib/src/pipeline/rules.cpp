@@ -1,0 +1,114 @@
+#include "glissade/pipeline/rules.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include "pipeline/extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace glissade {
+
+using namespace pipeline;
+
+namespace {
+
+/// Keeps the worst of several rides, with the ride that it is of.
+class Worst {
+ public:
+  void see(double value, double arc_length, const std::string& place) {
+    if (seen_ && !(value > value_)) return;
+    seen_ = true;
+    value_ = value;
+    arc_length_ = arc_length;
+    place_ = place;
+  }
+  /// @param sign  -1 for what was seen negated, because the lowest is the worst
+  void set_in(Measurements& measurements, std::string_view key, double sign = 1.0) const {
+    if (seen_) measurements.set(key, sign * value_, arc_length_, place_);
+  }
+
+ private:
+  bool seen_ = false;
+  double value_ = 0.0;
+  double arc_length_ = 0.0;
+  std::string place_;
+};
+
+void measure_shape(const Track& track, Measurements& measurements) {
+  const Centerline& centerline = *track.centerline;
+  const double length = centerline.length();
+  measurements.set("run", std::fabs(track.endpoints.run));
+  measurements.set("drop", track.endpoints.drop);
+  measurements.set("arc_length", length);
+  measurements.set("mean_slope_angle", math::atan2(track.endpoints.drop, std::fabs(track.endpoints.run)));
+  measurements.set("entry_slope_angle", centerline.slope_angle(0.0), 0.0);
+  measurements.set("exit_slope_angle", centerline.slope_angle(length), length);
+  const auto slope = [&](double s) { return centerline.slope_angle(s); };
+  const Extreme steepest = highest_along(centerline, slope);
+  measurements.set("steepest_slope_angle", steepest.value, steepest.at);
+  const Extreme flattest = highest_along(centerline, [&](double s) { return -slope(s); });
+  measurements.set("flattest_slope_angle", -flattest.value, flattest.at);
+  if (centerline.unbounded_curvature_at_start()) {
+    measurements.set("smallest_valley_radius", 0.0, 0.0);
+    return;
+  }
+  const auto curvature = [&](double s) { return centerline.direction(s).curvature; };
+  const auto radius_of = [](double bend) {
+    return bend > 0.0 ? 1.0 / bend : std::numeric_limits<double>::infinity();
+  };
+  const Extreme valley = highest_along(centerline, curvature);
+  const Extreme crest = highest_along(centerline, [&](double s) { return -curvature(s); });
+  measurements.set("smallest_valley_radius", radius_of(valley.value), valley.at);
+  measurements.set("smallest_crest_radius", radius_of(crest.value), crest.at);
+  measurements.set("least_curvature", -crest.value, crest.at);
+}
+
+void measure_rides(const Track& track, Measurements& measurements) {
+  Worst speed;
+  Worst exit;
+  Worst time;
+  Worst load;
+  Worst lightness;
+  Worst radial;
+  const std::vector<LevelRide> rides = track.rides();
+  for (const LevelRide& ride : rides) {
+    const Motion& motion = *ride.motion;
+    const std::string place = rides.size() > 1 ? std::string(to_text(ride.level)) + " friction" : "";
+    const MotionState fastest = motion.highest_speed();
+    const MotionState heaviest = motion.highest_load();
+    const MotionState lightest = motion.lowest_load();
+    speed.see(fastest.speed, fastest.arc_length, place);
+    load.see(heaviest.normal_load, heaviest.arc_length, place);
+    lightness.see(-lightest.normal_load, lightest.arc_length, place);
+    const Extreme most = highest_radial_acceleration(motion);
+    radial.see(most.value, most.at, place);
+    if (!motion.arrived()) continue;
+    exit.see(motion.exit_speed(), motion.distance(), place);
+    time.see(motion.travel_time(), motion.distance(), place);
+  }
+  speed.set_in(measurements, "highest_speed");
+  exit.set_in(measurements, "exit_speed");
+  time.set_in(measurements, "travel_time");
+  load.set_in(measurements, "highest_normal_load");
+  lightness.set_in(measurements, "lowest_normal_load", -1.0);
+  radial.set_in(measurements, "highest_radial_acceleration");
+}
+
+}  // namespace
+
+Measurements rule_measurements(const Design& /*design*/, const Track& track) {
+  Measurements measurements;
+  measure_shape(track, measurements);
+  measure_rides(track, measurements);
+  return measurements;
+}
+
+std::vector<Judgement> judge_rules(const Design& design, const Track& track) {
+  if (design.rules.in_force.empty()) return {};
+  return judge(design.rules.in_force, rule_measurements(design, track));
+}
+
+}  // namespace glissade

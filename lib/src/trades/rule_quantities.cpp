@@ -1,0 +1,49 @@
+// What rules may bound. A new quantity is one row here and one line where it is measured (pipeline/rules.cpp for any
+// track, a file of its own for a trade).
+
+#include "glissade/trades/rules.hpp"
+
+namespace glissade {
+
+const std::vector<RuleQuantity>& rule_quantities() {
+  using enum Dimension;
+  static const std::vector<RuleQuantity> all = {
+      // any track
+      {"run", length, "horizontal distance from start to finish"},
+      {"drop", length, "drop from start to finish"},
+      {"arc_length", length, "length along the track"},
+      {"mean_slope_angle", angle, "mean slope angle, over the length of the track"},
+      {"steepest_slope_angle", angle, "steepest slope angle"},
+      {"flattest_slope_angle", angle, "flattest slope angle"},
+      {"entry_slope_angle", angle, "slope angle at the start"},
+      {"exit_slope_angle", angle, "slope angle at the finish"},
+      {"smallest_valley_radius", length, "smallest radius of a valley"},
+      {"smallest_crest_radius", length, "smallest radius of a crest"},
+      {"highest_speed", speed, "highest speed"},
+      {"exit_speed", speed, "speed at the finish"},
+      {"travel_time", time, "travel time"},
+      {"highest_normal_load", acceleration, "highest normal load"},
+      {"lowest_normal_load", acceleration, "lowest normal load"},
+      {"highest_radial_acceleration", acceleration, "highest radial acceleration v^2/radius"},
+      {"least_curvature", per_length, "least curvature, negative on a crest"},
+      // in-runs of ski jumps
+      {"hill_size", length, "hill size HS"},
+      {"construction_point", length, "distance w to the construction point K"},
+      {"hill_height", length, "height of the table's edge above the lowest point"},
+      {"in_run_slope_angle", angle, "slope angle gamma of the straight"},
+      {"table_slope_angle", angle, "slope angle alpha of the table"},
+      {"table_length", length, "length t of the table"},
+      {"table_time", time, "time on the table at the design speed, t/v0"},
+      {"transition_radius", length, "radius r1 at the end of the transition"},
+      {"design_radial_acceleration", acceleration, "radial acceleration at the design speed, v0^2/r1"},
+      {"curvature_step_at_e1", per_length, "step of the curvature where the transition begins"},
+      {"table_height_ratio", number, "height of the table over w, s/w"},
+      {"start_area_ratio", number, "length of the start area over that of the in-run, es/e1"},
+      {"gate_step_height", length, "height from one gate to the next"},
+      {"highest_take_off_speed", speed, "take-off speed from the highest gate"},
+      {"lowest_take_off_speed", speed, "take-off speed from the lowest gate"},
+  };
+  return all;
+}
+
+}  // namespace glissade
