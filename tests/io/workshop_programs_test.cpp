@@ -2,15 +2,18 @@
 
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/mesh_file.hpp"
+#include "glissade/io/step_file.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
 #include "support/openscad_check.hpp"
 #include "support/oracle.hpp"
 #include "support/paths.hpp"
+#include "support/shop_parts.hpp"
 #include "support/temp_dir.hpp"
 #include "support/workshop_shapes.hpp"
 
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -100,5 +103,73 @@ TEST_CASE("OpenSCAD takes R12 as the plate, and R2000 as the plate of its chords
     const double area = measure(read_mesh(directory / "plate.off")).volume * 1e6;  // m^3 over 1 m, in mm^2
     const double meant = moments(version == DxfVersion::r12 ? region : chords).area;
     CHECK(area == Approx(meant).epsilon(3e-5));  // 720 chords a turn, six digits
+  }
+}
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double volume_of(const Prism& prism) {
+  return moments(prism.region).area * prism.depth;
+}
+
+/// A plane through the tube's axis at its middle cuts off as much as it adds.
+double volume_of(const TubeGore& gore) {
+  const double outer = gore.inner_radius + gore.thickness;
+  return kPi * (outer * outer - gore.inner_radius * gore.inner_radius) * gore.length;
+}
+
+/// Pappus and Guldin: area times the way of its centre.
+double volume_of(const SweptBody& body) {
+  ArcPath section{{}, true};
+  for (const Vec2 corner : body.section) section.vertices.push_back({corner});
+  const AreaMoments area = moments({section, {}, {}});
+  double volume = 0.0;
+  for (const PathPiece& piece : pieces_of(body.path)) {
+    const double turned = 4.0 * std::atan(piece.bulge);
+    volume += area.area * (length(piece) - turned * area.centroid.x);
+  }
+  return volume;
+}
+
+}  // namespace
+
+TEST_CASE("Open CASCADE reads STEP as valid closed solids with the volumes of their closed forms",
+          "[external]") {
+  const auto python =
+      python_with("sys, glob; sys.path.extend(glob.glob('/usr/lib/freecad*/lib')); import FreeCAD, Part");
+  if (!python) return;
+  const TempDir directory;
+  const Workshop workshop = testing::sample_workshop();
+  const auto file = directory / "chute.step";
+  write_step(file, workshop);
+  const Outcome run = run_program(*python, {test_data_path("io/oracles/step_facts.py"), file.string()});
+  INFO(run.output << run.errors);
+  REQUIRE(run.exit_code == 0);
+  std::istringstream lines(run.output);
+  std::size_t solids = 0;
+  lines >> solids;
+  CHECK(solids == 7);
+  const StepFacts facts = read_step_facts(file);
+  for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
+    const double meant =
+        std::visit([](const auto& body) { return volume_of(body); }, workshop.parts[i].body) * 1e9;
+    for (std::size_t k = 0; k < workshop.parts[i].quantity(); ++k) {
+      int valid = 0, closed = 0, others = -1;
+      double volume = 0.0;
+      std::size_t planes = 0, cylinders = 0, cones = 0;
+      REQUIRE(lines >> valid >> closed >> volume >> planes >> cylinders >> cones >> others);
+      INFO(workshop.parts[i].name);
+      CHECK(valid == 1);
+      CHECK(closed == 1);
+      // Open CASCADE integrates over faces between ellipses numerically.
+      const bool exact = !std::holds_alternative<TubeGore>(workshop.parts[i].body);
+      CHECK(volume == Approx(meant).epsilon(exact ? 1e-8 : 2e-6));
+      CHECK(planes == facts.solids[i].planes);
+      CHECK(cylinders == facts.solids[i].cylinders);
+      CHECK(cones == facts.solids[i].cones);
+      CHECK(others == 0);
+    }
   }
 }

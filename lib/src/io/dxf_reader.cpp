@@ -3,6 +3,7 @@
 #include "glissade/io/dxf_file.hpp"
 
 #include "io/byte_source.hpp"
+#include "io/utf8.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -124,16 +125,7 @@ std::string utf8_of(std::string_view ascii) {
       continue;
     }
     i += 7;
-    if (character < 0x80U) {
-      text += static_cast<char>(character);
-    } else if (character < 0x800U) {
-      text += static_cast<char>(0xC0U | (character >> 6U));
-      text += static_cast<char>(0x80U | (character & 0x3FU));
-    } else {
-      text += static_cast<char>(0xE0U | (character >> 12U));
-      text += static_cast<char>(0x80U | ((character >> 6U) & 0x3FU));
-      text += static_cast<char>(0x80U | (character & 0x3FU));
-    }
+    append_utf8(text, character);
   }
   return text;
 }

@@ -1,0 +1,395 @@
+#include "io/brep.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace glissade::io {
+namespace {
+
+constexpr double kMillimetres = 1000.0;  // in a metre
+constexpr Vec3 kUp{0.0, 0.0, 1.0};
+constexpr Vec3 kDown{0.0, 0.0, -1.0};
+constexpr Vec3 kAcross{1.0, 0.0, 0.0};
+
+Vec3 at_height(Vec2 point, double z) {
+  return {point.x, point.y, z};
+}
+
+Vec3 unit(Vec3 direction) {
+  return (1.0 / norm(direction)) * direction;
+}
+
+InputError bad_body(const ShopPart& part, const std::string& what) {
+  return InputError({"part " + std::to_string(part.number) + ", " + part.name, what, "", ""});
+}
+
+std::size_t add_vertex(Brep& brep, Vec3 point) {
+  brep.vertices.push_back(point);
+  return brep.vertices.size() - 1;
+}
+
+std::size_t add_line(Brep& brep, std::size_t from, std::size_t to) {
+  BrepEdge edge;
+  edge.from = from;
+  edge.to = to;
+  brep.edges.push_back(edge);
+  return brep.edges.size() - 1;
+}
+
+/// Part of a circle that lies level, turning to the left or right.
+std::size_t add_arc(Brep& brep, std::size_t from, std::size_t to, Vec2 centre, bool left) {
+  BrepEdge edge;
+  edge.from = from;
+  edge.to = to;
+  edge.kind = CurveKind::circle;
+  edge.centre = at_height(centre, brep.vertices[from].z);
+  edge.axis = left ? kUp : kDown;
+  const Vec3 spoke = brep.vertices[from] - edge.centre;
+  edge.radius = norm(spoke);
+  edge.reference = unit(spoke);
+  brep.edges.push_back(edge);
+  return brep.edges.size() - 1;
+}
+
+BrepFace level_plane(double z, bool up) {
+  BrepFace face;
+  face.origin = {0.0, 0.0, z};
+  face.axis = up ? kUp : kDown;
+  face.reference = kAcross;
+  return face;
+}
+
+BrepFace upright_cylinder(Vec2 centre, Vec3 reference, double radius, bool outward) {
+  BrepFace face;
+  face.kind = SurfaceKind::cylinder;
+  face.origin = at_height(centre, 0.0);
+  face.axis = kUp;
+  face.reference = reference;
+  face.radius = radius;
+  face.outward = outward;
+  return face;
+}
+
+// --- prisms
+
+/// One closed contour with the material on its left: its edges below and above, and the faces between them.
+class ContourFaces {
+ public:
+  ContourFaces(Brep& brep, double depth) : brep_(brep), depth_(depth) {}
+
+  void add(const ArcPath& path) {
+    const std::vector<PathPiece> pieces = pieces_of(path);
+    std::vector<std::size_t> low;
+    std::vector<std::size_t> high;
+    std::vector<std::size_t> upright;
+    for (const PathPiece& piece : pieces) {
+      low.push_back(add_vertex(brep_, at_height(piece.from, 0.0)));
+      high.push_back(add_vertex(brep_, at_height(piece.from, depth_)));
+      upright.push_back(add_line(brep_, low.back(), high.back()));
+    }
+    std::vector<BrepUse> below;
+    std::vector<BrepUse> above;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const std::size_t next = (i + 1) % pieces.size();
+      const std::size_t bottom = edge(pieces[i], low[i], low[next]);
+      const std::size_t top = edge(pieces[i], high[i], high[next]);
+      BrepFace face = side(pieces[i]);
+      face.loops = {{{bottom, true}, {upright[next], true}, {top, false}, {upright[i], false}}};
+      brep_.faces.push_back(std::move(face));
+      below.push_back({bottom, false});
+      above.push_back({top, true});
+    }
+    std::reverse(below.begin(), below.end());
+    below_.push_back(std::move(below));
+    above_.push_back(std::move(above));
+  }
+
+  /// A round hole.
+  void add(const Circle& hole) {
+    const Vec2 start = hole.centre + Vec2{hole.radius, 0.0};
+    const std::size_t low = add_vertex(brep_, at_height(start, 0.0));
+    const std::size_t high = add_vertex(brep_, at_height(start, depth_));
+    const std::size_t seam = add_line(brep_, low, high);
+    const std::size_t bottom = add_arc(brep_, low, low, hole.centre, false);
+    const std::size_t top = add_arc(brep_, high, high, hole.centre, false);
+    BrepFace face = upright_cylinder(hole.centre, kAcross, hole.radius, false);
+    face.loops = {{{bottom, true}, {seam, true}, {top, false}, {seam, false}}};
+    brep_.faces.push_back(std::move(face));
+    below_.push_back({{bottom, false}});
+    above_.push_back({{top, true}});
+  }
+
+  void close() {
+    BrepFace bottom = level_plane(0.0, false);
+    bottom.loops = std::move(below_);
+    BrepFace top = level_plane(depth_, true);
+    top.loops = std::move(above_);
+    brep_.faces.push_back(std::move(bottom));
+    brep_.faces.push_back(std::move(top));
+  }
+
+ private:
+  std::size_t edge(const PathPiece& piece, std::size_t from, std::size_t to) {
+    if (piece.straight()) return add_line(brep_, from, to);
+    return add_arc(brep_, from, to, arc_of(piece).centre, piece.bulge > 0.0);
+  }
+
+  static BrepFace side(const PathPiece& piece) {
+    if (!piece.straight()) {
+      const CircularArc arc = arc_of(piece);
+      const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
+      return upright_cylinder(arc.centre, spoke, arc.radius, piece.bulge > 0.0);
+    }
+    const Vec2 along = piece.to - piece.from;
+    BrepFace face;
+    face.origin = at_height(piece.from, 0.0);
+    face.axis = unit({along.y, -along.x, 0.0});
+    face.reference = unit(at_height(along, 0.0));
+    return face;
+  }
+
+  Brep& brep_;
+  double depth_;
+  std::vector<std::vector<BrepUse>> below_;
+  std::vector<std::vector<BrepUse>> above_;
+};
+
+ArcPath turning(const ArcPath& path, bool left) {
+  return (signed_area(path) > 0.0) == left ? path : reversed(path);
+}
+
+Brep brep_of(const Prism& prism, const ShopPart& part) {
+  const std::vector<std::string> faults = faults_of(prism.region);
+  if (!faults.empty()) throw bad_body(part, faults.front());
+  if (!(prism.depth > 0.0)) throw bad_body(part, "its depth is " + length_text(prism.depth));
+  const PlaneRegion region = scaled(prism.region, kMillimetres);
+  Brep brep;
+  ContourFaces faces(brep, prism.depth * kMillimetres);
+  faces.add(turning(region.outline, true));
+  for (const ArcPath& cutout : region.cutouts) faces.add(turning(cutout, false));
+  for (const Circle& hole : region.holes) faces.add(hole);
+  faces.close();
+  return brep;
+}
+
+// --- sections along a path
+
+/// @return the unit tangent of a piece at its start
+Vec2 start_tangent(const PathPiece& piece) {
+  const Vec2 along = piece.to - piece.from;
+  const double b = piece.bulge;
+  // The chord turned back by half the sweep: cos and sin of 2 atan(b).
+  const double cosine = (1.0 - b * b) / (1.0 + b * b);
+  const double sine = 2.0 * b / (1.0 + b * b);
+  return (1.0 / norm(along)) * Vec2{cosine * along.x + sine * along.y, cosine * along.y - sine * along.x};
+}
+
+Vec2 end_tangent(const PathPiece& piece) {
+  const PathPiece back{piece.to, piece.from, -piece.bulge};
+  return -1.0 * start_tangent(back);
+}
+
+class SweptFaces {
+ public:
+  SweptFaces(const SweptBody& body, const ShopPart& part)
+      : part_(part), pieces_(pieces_of(scaled(body.path, kMillimetres))), section_(body.section) {
+    if (pieces_.empty() || body.path.closed) throw bad_body(part, "its path is closed or has no piece");
+    if (section_.size() < 3) throw bad_body(part, "its section has fewer than three corners");
+    double twice = 0.0;
+    for (std::size_t j = 0; j < section_.size(); ++j) {
+      twice += cross(section_[j], section_[(j + 1) % section_.size()]);
+    }
+    if (twice < 0.0) std::reverse(section_.begin(), section_.end());
+    for (Vec2& corner : section_) corner = kMillimetres * corner;
+  }
+
+  Brep whole() {
+    stations();
+    for (std::size_t i = 0; i < pieces_.size(); ++i) lengthwise(i);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      for (std::size_t j = 0; j < section_.size(); ++j) brep_.faces.push_back(face(i, j));
+    }
+    cap(0, start_tangent(pieces_.front()), false);
+    cap(pieces_.size(), end_tangent(pieces_.back()), true);
+    return std::move(brep_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t vertex(std::size_t station, std::size_t corner) const {
+    return station * section_.size() + corner % section_.size();
+  }
+  /// Edges come in the order of their making: those across first, then those along.
+  [[nodiscard]] std::size_t across(std::size_t station, std::size_t corner) const {
+    return vertex(station, corner);
+  }
+  [[nodiscard]] std::size_t along(std::size_t piece, std::size_t corner) const {
+    return vertex(pieces_.size() + 1 + piece, corner);
+  }
+
+  void stations() {
+    constexpr double kKink = 1e-7;  // what bulges rounded to doubles leave is far less
+    for (std::size_t i = 0; i <= pieces_.size(); ++i) {
+      const bool last = i == pieces_.size();
+      const Vec2 tangent = last ? end_tangent(pieces_.back()) : start_tangent(pieces_[i]);
+      if (i > 0 && !last && std::fabs(cross(end_tangent(pieces_[i - 1]), tangent)) > kKink) {
+        throw bad_body(part_, "its path has a kink after piece " + std::to_string(i));
+      }
+      const Vec2 left{-tangent.y, tangent.x};
+      const Vec2 at = last ? pieces_.back().to : pieces_[i].from;
+      for (const Vec2 corner : section_) add_vertex(brep_, at_height(at + corner.x * left, corner.y));
+    }
+    for (std::size_t i = 0; i <= pieces_.size(); ++i) {
+      for (std::size_t j = 0; j < section_.size(); ++j) add_line(brep_, vertex(i, j), vertex(i, j + 1));
+    }
+  }
+
+  void lengthwise(std::size_t i) {
+    const PathPiece& piece = pieces_[i];
+    for (std::size_t j = 0; j < section_.size(); ++j) {
+      if (piece.straight()) {
+        add_line(brep_, vertex(i, j), vertex(i + 1, j));
+        continue;
+      }
+      const CircularArc arc = arc_of(piece);
+      const double to_left = piece.bulge > 0.0 ? 1.0 : -1.0;
+      if (!(arc.radius - to_left * section_[j].x > 0.0)) {
+        throw bad_body(part_, "its section reaches beyond the centre of arc " + std::to_string(i + 1) +
+                                  ", radius " + length_text(arc.radius / kMillimetres));
+      }
+      add_arc(brep_, vertex(i, j), vertex(i + 1, j), arc.centre, piece.bulge > 0.0);
+    }
+  }
+
+  BrepFace face(std::size_t i, std::size_t j) {
+    const PathPiece& piece = pieces_[i];
+    const Vec2 from = section_[j];
+    const Vec2 step = section_[(j + 1) % section_.size()] - from;
+    BrepFace made = piece.straight() ? flat(i, j, step) : round(piece, j, step);
+    made.loops = {
+        {{across(i, j), true}, {along(i, j + 1), true}, {across(i + 1, j), false}, {along(i, j), false}}};
+    return made;
+  }
+
+  BrepFace flat(std::size_t i, std::size_t j, Vec2 step) {
+    const Vec2 tangent = start_tangent(pieces_[i]);
+    const Vec2 left{-tangent.y, tangent.x};
+    BrepFace made;
+    made.origin = brep_.vertices[vertex(i, j)];
+    made.axis = unit(at_height(step.y * left, -step.x));
+    made.reference = at_height(tangent, 0.0);
+    return made;
+  }
+
+  BrepFace round(const PathPiece& piece, std::size_t j, Vec2 step) {
+    if (step.y == 0.0) return level_plane(section_[j].y, step.x < 0.0);
+    const CircularArc arc = arc_of(piece);
+    const double outward_per_left = piece.bulge > 0.0 ? -1.0 : 1.0;  // of the distance from the axis
+    const bool outward = step.y * outward_per_left > 0.0;
+    const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
+    const double widening = step.x * outward_per_left / step.y;  // per height
+    BrepFace made =
+        upright_cylinder(arc.centre, spoke, arc.radius + outward_per_left * section_[j].x, outward);
+    if (step.x == 0.0) return made;
+    // A cone is given where it is thinnest, and widens along its axis.
+    const bool widens_up = widening > 0.0;
+    const std::size_t thin = (step.y > 0.0) == widens_up ? j : j + 1;
+    const Vec2 corner = section_[thin % section_.size()];
+    made.kind = SurfaceKind::cone;
+    made.axis = widens_up ? kUp : kDown;
+    made.origin.z = corner.y;
+    made.radius = arc.radius + outward_per_left * corner.x;
+    made.half_angle = math::atan(std::fabs(widening));
+    return made;
+  }
+
+  void cap(std::size_t station, Vec2 tangent, bool forward) {
+    BrepFace made;
+    made.origin = brep_.vertices[vertex(station, 0)];
+    made.axis = (forward ? 1.0 : -1.0) * at_height(tangent, 0.0);
+    made.reference = kUp;
+    std::vector<BrepUse> loop;
+    for (std::size_t j = 0; j < section_.size(); ++j) loop.push_back({across(station, j), forward});
+    if (!forward) std::reverse(loop.begin(), loop.end());
+    made.loops = {std::move(loop)};
+    brep_.faces.push_back(std::move(made));
+  }
+
+  const ShopPart& part_;
+  std::vector<PathPiece> pieces_;
+  std::vector<Vec2> section_;
+  Brep brep_;
+};
+
+// --- tubes between two planes
+
+/// A closed curve round the axis of a tube where a plane z = height + x slope cuts it.
+std::size_t add_ring(Brep& brep, double radius, double height, double slope, bool left) {
+  BrepEdge edge;
+  edge.from = add_vertex(brep, {radius, 0.0, height + radius * slope});
+  edge.to = edge.from;
+  edge.kind = slope == 0.0 ? CurveKind::circle : CurveKind::ellipse;
+  edge.centre = {0.0, 0.0, height};
+  const double stretch = math::hypot(1.0, slope);
+  edge.reference = {1.0 / stretch, 0.0, slope / stretch};
+  edge.axis = (left ? 1.0 : -1.0) * Vec3{-slope / stretch, 0.0, 1.0 / stretch};
+  edge.radius = radius * stretch;
+  edge.second_radius = radius;
+  brep.edges.push_back(edge);
+  return brep.edges.size() - 1;
+}
+
+BrepFace ring_plane(double height, double slope, bool up) {
+  BrepFace face;
+  const double stretch = math::hypot(1.0, slope);
+  face.origin = {0.0, 0.0, height};
+  face.axis = (up ? 1.0 : -1.0) * Vec3{-slope / stretch, 0.0, 1.0 / stretch};
+  face.reference = {1.0 / stretch, 0.0, slope / stretch};
+  return face;
+}
+
+Brep brep_of(const TubeGore& gore, const ShopPart& part) {
+  const double inner = gore.inner_radius * kMillimetres;
+  const double outer = inner + gore.thickness * kMillimetres;
+  const double length = gore.length * kMillimetres;
+  const double start = math::tan(gore.start_tilt);
+  const double end = math::tan(gore.end_tilt);
+  if (!(inner > 0.0) || !(outer > inner)) throw bad_body(part, "its radius or thickness is not positive");
+  if (!(length - outer * std::fabs(end - start) > 0.0)) {
+    throw bad_body(part, "its end planes meet inside the tube: length " + length_text(gore.length));
+  }
+  Brep brep;
+  BrepFace bottom = ring_plane(0.0, start, false);
+  BrepFace top = ring_plane(length, end, true);
+  for (const bool outside : {true, false}) {
+    const double radius = outside ? outer : inner;
+    const std::size_t low = add_ring(brep, radius, 0.0, start, outside);
+    const std::size_t high = add_ring(brep, radius, length, end, outside);
+    const std::size_t seam = add_line(brep, brep.edges[low].from, brep.edges[high].from);
+    BrepFace face = upright_cylinder({}, kAcross, radius, outside);
+    face.loops = {{{low, true}, {seam, true}, {high, false}, {seam, false}}};
+    brep.faces.push_back(std::move(face));
+    bottom.loops.push_back({{low, false}});
+    top.loops.push_back({{high, true}});
+  }
+  brep.faces.push_back(std::move(bottom));
+  brep.faces.push_back(std::move(top));
+  return brep;
+}
+
+Brep brep_of(const SweptBody& body, const ShopPart& part) {
+  return SweptFaces(body, part).whole();
+}
+
+}  // namespace
+
+Brep brep_of(const ShopPart& part) {
+  return std::visit([&](const auto& body) { return brep_of(body, part); }, part.body);
+}
+
+}  // namespace glissade::io

@@ -1,0 +1,353 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/version.hpp"
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/io/step_file.hpp"
+
+#include "io/brep.hpp"
+#include "io/step_names.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+// ISO 10303-21 (the text), ISO 10303-42 (geometry and topology), -43, -44 (products and assemblies), -46 (colours), as AP214
+// puts them together.
+
+namespace glissade {
+
+using namespace io;
+
+namespace {
+
+constexpr double kMillimetres = 1000.0;  // in a metre
+
+/// Number of an entity: "#12".
+using Id = std::uint32_t;
+
+/// Entities on their way into one text; each is written when all that it refers to have been.
+class StepText {
+ public:
+  explicit StepText(const std::string& name) {
+    text_ =
+        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" + step_string(name) +
+        ",'1980-01-01T00:00:00',(''),(''),'Glissade " + std::string(version()) +
+        "','Glissade','');\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n";
+  }
+
+  /// Writes "#id=parts;", parts being texts, numbers and references.
+  template <typename... Parts>
+  Id add(const Parts&... parts) {
+    const Id id = ++last_;
+    put(id);
+    text_ += '=';
+    (put(parts), ...);
+    text_ += ";\n";
+    return id;
+  }
+
+  std::string take() {
+    text_ += "ENDSEC;\nEND-ISO-10303-21;\n";
+    return std::move(text_);
+  }
+
+  void put(std::string_view text) { text_ += text; }
+  void put(const char* text) { text_ += text; }
+  void put(const std::string& text) { text_ += text; }
+  void put(Id id) {
+    text_ += '#';
+    number(id);
+  }
+  void put(double value) {
+    const std::size_t start = text_.size();
+    number(value + 0.0);
+    // A real number has a decimal point, before the exponent if it has one.
+    if (text_.find('.', start) != std::string::npos) return;
+    const std::size_t exponent = text_.find('e', start);
+    text_.insert(exponent == std::string::npos ? text_.size() : exponent, ".");
+  }
+  void put(const std::vector<Id>& ids) {
+    text_ += '(';
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (i > 0) text_ += ',';
+      put(ids[i]);
+    }
+    text_ += ')';
+  }
+  void put(Vec3 triple) {
+    text_ += '(';
+    put(triple.x);
+    text_ += ',';
+    put(triple.y);
+    text_ += ',';
+    put(triple.z);
+    text_ += ')';
+  }
+
+ private:
+  template <typename Number>
+  void number(Number value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    text_.append(digits.data(), end);
+  }
+
+  std::string text_;
+  Id last_ = 0;
+};
+
+double rounded(double millimetres) {
+  return std::round(millimetres / kStepRounding) * kStepRounding;
+}
+
+/// To a multiple of kStepRounding whose decimal is short: a product would bring its last digits back.
+double on_grid(double millimetres) {
+  constexpr double kPerMillimetre = 1e10;
+  static_assert(kPerMillimetre * kStepRounding == 1.0);
+  // Beyond this, doubles are coarser than the grid.
+  return std::fabs(millimetres) < 1e5 ? std::round(millimetres * kPerMillimetre) / kPerMillimetre
+                                      : rounded(millimetres);
+}
+
+/// The geometry of one solid. Directions that come again are written once.
+class SolidText {
+ public:
+  SolidText(StepText& text, const Brep& brep) : text_(text), brep_(brep) {}
+
+  Id whole(const std::string& name) {
+    for (const Vec3& vertex : brep_.vertices) {
+      points_.push_back(point(vertex));
+      vertices_.push_back(text_.add("VERTEX_POINT('',", points_.back(), ")"));
+    }
+    for (const BrepEdge& edge : brep_.edges) edges_.push_back(edge_curve(edge));
+    std::vector<Id> faces;
+    for (const BrepFace& face : brep_.faces) faces.push_back(advanced_face(face));
+    const Id shell = text_.add("CLOSED_SHELL('',", faces, ")");
+    return text_.add("MANIFOLD_SOLID_BREP(", step_string(name), ",", shell, ")");
+  }
+
+  Id point(Vec3 place) {
+    return text_.add("CARTESIAN_POINT('',", Vec3{on_grid(place.x), on_grid(place.y), on_grid(place.z)}, ")");
+  }
+
+  Id placement(Vec3 origin, Vec3 axis, Vec3 reference) {
+    const Id centre = point(origin);
+    const Id normal = direction(axis);
+    const Id across = direction(reference);
+    return text_.add("AXIS2_PLACEMENT_3D('',", centre, ",", normal, ",", across, ")");
+  }
+
+ private:
+  Id direction(Vec3 along) {
+    const std::string key = exact_text(along.x) + "," + exact_text(along.y) + "," + exact_text(along.z);
+    const auto [entry, fresh] = directions_.try_emplace(key, 0);
+    if (fresh) entry->second = text_.add("DIRECTION('',", along, ")");
+    return entry->second;
+  }
+
+  Id curve(const BrepEdge& edge) {
+    if (edge.kind == CurveKind::line) {
+      const Vec3 along = brep_.vertices[edge.to] - brep_.vertices[edge.from];
+      const Id vector = text_.add("VECTOR('',", direction((1.0 / norm(along)) * along), ",1.)");
+      return text_.add("LINE('',", points_[edge.from], ",", vector, ")");
+    }
+    const Id place = placement(edge.centre, edge.axis, edge.reference);
+    if (edge.kind == CurveKind::circle) return text_.add("CIRCLE('',", place, ",", edge.radius, ")");
+    return text_.add("ELLIPSE('',", place, ",", edge.radius, ",", edge.second_radius, ")");
+  }
+
+  Id edge_curve(const BrepEdge& edge) {
+    const Id shape = curve(edge);
+    return text_.add("EDGE_CURVE('',", vertices_[edge.from], ",", vertices_[edge.to], ",", shape, ",.T.)");
+  }
+
+  Id surface(const BrepFace& face) {
+    const Id place = placement(face.origin, face.axis, face.reference);
+    switch (face.kind) {
+      case SurfaceKind::cylinder:
+        return text_.add("CYLINDRICAL_SURFACE('',", place, ",", face.radius, ")");
+      case SurfaceKind::cone:
+        return text_.add("CONICAL_SURFACE('',", place, ",", face.radius, ",", face.half_angle, ")");
+      case SurfaceKind::plane:
+        break;
+    }
+    return text_.add("PLANE('',", place, ")");
+  }
+
+  Id advanced_face(const BrepFace& face) {
+    std::vector<Id> bounds;
+    for (const std::vector<BrepUse>& loop : face.loops) {
+      std::vector<Id> uses;
+      for (const BrepUse& use : loop) {
+        uses.push_back(text_.add("ORIENTED_EDGE('',*,*,", edges_[use.edge], use.forward ? ",.T.)" : ",.F.)"));
+      }
+      const Id closed = text_.add("EDGE_LOOP('',", uses, ")");
+      bounds.push_back(
+          text_.add(bounds.empty() ? "FACE_OUTER_BOUND(''," : "FACE_BOUND('',", closed, ",.T.)"));
+    }
+    const Id on = surface(face);
+    return text_.add("ADVANCED_FACE('',", bounds, ",", on, face.outward ? ",.T.)" : ",.F.)");
+  }
+
+  StepText& text_;
+  const Brep& brep_;
+  std::vector<Id> points_;
+  std::vector<Id> vertices_;
+  std::vector<Id> edges_;
+  std::unordered_map<std::string, Id> directions_;
+};
+
+/// A product with the representation of its shape.
+struct Product {
+  Id definition = 0;
+  Id representation = 0;
+};
+
+/// One file: contexts, products, colours, places.
+class StepFile {
+ public:
+  explicit StepFile(const std::string& name) : text_(name) {
+    application_ = text_.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
+    text_.add("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,",
+              application_, ")");
+    product_context_ = text_.add("PRODUCT_CONTEXT('',", application_, ",'mechanical')");
+    definition_context_ =
+        text_.add("PRODUCT_DEFINITION_CONTEXT('part definition',", application_, ",'design')");
+    const Id length = text_.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
+    const Id angle = text_.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
+    const Id solid = text_.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
+    const Id accuracy = text_.add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06),", length,
+                                  ",'distance_accuracy_value','')");
+    space_ = text_.add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((", accuracy,
+                       "))GLOBAL_UNIT_ASSIGNED_CONTEXT((", length, ",", angle, ",", solid,
+                       "))REPRESENTATION_CONTEXT('',''))");
+    origin_ = frame({});
+  }
+
+  Product add_part(const ShopPart& part) {
+    const Brep brep = brep_of(part);
+    const std::string name = step_name(part);
+    const Id solid = SolidText(text_, brep).whole(name);
+    styled_.push_back(text_.add("STYLED_ITEM('',(", style(part.colour), "),", solid, ")"));
+    const Id shape =
+        text_.add("ADVANCED_BREP_SHAPE_REPRESENTATION('',(", origin_, ",", solid, "),", space_, ")");
+    return product(name, shape);
+  }
+
+  void add_assembly(const Workshop& workshop, const std::vector<Product>& parts) {
+    std::vector<Id> places;
+    std::vector<std::size_t> owners;
+    std::vector<Id> items{origin_};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (const Frame& place : workshop.parts[i].places) {
+        places.push_back(frame(place));
+        items.push_back(places.back());
+        owners.push_back(i);
+      }
+    }
+    const Id shape = text_.add("SHAPE_REPRESENTATION('',", items, ",", space_, ")");
+    const Product whole = product(workshop.name, shape);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      occurrence(whole, parts[owners[k]], places[k], step_name(workshop.parts[owners[k]]), k + 1);
+    }
+  }
+
+  std::string take() {
+    text_.add("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',", styled_, ",", space_, ")");
+    return text_.take();
+  }
+
+ private:
+  Id frame(const Frame& place) {
+    const Brep none;
+    return SolidText(text_, none).placement(kMillimetres * place.origin, place.z, place.x);
+  }
+
+  Product product(const std::string& name, Id shape) {
+    const std::string quoted = step_string(name);
+    const Id made = text_.add("PRODUCT(", quoted, ",", quoted, ",'',(", product_context_, "))");
+    text_.add("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(", made, "))");
+    const Id formation = text_.add("PRODUCT_DEFINITION_FORMATION('','',", made, ")");
+    const Id definition =
+        text_.add("PRODUCT_DEFINITION('design','',", formation, ",", definition_context_, ")");
+    const Id definition_shape = text_.add("PRODUCT_DEFINITION_SHAPE('','',", definition, ")");
+    text_.add("SHAPE_DEFINITION_REPRESENTATION(", definition_shape, ",", shape, ")");
+    return {definition, shape};
+  }
+
+  void occurrence(const Product& whole, const Product& part, Id place, const std::string& name,
+                  std::size_t count) {
+    const Id usage = text_.add("NEXT_ASSEMBLY_USAGE_OCCURRENCE('", std::to_string(count), "',",
+                               step_string(name), ",'',", whole.definition, ",", part.definition, ",$)");
+    const Id shape = text_.add("PRODUCT_DEFINITION_SHAPE('','',", usage, ")");
+    const Id move = text_.add("ITEM_DEFINED_TRANSFORMATION('','',", origin_, ",", place, ")");
+    const Id relation = text_.add("(REPRESENTATION_RELATIONSHIP('','',", part.representation, ",",
+                                  whole.representation, ")REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(",
+                                  move, ")SHAPE_REPRESENTATION_RELATIONSHIP())");
+    text_.add("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(", relation, ",", shape, ")");
+  }
+
+  Id style(const std::array<double, 3>& colour) {
+    const std::string key = exact_text(colour[0]) + "," + exact_text(colour[1]) + "," + exact_text(colour[2]);
+    const auto [entry, fresh] = styles_.try_emplace(key, 0);
+    if (!fresh) return entry->second;
+    const Id rgb = text_.add("COLOUR_RGB('',", colour[0], ",", colour[1], ",", colour[2], ")");
+    const Id fill_colour = text_.add("FILL_AREA_STYLE_COLOUR('',", rgb, ")");
+    const Id fill = text_.add("FILL_AREA_STYLE('',(", fill_colour, "))");
+    const Id area = text_.add("SURFACE_STYLE_FILL_AREA(", fill, ")");
+    const Id side = text_.add("SURFACE_SIDE_STYLE('',(", area, "))");
+    const Id usage = text_.add("SURFACE_STYLE_USAGE(.BOTH.,", side, ")");
+    entry->second = text_.add("PRESENTATION_STYLE_ASSIGNMENT((", usage, "))");
+    return entry->second;
+  }
+
+  StepText text_;
+  Id application_ = 0;
+  Id product_context_ = 0;
+  Id definition_context_ = 0;
+  Id space_ = 0;
+  Id origin_ = 0;
+  std::vector<Id> styled_;
+  std::unordered_map<std::string, Id> styles_;
+};
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  AtomicFile output(file);
+  output.write(text);
+  output.commit();
+}
+
+}  // namespace
+
+std::string step_text(const ShopPart& part) {
+  StepFile file(step_name(part));
+  (void)file.add_part(part);
+  return file.take();
+}
+
+std::string step_text(const Workshop& workshop) {
+  if (workshop.parts.empty()) {
+    throw InputError({"assembly " + workshop.name, "has no part", "A STEP file holds one or more.", ""});
+  }
+  StepFile file(workshop.name);
+  std::vector<Product> parts;
+  parts.reserve(workshop.parts.size());
+  for (const ShopPart& part : workshop.parts) parts.push_back(file.add_part(part));
+  file.add_assembly(workshop, parts);
+  return file.take();
+}
+
+void write_step(const std::filesystem::path& file, const ShopPart& part) {
+  write_text(file, step_text(part));
+}
+
+void write_step(const std::filesystem::path& file, const Workshop& workshop) {
+  write_text(file, step_text(workshop));
+}
+
+}  // namespace glissade

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "glissade/parts/shop_part.hpp"
+
+#include "support/workshop_shapes.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace testing {
+
+inline glissade::ShopPart shop_part(int number, const std::string& name, glissade::PartBody body) {
+  glissade::ShopPart part;
+  part.number = number;
+  part.name = name;
+  part.material = "S235";
+  part.thickness = 0.004;
+  part.density = 7850.0;
+  part.body = std::move(body);
+  part.places = {glissade::Frame{}};
+  part.colour = {0.1 * (number % 10), 0.5, 0.7};
+  return part;
+}
+
+/// Metres.
+inline glissade::PlaneRegion metre_band(int arcs, int holes) {
+  return glissade::scaled(band(arcs, 3000.0, 250.0, holes), 1e-3);
+}
+
+/// A plate that leans: a thin section along bends to the left and right, and a straight.
+inline glissade::SweptBody leaning_plate(double lean, double height, double thickness) {
+  glissade::ArcPath path = glissade::scaled(bending_line(5, 3000.0), 1e-3);
+  // Goes on straight, then to the right, tangent to what came before.
+  const glissade::PathPiece last{path.vertices[4].at, path.vertices[5].at, path.vertices[4].bulge};
+  const glissade::Vec2 chord = last.to - last.from;
+  const double heading = std::atan2(chord.y, chord.x) + 2.0 * std::atan(last.bulge);
+  const glissade::Vec2 on{std::cos(heading), std::sin(heading)};
+  const glissade::Vec2 straight_end = last.to + 0.4 * on;
+  path.vertices.push_back({straight_end, glissade::bulge_of_sweep(-0.3)});
+  path.vertices.push_back(
+      {straight_end + 0.5 * glissade::Vec2{std::cos(heading - 0.15), std::sin(heading - 0.15)}, 0.0});
+  const glissade::Vec2 up{height * std::cos(lean), height * std::sin(lean)};
+  const glissade::Vec2 out{-thickness * std::sin(lean), thickness * std::cos(lean)};
+  return {path, {{0.0, 0.0}, up, up + out, out}};
+}
+
+/// Plates, a floor, a leaning wall, gores of a pipe: one of each kind, some in several places.
+inline glissade::Workshop sample_workshop() {
+  glissade::Workshop workshop;
+  workshop.name = "Chute with 'quotes', Länge";
+  glissade::PlaneRegion wall = metre_band(7, 9);
+  const glissade::Vec2 at = wall.holes[4].centre + glissade::Vec2{0.05, 0.0};
+  wall.cutouts.push_back({{{at, 0.0},
+                           {at + glissade::Vec2{0.03, 0.0}, 1.0},
+                           {at + glissade::Vec2{0.03, 0.012}, 0.0},
+                           {at + glissade::Vec2{0.0, 0.012}, 1.0}},
+                          true});
+  workshop.parts.push_back(shop_part(1, "left_wall", glissade::Prism{wall, 0.004}));
+  workshop.parts.back().places.push_back({{0.0, 0.0, 0.5}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}});
+  workshop.parts.push_back(shop_part(2, "floor", glissade::Prism{metre_band(6, 0), 0.5}));
+  workshop.parts.push_back(shop_part(3, "leaning_wall", leaning_plate(0.6, 0.25, 0.004)));
+  workshop.parts.push_back(shop_part(4, "gore", glissade::TubeGore{0.1, 0.003, 0.3, -0.1, 0.12}));
+  workshop.parts.back().places = {{{1.0, 0.0, 0.0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {{2.0, 0.0, 0.0}}};
+  workshop.parts.push_back(shop_part(5, "pipe", glissade::TubeGore{0.05, 0.002, 1.0, 0.0, 0.0}));
+  return workshop;
+}
+
+}  // namespace testing
