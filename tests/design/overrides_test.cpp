@@ -1,3 +1,5 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/design/design.hpp"
 
 #include "design/design_text.hpp"
@@ -45,4 +47,24 @@ TEST_CASE("a problem of an override names the override") {
              StartsWith("--set track: not valid YAML: this [ is not closed"));
   CHECK_THAT(problems_of(kSoundDesign, {{"body.friction_angle", "48 deg"}}),
              StartsWith("infeasible: --set body.friction_angle: friction_angle: 48 deg is steeper"));
+}
+
+TEST_CASE("a plain number with its unit is read as YAML would read it") {
+  // A trailing blank or quotes take the long way round, through YAML.
+  for (const char* text :
+       {"19 deg", "19deg", "+1.9e1 deg", "0.33 rad", "1e-3rad", ".5 rad", "19 degrees", "19", "-19 deg",
+        "1.5.2 deg", "0x13 deg", "19 deg/s", "19  deg", "7 -- 8", "19\t deg"}) {
+    const auto told = [](const std::string& value) {
+      try {
+        return exact_text(parse_design(kSoundDesign, "d.yaml", {{"body.friction_angle", value}})
+                              .body.friction.angle()
+                              .radians());
+      } catch (const Error& error) {
+        return std::string(error.what());
+      }
+    };
+    INFO(text);
+    CHECK(told(text) == told(std::string(text) + " "));
+    CHECK(told(text) == told("\"" + std::string(text) + "\""));
+  }
 }

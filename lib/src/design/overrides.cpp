@@ -77,7 +77,26 @@ void drop_alternative(Node& root, const std::vector<std::string>& parts) {
   });
 }
 
+/// Whether a text is a plain scalar of YAML by its letters alone: a number with a unit, as sweeps set by the million.
+bool is_plain_number(std::string_view text) {
+  const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
+  const auto is_plain = [&](char letter) {
+    return is_digit(letter) || (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+           std::string_view(" .+-^/").find(letter) != std::string_view::npos;
+  };
+  const std::size_t first = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+  return text.size() > first && is_digit(text[first]) && !text.ends_with(' ') &&
+         std::all_of(text.begin(), text.end(), is_plain);
+}
+
 std::optional<Node> parse_value(const Override& change, Position position, Findings& findings) {
+  if (is_plain_number(change.value)) {
+    Node value;
+    value.kind = Node::Kind::scalar;
+    value.scalar = change.value;
+    value.at = position;
+    return value;
+  }
   try {
     Node value = parse_tree(change.value);
     if (value.kind != Node::Kind::null) {
