@@ -45,11 +45,11 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 /// Third parties by the start of their include path, and the modules whose .cpp files and private headers may
 /// name them.
 const std::map<std::string, std::set<std::string>> kThirdParties = {
-    {"CGAL/", {"solid"}},      {"nlopt", {"centerline", "optimize"}},
-    {"yaml-cpp/", {"design"}}, {"boost/", {"centerline", "motion", "solid", "pipeline", "study"}},
-    {"fmt/", {"report"}},      {"nlohmann/", {"design", "report", "pipeline", "study"}},
-    {"openssl/", {"report"}},  {"librsvg/", {"report"}},
-    {"cairo", {"report"}},     {"tbb/", {"study"}},
+    {"CGAL/", {"solid"}},        {"nlopt", {"centerline", "optimize"}},
+    {"yaml-cpp/", {"design"}},   {"boost/", {"centerline", "motion", "solid", "pipeline", "study"}},
+    {"fmt/", {"report"}},        {"nlohmann/", {"design", "report", "pipeline", "study"}},
+    {"openssl/", {"report"}},    {"librsvg/", {"report"}},
+    {"cairo", {"report", "io"}}, {"tbb/", {"study"}},
 };
 
 std::string text_of(const fs::path& file) {

@@ -86,7 +86,10 @@ Drawing without_dimensions(const Drawing& drawing) {
   for (const DrawnDimension& dimension : drawing.dimensions) {
     DimensionLines lines = lines_of(dimension, 1.0 / drawing.text_scale);
     for (ArcPath& path : lines.lines) flat.add(dimension.layer, std::move(path));
-    for (ArcPath& path : lines.arrows) flat.add(dimension.layer, std::move(path));
+    for (ArcPath& path : lines.arrows) {
+      flat.add(dimension.layer, std::move(path));
+      flat.paths.back().filled = true;
+    }
     flat.texts.push_back(std::move(lines.text));
   }
   return flat;

@@ -14,7 +14,10 @@ std::size_t Drawing::layer(const DrawingLayer& wanted) {
 }
 
 Drawing& Drawing::add(std::size_t layer, ArcPath path) {
-  paths.push_back({layer, std::move(path)});
+  DrawnPath drawn;
+  drawn.layer = layer;
+  drawn.path = std::move(path);
+  paths.push_back(std::move(drawn));
   return *this;
 }
 

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -289,7 +290,9 @@ class DxfFile {
   void line_types() {
     const auto used = [&](LineStyle style) {
       return std::any_of(drawing_.layers.begin(), drawing_.layers.end(),
-                         [&](const DrawingLayer& layer) { return layer.style == style; });
+                         [&](const DrawingLayer& layer) { return layer.style == style; }) ||
+             std::any_of(drawing_.paths.begin(), drawing_.paths.end(),
+                         [&](const DrawnPath& drawn) { return drawn.style == style; });
     };
     const bool dashed = used(LineStyle::dashed);
     const bool chain = used(LineStyle::chain);
@@ -407,18 +410,21 @@ class DxfFile {
     out_.handle(330, owner);
   }
 
-  void entity(std::string_view kind, std::size_t layer, std::string_view subclass) {
+  void entity(std::string_view kind, std::size_t layer, std::string_view subclass, int colour = 0,
+              std::optional<LineStyle> style = {}) {
     out_.group(0, kind);
     if (r2000_) {
       object(next_++, kModelRecord);
       out_.group(100, "AcDbEntity");
     }
     out_.group(8, drawing_.layers[layer].name);
+    if (style) out_.group(6, line_type(*style));
+    if (colour != 0) out_.group(62, colour);
     if (r2000_) out_.group(100, subclass);
   }
 
   void polyline(const DrawnPath& drawn) {
-    entity("LWPOLYLINE", drawn.layer, "AcDbPolyline");
+    entity("LWPOLYLINE", drawn.layer, "AcDbPolyline", drawn.colour, drawn.style);
     out_.group(90, static_cast<int>(drawn.path.vertices.size()));
     out_.group(70, drawn.path.closed ? 1 : 0);
     // Where bulges are written, every vertex has one: readers are known that fail otherwise.
@@ -430,9 +436,9 @@ class DxfFile {
     }
   }
 
-  void piece(std::size_t layer, const PathPiece& piece) {
+  void piece(const DrawnPath& drawn, const PathPiece& piece) {
     if (piece.straight()) {
-      entity("LINE", layer, "AcDbLine");
+      entity("LINE", drawn.layer, "AcDbLine", drawn.colour, drawn.style);
       out_.point3(10, piece.from);
       out_.point3(11, piece.to);
       return;
@@ -441,7 +447,7 @@ class DxfFile {
     // DXF arcs run counter-clockwise.
     const Vec2 first = (piece.bulge > 0.0 ? piece.from : piece.to) - arc.centre;
     const Vec2 last = (piece.bulge > 0.0 ? piece.to : piece.from) - arc.centre;
-    entity("ARC", layer, "AcDbCircle");
+    entity("ARC", drawn.layer, "AcDbCircle", drawn.colour, drawn.style);
     out_.point3(10, arc.centre);
     out_.group(40, arc.radius);
     out_.group(50, math::atan2(first.y, first.x) * kDegreesPerRadian);
@@ -467,7 +473,7 @@ class DxfFile {
       if (r2000_) {
         polyline(drawn);
       } else {
-        for (const PathPiece& one : pieces_of(drawn.path)) piece(drawn.layer, one);
+        for (const PathPiece& one : pieces_of(drawn.path)) piece(drawn, one);
       }
     }
     for (const DrawnCircle& drawn : drawing_.circles) {

@@ -2,9 +2,9 @@
 #include "glissade/core/math.hpp"
 #include "glissade/io/step_file.hpp"
 
-#include "io/brep.hpp"
 #include "io/byte_source.hpp"
 #include "io/step_names.hpp"
+#include "parts/brep.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -21,6 +21,7 @@
 namespace glissade {
 
 using namespace io;
+using namespace parts;
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/step_file.hpp"
 
-#include "io/brep.hpp"
 #include "io/step_names.hpp"
+#include "parts/brep.hpp"
 
 #include <array>
 #include <charconv>
@@ -22,6 +22,7 @@
 namespace glissade {
 
 using namespace io;
+using namespace parts;
 
 namespace {
 

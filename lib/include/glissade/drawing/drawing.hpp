@@ -29,6 +29,9 @@ enum class TextAnchor { left, centre, right };
 struct DrawnPath {
   std::size_t layer = 0;
   ArcPath path;
+  int colour = 0;                       ///< instead of the layer's; 0: that of the layer
+  std::optional<LineStyle> style = {};  ///< instead of the layer's
+  bool filled = false;                  ///< on paper; DXF has outlines alone
 };
 
 struct DrawnCircle {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace glissade::io {
+namespace glissade::parts {
 
 /// A solid by its faces, edges and vertices, in millimetres: what STEP holds.
 
@@ -54,4 +54,4 @@ struct Brep {
 /// @throws InputError if the body is none, as glissade/io/step_file.hpp says; names the part
 [[nodiscard]] Brep brep_of(const ShopPart& part);
 
-}  // namespace glissade::io
+}  // namespace glissade::parts

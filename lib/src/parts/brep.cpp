@@ -1,4 +1,4 @@
-#include "io/brep.hpp"
+#include "parts/brep.hpp"
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace glissade::io {
+namespace glissade::parts {
 namespace {
 
 constexpr double kMillimetres = 1000.0;  // in a metre
@@ -392,4 +392,4 @@ Brep brep_of(const ShopPart& part) {
   return std::visit([&](const auto& body) { return brep_of(body, part); }, part.body);
 }
 
-}  // namespace glissade::io
+}  // namespace glissade::parts

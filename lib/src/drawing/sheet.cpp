@@ -1,0 +1,141 @@
+#include "glissade/drawing/sheet.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include "drawing/ink.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace drawing {
+namespace {
+
+Vec2 on_paper(const SheetView& view, Vec2 point) {
+  return view.at + view.scale * (point - view.anchor);
+}
+
+void place(const SheetView& view, Drawing& ink) {
+  Drawing flat = view.drawing;
+  // Texts of dimensions keep their height on paper, so dimensions are taken apart at the view's scale.
+  flat.text_scale = 1.0 / view.scale;
+  flat = without_dimensions(flat);
+  ink.layers = flat.layers;
+  for (DrawnPath& drawn : flat.paths) {
+    for (PathVertex& vertex : drawn.path.vertices) vertex.at = on_paper(view, vertex.at);
+    ink.paths.push_back(std::move(drawn));
+  }
+  for (const DrawnCircle& drawn : flat.circles) {
+    ink.circles.push_back(
+        {drawn.layer, {on_paper(view, drawn.circle.centre), view.scale * drawn.circle.radius}});
+  }
+  for (DrawnText& text : flat.texts) {
+    text.at = on_paper(view, text.at);
+    ink.texts.push_back(std::move(text));
+  }
+}
+
+void write_caption(const SheetView& view, Drawing& ink) {
+  const auto box = bounds(view.drawing);
+  if (view.caption.empty() || !box) return;
+  const Vec2 low = on_paper(view, box->low);
+  const Vec2 high = on_paper(view, box->high);
+  constexpr double kBelow = 16.0;  // below the dimensions under a view
+  DrawnText caption;
+  caption.layer = ink.layer(text_ink());
+  caption.at = {0.5 * (low.x + high.x), low.y - kBelow};
+  caption.height_mm = 3.5;
+  caption.text = view.caption;
+  caption.anchor = TextAnchor::centre;
+  ink.texts.push_back(std::move(caption));
+}
+
+}  // namespace
+
+DrawingLayer thick_ink() {
+  return {"FRAME", LineStyle::continuous, 0.5, 7};
+}
+DrawingLayer thin_ink() {
+  return {"THIN", LineStyle::continuous, 0.25, 7};
+}
+DrawingLayer text_ink() {
+  return {"TEXT", LineStyle::continuous, 0.25, 7};
+}
+
+void write_fitted(Drawing& ink, std::size_t layer, const std::string& text, Vec2 at, double height,
+                  double room, TextAnchor anchor) {
+  if (text.empty()) return;
+  const double width = stroked_width(text, height);
+  DrawnText drawn;
+  drawn.layer = layer;
+  drawn.at = at;
+  drawn.height_mm = width > room ? height * room / width : height;
+  drawn.text = text;
+  drawn.anchor = anchor;
+  ink.texts.push_back(std::move(drawn));
+}
+
+std::vector<Ink> ink_of(const Sheet& sheet) {
+  std::vector<Ink> inks;
+  for (const SheetView& view : sheet.views) {
+    Ink ink{{}, view.clip};
+    place(view, ink.drawing);
+    write_caption(view, ink.drawing);
+    inks.push_back(std::move(ink));
+  }
+  Ink over;
+  if (sheet.frame) draw_frame(sheet, over.drawing);
+  for (const SheetTable& table : sheet.tables) draw_table(table, over.drawing);
+  const std::size_t layer = over.drawing.layer(text_ink());
+  for (DrawnText text : sheet.texts) {
+    text.layer = layer;
+    over.drawing.texts.push_back(std::move(text));
+  }
+  inks.push_back(std::move(over));
+  return inks;
+}
+
+}  // namespace drawing
+
+Sheet blank_sheet(PaperSize size, bool landscape) {
+  Sheet sheet;
+  sheet.width_mm = size == PaperSize::a4 ? 297.0 : 420.0;
+  sheet.height_mm = size == PaperSize::a4 ? 210.0 : 297.0;
+  if (!landscape) std::swap(sheet.width_mm, sheet.height_mm);
+  return sheet;
+}
+
+std::string scale_text(double scale) {
+  return scale >= 1.0 ? rounded_text(scale, 6) + ":1" : "1:" + rounded_text(1.0 / scale, 6);
+}
+
+SheetView fitted_view(Drawing drawing, const PlaneBox& room, std::string caption) {
+  // ISO 5455.
+  constexpr std::array kScales = {50.0,      20.0,      10.0,       5.0,        2.0,        1.0,
+                                  1.0 / 2,   1.0 / 5,   1.0 / 10,   1.0 / 20,   1.0 / 50,   1.0 / 100,
+                                  1.0 / 200, 1.0 / 500, 1.0 / 1000, 1.0 / 2000, 1.0 / 5000, 1.0 / 10000};
+  SheetView view;
+  const PlaneBox box = bounds(drawing).value_or(PlaneBox{});
+  const auto fits = [&](double scale) {
+    return scale * box.width() <= room.width() && scale * box.height() <= room.height();
+  };
+  const auto* const found = std::find_if(kScales.begin(), kScales.end(), fits);
+  view.scale = found == kScales.end() ? kScales.back() : *found;
+  view.anchor = 0.5 * (box.low + box.high);
+  view.at = 0.5 * (room.low + room.high);
+  view.drawing = std::move(drawing);
+  view.caption = std::move(caption);
+  return view;
+}
+
+std::vector<Sheet> numbered(std::vector<Sheet> sheets) {
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    sheets[i].title.sheet = std::to_string(i + 1) + "/" + std::to_string(sheets.size());
+  }
+  return sheets;
+}
+
+}  // namespace glissade

@@ -1,0 +1,145 @@
+#include "glissade/drawing/sheet.hpp"
+
+#include "glissade/io/sheet_file.hpp"
+
+#include "support/catch.hpp"
+#include "support/oracle.hpp"
+#include "support/program.hpp"
+#include "support/temp_dir.hpp"
+#include "support/workshop_shapes.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+
+namespace {
+
+Drawing plate() {
+  Drawing drawing;
+  drawing.name = "plate";
+  drawing.add(drawing.layer({"CUT", LineStyle::continuous, 0.5, 7}), testing::band(7, 3000.0, 250.0, 7));
+  const PlaneBox box = bounds(drawing).value();
+  const std::size_t thin = drawing.layer({"DIM", LineStyle::continuous, 0.25, 7});
+  drawing.dimensions.push_back({thin, box.low, {box.high.x, box.low.y}, -10.0, DimensionKind::level, ""});
+  return drawing;
+}
+
+TitleBlock title() {
+  return {"Seitenwand links", "Grain chute", "03", "S235, 4 mm", "", "ISO 2768-m", ""};
+}
+
+Sheet part_sheet() {
+  Sheet sheet = blank_sheet(PaperSize::a3);
+  sheet.title = title();
+  sheet.views.push_back(fitted_view(plate(), drawing_area(sheet), "Flat pattern"));
+  return sheet;
+}
+
+std::vector<std::vector<std::string>> rows(int count) {
+  std::vector<std::vector<std::string>> made;
+  for (int i = 0; i < count; ++i) made.push_back({std::to_string(i), "row " + std::to_string(i)});
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("a view takes the largest scale of ISO 5455 that fits its room, in its middle") {
+  Drawing drawing;
+  drawing.add(drawing.layer({"CUT", LineStyle::continuous, 0.5, 7}),
+              rectangle({100.0, 100.0}, {2100.0, 600.0}));
+  const PlaneBox room{{20.0, 50.0}, {280.0, 200.0}};
+  const SheetView view = fitted_view(drawing, room);
+  CHECK(view.scale == 0.1);
+  CHECK(scale_text(view.scale) == "1:10");
+  CHECK(view.at == Vec2{150.0, 125.0});
+  CHECK(view.anchor == Vec2{1100.0, 350.0});
+  CHECK(fitted_view(drawing, {{0.0, 0.0}, {2000.0, 500.0}}).scale == 1.0);
+  CHECK(fitted_view(drawing, {{0.0, 0.0}, {1999.0, 500.0}}).scale == 0.5);
+  CHECK(scale_text(5.0) == "5:1");
+}
+
+TEST_CASE("a long table goes over as many sheets as it takes, each row once") {
+  const std::vector<Sheet> sheets = numbered(
+      table_sheets(title(), PaperSize::a4, {{}, "Parts", {20.0, 60.0}, {"no.", "name"}, rows(150), 2.5}));
+  REQUIRE(sheets.size() >= 3);
+  int next = 0;
+  for (const Sheet& sheet : sheets) {
+    REQUIRE(sheet.tables.size() == 1);
+    CHECK(sheet.tables[0].header[0] == "no.");
+    for (const auto& row : sheet.tables[0].rows) CHECK(row[0] == std::to_string(next++));
+  }
+  CHECK(next == 150);
+  CHECK(sheets[1].title.sheet == "2/" + std::to_string(sheets.size()));
+}
+
+TEST_CASE("templates at 1:1 cover the drawing with overlapping windows, each point at its place") {
+  const Drawing drawing = plate();
+  const PlaneBox box = bounds(drawing).value();
+  for (const PaperSize size : {PaperSize::a4, PaperSize::a3}) {
+    const std::vector<Sheet> sheets = tiled_template(drawing, title(), size, 10.0);
+    double left = 1e9;
+    double right = -1e9;
+    double covered = 0.0;
+    for (const Sheet& sheet : sheets) {
+      const SheetView& view = sheet.views.front();
+      CHECK(view.scale == 1.0);
+      REQUIRE(view.clip.has_value());
+      const Vec2 low = view.anchor + (view.clip->low - view.at);
+      left = std::min(left, low.x);
+      right = std::max(right, low.x + view.clip->width());
+      covered += (view.clip->width() - 10.0) * (view.clip->height() - 10.0);
+    }
+    CHECK(left <= box.low.x);
+    CHECK(right >= box.high.x);
+    CHECK(covered + 1e5 >= box.width() * box.height());
+    CHECK(static_cast<double>(sheets.size()) <= covered);
+  }
+  const Sheet roll = roll_template(drawing, title());
+  CHECK(roll.width_mm >= box.width());
+  CHECK(roll.views.front().scale == 1.0);
+}
+
+TEST_CASE("PDF and SVG of the same sheets are the same bytes; sheets that are none are refused") {
+  std::vector<Sheet> sheets{part_sheet()};
+  const std::string pdf = pdf_text(sheets, "Chute – drawings");
+  const std::string svg = svg_text(sheets[0]);
+  (void)svg_text(part_sheet());
+  CHECK(pdf == pdf_text(sheets, "Chute – drawings"));
+  CHECK(svg == svg_text(sheets[0]));
+  CHECK(svg.find("width=\"420mm\" height=\"297mm\"") != std::string::npos);
+  CHECK_THROWS_WITH(pdf_text({}, ""), "drawing set: has no sheet\n      A PDF has one or more.");
+  sheets[0].views[0].drawing.circles[0].circle.radius = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(pdf_text(sheets, ""), "sheet  Seitenwand links: a number is not finite");
+}
+
+TEST_CASE("poppler finds the pages in their sizes, and the words on them", "[external]") {
+  if (!oracle_is_there("pdfinfo", {"-v"})) return;
+  const TempDir directory;
+  std::vector<Sheet> sheets{part_sheet()};
+  for (Sheet& sheet : table_sheets(title(), PaperSize::a4,
+                                   {{}, "Stückliste", {20.0, 60.0}, {"no.", "name"}, rows(3), 2.5})) {
+    sheets.push_back(sheet);
+  }
+  sheets.push_back(roll_template(plate(), title()));
+  const auto file = directory / "set.pdf";
+  write_pdf(file, numbered(sheets), "Chute");
+  const Outcome info = run_program("pdfinfo", {"-f", "1", "-l", "3", file.string()});
+  INFO(info.output << info.errors);
+  CHECK(info.output.find("Pages:           3") != std::string::npos);
+  CHECK(info.output.find("Page    1 size:  1190.55 x 841.89 pts (A3)") != std::string::npos);
+  CHECK(info.output.find("Page    2 size:  595.276 x 841.89 pts (A4)") != std::string::npos);
+  char size[64];
+  std::snprintf(size, sizeof size, "Page    3 size:  %.6g x %.6g pts", sheets[2].width_mm * 72.0 / 25.4,
+                sheets[2].height_mm * 72.0 / 25.4);
+  CHECK(info.output.find(size) != std::string::npos);
+  CHECK(info.output.find("Title:           Chute") != std::string::npos);
+  const Outcome text = run_program("pdftotext", {"-layout", file.string(), "-"});
+  for (const char* word :
+       {"Seitenwand links", "S235, 4 mm", "Stückliste", "row 2", "1/3", "1:10", "100 mm both ways"}) {
+    INFO(word);
+    CHECK(text.output.find(word) != std::string::npos);
+  }
+}
