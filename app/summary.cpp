@@ -23,14 +23,10 @@ namespace glissade::app {
 namespace {
 
 std::string profile_text(const FittedProfile& profile) {
-  return "points (a smooth curve fitted to " + count_text(profile.points().size()) +
+  return "points (a curve fitted to " + count_text(profile.points().size()) +
          " of them)\nit passes them by " + length_text(profile.max_deviation(), 3) + " at most (point " +
          count_text(profile.farthest_point() + 1) + "), " + length_text(profile.rms_deviation(), 3) +
-         " in the root of the mean square" +
-         (profile.leaves_out_much()
-              ? "\nwarning: much for the shape of this profile; compare it with the points, "
-                "and give a max_deviation if they are better than that"
-              : "");
+         " in the root of the mean square";
 }
 
 std::string kind_text(const Design& design, const Track& track) {

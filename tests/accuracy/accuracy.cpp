@@ -9,6 +9,7 @@
 #include "glissade/motion/motion.hpp"
 
 #include "centerline/coulomb_reference.hpp"
+#include "support/known_profiles.hpp"
 #include "support/paths.hpp"
 
 #include <algorithm>
@@ -310,9 +311,68 @@ Section fitted_profiles() {
   return section;
 }
 
+double highest_load(const Centerline& curve) {
+  const CenterlinePtr shared(&curve, [](const Centerline*) {});
+  return Motion(shared, {Friction::from_coefficient(0.03), 0.0, 0.0}).highest_load().normal_load;
+}
+
+/// One line of radius and one of load for profiles of one family.
+void add_broken(Section& section, const std::vector<testing::KnownProfile>& family, int count, double noise,
+                double radius_bound, double load_bound) {
+  const std::string name = fmt::format("{}, {} points", family.front().name, count);
+  Line radius = line(name + ": radius", radius_bound);
+  Line load = line(name + ": load", load_bound);
+  constexpr int kDraws = 3;
+  testing::Random random(20250217);
+  for (const testing::KnownProfile& known : family) {
+    for (int draw = 0; draw < (noise > 0.0 ? kDraws : 1); ++draw) {
+      const FittedProfile profile(testing::points_of(known, count, noise, random));
+      radius.add(relative_error(testing::smallest_valley_radius(profile.curve()), known.smallest_radius));
+      load.add(relative_error(highest_load(profile), highest_load(*known.truth)));
+    }
+  }
+  section.lines.push_back(radius);
+  section.lines.push_back(load);
+}
+
+std::vector<std::vector<testing::KnownProfile>> broken_families() {
+  using testing::known_in_run;
+  using testing::known_profile;
+  return {{known_in_run(33.0, 9.5, 70.0, 5.6, 60.0), known_in_run(35.0, 11.0, 103.0, 6.9, 70.0),
+           known_in_run(35.0, 11.0, 60.0, 5.0, 40.0)},
+          {known_profile("straight and arc", 35.0, {{60.0, 0.0, 0.0}, {40.0, 0.01, 0.01}}),
+           known_profile("", 35.0, {{60.0, 0.0, 0.0}, {30.0, 1.0 / 70.0, 1.0 / 70.0}, {8.0, 0.0, 0.0}})},
+          {known_profile("clothoids", 35.0, {{60.0, 0.0, 0.0}, {40.0, 0.0, 1.0 / 60.0}, {8.0, 0.0, 0.0}}),
+           known_profile("", 40.0,
+                         {{30.0, 0.0, 0.0},
+                          {10.0, 0.0, 0.025},
+                          {15.0, 0.025, 0.025},
+                          {10.0, 0.025, 0.0},
+                          {10.0, 0.0, 0.0}})}};
+}
+
+Section broken_profiles() {
+  Section section{"Profiles whose curvature jumps, fitted to exact points (relative)", {}};
+  for (const auto& family : broken_families()) {
+    for (const int count : {50, 103, 263, 2000}) {
+      add_broken(section, family, count, 0.0, 0.02, 0.01);
+    }
+  }
+  return section;
+}
+
+Section noisy_profiles() {
+  Section section{"The same with 1 mm of noise in both coordinates, worst of 3 draws (relative)", {}};
+  for (const auto& family : broken_families()) {
+    add_broken(section, family, 100, 1e-3, 0.12, 0.06);
+    add_broken(section, family, 1000, 1e-3, 0.06, 0.04);
+  }
+  return section;
+}
+
 std::vector<Section> sections() {
-  return {fastest_track(), flying_start(), constant_speed_curve(),
-          given_tracks(),  referee(),      fitted_profiles()};
+  return {fastest_track(), flying_start(),    constant_speed_curve(), given_tracks(),
+          referee(),       fitted_profiles(), broken_profiles(),      noisy_profiles()};
 }
 
 std::string read_all(const std::string& path) {

@@ -60,6 +60,23 @@ std::vector<Vec2> in_track_frame(std::vector<Vec2> points) {
   return points;
 }
 
+/// Whether deviations of neighbours go together more than chance lets them.
+bool shows_pattern(const std::vector<PointDeviation>& deviations) {
+  constexpr std::size_t kFewest = 20;
+  // Half of what a neighbour shows is foretold, and no chance of one in ten thousand makes it so.
+  constexpr double kMuch = 0.5;
+  constexpr double kChance = 4.0;
+  if (deviations.size() < kFewest) return false;
+  double together = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    squares += deviations[i].deviation * deviations[i].deviation;
+    if (i > 0) together += deviations[i].deviation * deviations[i - 1].deviation;
+  }
+  const double least = std::max(kMuch, kChance / std::sqrt(static_cast<double>(deviations.size())));
+  return together > least * squares;
+}
+
 const ProfileFit& checked(const ProfileFit& fit) {
   const bool usable = !fit.max_deviation || (*fit.max_deviation > 0.0 && std::isfinite(*fit.max_deviation));
   if (usable) return fit;
@@ -107,8 +124,21 @@ std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
 }
 
 FittedProfile::FittedProfile(std::vector<Vec2> points, const ProfileFit& fit)
-    : points_(in_track_frame(std::move(points))),
-      curve_(fit_clothoid_spline(points_, checked(fit))),
+    : FittedProfile(fitted(in_track_frame(std::move(points)), checked(fit))) {
+  constexpr double kNextToNothing = 1e-5;
+  leaves_pattern_ =
+      !fit.max_deviation && rms_deviation_ > kNextToNothing * rms_bulge_ && shows_pattern(deviations_);
+}
+
+FittedProfile::Fitted FittedProfile::fitted(std::vector<Vec2> points, const ProfileFit& fit) {
+  FittedCurve found = fit_clothoid_spline(points, fit);
+  for (Vec2& point : points) point = point - found.start;
+  return {std::move(points), std::move(found.curve)};
+}
+
+FittedProfile::FittedProfile(Fitted fitted)
+    : points_(std::move(fitted.points)),
+      curve_(std::move(fitted.curve)),
       deviations_(deviations_from(curve_, points_)) {
   double sum = 0.0;
   for (std::size_t i = 0; i < deviations_.size(); ++i) {

@@ -4,12 +4,14 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "profile_description.hpp"
 #include "profile_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -55,19 +57,42 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points) {
   return means;
 }
 
+/// What a description of points costs: what it leaves of them, and the numbers that it takes.
+struct Cost {
+  double mean_square = 0.0;  // of distance over length
+  double freedom = 0.0;
+
+  /// Craven and Wahba's score: an estimate of the distance from the curve that the points were noisy samples of.
+  /// Infinite where the description is too free for the score to mean anything.
+  [[nodiscard]] double validation_score(std::size_t points) const {
+    const auto equations = static_cast<double>(points);
+    if (freedom > kMostFreedom * equations) return std::numeric_limits<double>::infinity();
+    return mean_square / math::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
+  }
+  /// Schwarz's Bayesian information criterion, over the number of points.
+  [[nodiscard]] double bayesian_score(std::size_t points) const {
+    const auto equations = static_cast<double>(points);
+    return math::log(std::max(mean_square, kRoundingShare * kRoundingShare)) +
+           freedom * math::log(equations) / equations;
+  }
+};
+
 class Fitter {
  public:
   explicit Fitter(const std::vector<Vec2>& points)
       : points_(&points), model_(thinned(points)), shape_(model_.first_shape()) {}
 
-  [[nodiscard]] ClothoidSpline spline_for(const ProfileFit& fit) {
-    return model_.spline(fit.max_deviation ? within(*fit.max_deviation) : validated());
+  [[nodiscard]] ClothoidSpline within_deviation(double max_deviation) {
+    return model_.spline(within(max_deviation));
   }
+  [[nodiscard]] ClothoidSpline validated_spline() { return model_.spline(validated()); }
+  /// @return what the smooth curve of the best score costs; none where cross-validation told nothing
+  [[nodiscard]] const std::optional<Cost>& best_cost() const { return best_cost_; }
 
  private:
   void relax(double smoothing);
   [[nodiscard]] Shape moved(const std::vector<double>& move, double share) const;
-  [[nodiscard]] double validation_score(double smoothing);
+  [[nodiscard]] std::optional<Cost> cost(double smoothing);
   [[nodiscard]] Shape validated();
   [[nodiscard]] Shape within(double max_deviation);
   [[nodiscard]] double farthest_point() const;
@@ -75,6 +100,7 @@ class Fitter {
   const std::vector<Vec2>* points_;
   ProfileModel model_;
   Shape shape_;
+  std::optional<Cost> best_cost_;
 };
 
 /// Keeps rounding from making a matrix indefinite that is only just not.
@@ -123,15 +149,13 @@ void Fitter::relax(double smoothing) {
   }
 }
 
-/// Craven and Wahba's score of the shape that was relaxed for this smoothing: an estimate of its distance
-/// from the curve that the points were noisy samples of. Infinite where the curve is too free for the score
-/// to mean anything.
-double Fitter::validation_score(double smoothing) {
+/// What the shape that was relaxed for this smoothing costs.
+std::optional<Cost> Fitter::cost(double smoothing) {
   const Linearized data = model_.linearized(shape_);
   Linearized all = data;
   model_.add_roughness(shape_, smoothing, all);
   stiffen(all.matrix);
-  if (!all.matrix.factorize()) return std::numeric_limits<double>::infinity();
+  if (!all.matrix.factorize()) return {};
   const std::size_t size = data.matrix.size();
   double freedom = 0.0;
   for (std::size_t column = 0; column < size; ++column) {
@@ -143,10 +167,7 @@ double Fitter::validation_score(double smoothing) {
     all.matrix.solve_backward(image);
     freedom += image[column];
   }
-  // Every point gives one equation, the last one two, the first one none.
-  const auto equations = static_cast<double>(model_.point_count());
-  if (freedom > kMostFreedom * equations) return std::numeric_limits<double>::infinity();
-  return data.mean_square / math::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
+  return Cost{data.mean_square, freedom};
 }
 
 /// The shape of the best score over all of the range: a score with more than one valley is the rule where a
@@ -154,13 +175,16 @@ double Fitter::validation_score(double smoothing) {
 /// points show no noise: then the one that goes through all of them.
 Shape Fitter::validated() {
   Shape best = shape_;
-  double best_score = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double best_score = infinity;
   bool meaningful = model_.point_count() >= kFewestToValidate;
   bool improving = true;
   for (double smoothing = kMostSmoothing; smoothing >= kLeastSmoothing; smoothing *= kSmoothingStep) {
     relax(smoothing);
     if (!meaningful) continue;
-    const double score = validation_score(smoothing);
+    // Every point gives one equation, the last one two, the first one none.
+    const std::optional<Cost> here = cost(smoothing);
+    const double score = here ? here->validation_score(model_.point_count()) : infinity;
     meaningful = std::isfinite(score);
     if (!meaningful) {
       if (!improving) return best;
@@ -170,6 +194,7 @@ Shape Fitter::validated() {
     if (!improving) continue;
     best = shape_;
     best_score = score;
+    best_cost_ = here;
   }
   return improving ? shape_ : best;
 }
@@ -227,10 +252,42 @@ double nearest_place(const ClothoidSpline& curve, Vec2 point, double s) {
   return s;
 }
 
+double mean_square_deviation(const ClothoidSpline& curve, const std::vector<Vec2>& points) {
+  double sum = 0.0;
+  for (const PointDeviation& point : deviations_from(curve, points)) sum += point.deviation * point.deviation;
+  return sum / static_cast<double>(points.size());
+}
+
+/// Whether few pieces describe the points better than the smooth curve does.
+bool describes_better(const Description& pieces, const std::vector<Vec2>& points,
+                      const ClothoidSpline& smooth, std::optional<Cost> smooth_cost) {
+  // Points that pieces meet so closely show no other shape.
+  constexpr double kExact = 1e-9;
+  const double unit = smooth.length() * smooth.length();
+  const Cost cost{pieces.mean_square / unit, pieces.freedom};
+  if (cost.mean_square <= kExact * kExact) return true;
+  if (!smooth_cost) return false;
+  // Of very many points the smooth curve saw means only.
+  if (points.size() > kMostFitted) smooth_cost->mean_square = mean_square_deviation(smooth, points) / unit;
+  // Where points show no scatter, what is left of them is the description's own fault, and the smooth curve could
+  // still come nearer: few pieces must then be clearly better.
+  constexpr double kClearly = 10.0;
+  const double margin = pieces.scattered ? 0.0 : math::log(kClearly);
+  return cost.bayesian_score(points.size()) + margin < smooth_cost->bayesian_score(points.size());
+}
+
 }  // namespace
 
-ClothoidSpline fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit) {
-  return Fitter(points).spline_for(fit);
+FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit) {
+  Fitter fitter(points);
+  if (fit.max_deviation) return {fitter.within_deviation(*fit.max_deviation), points.front()};
+  ClothoidSpline smooth = fitter.validated_spline();
+  if (points.size() < kFewestToValidate) return {std::move(smooth), points.front()};
+  const auto description = describe_in_pieces(points, smooth);
+  if (!description || !describes_better(*description, points, smooth, fitter.best_cost())) {
+    return {std::move(smooth), points.front()};
+  }
+  return {description->profile.spline(), description->profile.start(points.front())};
 }
 
 std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve, const std::vector<Vec2>& points) {

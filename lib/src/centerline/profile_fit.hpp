@@ -8,10 +8,17 @@
 
 namespace glissade::centerline {
 
-/// Fits a clothoid spline from the origin, which is the first point, to points in order along it.
+/// A curve beside points.
+struct FittedCurve {
+  ClothoidSpline curve;
+  Vec2 start;  // where it begins, in the frame of the points
+};
+
+/// Fits a clothoid spline to points in order along it: few pieces with breaks of curvature between them where
+/// that describes the points best, or else a smooth one from the first point on.
 /// @param points  at least 3, without repeated neighbours, in an order that a track can follow
 /// @throws InfeasibleError if fit.max_deviation cannot be met
-[[nodiscard]] ClothoidSpline fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit);
+[[nodiscard]] FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit);
 
 /// @return for each point the nearest place on the curve, searched from where the points' order suggests
 [[nodiscard]] std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve,

@@ -1,5 +1,6 @@
 // What a user should hear of beside the answer.
 
+#include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/pipeline/solve.hpp"
 
@@ -24,12 +25,32 @@ std::optional<Issue> never_applies(const Design& design, const Track& track) {
       "lowest_from is an arc length from the start.", "a place before the end, or exit_speed: {lowest: ...}"};
 }
 
+/// Points whose shape the fitted curve passes over.
+std::optional<Issue> passed_over(const Design& design, const Track& track) {
+  const auto* const profile = dynamic_cast<const FittedProfile*>(track.centerline.get());
+  if (profile == nullptr || !(profile->leaves_out_much() || profile->leaves_pattern())) return {};
+  const std::string amount = length_text(profile->rms_deviation(), 3) + " in the root of the mean square";
+  const std::string hint =
+      "a look at the profile in the report, and a max_deviation if the points are better than that";
+  if (profile->leaves_out_much()) {
+    return Issue{
+        design.where("centerline"),
+        "the curve misses the points by " + amount + ", much for the shape of this profile",
+        "The points scatter, or they are too few for their bends; speeds and loads are those of the curve.",
+        hint};
+  }
+  return Issue{design.where("centerline"),
+               "the curve misses the points by " + amount + ", and neighbours to the same side",
+               "Scatter has no such pattern: the points show bends that are not in the curve.", hint};
+}
+
 }  // namespace
 
 std::vector<Issue> warnings(const Design& design, const Track& track) {
   std::vector<Issue> found;
   if (auto issue = law_problem(design, track)) found.push_back(*std::move(issue));
   if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
+  if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));
   return found;
 }

@@ -15,9 +15,8 @@ namespace glissade {
 /// How smooth a FittedProfile is.
 struct ProfileFit {
   /// The farthest that a point may lie from the curve [m]; > 0. The curve is the smoothest that keeps to it.
-  /// None: the smoothness is chosen by generalised cross-validation, which finds the noise of the points by
-  /// itself. Fewer than 20 points cannot show it, nor can points that lie far apart for their noise: through
-  /// such the curve passes.
+  /// None: the curve finds the noise of the points by itself. Fewer than 20 points cannot show it, nor can points
+  /// that lie far apart for their noise: through such the curve passes.
   std::optional<double> max_deviation;
 };
 
@@ -41,19 +40,24 @@ struct ProfileFault {
 /// A measured or hand-drawn profile as a smooth curve, so that an existing chute can be assessed.
 ///
 /// Measured points cannot be slid on as they are: the curvature of a line through them is mostly their noise,
-/// and curvature drives the normal load. So the curve is a clothoid spline, curvature continuous, that
-/// minimises
-///   mean of (distance / length)^2 + smoothing * length^3 * integral of (d kappa/ds)^2 ds
-/// over all clothoid splines from the first point; straights, arcs and single clothoids come out as they are
-/// (for the first two at any smoothing). What the smoothing costs is told by the deviations.
-/// Frame: the first point is the start (0, 0); the finish is the place of the curve nearest to the last
-///   point. Where the last point lies to the left of the first, the profile is mirrored: x counts towards the
+/// and curvature drives the normal load. So the curve is described in one of two ways, whichever the Bayesian
+/// information criterion finds the better one:
+/// - as few pieces: straights, arcs, clothoids and bends whose curvature is a polynomial, with curvature jumps and
+///   kinks between them where the points show them (a track that builders drew; the in-run of a ski jump).
+///   Straights, arcs and clothoids come back to rounding from exact points;
+/// - as a clothoid spline of many pieces, curvature continuous, that minimises
+///     mean of (distance / length)^2 + smoothing * length^3 * integral of (d kappa/ds)^2 ds
+///   over all clothoid splines from the first point, the smoothing chosen by cross-validation. This is the only way
+///   if max_deviation is given, or if there are fewer than 20 points.
+/// What the description costs is told by the deviations.
+/// Frame: the start (0, 0) is the place of the curve nearest to the first point, the finish that nearest to the
+///   last one. Where the last point lies to the left of the first, the profile is mirrored: x counts towards the
 ///   finish.
-/// Curve: curvature is piecewise linear between breaks(), which lie as dense as the points do, at most
-///   kMostProfileKnots of them. Of more than 1000 points, means of neighbours are fitted; deviations are
-///   always those of every point.
-/// Cost: some 0.2 s for 1000 points or more, far less for fewer.
-/// Identity: at the largest smoothing the curve is the arc, or straight, of least squares.
+/// Curve: curvature is piecewise linear between breaks(); it may jump there. Of more than 1000 points the smooth
+///   curve is fitted to means of neighbours; deviations are always those of every point.
+/// Accuracy: docs/accuracy.md, profiles fitted to exact points.
+/// Cost: about linear in the number of points; some 0.1 s for 100 of them, 1 to 2 s for 2000.
+/// Identity: exact points of an arc or a straight give that arc or straight.
 class FittedProfile final : public Centerline {
  public:
   /// @param points  (run, drop) [m] in order along the track, at least 3; the run may go backwards where the
@@ -89,19 +93,33 @@ class FittedProfile final : public Centerline {
     return rms_deviation_ > kLargeDeviation * rms_bulge_;
   }
   static constexpr double kLargeDeviation = 0.1;
+  /// @return true where the deviations of neighbouring points go together, as no noise does: what they show of the
+  ///         profile is not in the curve (Durbin and Watson's question). Never of fewer than 20 points, nor where a
+  ///         max_deviation was asked for, which leaves such a pattern by design, nor of deviations that are next to
+  ///         nothing.
+  [[nodiscard]] bool leaves_pattern() const noexcept { return leaves_pattern_; }
   /// @return the fitted curve
   [[nodiscard]] const ClothoidSpline& curve() const noexcept { return curve_; }
 
  private:
+  /// Points in the frame of the curve that was fitted to them.
+  struct Fitted {
+    std::vector<Vec2> points;
+    ClothoidSpline curve;
+  };
+  [[nodiscard]] static Fitted fitted(std::vector<Vec2> points, const ProfileFit& fit);
+  explicit FittedProfile(Fitted fitted);
+
   std::vector<Vec2> points_;
   ClothoidSpline curve_;
   std::vector<PointDeviation> deviations_;
   std::size_t farthest_point_ = 0;
   double rms_deviation_ = 0.0;
   double rms_bulge_ = 0.0;
+  bool leaves_pattern_ = false;
 };
 
-/// The most knots that a FittedProfile has.
+/// The most knots of a smooth FittedProfile.
 inline constexpr int kMostProfileKnots = 120;
 
 }  // namespace glissade

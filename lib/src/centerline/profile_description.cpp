@@ -1,0 +1,330 @@
+// Points as few straights, arcs and clothoids: cut, fitted together, and then simplified as long as the points
+// do not object, by the Bayesian information criterion.
+#include "profile_description.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include "profile_fit.hpp"
+#include "profile_partition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace glissade::centerline {
+namespace {
+
+// Shapes finer than this share of the length are not looked for: exact points of a curve that is none of ours
+// would otherwise be cut into as many pieces as there are points. Which share is best depends on the curve, so
+// both are tried where the points show no scatter, and once more beside the better of the two: beside a smooth
+// curve that rings where the points' curvature jumps little can be told.
+constexpr std::array kLeastScatters = {2e-8, 2e-9};
+constexpr double kLeastScatterAtLast = 1e-9;
+// Steps of the fit that take less than this many variances of a point from the sum of squares do not tell whether
+// a number is worth its price, which is some five.
+constexpr double kSettled = 0.1;
+constexpr int kMostSteps = 40;
+constexpr int kFewSteps = 6;
+constexpr int kMostTrials = 40;
+// So many points, means of neighbours, decide what the pieces are; all of them, how long and how curved.
+constexpr std::size_t kMostDeciding = 300;
+
+enum class Change { tie, simpler, merge };
+
+/// One way of putting the profile with fewer numbers.
+struct Simplification {
+  Change change = Change::tie;
+  std::size_t index = 0;
+  double price = 0.0;    // growth of the sum of squares that is expected
+  double numbers = 1.0;  // that it saves
+
+  friend bool operator<(const Simplification& a, const Simplification& b) {
+    return std::pair(a.change, a.index) < std::pair(b.change, b.index);
+  }
+};
+
+void tie(ProfilePiece& before, ProfilePiece& piece) {
+  piece.tied = true;
+  if (before.constant()) {
+    piece.entry_curvature = before.exit_curvature;
+  } else if (piece.constant()) {
+    before.exit_curvature = piece.entry_curvature;
+  } else {
+    const double mean = 0.5 * (before.exit_curvature + piece.entry_curvature);
+    before.exit_curvature = mean;
+    piece.entry_curvature = mean;
+  }
+}
+
+void simplify(ProfilePiece& piece) {
+  if (piece.shape == PieceShape::bend) {
+    --piece.swellings;
+    if (piece.swellings == 0) piece.shape = PieceShape::clothoid;
+    return;
+  }
+  const bool arc = piece.shape == PieceShape::clothoid;
+  piece.shape = arc ? PieceShape::arc : PieceShape::straight;
+  const double curvature = arc ? 0.5 * (piece.entry_curvature + piece.exit_curvature) : 0.0;
+  piece.entry_curvature = curvature;
+  piece.exit_curvature = curvature;
+}
+
+ProfilePiece merged(const ProfilePiece& a, const ProfilePiece& b) {
+  ProfilePiece both{a.shape, a.length + b.length, a.entry_curvature, b.exit_curvature, a.tied};
+  if (a.shape == PieceShape::clothoid && b.shape == PieceShape::clothoid) return both;
+  const bool straight = a.shape == PieceShape::straight || b.shape == PieceShape::straight;
+  const double mean = (a.length * (a.entry_curvature + a.exit_curvature) +
+                       b.length * (b.entry_curvature + b.exit_curvature)) /
+                      (2.0 * both.length);
+  both.shape = straight ? PieceShape::straight : PieceShape::arc;
+  both.entry_curvature = straight ? 0.0 : mean;
+  both.exit_curvature = both.entry_curvature;
+  return both;
+}
+
+PiecewiseProfile changed(PiecewiseProfile profile, const Simplification& step) {
+  std::vector<ProfilePiece>& pieces = profile.pieces;
+  switch (step.change) {
+    case Change::tie:
+      tie(pieces[step.index - 1], pieces[step.index]);
+      break;
+    case Change::simpler:
+      simplify(pieces[step.index]);
+      break;
+    case Change::merge:
+      pieces[step.index - 1] = merged(pieces[step.index - 1], pieces[step.index]);
+      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(step.index));
+      // What was tied to the second piece is tied to both together only if it still can be.
+      if (step.index < pieces.size() && pieces[step.index].tied) {
+        const ProfilePiece& before = pieces[step.index - 1];
+        ProfilePiece& behind = pieces[step.index];
+        behind.tied = !before.constant() || !behind.constant();
+        if (behind.tied) tie(pieces[step.index - 1], behind);
+      }
+      break;
+  }
+  return profile;
+}
+
+bool both_straight(const ProfilePiece& a, const ProfilePiece& b) {
+  return a.shape == PieceShape::straight && b.shape == PieceShape::straight;
+}
+
+std::vector<Simplification> simplifications(const PieceFit& fit) {
+  std::vector<Simplification> steps;
+  const std::vector<ProfilePiece>& pieces = fit.profile().pieces;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (const auto price = fit.price_of_simpler(k)) {
+      steps.push_back({Change::simpler, k, *price, pieces[k].shape == PieceShape::bend ? 2.0 : 1.0});
+    }
+    if (k == 0) continue;
+    if (both_straight(pieces[k - 1], pieces[k])) {
+      steps.push_back({Change::merge, k, 0.0, 1.0});
+      continue;
+    }
+    if (const auto price = fit.price_of_tie(k)) steps.push_back({Change::tie, k, *price, 1.0});
+    if (const auto price = fit.price_of_merger(k)) steps.push_back({Change::merge, k, *price, 2.0});
+  }
+  return steps;
+}
+
+class Describer {
+ public:
+  Describer(std::vector<Vec2> points, std::vector<double> places, const PiecewiseProfile& cut, double scatter)
+      : points_(std::move(points)),
+        places_(std::move(places)),
+        fit_(points_, places_, cut),
+        number_price_(math::log(static_cast<double>(points_.size()))) {
+    fit_.relax(kSettled * scatter * scatter, kMostSteps);
+    const double spare =
+        std::max(1.0, static_cast<double>(points_.size()) - static_cast<double>(fit_.freedom()));
+    variance_ = std::max(scatter * scatter, fit_.square_sum() / spare);
+  }
+
+  /// Takes the steps that pay, as long as some do: those that cost next to nothing all at once, the others one by
+  /// one, the best first.
+  void simplify_all() {
+    for (int trial = 0; trial < kMostTrials; ++trial) {
+      const std::vector<Simplification> steps = best_steps();
+      if (steps.empty()) return;
+      PiecewiseProfile simpler = fit_.profile();
+      double numbers = 0.0;
+      for (const Simplification& step : steps) {
+        simpler = changed(std::move(simpler), step);
+        numbers += step.numbers;
+      }
+      PieceFit next(points_, places_, std::move(simpler));
+      next.relax(kSettled * variance_, kFewSteps);
+      const double growth = next.square_sum() - fit_.square_sum();
+      if (growth < numbers * number_price_ * variance_) {
+        const bool renumbered = std::any_of(steps.begin(), steps.end(), [](const Simplification& step) {
+          return step.change == Change::merge;
+        });
+        if (renumbered) refused_.clear();
+        fit_ = std::move(next);
+      } else {
+        refused_.insert(steps.front());
+      }
+    }
+  }
+
+  [[nodiscard]] const PiecewiseProfile& profile() const { return fit_.profile(); }
+
+ private:
+  /// From the last place of the profile to the first, so that the steps leave each other's indices alone.
+  [[nodiscard]] std::vector<Simplification> best_steps() const {
+    // Steps that cost less than this share of what they save, two pieces apart, hardly touch each other.
+    constexpr double kNextToNothing = 0.1;
+    constexpr std::size_t kApart = 3;
+    // Where a break moves along with its jump, the price foretold is too high by as much as this.
+    constexpr double kWorthTrying = 10.0;
+    std::vector<Simplification> paying;
+    for (const Simplification& step : simplifications(fit_)) {
+      const double limit = kWorthTrying * step.numbers * number_price_ * variance_;
+      if (step.price < limit && !refused_.contains(step)) paying.push_back(step);
+    }
+    std::sort(paying.begin(), paying.end(), [&](const Simplification& a, const Simplification& b) {
+      return std::pair(-gain_of(a), a) < std::pair(-gain_of(b), b);
+    });
+    std::vector<Simplification> taken;
+    for (const Simplification& step : paying) {
+      const bool free = step.price < kNextToNothing * step.numbers * number_price_ * variance_;
+      const bool apart = std::all_of(taken.begin(), taken.end(), [&](const Simplification& other) {
+        return std::max(step.index, other.index) - std::min(step.index, other.index) >= kApart;
+      });
+      if (taken.empty() || (free && apart && refused_.empty())) taken.push_back(step);
+    }
+    std::sort(taken.begin(), taken.end(),
+              [](const Simplification& a, const Simplification& b) { return a.index > b.index; });
+    return taken;
+  }
+
+  [[nodiscard]] double gain_of(const Simplification& step) const {
+    return step.numbers * number_price_ - step.price / variance_;
+  }
+
+  std::vector<Vec2> points_;
+  std::vector<double> places_;
+  PieceFit fit_;
+  double number_price_;
+  double variance_ = 0.0;
+  std::set<Simplification> refused_;
+};
+
+/// What the points had to yield: the unknowns, and the places of the breaks once more, as they were chosen among
+/// many.
+double freedom_of(const PieceFit& fit) {
+  return static_cast<double>(fit.freedom() + fit.profile().pieces.size() - 1);
+}
+
+PlacedPoints placed_beside(const ClothoidSpline& reference, const std::vector<Vec2>& points) {
+  PlacedPoints placed;
+  for (const PointDeviation& point : deviations_from(reference, points)) {
+    const double before = placed.places.empty() ? 0.0 : placed.places.back();
+    placed.places.push_back(std::max(before, point.arc_length));
+    placed.deviations.push_back(point.deviation);
+  }
+  return placed;
+}
+
+/// The points, or means of neighbours if there are more. A mean is taken of the distances from the curve, so that
+/// it lies off no bend.
+PlacedPoints means_of_neighbours(const PlacedPoints& points, std::size_t most) {
+  const std::size_t size = points.places.size();
+  if (size <= most) return points;
+  PlacedPoints means;
+  for (std::size_t group = 0; group < most; ++group) {
+    const std::size_t from = group * size / most;
+    const std::size_t to = (group + 1) * size / most;
+    double place = 0.0;
+    double deviation = 0.0;
+    for (std::size_t i = from; i < to; ++i) {
+      place += points.places[i];
+      deviation += points.deviations[i];
+    }
+    means.places.push_back(place / static_cast<double>(to - from));
+    means.deviations.push_back(deviation / static_cast<double>(to - from));
+  }
+  return means;
+}
+
+std::vector<Vec2> beside(const ClothoidSpline& reference, const PlacedPoints& placed) {
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < placed.places.size(); ++i) {
+    const CenterlinePoint place = reference.at(placed.places[i]);
+    const Vec2 across{-math::sin(place.slope_angle), math::cos(place.slope_angle)};
+    points.push_back(Vec2{place.x, place.drop} + placed.deviations[i] * across);
+  }
+  return points;
+}
+
+std::vector<Vec2> from(Vec2 start, std::vector<Vec2> points) {
+  for (Vec2& point : points) point = point - start;
+  return points;
+}
+
+class Descriptions {
+ public:
+  explicit Descriptions(const std::vector<Vec2>& points) : points_(points) {}
+
+  [[nodiscard]] const std::optional<PieceFit>& best() const { return best_; }
+
+  /// Tries one description, of means of neighbours beside a reference.
+  void add(const ClothoidSpline& reference, const PlacedPoints& placed, double scatter) {
+    const PlacedPoints deciding = means_of_neighbours(placed, kMostDeciding);
+    const auto cut = partition(reference, deciding, scatter);
+    if (!cut) return;
+    Describer describer(beside(reference, deciding), deciding.places, *cut, scatter);
+    describer.simplify_all();
+    PieceFit fit(points_, placed.places, describer.profile());
+    fit.relax(0.0, kMostSteps);
+    if (best_ && score(fit) >= score(*best_)) return;
+    best_ = std::move(fit);
+  }
+
+ private:
+  /// The Bayesian information criterion.
+  [[nodiscard]] double score(const PieceFit& fit) const {
+    constexpr double kRounding = 1e-30;
+    const auto count = static_cast<double>(points_.size());
+    const double length = fit.profile().length();
+    const double mean_square = std::max(fit.square_sum() / count, kRounding * length * length);
+    return count * math::log(mean_square) + freedom_of(fit) * math::log(count);
+  }
+
+  const std::vector<Vec2>& points_;
+  std::optional<PieceFit> best_;
+};
+
+}  // namespace
+
+std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
+                                              const ClothoidSpline& reference) {
+  const auto count = static_cast<double>(points.size());
+  const double share = std::sqrt(std::min(1.0, static_cast<double>(kMostDeciding) / count));
+  const PlacedPoints placed = placed_beside(reference, points);
+  const double scatter = share * scatter_of(reference, placed);
+  Descriptions descriptions(points);
+  double tried = std::numeric_limits<double>::infinity();
+  for (const double least : kLeastScatters) {
+    const double here = std::max(scatter, least * reference.length());
+    if (here < tried) descriptions.add(reference, placed, here);
+    tried = here;
+  }
+  if (!descriptions.best()) return {};
+  const bool scattered = scatter >= kLeastScatters.front() * reference.length();
+  if (!scattered) {
+    const PiecewiseProfile rough = descriptions.best()->profile();
+    const ClothoidSpline nearer = rough.spline();
+    const PlacedPoints again = placed_beside(nearer, from(rough.start(points.front()), points));
+    descriptions.add(nearer, again,
+                     std::max(share * scatter_of(nearer, again), kLeastScatterAtLast * nearer.length()));
+  }
+  const PieceFit& fit = *descriptions.best();
+  return Description{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit)};
+}
+
+}  // namespace glissade::centerline

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/vec.hpp"
+
+#include "profile_pieces.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace glissade::centerline {
+
+/// Points put as few straights, arcs and clothoids, with jumps and kinks of curvature where the points show them.
+struct Description {
+  PiecewiseProfile profile;
+  double mean_square = 0.0;  // of the points' distances [m^2]
+  bool scattered = false;    // the points show noise
+  double freedom = 0.0;      // numbers that the points had to yield; the places of breaks count twice
+};
+
+/// @param points     in order, none repeated
+/// @param reference  a smooth curve near them, from the first one on
+/// @return none where few pieces do not do: the points' curvature changes everywhere
+[[nodiscard]] std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
+                                                            const ClothoidSpline& reference);
+
+}  // namespace glissade::centerline

@@ -1,0 +1,456 @@
+// A profile of few pieces, fitted to points: Gauss-Newton in the lengths and curvatures of the pieces.
+#include "profile_pieces.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include "profile_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <boost/math/quadrature/gauss.hpp>
+
+namespace glissade::centerline {
+namespace {
+
+// Of those that Boost has as a table: on a panel that turns by so much it is wrong by some 1e-21.
+constexpr unsigned kGaussPoints = 7;
+constexpr double kPanelTurning = 0.7;
+
+// Order of the unknowns in front of those of the pieces.
+constexpr std::size_t kOffset = 0;
+constexpr std::size_t kEntrySlope = 1;
+constexpr std::size_t kFirstPiece = 2;
+
+// Swellings: 4 u (1 - u) times 1, w, w^2, w^3 with w = 2 u - 1.
+double swelling(std::size_t index, double u) {
+  double value = 4.0 * u * (1.0 - u);
+  for (std::size_t i = 0; i < index; ++i) value *= 2.0 * u - 1.0;
+  return value;
+}
+
+/// Integral of a swelling from 0 to u: with w, 4 u (1 - u) = 1 - w^2.
+double swelling_area(std::size_t index, double u) {
+  const double w = 2.0 * u - 1.0;
+  const auto antiderivative = [&](double at) {
+    double power = at;
+    for (std::size_t i = 0; i < index; ++i) power *= at;
+    const auto n = static_cast<double>(index + 1);
+    return 0.5 * power * (1.0 / n - at * at / (n + 2.0));
+  };
+  return antiderivative(w) - antiderivative(-1.0);
+}
+
+/// Angle that a piece has turned by up to u, over its length.
+double turned_share(const ProfilePiece& piece, double u) {
+  double sum = piece.entry_curvature * (u - 0.5 * u * u) + piece.exit_curvature * (0.5 * u * u);
+  for (std::size_t i = 0; i < piece.swellings; ++i) sum += piece.swelling[i] * swelling_area(i, u);
+  return sum;
+}
+
+double slope_after(double slope, const ProfilePiece& piece, double t) {
+  return slope - piece.length * turned_share(piece, t / piece.length);
+}
+
+/// Whether a clothoid runs out into the straight behind it.
+bool ends_straight(const PiecewiseProfile& profile, std::size_t k) {
+  if (k + 1 == profile.pieces.size()) return false;
+  const ProfilePiece& behind = profile.pieces[k + 1];
+  return behind.tied && behind.shape == PieceShape::straight;
+}
+
+Vec2 tangent_of(double slope) {
+  const auto [sine, cosine] = math::sine_cosine(slope);
+  return {cosine, sine};
+}
+
+}  // namespace
+
+double ProfilePiece::curvature(double u) const {
+  double sum = entry_curvature + u * (exit_curvature - entry_curvature);
+  for (std::size_t i = 0; i < swellings; ++i) sum += this->swelling[i] * centerline::swelling(i, u);
+  return sum;
+}
+
+double PiecewiseProfile::length() const {
+  double sum = 0.0;
+  for (const ProfilePiece& piece : pieces) sum += piece.length;
+  return sum;
+}
+
+namespace {
+
+/// A bend as clothoids of equal length, as many as told.
+std::vector<ClothoidSegment> clothoids_of(const ProfilePiece& piece, std::size_t count) {
+  const double step = 1.0 / static_cast<double>(count);
+  // Chords of a curvature that bulges one way turn too little: by a twelfth of its second difference each.
+  const auto node = [&](std::size_t i) {
+    const double u = static_cast<double>(i) * step;
+    const double bulge = piece.curvature(u + step) - 2.0 * piece.curvature(u) + piece.curvature(u - step);
+    return piece.curvature(u) - bulge / 12.0;
+  };
+  std::vector<ClothoidSegment> segments;
+  for (std::size_t i = 0; i < count; ++i) segments.push_back({piece.length * step, node(i), node(i + 1)});
+  return segments;
+}
+
+/// A bend as so many clothoids that twice as many lead to the same place.
+std::vector<ClothoidSegment> clothoids_of(const ProfilePiece& piece) {
+  constexpr double kAlike = 1e-8;  // share of the length
+  constexpr std::size_t kFewest = 8;
+  constexpr std::size_t kMost = 64;
+  const auto end_of = [&](const std::vector<ClothoidSegment>& segments) {
+    const Endpoints end = ClothoidSpline(Angle::from_radians(0.0), segments).endpoints();
+    return Vec2{end.run, end.drop};
+  };
+  std::vector<ClothoidSegment> segments = clothoids_of(piece, kFewest);
+  for (std::size_t count = 2 * kFewest; count <= kMost; count *= 2) {
+    std::vector<ClothoidSegment> finer = clothoids_of(piece, count);
+    const double apart = norm(end_of(finer) - end_of(segments));
+    segments = std::move(finer);
+    if (apart <= kAlike * piece.length) break;
+  }
+  return segments;
+}
+
+}  // namespace
+
+ClothoidSpline PiecewiseProfile::spline() const {
+  std::vector<ClothoidSegment> segments;
+  for (const ProfilePiece& piece : pieces) {
+    if (piece.shape == PieceShape::bend) {
+      const std::vector<ClothoidSegment> bend = clothoids_of(piece);
+      segments.insert(segments.end(), bend.begin(), bend.end());
+    } else {
+      segments.push_back({piece.length, piece.entry_curvature, piece.exit_curvature});
+    }
+  }
+  return {Angle::from_radians(entry), std::move(segments)};
+}
+
+Vec2 PiecewiseProfile::start(Vec2 first_point) const {
+  return first_point + offset * perpendicular(tangent_of(entry));
+}
+
+/// Half the sum of the squared distances to second order: matrix and gradient in the scaled unknowns.
+struct PieceFit::System {
+  explicit System(std::size_t size) : matrix(size), gradient(size, 0.0) {}
+  SymmetricMatrix matrix;
+  std::vector<double> gradient;
+};
+
+PieceFit::PieceFit(const std::vector<Vec2>& points, std::vector<double> places, PiecewiseProfile profile)
+    : points_(points), places_(std::move(places)), profile_(std::move(profile)), scale_(places_.back()) {
+  number_unknowns();
+  lay_out();
+  square_sum_ = project();
+}
+
+void PieceFit::number_unknowns() {
+  columns_.clear();
+  std::size_t next = kFirstPiece;
+  for (std::size_t k = 0; k < profile_.pieces.size(); ++k) {
+    const ProfilePiece& piece = profile_.pieces[k];
+    Columns columns{next++, kNone, kNone, kNone};
+    const std::size_t before = k > 0 ? columns_[k - 1].exit_curvature : kNone;
+    if (piece.shape != PieceShape::straight) columns.entry_curvature = piece.tied ? before : next++;
+    columns.exit_curvature = columns.entry_curvature;
+    if (!piece.constant()) columns.exit_curvature = ends_straight(profile_, k) ? kNone : next++;
+    columns.first_swelling = next;
+    next += piece.swellings;
+    columns_.push_back(columns);
+  }
+  unknowns_ = next;
+}
+
+PieceFit::Ways PieceFit::ways_at(const ProfilePiece& piece, double t) {
+  const double u = t / piece.length;
+  Ways ways{};
+  ways[0] = -piece.length * (u - 0.5 * u * u);
+  ways[1] = -piece.length * 0.5 * u * u;
+  ways[2] = u * piece.curvature(u) - turned_share(piece, u);
+  for (std::size_t i = 0; i < piece.swellings; ++i) ways[3 + i] = -piece.length * swelling_area(i, u);
+  return ways;
+}
+
+PieceFit::Panel PieceFit::along(const ProfilePiece& piece, const Laid& laid, double distance) const {
+  using Rule = boost::math::quadrature::gauss<double, kGaussPoints>;
+  const auto next = std::upper_bound(laid.panels.begin() + 1, laid.panels.end(), distance,
+                                     [](double value, const Panel& panel) { return value < panel.from; });
+  const Panel& panel = *std::prev(next);
+  const double half = 0.5 * (distance - panel.from);
+  Panel sum{distance, slope_after(laid.slope, piece, distance), panel.position, panel.turned};
+  const std::size_t ways_count = 3 + piece.swellings;
+  const auto add = [&](double offset, double weight) {
+    const double t = panel.from + half + offset;
+    const Vec2 tangent = half * weight * tangent_of(slope_after(laid.slope, piece, t));
+    sum.position = sum.position + tangent;
+    const Ways ways = ways_at(piece, t);
+    for (std::size_t w = 0; w < ways_count; ++w) {
+      sum.turned[w] = sum.turned[w] + ways[w] * perpendicular(tangent);
+    }
+  };
+  add(0.0, Rule::weights()[0]);
+  for (std::size_t i = 1; i < Rule::abscissa().size(); ++i) {
+    add(-half * Rule::abscissa()[i], Rule::weights()[i]);
+    add(half * Rule::abscissa()[i], Rule::weights()[i]);
+  }
+  return sum;
+}
+
+void PieceFit::lay_out() {
+  laid_.clear();
+  Laid next{0.0, profile_.start(points_.front()), profile_.entry, {}, {}};
+  for (const ProfilePiece& piece : profile_.pieces) {
+    double most = std::max(std::fabs(piece.entry_curvature), std::fabs(piece.exit_curvature));
+    for (std::size_t i = 0; i < piece.swellings; ++i) most += std::fabs(piece.swelling[i]);
+    const double turning = piece.length * most;
+    const auto count = static_cast<int>(std::clamp(std::ceil(turning / kPanelTurning), 1.0, 1000.0));
+    next.panels = {{0.0, next.slope, {}, {}}};
+    for (int i = 1; i < count; ++i) next.panels.push_back(along(piece, next, piece.length * i / count));
+    next.end = along(piece, next, piece.length);
+    laid_.push_back(next);
+    next = {next.from + piece.length, next.start + next.end.position, next.end.slope, {}, {}};
+  }
+}
+
+std::size_t PieceFit::piece_at(double s) const {
+  const auto next = std::upper_bound(laid_.begin() + 1, laid_.end(), s,
+                                     [](double value, const Laid& laid) { return value < laid.from; });
+  return static_cast<std::size_t>(next - laid_.begin()) - 1;
+}
+
+double PieceFit::project() {
+  constexpr int kNewtonSteps = 4;
+  // Half its square times the curvature is what it does to a distance.
+  constexpr double kNear = 1e-9;
+  const double length = profile_.length();
+  const double stretch = length / places_.back();
+  double sum = 0.0;
+  nearest_.resize(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    double s = std::min(places_[i] * stretch, length);
+    Vec2 away;
+    Vec2 tangent;
+    const bool last = i + 1 == points_.size();
+    for (int step = 0; step <= kNewtonSteps; ++step) {
+      if (last) s = length;
+      const std::size_t k = piece_at(s);
+      const Panel& here = nearest_[i] = along(profile_.pieces[k], laid_[k], s - laid_[k].from);
+      tangent = tangent_of(here.slope);
+      away = points_[i] - (laid_[k].start + here.position);
+      const double next = std::clamp(s + dot(away, tangent), 0.0, length);
+      const double moved = std::fabs(next - s);
+      if (last || step == kNewtonSteps || moved <= kNear * length) break;
+      s = next;
+    }
+    places_[i] = s;
+    const double across = dot(away, perpendicular(tangent));
+    sum += across * across;
+    if (last) sum += dot(away, tangent) * dot(away, tangent);
+  }
+  return sum;
+}
+
+/// How a place in the direction given moves with each unknown.
+void PieceFit::fill_row(std::size_t piece, const Panel& here, Vec2 position, Vec2 direction, bool at_end,
+                        std::vector<double>& row) const {
+  std::fill(row.begin(), row.end(), 0.0);
+  const auto add = [&](std::size_t column, double value) {
+    if (column != kNone) row[column] += value;
+  };
+  const Vec2 start = laid_.front().start;
+  row[kOffset] = dot(direction, perpendicular(tangent_of(profile_.entry)));
+  row[kEntrySlope] = dot(direction, perpendicular(position - start)) -
+                     profile_.offset * dot(direction, tangent_of(profile_.entry));
+  for (std::size_t k = 0; k <= piece; ++k) {
+    const ProfilePiece& of = profile_.pieces[k];
+    const bool own = k == piece;
+    const Panel& end = own ? here : laid_[k].end;
+    Ways by{};
+    for (std::size_t w = 0; w < 3 + of.swellings; ++w) by[w] = dot(direction, end.turned[w]);
+    if (!own || at_end) by[2] += dot(direction, tangent_of(end.slope));
+    if (!own) {
+      // All behind the piece turns about its end.
+      const double lever = dot(direction, perpendicular(position - laid_[k + 1].start));
+      const Ways turned = ways_at(of, of.length);
+      for (std::size_t w = 0; w < 3 + of.swellings; ++w) by[w] += turned[w] * lever;
+      // Longer altogether, and not measured at the same place: its end turns by all of what it is longer.
+      by[2] -= of.exit_curvature * lever;
+    }
+    add(columns_[k].entry_curvature, by[0]);
+    add(columns_[k].exit_curvature, by[1]);
+    add(columns_[k].length, by[2]);
+    for (std::size_t i = 0; i < of.swellings; ++i) add(columns_[k].first_swelling + i, by[3 + i]);
+  }
+}
+
+PieceFit::System PieceFit::linearized() const {
+  System sum(unknowns_);
+  std::vector<double> row(unknowns_);
+  // Unknowns of like size: lengths over the scale, curvatures times it.
+  std::vector<double> unit(unknowns_, scale_);
+  unit[kEntrySlope] = 1.0;
+  for (const Columns& columns : columns_) {
+    if (columns.entry_curvature != kNone) unit[columns.entry_curvature] = 1.0 / scale_;
+    if (columns.exit_curvature != kNone) unit[columns.exit_curvature] = 1.0 / scale_;
+  }
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    for (std::size_t i = 0; i < profile_.pieces[k].swellings; ++i) {
+      unit[columns_[k].first_swelling + i] = 1.0 / scale_;
+    }
+  }
+  const auto add = [&](std::size_t k, const Panel& here, Vec2 position, Vec2 away, Vec2 direction,
+                       bool at_end) {
+    fill_row(k, here, position, direction, at_end, row);
+    const double distance = dot(away, direction);
+    // Unknowns stand in the order of the pieces: behind those of this piece the row is empty.
+    const std::size_t size = k + 1 < columns_.size() ? columns_[k + 1].length : unknowns_;
+    for (std::size_t a = 0; a < size; ++a) {
+      row[a] *= unit[a];
+      sum.gradient[a] -= distance * row[a];
+      for (std::size_t b = 0; b <= a; ++b) sum.matrix.at(a, b) += row[a] * row[b];
+    }
+  };
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::size_t k = piece_at(places_[i]);
+    const Panel& here = nearest_[i];
+    const Vec2 position = laid_[k].start + here.position;
+    const Vec2 away = points_[i] - position;
+    const Vec2 tangent = tangent_of(here.slope);
+    const bool last = i + 1 == points_.size();
+    add(k, here, position, away, perpendicular(tangent), last);
+    if (last) add(k, here, position, away, tangent, true);
+  }
+  return sum;
+}
+
+PiecewiseProfile PieceFit::moved(const std::vector<double>& move) const {
+  PiecewiseProfile next = profile_;
+  next.offset -= scale_ * move[kOffset];
+  next.entry -= move[kEntrySlope];
+  for (std::size_t k = 0; k < next.pieces.size(); ++k) {
+    ProfilePiece& piece = next.pieces[k];
+    const Columns& columns = columns_[k];
+    piece.length -= scale_ * move[columns.length];
+    if (columns.entry_curvature != kNone) piece.entry_curvature -= move[columns.entry_curvature] / scale_;
+    if (columns.exit_curvature != kNone) piece.exit_curvature -= move[columns.exit_curvature] / scale_;
+    for (std::size_t i = 0; i < piece.swellings; ++i) {
+      piece.swelling[i] -= move[columns.first_swelling + i] / scale_;
+    }
+  }
+  return next;
+}
+
+void PieceFit::relax(double least_gain, int most_steps) {
+  // Least share of its length that a piece may lose or keep in a step.
+  constexpr double kLeastKept = 0.25;
+  constexpr double kRounding = 1e-30;
+  constexpr double kSettled = 1e-8;
+  double damping = 1e-9;
+  factor_.reset();
+  const double nothing = kRounding * scale_ * scale_ * static_cast<double>(points_.size());
+  for (int step = 0; step < most_steps && square_sum_ > nothing; ++step) {
+    System here = linearized();
+    bool better = false;
+    double gain = 0.0;
+    for (int attempt = 0; attempt < 12 && !better; ++attempt, damping *= 10.0) {
+      SymmetricMatrix matrix = here.matrix;
+      for (std::size_t i = 0; i < unknowns_; ++i) matrix.at(i, i) += damping * matrix.at(i, i) + 1e-300;
+      if (!matrix.factorize()) continue;
+      std::vector<double> move = here.gradient;
+      matrix.solve_forward(move);
+      matrix.solve_backward(move);
+      PiecewiseProfile next = moved(move);
+      bool usable = true;
+      for (std::size_t k = 0; k < next.pieces.size(); ++k) {
+        usable = usable && next.pieces[k].length > kLeastKept * profile_.pieces[k].length;
+      }
+      if (!usable) continue;
+      std::swap(next, profile_);
+      const std::vector<double> places = places_;
+      lay_out();
+      const double value = project();
+      better = value < square_sum_;
+      if (better) {
+        gain = square_sum_ - value;
+        square_sum_ = value;
+      } else {
+        std::swap(next, profile_);
+        places_ = places;
+        lay_out();
+      }
+    }
+    damping = std::max(1e-12, 1e-3 * damping);
+    if (!better || gain <= std::max(least_gain, kSettled * square_sum_)) break;
+  }
+}
+
+/// Growth of the sum of squares if a linear combination of the unknowns, now `value`, were made zero.
+std::optional<double> PieceFit::price(const std::vector<std::pair<std::size_t, double>>& terms,
+                                      double value) const {
+  if (!factor_) {
+    SymmetricMatrix matrix = linearized().matrix;
+    for (std::size_t i = 0; i < unknowns_; ++i) matrix.at(i, i) += 1e-12 * matrix.at(i, i) + 1e-300;
+    if (!matrix.factorize()) return {};
+    factor_ = std::move(matrix);
+  }
+  std::vector<double> combination(unknowns_, 0.0);
+  bool any = false;
+  for (const auto& [column, weight] : terms) {
+    if (column == kNone) continue;
+    combination[column] += weight;
+    any = true;
+  }
+  if (!any) return {};
+  factor_->solve_forward(combination);
+  double variance = 0.0;
+  for (const double part : combination) variance += part * part;
+  if (!(variance > 0.0)) return {};
+  return value * scale_ * (value * scale_) / variance;
+}
+
+std::optional<double> PieceFit::price_of_tie(std::size_t joint) const {
+  const ProfilePiece& piece = profile_.pieces[joint];
+  const ProfilePiece& before = profile_.pieces[joint - 1];
+  // Two that are constant would become one piece: that is no tie.
+  if (piece.tied || (piece.constant() && before.constant())) return {};
+  return price({{columns_[joint].entry_curvature, 1.0}, {columns_[joint - 1].exit_curvature, -1.0}},
+               piece.entry_curvature - before.exit_curvature);
+}
+
+std::optional<double> PieceFit::price_of_simpler(std::size_t k) const {
+  const ProfilePiece& piece = profile_.pieces[k];
+  if (piece.shape == PieceShape::bend) {
+    const std::size_t highest = piece.swellings - 1;
+    return price({{columns_[k].first_swelling + highest, 1.0}}, piece.swelling[highest]);
+  }
+  const bool held = piece.tied || (k + 1 < profile_.pieces.size() && profile_.pieces[k + 1].tied);
+  if (held || piece.shape == PieceShape::straight) return {};
+  if (piece.shape == PieceShape::arc) {
+    return price({{columns_[k].entry_curvature, 1.0}}, piece.entry_curvature);
+  }
+  return price({{columns_[k].entry_curvature, 1.0}, {columns_[k].exit_curvature, -1.0}},
+               piece.entry_curvature - piece.exit_curvature);
+}
+
+std::optional<double> PieceFit::price_of_merger(std::size_t joint) const {
+  const ProfilePiece& piece = profile_.pieces[joint];
+  const ProfilePiece& before = profile_.pieces[joint - 1];
+  if (piece.shape == PieceShape::bend || before.shape == PieceShape::bend) return {};
+  if (!piece.tied) {
+    if (!piece.constant() || !before.constant()) return {};
+    return price({{columns_[joint].entry_curvature, 1.0}, {columns_[joint - 1].exit_curvature, -1.0}},
+                 piece.entry_curvature - before.exit_curvature);
+  }
+  const double rate = (piece.exit_curvature - piece.entry_curvature) / piece.length;
+  const double rate_before = (before.exit_curvature - before.entry_curvature) / before.length;
+  return price({{columns_[joint].exit_curvature, 1.0 / piece.length},
+                {columns_[joint].entry_curvature, -1.0 / piece.length},
+                {columns_[joint - 1].exit_curvature, -1.0 / before.length},
+                {columns_[joint - 1].entry_curvature, 1.0 / before.length}},
+               rate - rate_before);
+}
+
+}  // namespace glissade::centerline

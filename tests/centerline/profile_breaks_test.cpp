@@ -1,0 +1,136 @@
+// Profiles whose curvature jumps: what builders drew must come back as they drew it.
+#include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include "support/catch.hpp"
+#include "support/known_profiles.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+using namespace glissade;
+using testing::KnownProfile;
+using testing::Random;
+
+namespace {
+
+double highest_load(const Centerline& curve) {
+  const CenterlinePtr shared(&curve, [](const Centerline*) {});
+  return Motion(shared, {Friction::from_coefficient(0.03), 0.0, 0.0}).highest_load().normal_load;
+}
+
+std::vector<KnownProfile> profiles() {
+  return {
+      testing::known_in_run(33.0, 9.5, 70.0, 5.6, 60.0),
+      testing::known_in_run(35.0, 11.0, 103.0, 6.9, 60.0),
+      testing::known_profile("straight and arc", 35.0, {{60.0, 0.0, 0.0}, {40.0, 0.01, 0.01}}),
+      testing::known_profile("straight, arc, table", 35.0,
+                             {{60.0, 0.0, 0.0}, {30.0, 1.0 / 70.0, 1.0 / 70.0}, {8.0, 0.0, 0.0}}),
+      testing::known_profile("straight, clothoid, table", 35.0,
+                             {{60.0, 0.0, 0.0}, {40.0, 0.0, 1.0 / 60.0}, {8.0, 0.0, 0.0}}),
+      testing::known_profile(
+          "clothoid, arc, clothoid", 40.0,
+          {{30.0, 0.0, 0.0}, {10.0, 0.0, 0.025}, {15.0, 0.025, 0.025}, {10.0, 0.025, 0.0}, {10.0, 0.0, 0.0}}),
+  };
+}
+
+}  // namespace
+
+TEST_CASE("exact points of profiles with jumps of curvature give radius and load back, however many") {
+  Random random(1);
+  for (const int count : {50, 103, 263, 600}) {
+    for (const KnownProfile& known : profiles()) {
+      INFO(known.name << ", radius " << known.smallest_radius << " m, " << count << " points");
+      const FittedProfile profile(points_of(known, count, 0.0, random));
+      CHECK(testing::smallest_valley_radius(profile.curve()) == Approx(known.smallest_radius).epsilon(0.02));
+      CHECK(highest_load(profile) == Approx(highest_load(*known.truth)).epsilon(0.01));
+      CHECK(profile.max_deviation() < 1e-6 * known.length);
+      CHECK_FALSE(profile.leaves_pattern());
+    }
+  }
+}
+
+TEST_CASE("straights, arcs and clothoids come back to rounding from exact points") {
+  Random random(1);
+  for (const KnownProfile& known : profiles()) {
+    if (known.name == "in-run") continue;
+    const FittedProfile profile(points_of(known, 120, 0.0, random));
+    const std::vector<ClothoidSegment>& found = profile.curve().segments();
+    const std::vector<ClothoidSegment>& drawn = known.truth->segments();
+    INFO(known.name);
+    REQUIRE(found.size() == drawn.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      CHECK(found[i].length == Approx(drawn[i].length).epsilon(1e-9));
+      CHECK(found[i].entry_curvature == Approx(drawn[i].entry_curvature).margin(1e-10));
+      CHECK(found[i].exit_curvature == Approx(drawn[i].exit_curvature).margin(1e-10));
+    }
+  }
+}
+
+TEST_CASE("a millimetre of noise costs little of radius and load where points are many") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (const KnownProfile& known : profiles()) {
+    INFO(known.name << ", radius " << known.smallest_radius << " m");
+    const FittedProfile profile(points_of(known, 700, 1e-3, random));
+    CHECK(testing::smallest_valley_radius(profile.curve()) == Approx(known.smallest_radius).epsilon(0.06));
+    CHECK(highest_load(profile) == Approx(highest_load(*known.truth)).epsilon(0.04));
+    CHECK(profile.rms_deviation() == Approx(1e-3).epsilon(0.15));
+  }
+}
+
+TEST_CASE("random tracks of arcs and straights come back from exact points") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int trial = 0; trial < 8; ++trial) {
+    std::vector<ClothoidSegment> segments = {{random.between(10.0, 30.0), 0.0, 0.0}};
+    const int bends = random.integer(1, 3);
+    for (int i = 0; i < bends; ++i) {
+      const double curvature = (i % 2 == 0 ? 1.0 : -1.0) / random.between(25.0, 80.0);
+      segments.push_back({random.between(8.0, 16.0), curvature, curvature});
+      if (random.integer(0, 1) == 0) segments.push_back({random.between(6.0, 12.0), 0.0, 0.0});
+    }
+    const KnownProfile known = testing::known_profile("random", random.between(20.0, 40.0), segments);
+    const int count = random.integer(60, 300);
+    INFO("trial " << trial << ", " << segments.size() << " segments, " << count << " points");
+    const FittedProfile profile(points_of(known, count, 0.0, random));
+    CHECK(testing::smallest_valley_radius(profile.curve()) == Approx(known.smallest_radius).epsilon(1e-6));
+    CHECK(profile.max_deviation() < 1e-9 * known.length);
+  }
+}
+
+TEST_CASE("the same points in another place, turned round or in another unit give the same pieces") {
+  Random random(4);
+  const KnownProfile known = profiles()[3];
+  std::vector<Vec2> points = points_of(known, 150, 1e-3, random);
+  const FittedProfile here(points);
+  for (Vec2& point : points) point = {-1e-3 * point.x + 7.0, 1e-3 * point.y - 3.0};
+  const FittedProfile there(points);
+  REQUIRE(there.curve().segments().size() == here.curve().segments().size());
+  for (std::size_t i = 0; i < here.curve().segments().size(); ++i) {
+    CHECK(1e3 * there.curve().segments()[i].length ==
+          Approx(here.curve().segments()[i].length).epsilon(1e-4));
+  }
+  CHECK(1e3 * there.max_deviation() == Approx(here.max_deviation()).epsilon(1e-3));
+}
+
+TEST_CASE("a curve that passes over what its points show is told by their pattern") {
+  // Ripples of 5 mm and 60 cm length on a hill of 150 points 1 m apart: no curve can follow, and neighbours do not
+  // go together. Ripples of 6 m are followed.
+  std::vector<Vec2> followed;
+  for (int i = 0; i < 150; ++i) {
+    followed.push_back({1.0 * i, 0.4 * i + 0.005 * std::sin(2.0 * 3.14159265358979 * i / 6.0)});
+  }
+  CHECK_FALSE(FittedProfile(followed).leaves_pattern());
+  // Waves far more than a smooth curve has knots, and measured densely.
+  std::vector<Vec2> waves;
+  for (int i = 0; i < 3000; ++i) {
+    const double x = 0.1 * i;
+    waves.push_back({x, 0.4 * x + 0.02 * std::sin(2.0 * 3.14159265358979 * x / 2.0)});
+  }
+  const FittedProfile passed_over(waves);
+  CHECK(passed_over.rms_deviation() > 5e-3);
+  CHECK(passed_over.leaves_pattern());
+}
