@@ -1,0 +1,35 @@
+#pragma once
+
+#include "glissade/drawing/sheet.hpp"
+#include "glissade/parts/shop_part.hpp"
+
+#include <vector>
+
+namespace glissade {
+
+/// Drawings of what a workshop makes: cutting patterns, views, the set of sheets.
+
+/// How the layers of a cutting file are named. `own`: CUT, MARK, BEND_UP, BEND_DOWN, ROLL. `plain`: all on layer 0, told apart
+/// by colour. `inventor`: IV_OUTER_PROFILE and its like. `sendcutsend`: one contour, bends dashed, nothing else, all on
+/// layer 0.
+enum class LayerPreset { own, plain, inventor, sendcutsend };
+
+/// What is cut from a sheet, 1:1 in millimetres, its lower left corner at (10, 10): closed contour, cutouts, holes; bends
+/// dashed, colours by their direction; roll lines; marks and the part's number in single strokes.
+/// @throws InputError if the part has no pattern
+[[nodiscard]] Drawing cut_drawing(const ShopPart& part, LayerPreset preset = LayerPreset::own);
+
+/// All edges of all parts as seen from the side (the track from left to right) and from above, with the joints and supports
+/// that are set out; hidden edges are drawn too, edges that fall together once.
+[[nodiscard]] Drawing side_view(const Workshop& workshop);
+[[nodiscard]] Drawing plan_view(const Workshop& workshop);
+
+/// The sheets of an assembly: general arrangement (A3), parts list, bought-in items, a sheet a part (A4: flat pattern or
+/// views with dimensions, holes, bends), bend schedule, setting-out table, checks; numbered.
+[[nodiscard]] std::vector<Sheet> drawing_set(const Workshop& workshop);
+
+/// 1:1 templates of a part's pattern, tiled over sheets; none for a part without one.
+[[nodiscard]] std::vector<Sheet> part_template(const Workshop& workshop, const ShopPart& part,
+                                               PaperSize size);
+
+}  // namespace glissade

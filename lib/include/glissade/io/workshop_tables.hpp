@@ -1,0 +1,30 @@
+#pragma once
+
+#include "glissade/parts/shop_part.hpp"
+
+#include <string>
+
+namespace glissade {
+
+/// Tables of what a workshop makes, as CSV: comma separated, a header line with units, quotes round texts that hold a comma,
+/// quote or line end; numbers are the shortest decimals that read back as the same double, millimetres, degrees and
+/// kilograms; `inf` where a radius is unbounded.
+
+/// Columns: number, name, material, thickness_mm, quantity, length_mm, width_mm (of the flat pattern, empty without one),
+/// cut_length_mm, holes, bends, mass_kg, total_mass_kg, centre_of_gravity_x_mm, _y_mm, _z_mm, bought_in.
+[[nodiscard]] std::string cut_list_csv(const Workshop& workshop);
+
+/// Columns: name, standard, quantity, where.
+[[nodiscard]] std::string bought_in_csv(const Workshop& workshop);
+
+/// Columns: part, hit, distance_mm, length_mm, angle_deg, sum_deg, radius_mm, chord_error_mm.
+[[nodiscard]] std::string bend_schedule_csv(const Workshop& workshop);
+
+/// Columns: what, arc_length_mm, x_mm, z_mm, site_x_m, site_y_m, site_z_m, slope_deg, slope_percent, radius_mm, ordinate_mm,
+/// then the offsets by their names, in millimetres.
+[[nodiscard]] std::string setting_out_csv(const Workshop& workshop);
+
+/// Columns: rule, verdict, value, bound, where, source.
+[[nodiscard]] std::string shop_checks_csv(const Workshop& workshop);
+
+}  // namespace glissade

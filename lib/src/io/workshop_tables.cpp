@@ -1,0 +1,140 @@
+#include "glissade/io/workshop_tables.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace glissade {
+namespace {
+
+constexpr double kMillimetres = 1000.0;  // in a metre
+constexpr double kDegrees = 57.295779513082320877;
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string safe = "\"";
+  for (const char c : text) {
+    if (c == '"') safe += '"';
+    safe += c;
+  }
+  return safe + "\"";
+}
+
+/// One line after the other.
+class Csv {
+ public:
+  explicit Csv(std::string_view header) : text_(header) {}
+
+  Csv& row() {
+    text_ += '\n';
+    first_ = true;
+    return *this;
+  }
+  Csv& operator<<(const std::string& cell) {
+    if (!first_) text_ += ',';
+    first_ = false;
+    text_ += quoted(cell);
+    return *this;
+  }
+  Csv& operator<<(double value) { return *this << exact_text(value + 0.0); }
+  Csv& operator<<(std::size_t count) { return *this << std::to_string(count); }
+  Csv& operator<<(int number) { return *this << std::to_string(number); }
+  [[nodiscard]] std::string text() const { return text_ + '\n'; }
+
+ private:
+  std::string text_;
+  bool first_ = true;
+};
+
+/// To a thousandth of a unit of the sixth decimal: the products of units leave digits that nobody measured.
+double clean(double value) {
+  constexpr double kPerUnit = 1e9;
+  return std::fabs(value) < 1e6 ? std::round(value * kPerUnit) / kPerUnit : value;
+}
+
+double mm(double metres) {
+  return clean(kMillimetres * metres);
+}
+
+double degrees(double angle) {
+  return clean(kDegrees * angle);
+}
+
+}  // namespace
+
+std::string cut_list_csv(const Workshop& workshop) {
+  Csv csv(
+      "number,name,material,thickness_mm,quantity,length_mm,width_mm,cut_length_mm,holes,bends,mass_kg,total_"
+      "mass_kg,"
+      "centre_of_gravity_x_mm,centre_of_gravity_y_mm,centre_of_gravity_z_mm,bought_in");
+  for (const ShopPart& part : workshop.parts) {
+    csv.row() << part.number << part.name << part.material << mm(part.thickness) << part.quantity();
+    if (part.pattern) {
+      const PlaneRegion& region = part.pattern->region;
+      const PlaneBox box = bounds(region.outline);
+      double cut = length(region.outline);
+      for (const ArcPath& cutout : region.cutouts) cut += length(cutout);
+      for (const Circle& hole : region.holes) cut += length(path_of(hole));
+      csv << mm(std::max(box.width(), box.height())) << mm(std::min(box.width(), box.height())) << mm(cut)
+          << region.holes.size() << part.pattern->bends.size();
+    } else {
+      csv << ""
+          << ""
+          << ""
+          << ""
+          << "";
+    }
+    csv << part.mass << part.mass * static_cast<double>(part.quantity()) << mm(part.centre_of_gravity.x)
+        << mm(part.centre_of_gravity.y) << mm(part.centre_of_gravity.z) << (part.bought_in ? "yes" : "no");
+  }
+  return csv.text();
+}
+
+std::string bought_in_csv(const Workshop& workshop) {
+  Csv csv("name,standard,quantity,where");
+  for (const BoughtInItem& item : workshop.items) {
+    csv.row() << item.name << item.standard << item.quantity << item.where;
+  }
+  return csv.text();
+}
+
+std::string bend_schedule_csv(const Workshop& workshop) {
+  Csv csv("part,hit,distance_mm,length_mm,angle_deg,sum_deg,radius_mm,chord_error_mm");
+  for (const BendStep& step : workshop.bends) {
+    csv.row() << step.part << step.hit << mm(step.distance) << mm(step.length) << degrees(step.angle)
+              << degrees(step.sum) << mm(step.radius) << mm(step.chord_error);
+  }
+  return csv.text();
+}
+
+std::string setting_out_csv(const Workshop& workshop) {
+  std::string header =
+      "what,arc_length_mm,x_mm,z_mm,site_x_m,site_y_m,site_z_m,slope_deg,slope_percent,radius_mm,ordinate_mm";
+  for (const std::string& name : workshop.offset_names) header += "," + quoted(name);
+  Csv csv(header);
+  for (const SettingOutPoint& point : workshop.setting_out) {
+    csv.row() << point.what << mm(point.arc_length) << mm(point.x) << mm(point.z) << point.site.x
+              << point.site.y << point.site.z << degrees(point.slope_angle)
+              << clean(100.0 * math::tan(point.slope_angle)) << mm(point.radius) << mm(point.ordinate);
+    for (const double offset : point.offsets) csv << mm(offset);
+  }
+  return csv.text();
+}
+
+std::string shop_checks_csv(const Workshop& workshop) {
+  Csv csv("rule,verdict,value,bound,where,source");
+  for (const ShopCheck& check : workshop.checks) {
+    const std::string verdict = check.verdict == ShopVerdict::pass   ? "pass"
+                                : check.verdict == ShopVerdict::warn ? "warn"
+                                                                     : "fail";
+    csv.row() << check.rule << verdict << check.value << check.bound << check.where << check.source;
+  }
+  return csv.text();
+}
+
+}  // namespace glissade

@@ -1,0 +1,129 @@
+#include "glissade/drawing/workshop_drawings.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/io/dxf_file.hpp"
+#include "glissade/io/sheet_file.hpp"
+#include "glissade/io/workshop_tables.hpp"
+
+#include "support/catch.hpp"
+#include "support/shop_parts.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+using namespace glissade;
+
+namespace {
+
+std::set<std::string> layer_names(const Drawing& drawing) {
+  std::set<std::string> names;
+  for (const DrawingLayer& layer : drawing.layers) names.insert(layer.name);
+  return names;
+}
+
+bool says(const Sheet& sheet, const std::string& text) {
+  const auto is_it = [&](const DrawnText& drawn) { return drawn.text.find(text) != std::string::npos; };
+  bool found = sheet.title.title.find(text) != std::string::npos ||
+               std::any_of(sheet.texts.begin(), sheet.texts.end(), is_it);
+  for (const SheetView& view : sheet.views) {
+    found = found || std::any_of(view.drawing.texts.begin(), view.drawing.texts.end(), is_it);
+  }
+  for (const SheetTable& table : sheet.tables) {
+    for (const auto& row : table.rows) found = found || std::find(row.begin(), row.end(), text) != row.end();
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a cutting file has the part's contour and holes, moved to its corner; presets name the layers") {
+  const ShopPart part = testing::sample_workshop().parts[0];
+  const PlaneRegion& region = part.pattern->region;
+  for (const LayerPreset preset :
+       {LayerPreset::own, LayerPreset::plain, LayerPreset::inventor, LayerPreset::sendcutsend}) {
+    const Drawing drawing = cut_drawing(part, preset);
+    PlaneRegion drawn{drawing.paths[0].path, {drawing.paths[1].path}, {}};
+    for (const DrawnCircle& circle : drawing.circles) drawn.holes.push_back(circle.circle);
+    CHECK(drawn.holes.size() == region.holes.size());
+    CHECK(moments(drawn).area == Approx(1e6 * moments(region).area).epsilon(1e-12));
+    CHECK(bounds(drawn.outline).low.x == Approx(10.0).margin(1e-9));
+    CHECK(bounds(drawn.outline).low.y == Approx(10.0).margin(1e-9));
+    CHECK(drawing.texts.empty());
+    // Whatever the names, bends are dashed: a reader must not take them for cuts.
+    const auto dashed = [&](const DrawnPath& path) {
+      return path.style.value_or(drawing.layers[path.layer].style) == LineStyle::dashed;
+    };
+    CHECK(std::count_if(drawing.paths.begin(), drawing.paths.end(), dashed) == 2);
+    CHECK(dxf_text(drawing).size() <= 10'000);
+  }
+  CHECK(layer_names(cut_drawing(part)) ==
+        std::set<std::string>{"CUT", "MARK", "BEND_UP", "BEND_DOWN", "ROLL"});
+  CHECK(layer_names(cut_drawing(part, LayerPreset::plain)) == std::set<std::string>{"0"});
+  CHECK(layer_names(cut_drawing(part, LayerPreset::inventor)).count("IV_INTERIOR_PROFILES") == 1);
+  // One contour with its bends, no marks, no rolls.
+  CHECK(cut_drawing(part, LayerPreset::sendcutsend).paths.size() == 2 + 2);
+  CHECK(cut_drawing(part).paths.size() > 2 + 2 + 1);
+  CHECK_THROWS_WITH(cut_drawing(testing::sample_workshop().parts[3]),
+                    "part 4, gore: is cut from no sheet\n      It has no flat pattern.");
+}
+
+TEST_CASE("the set of drawings has every part, list and table, each sheet numbered, and is the same twice") {
+  const Workshop workshop = testing::upright_workshop();
+  const std::vector<Sheet> set = drawing_set(workshop);
+  REQUIRE(set.size() == 11);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    CHECK(set[i].title.sheet == std::to_string(i + 1) + "/11");
+    CHECK(set[i].title.owner == workshop.name);
+  }
+  for (const char* text : {"General arrangement", "left_wall", "floor", "leaning_wall", "gore", "pipe",
+                           "bolt M12 x 40", "smallest hole", "joint 1", "Floor: rolled; K = 0.5"}) {
+    INFO(text);
+    CHECK(std::any_of(set.begin(), set.end(), [&](const Sheet& sheet) { return says(sheet, text); }));
+  }
+  CHECK(pdf_text(set, "x") == pdf_text(drawing_set(workshop), "x"));
+}
+
+TEST_CASE("the view from the side shows parts in their true size") {
+  Workshop workshop;
+  workshop.parts.push_back(
+      testing::shop_part(1, "plate", Prism{{rectangle({0.0, 0.0}, {2.0, 1.0}), {}, {}}, 0.1}));
+  // Upright, across a track that runs to the north-east.
+  const double k = std::sqrt(0.5);
+  workshop.parts[0].places = {{{5.0, 5.0, 3.0}, {k, k, 0.0}, {0.0, 0.0, 1.0}, {k, -k, 0.0}}};
+  workshop.setting_out = {{"start", 0, 0, 0, {5.0, 5.0, 4.0}, 0, 0, 0, {}},
+                          {"end", 0, 0, 0, {7.0, 7.0, 3.0}, 0, 0, 0, {}}};
+  const PlaneBox side = bounds(side_view(workshop)).value();
+  CHECK(side.width() == Approx(2000.0));
+  const PlaneBox plan = bounds(plan_view(workshop)).value();
+  CHECK(plan.width() == Approx(2000.0));
+  CHECK(plan.height() == Approx(100.0));
+  // Front and back fall together: four lines.
+  Workshop bare = workshop;
+  bare.setting_out.resize(2);
+  CHECK(plan_view(bare).paths.size() == 4);
+  // A tube lying along the track: two outlines and its ends.
+  workshop.parts = {testing::shop_part(2, "pipe", TubeGore{0.05, 0.002, 1.0, 0.0, 0.0})};
+  workshop.parts[0].places = {{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {k, -k, 0.0}, {k, k, 0.0}}};
+  const PlaneBox pipe = bounds(side_view(workshop)).value();
+  CHECK(pipe.width() == Approx(1000.0));
+  CHECK(pipe.height() == Approx(104.0));
+}
+
+TEST_CASE("tables as CSV: units in the header, one row each, texts with commas in quotes") {
+  Workshop workshop = testing::sample_workshop();
+  workshop.items[0].where = "joint 1, \"left\"";
+  CHECK(bought_in_csv(workshop) ==
+        "name,standard,quantity,where\nbolt M12 x 40,ISO 4017 8.8,24,\"joint 1, \"\"left\"\"\"\n");
+  CHECK(bend_schedule_csv(workshop) ==
+        "part,hit,distance_mm,length_mm,angle_deg,sum_deg,radius_mm,chord_error_mm\n"
+        "2,1,250,0,1.718873385,1.718873385,2500,0.2\n");
+  const std::string cuts = cut_list_csv(workshop);
+  CHECK(std::count(cuts.begin(), cuts.end(), '\n') == 1 + 5);
+  CHECK(cuts.find("\n1,left_wall,S235,4,2,") != std::string::npos);
+  CHECK(cuts.find("\n4,gore,S235,4,2,,,,,,0,0,") != std::string::npos);
+  const std::string out = setting_out_csv(workshop);
+  CHECK(out.find("ordinate_mm,underside mm\nstart,0,0,0,0,0,0,") != std::string::npos);
+  CHECK(shop_checks_csv(workshop) ==
+        "rule,verdict,value,bound,where,source\nsmallest hole,pass,14 mm,at least 4 mm,part 1,a source\n");
+}
