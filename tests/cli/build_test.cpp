@@ -278,7 +278,7 @@ TEST_CASE("bad designs: the message tells what is wrong, the exit code of what k
                   "cross_section: {kind: u-channel, width: 20 mm, wall_height: 60 mm, "
                   "thickness: 30 mm}"),
        2,
-       {"thick.yaml:8:", "thickness: 30 mm is wider than the channel, 20 mm"}},
+       {"thick.yaml:8:", "thickness: 30 mm is no thinner than the width, 20 mm"}},
       {"tolerance_zero",
        chute_with("mesh:", "mesh: {tolerance: 0 mm}"),
        2,

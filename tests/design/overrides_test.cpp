@@ -20,8 +20,7 @@ TEST_CASE("an override replaces a value of the file, or adds one") {
                     {"export[1]", "stl-ascii"}});
   CHECK(design.body.friction == Friction::from_angle(Angle::from_degrees(19)));
   CHECK(design.body.entry_speed == 2.0);
-  CHECK(design.cross_section->kind == CrossSectionKind::pipe);
-  CHECK(design.cross_section->width == 0.1);
+  CHECK(design.cross_section == CrossSectionDesign(section::Pipe{0.1, 0.002}));
   CHECK(design.exports.formats ==
         std::vector{ExportFormat::csv, ExportFormat::stl_ascii, ExportFormat::scad});
   CHECK(design.where("body.friction_angle") == "--set body.friction_angle");

@@ -14,11 +14,7 @@ TEST_CASE("the grain chute reads as its file says, in SI units") {
   CHECK(design.body.entry_speed == 0.0);
   CHECK(design.gravity == 9.81);
   CHECK(design.centerline.kind == CenterlineKind::fastest);
-  REQUIRE(design.cross_section);
-  CHECK(design.cross_section->kind == CrossSectionKind::u_channel);
-  CHECK(design.cross_section->width == 0.4);
-  CHECK(design.cross_section->wall_height == 0.25);
-  CHECK(design.cross_section->thickness == 0.004);
+  CHECK(design.cross_section == CrossSectionDesign(section::UChannel{0.4, 0.25, 0.004}));
   CHECK(design.mesh.tolerance == 0.0005);
   CHECK(design.exports.formats == std::vector{ExportFormat::stl, ExportFormat::off, ExportFormat::scad});
   CHECK(design.exports.unit == LengthUnit::millimetre);

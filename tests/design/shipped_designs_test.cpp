@@ -22,9 +22,10 @@ TEST_CASE("every design in designs/ is sound") {
     CHECK_FALSE(design.name.empty());
     names.insert(entry.path().stem().string());
   }
-  for (const char* name : {"grain_chute", "ski_jump_inrun", "sand_ski_ramp", "toboggan_run", "powder_chute",
-                           "pudasaini_figure_1", "marble_run", "ski_jump_inrun_with_limits",
-                           "grain_chute_with_limits", "toboggan_on_terrain"}) {
+  for (const char* name :
+       {"grain_chute", "ski_jump_inrun", "sand_ski_ramp", "toboggan_run", "powder_chute",
+        "pudasaini_figure_1", "marble_run", "ski_jump_inrun_with_limits", "grain_chute_with_limits",
+        "toboggan_on_terrain", "wood_chip_chute", "ski_jump_inrun_track"}) {
     CHECK(names.contains(name));
   }
 }
@@ -68,6 +69,6 @@ TEST_CASE("a template that there is not is refused with those that there are") {
 TEST_CASE("every kind has a word, and the word names the kind") {
   for (const CenterlineKind kind : centerline_kinds()) CHECK(centerline_kind(word(kind)) == kind);
   CHECK_FALSE(centerline_kind("quickest").has_value());
-  CHECK(word(CrossSectionKind::half_pipe) == "half-pipe");
+  CHECK(section::kind(section::HalfPipe()) == "half-pipe");
   CHECK(word(ExportFormat::stl_ascii) == "stl-ascii");
 }

@@ -79,7 +79,7 @@ CrossSection random_section(testing::Random& random, double length, std::ostream
   const double wall = width * magnitude(random, 0.1, 3.0);
   const double thickness = width * magnitude(random, 0.003, 0.5);
   words << "width " << width << ", wall " << wall << ", thickness " << thickness;
-  switch (random.integer(0, 6)) {
+  switch (random.integer(0, 8)) {
     case 0:
       words << ", slab";
       return CrossSection::slab(width, thickness);
@@ -98,6 +98,18 @@ CrossSection random_section(testing::Random& random, double length, std::ostream
       const double above = random.integer(0, 1) == 0 ? 0.0 : wall;
       words << ", half-pipe with sides of " << above;
       return CrossSection::half_pipe(width, thickness, above);
+    }
+    case 6: {
+      const double angle = random.between(25.0, 165.0);
+      const double radius = wall * random.between(0.05, 0.9);
+      words << ", v-channel of " << angle << " deg, radius " << radius;
+      return CrossSection::v_channel(Angle::from_degrees(angle), radius, wall, thickness);
+    }
+    case 7: {
+      const double groove = random.between(0.05, 0.4);
+      words << ", track-groove, grooves of " << groove << " of the width";
+      return CrossSection::track_groove(width, groove * width, 0.2 * wall,
+                                        random.between(1.05, 1.3) * groove * width, thickness);
     }
     case 5:
       words << ", pipe";

@@ -36,6 +36,8 @@ std::vector<CrossSection> one_of_each(double wall) {
           CrossSection::half_pipe(2.0 * wall, 0.01),
           CrossSection::half_pipe(0.4, 0.01, 0.5 * wall),
           CrossSection::pipe(wall, 0.006),
+          CrossSection::v_channel(Angle::from_degrees(70.0), 0.3 * wall, wall, 0.006),
+          CrossSection::track_groove(0.6, 0.135, 0.25 * wall, 0.32, 0.05),
           CrossSection::polygon({{0.0, 0.0}, {-0.2, 0.1}, {-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}})};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "glissade/pipeline/solve.hpp"
-#include "glissade/solid/cross_section.hpp"
+#include "glissade/section/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/sweep.hpp"
 

@@ -3,7 +3,6 @@
 #include "design/checks.hpp"
 #include "design/outline.hpp"
 
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,87 +14,78 @@ namespace {
 constexpr double kLargestMeasure = 1e4;    // [m]
 constexpr double kSmallestMeasure = 1e-6;  // [m]
 
-bool is_measure(double value) {
-  return value >= kSmallestMeasure && value <= kLargestMeasure;
-}
+/// Holds every measure against what any measure may be, and lists its key.
+class MeasureCheck {
+ public:
+  explicit MeasureCheck(Collected& findings) : findings_(findings) {}
 
-void check_measure(double value, const std::string& key, Collected& findings) {
-  if (is_measure(value)) return;
-  const std::string fault = value > 0.0 ? "out of range" : "not positive";
-  report(findings, {"cross_section." + key},
-         {"", key + ": " + length_text(value) + " is " + fault, "It lies between 0.001 mm and 10 km.", ""});
-}
-
-void check_optional_measure(double value, const std::string& key, Collected& findings) {
-  if (value != 0.0) check_measure(value, key, findings);
-}
-
-void check_thickness(const CrossSectionDesign& section, const std::string& width_key, Collected& findings) {
-  check_measure(section.thickness, "thickness", findings);
-  if (!is_measure(section.width) || section.thickness <= section.width) return;
-  report(findings, {"cross_section.thickness", "cross_section." + width_key},
-         {"",
-          "thickness: " + length_text(section.thickness) + " is wider than the channel, " +
-              length_text(section.width),
-          "A plate is thinner than the " + width_key + " that it encloses.", "the units of both"});
-}
-
-void check_curbs(const CrossSectionDesign& section, Collected& findings) {
-  check_optional_measure(section.curb_height, "curb_height", findings);
-  check_optional_measure(section.curb_width, "curb_width", findings);
-  if ((section.curb_height > 0.0) != (section.curb_width > 0.0)) {
-    const bool high = section.curb_height > 0.0;
-    report(findings, {high ? "cross_section.curb_height" : "cross_section.curb_width"},
-           {"", std::string(high ? "curb_height" : "curb_width") + " stands alone",
-            "A curb has both a curb_height and a curb_width.", "both, or none"});
+  void width(const std::string& key, const WidthLaw& law, const char* example) {
+    note(key);
+    for (const WidthAt& knot : law.knots()) check(key, knot.width, example);
   }
-  if (2.0 * section.curb_width < section.width || !is_measure(section.width)) return;
-  report(findings, {"cross_section.curb_width", "cross_section.width"},
-         {"",
-          "curb_width: two curbs of " + length_text(section.curb_width) + " leave no floor in a width of " +
-              length_text(section.width),
-          "The curbs stand within the width.", "a curb_width below " + length_text(section.width / 2.0)});
-}
-
-void check_wall_angle(const CrossSectionDesign& section, Collected& findings) {
-  constexpr double kSteepestLean = 80.0 / 180.0 * std::numbers::pi;
-  const double angle = section.wall_angle.radians();
-  if (angle >= 0.0 && angle <= kSteepestLean) return;
-  report(findings, {"cross_section.wall_angle"},
-         {"", "wall_angle: " + angle_text(angle) + " is out of range",
-          "Walls lean outward by 0 to 80 deg from upright.", "20 deg"});
-}
-
-void check_outline(const std::vector<Vec2>& outline, Collected& findings) {
-  std::optional<Issue> fault = outline_fault(outline, "outline");
-  if (!fault && !touches_outline(outline, {0.0, 0.0})) {
-    fault = Issue{"", "outline: does not pass through [0 mm, 0 mm]",
-                  "That point is the centerline, on the floor's surface.",
-                  "[0 mm, 0 mm] as a corner in the middle of the floor"};
+  void length(const std::string& key, double value, const char* example) {
+    note(key);
+    check(key, value, example);
   }
-  if (fault) report(findings, {"cross_section.outline"}, *std::move(fault));
+  void optional_length(const std::string& key, double value) {
+    note(key);
+    if (value != 0.0) check(key, value, "");
+  }
+  void angle(const std::string& key, Angle, const char*) { note(key); }
+  void corners(const std::string& key, const std::vector<Vec2>& corners, const char*) {
+    note(key);
+    if (auto fault = outline_fault(corners, key)) add(key, *std::move(fault));
+  }
+  void misnomer(const char*, const char*) const {}
+
+  [[nodiscard]] bool found_nothing() const { return sound_; }
+  /// @return the key path of the measure that the text begins with, and after it those of all measures
+  [[nodiscard]] std::vector<std::string> paths(const std::string& text) const {
+    std::vector<std::string> all{"cross_section." + text.substr(0, text.find_first_of(": "))};
+    all.insert(all.end(), paths_.begin(), paths_.end());
+    return all;
+  }
+
+ private:
+  void note(const std::string& key) { paths_.push_back("cross_section." + key); }
+  void add(const std::string& key, Issue issue) {
+    sound_ = false;
+    report(findings_, {"cross_section." + key}, std::move(issue));
+  }
+  void check(const std::string& key, double value, const char* example) {
+    if (value >= kSmallestMeasure && value <= kLargestMeasure) return;
+    const std::string fault = value > 0.0 ? "out of range" : "not positive";
+    add(key, {"", key + ": " + length_text(value) + " is " + fault, "It lies between 0.001 mm and 10 km.",
+              example});
+  }
+
+  Collected& findings_;
+  std::vector<std::string> paths_;
+  bool sound_ = true;
+};
+
+std::optional<CrossSection> checked_section(const CrossSectionDesign& design, Collected& findings) {
+  MeasureCheck check(findings);
+  section::visit_measures(design, check);
+  if (!check.found_nothing()) return {};
+  // What measures ask of each other is said where the outline is made of them.
+  try {
+    return CrossSection(design);
+  } catch (const InputError& error) {
+    for (const Issue& issue : error.issues()) report(findings, check.paths(issue.what), issue);
+  }
+  return {};
 }
 
 }  // namespace
 
 void check_cross_section(const Design& design, Collected& findings) {
-  if (!design.cross_section) return;
-  const CrossSectionDesign& section = *design.cross_section;
-  if (section.kind == CrossSectionKind::polygon) {
-    check_outline(section.outline, findings);
-    return;
-  }
-  const std::string width_key = section.kind == CrossSectionKind::pipe ? "inner_diameter" : "width";
-  check_measure(section.width, width_key, findings);
-  check_thickness(section, width_key, findings);
-  if (section.kind == CrossSectionKind::slab) check_curbs(section, findings);
-  if (section.kind == CrossSectionKind::half_pipe) {
-    check_optional_measure(section.wall_height, "wall_height", findings);
-  }
-  const bool walled =
-      section.kind == CrossSectionKind::u_channel || section.kind == CrossSectionKind::trapezoid;
-  if (walled) check_measure(section.wall_height, "wall_height", findings);
-  if (section.kind == CrossSectionKind::trapezoid) check_wall_angle(section, findings);
+  if (design.cross_section) static_cast<void>(checked_section(*design.cross_section, findings));
+}
+
+std::optional<CrossSection> sound_cross_section(const Design& design) {
+  Collected findings;
+  return design.cross_section ? checked_section(*design.cross_section, findings) : std::nullopt;
 }
 
 }  // namespace glissade::design_file

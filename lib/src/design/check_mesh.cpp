@@ -1,5 +1,7 @@
 #include "glissade/core/capacity.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/section/cross_section.hpp"
 
 #include "design/checks.hpp"
 
@@ -7,37 +9,40 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace glissade::design_file {
 namespace {
 
-double least_perimeter(const CrossSectionDesign& section) {
-  if (section.kind != CrossSectionKind::polygon) return 2.0 * (section.width + section.wall_height);
+/// A closed line passes each of its extremes on the way there and back.
+double least_perimeter(const CrossSection& section) {
   double left = 0.0;
   double right = 0.0;
-  for (const Vec2& corner : section.outline) {
-    left = std::min(left, corner.x);
-    right = std::max(right, corner.x);
+  for (const section::Stroke& stroke : section.loops().front()) {
+    left = std::min(left, stroke.from.x);
+    right = std::max(right, stroke.from.x);
   }
-  return 2.0 * (right - left);
+  return 2.0 * math::hypot(right - left, section.highest() - section.lowest());
 }
 
 /// A lower bound of the number of near-isotropic facets that a curved track needs: an edge of length h
 /// departs by h^2 kappa / 8 from an arc of curvature kappa, so facets of that size number 2 S P / h^2 = phi P
 /// / (4 e) on a track that turns by phi = kappa S under a section of perimeter P. Every curved kind turns by
 /// more than 0.25.
-double least_triangles(const Design& design) {
+double least_triangles(const Design& design, const CrossSection& section) {
   constexpr double kLeastTurn = 0.25;
-  return kLeastTurn * least_perimeter(*design.cross_section) / (4.0 * design.mesh.tolerance);
+  return kLeastTurn * least_perimeter(section) / (4.0 * design.mesh.tolerance);
 }
 
 void check_mesh_size(const Design& design, Collected& findings) {
   constexpr double kBytesPerTriangle = 60.0;  // facet, half of a vertex, and what checking them takes
   const bool curved = !is_given(design.centerline.kind) && design.centerline.kind != CenterlineKind::straight;
-  if (!design.cross_section || !curved) return;
-  const double triangles = least_triangles(design);
+  if (!curved) return;
+  const std::optional<CrossSection> section = sound_cross_section(design);
+  if (!section) return;
+  const double triangles = least_triangles(design, *section);
   constexpr auto kMost = static_cast<double>(kMostTriangles);
   if (!(triangles > kMost)) return;
   const double smallest = design.mesh.tolerance * triangles / kMost;

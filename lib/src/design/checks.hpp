@@ -1,9 +1,11 @@
 #pragma once
 
 #include "glissade/design/design.hpp"
+#include "glissade/section/cross_section.hpp"
 
 #include "design/findings.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +39,9 @@ inline void report(Collected& findings, std::vector<std::string> key_paths, Issu
 [[nodiscard]] double drop_of(const TrackDesign& track);
 /// @return "drop 1.08 m over 5.4 m"
 [[nodiscard]] std::string drop_over_run(const TrackDesign& track);
+
+/// @return the section of the design; none if it has none, or check_cross_section() finds something wrong with it
+[[nodiscard]] std::optional<CrossSection> sound_cross_section(const Design& design);
 
 /// Whether a track of this kind is drawn by the design, and not found by Glissade.
 [[nodiscard]] bool is_given(CenterlineKind kind);

@@ -9,6 +9,7 @@
 #include "design/map_reader.hpp"
 #include "design/overrides.hpp"
 #include "design/read_body.hpp"
+#include "design/read_cross_section.hpp"
 #include "design/read_limits.hpp"
 #include "design/read_probes.hpp"
 #include "design/read_rules.hpp"
@@ -235,75 +236,6 @@ CenterlineDesign read_centerline(MapReader& top, const std::filesystem::path& fi
   if (*kind == CenterlineKind::points) read_points(map, centerline, file, findings);
   map.refuse_unknown_keys();
   return centerline;
-}
-
-std::vector<Vec2> read_outline(MapReader& map, Findings& findings) {
-  constexpr std::string_view kExample =
-      "[[-200 mm, 0 mm], [-200 mm, -5 mm], [200 mm, -5 mm], [200 mm, 0 mm], [0 mm, 0 mm]]";
-  const auto value = map.need("outline", kExample);
-  return value ? as_points(*value, kExample, findings) : std::vector<Vec2>{};
-}
-
-void read_measures(MapReader& map, CrossSectionDesign& section, Findings& findings) {
-  const auto needed = [&](std::string_view key, std::string_view example) {
-    return map.needed_quantity(key, Dimension::length, example).value_or(0.0);
-  };
-  const auto optional = [&](std::string_view key) {
-    return map.quantity(key, Dimension::length).value_or(0.0);
-  };
-  constexpr std::string_view kWidth = "width: 400 mm";
-  constexpr std::string_view kWall = "wall_height: 250 mm";
-  switch (section.kind) {
-    case CrossSectionKind::slab:
-      section.width = needed("width", kWidth);
-      section.curb_height = optional("curb_height");
-      section.curb_width = optional("curb_width");
-      break;
-    case CrossSectionKind::u_channel:
-      section.width = needed("width", kWidth);
-      section.wall_height = needed("wall_height", kWall);
-      break;
-    case CrossSectionKind::trapezoid:
-      section.width = needed("width", kWidth);
-      section.wall_height = needed("wall_height", kWall);
-      section.wall_angle = Angle::from_radians(
-          map.needed_quantity("wall_angle", Dimension::angle, "wall_angle: 20 deg").value_or(0.0));
-      break;
-    case CrossSectionKind::half_pipe:
-      section.width = needed("width", kWidth);
-      section.wall_height = optional("wall_height");
-      break;
-    case CrossSectionKind::pipe:
-      section.width = needed("inner_diameter", "inner_diameter: 150 mm");
-      break;
-    case CrossSectionKind::polygon:
-      section.outline = read_outline(map, findings);
-      return;
-  }
-  section.thickness = needed("thickness", "thickness: 4 mm");
-}
-
-std::optional<CrossSectionDesign> read_cross_section(MapReader& top, Findings& findings) {
-  const std::optional<Value> value = top.find("cross_section");
-  if (!value) return {};
-  CrossSectionDesign section;
-  MapReader map(*value, "A cross_section",
-                "{kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}", findings);
-  const auto kind_value = map.need("kind", "kind: u-channel");
-  const auto kind = kind_value ? map.choice(*kind_value, cross_section_words()) : std::nullopt;
-  if (!kind) return {};
-  section.kind = *kind;
-  const std::string noun = "A cross_section of kind " + std::string(word(*kind));
-  map.rename(noun);
-  map.add_stranger("inner_diameter", "kind: pipe, which has inner_diameter");
-  map.add_stranger("outline", "kind: polygon, which has outline");
-  map.add_stranger("wall_angle", "kind: trapezoid, which has wall_angle");
-  map.add_stranger("curb_height", "kind: slab, which has curb_height and curb_width");
-  map.add_stranger("curb_width", "kind: slab, which has curb_height and curb_width");
-  if (*kind == CrossSectionKind::pipe) map.add_stranger("width", "inner_diameter");
-  read_measures(map, section, findings);
-  map.refuse_unknown_keys();
-  return section;
 }
 
 MeshDesign read_mesh(MapReader& top, Findings& findings) {

@@ -1,5 +1,9 @@
 #include "design/schema_words.hpp"
 
+#include <cstddef>
+#include <utility>
+#include <variant>
+
 namespace glissade {
 namespace design_file {
 
@@ -16,12 +20,19 @@ const Words<CenterlineKind>& centerline_words() {
   return words;
 }
 
-const Words<CrossSectionKind>& cross_section_words() {
-  static const Words<CrossSectionKind> words = {
-      {"slab", CrossSectionKind::slab},           {"u-channel", CrossSectionKind::u_channel},
-      {"trapezoid", CrossSectionKind::trapezoid}, {"half-pipe", CrossSectionKind::half_pipe},
-      {"pipe", CrossSectionKind::pipe},           {"polygon", CrossSectionKind::polygon},
-  };
+namespace {
+
+template <std::size_t... kIndices>
+Words<CrossSectionDesign> words_of_sections(std::index_sequence<kIndices...>) {
+  return {{std::variant_alternative_t<kIndices, CrossSectionDesign>::kKind,
+           std::variant_alternative_t<kIndices, CrossSectionDesign>()}...};
+}
+
+}  // namespace
+
+const Words<CrossSectionDesign>& cross_section_words() {
+  static const Words<CrossSectionDesign> words =
+      words_of_sections(std::make_index_sequence<std::variant_size_v<CrossSectionDesign>>());
   return words;
 }
 
@@ -59,9 +70,6 @@ std::string_view word_of(Meaning meaning, const Words<Meaning>& words) {
 
 std::string_view word(CenterlineKind kind) {
   return design_file::word_of(kind, design_file::centerline_words());
-}
-std::string_view word(CrossSectionKind kind) {
-  return design_file::word_of(kind, design_file::cross_section_words());
 }
 
 std::optional<CenterlineKind> centerline_kind(std::string_view word) {

@@ -23,7 +23,7 @@ body:                                  # what slides
   # drag: 0.001 1/m                    # air density x drag coefficient x frontal area / (2 x mass)
 # gravity: 9.81 m/s^2
 centerline: {kind: fastest}            # or constant-speed, straight, cycloid, segments, points
-cross_section:                         # or slab, trapezoid, half-pipe, pipe, polygon
+cross_section:                         # or slab, trapezoid, half-pipe, pipe, v-channel, track-groove, polygon
   kind: u-channel
   width: 400 mm                        # inside
   wall_height: 250 mm                  # inside

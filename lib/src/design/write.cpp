@@ -310,22 +310,34 @@ std::string limits(const Limits& design, const Objective& aim) {
   return group.lines();
 }
 
+/// Writes each measure of a kind under its key.
+class MeasureWriter {
+ public:
+  explicit MeasureWriter(Group& group) : group_(group) {}
+
+  void width(const char* key, const WidthLaw& law, const char* example) {
+    length(key, law.narrowest(), example);
+  }
+  void length(const char* key, double value, const char*) { group_.add(key, value, Dimension::length); }
+  void optional_length(const char* key, double value) {
+    group_.add_unless(0.0, key, value, Dimension::length);
+  }
+  void angle(const char* key, Angle value, const char*) {
+    group_.add(key, value.radians(), Dimension::angle);
+  }
+  void corners(const char* key, const std::vector<Vec2>& values, const char*) {
+    group_.add(key, points(values));
+  }
+  void misnomer(const char*, const char*) const {}
+
+ private:
+  Group& group_;
+};
+
 std::string cross_section(const CrossSectionDesign& design) {
   Group group;
-  group.add("kind", std::string(word(design.kind)));
-  if (design.kind == CrossSectionKind::polygon) {
-    group.add("outline", points(design.outline));
-    return group.lines();
-  }
-  group.add(design.kind == CrossSectionKind::pipe ? "inner_diameter" : "width", design.width,
-            Dimension::length);
-  group.add_unless(0.0, "wall_height", design.wall_height, Dimension::length);
-  if (design.kind == CrossSectionKind::trapezoid) {
-    group.add("wall_angle", design.wall_angle.radians(), Dimension::angle);
-  }
-  group.add_unless(0.0, "curb_height", design.curb_height, Dimension::length);
-  group.add_unless(0.0, "curb_width", design.curb_width, Dimension::length);
-  group.add("thickness", design.thickness, Dimension::length);
+  group.add("kind", std::string(section::kind(design)));
+  section::visit_measures(design, MeasureWriter(group));
   return group.lines();
 }
 

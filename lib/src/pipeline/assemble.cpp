@@ -249,7 +249,7 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
   Steps steps(context, total);
   steps.enter("making the mesh", kSweepCost);
   const std::string place = design.where("cross_section");
-  CrossSection section = at_place(place, [&] { return make_cross_section(*design.cross_section); });
+  CrossSection section = at_place(place, [&] { return CrossSection(*design.cross_section); });
   const Placement placement =
       design.exports.frame == MeshFrame::local ? track.placement.at_origin() : track.placement;
   const double rounding = rounding_in_files(design, *track.centerline, section, placement);

@@ -1,26 +1,48 @@
 #include "pipeline/cross_section.hpp"
 
 #include "glissade/core/number_text.hpp"
-#include "glissade/pipeline/solve.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
 
 namespace glissade {
 
 namespace pipeline {
 
+namespace {
+
+/// Each measure after its key in plain words.
+class MeasureWords {
+ public:
+  explicit MeasureWords(std::string& text) : text_(text) {}
+
+  void width(const std::string& key, const WidthLaw& law, const char*) {
+    add(key, length_text(law.narrowest()));
+  }
+  void length(const std::string& key, double value, const char*) { add(key, length_text(value)); }
+  void optional_length(const std::string& key, double value) {
+    if (value > 0.0) add(key, length_text(value));
+  }
+  void angle(const std::string& key, Angle value, const char*) { add(key, angle_text(value.radians())); }
+  void corners(const std::string&, const std::vector<Vec2>&, const char*) const {}
+  void misnomer(const char*, const char*) const {}
+
+ private:
+  void add(std::string key, const std::string& value) {
+    std::replace(key.begin(), key.end(), '_', ' ');
+    text_ += ", " + key + " " + value;
+  }
+
+  std::string& text_;
+};
+
+}  // namespace
+
 std::string section_in_words(const CrossSectionDesign& section) {
-  std::string text(word(section.kind));
-  if (section.kind == CrossSectionKind::polygon) return text;
-  text += section.kind == CrossSectionKind::pipe ? ", inner diameter " : ", width ";
-  text += length_text(section.width);
-  if (section.wall_height > 0.0) text += ", wall height " + length_text(section.wall_height);
-  if (section.kind == CrossSectionKind::trapezoid) {
-    text += ", walls " + angle_text(section.wall_angle.radians()) + " from upright";
-  }
-  if (section.curb_height > 0.0) {
-    text += ", curbs " + length_text(section.curb_height) + " high and " + length_text(section.curb_width) +
-            " wide";
-  }
-  return text + ", thickness " + length_text(section.thickness);
+  std::string text(section::kind(section));
+  section::visit_measures(section, MeasureWords(text));
+  return text;
 }
 
 void require_cross_section(const Design& design) {
@@ -33,23 +55,5 @@ void require_cross_section(const Design& design) {
 }
 
 }  // namespace pipeline
-
-CrossSection make_cross_section(const CrossSectionDesign& design) {
-  switch (design.kind) {
-    case CrossSectionKind::slab:
-      return CrossSection::slab(design.width, design.thickness, design.curb_height, design.curb_width);
-    case CrossSectionKind::u_channel:
-      return CrossSection::u_channel(design.width, design.wall_height, design.thickness);
-    case CrossSectionKind::trapezoid:
-      return CrossSection::trapezoid(design.width, design.wall_height, design.wall_angle, design.thickness);
-    case CrossSectionKind::half_pipe:
-      return CrossSection::half_pipe(design.width, design.thickness, design.wall_height);
-    case CrossSectionKind::pipe:
-      return CrossSection::pipe(design.width, design.thickness);
-    case CrossSectionKind::polygon:
-      return CrossSection::polygon(design.outline);
-  }
-  throw InternalError({"", "a kind of cross-section without a shape", "", ""});
-}
 
 }  // namespace glissade

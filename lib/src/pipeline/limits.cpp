@@ -197,7 +197,7 @@ Envelope envelope_of(const Design& design) {
   Envelope envelope;
   envelope.headroom = limits.envelope.headroom;
   if (!design.cross_section) return envelope;
-  const CrossSection section = make_cross_section(*design.cross_section);
+  const CrossSection section(*design.cross_section);
   envelope.below = -section.lowest();
   envelope.above = section.highest();
   return envelope;
@@ -206,16 +206,7 @@ Envelope envelope_of(const Design& design) {
 std::string part_text(const Design& design, EnvelopePart part) {
   if (part == EnvelopePart::side) return "side of the solid";
   if (part != EnvelopePart::rim || !design.cross_section) return std::string(to_text(part));
-  switch (design.cross_section->kind) {
-    case CrossSectionKind::pipe:
-      return "top of the pipe";
-    case CrossSectionKind::slab:
-      return "top of the curbs";
-    case CrossSectionKind::polygon:
-      return "top of the section";
-    default:
-      return "wall rim";
-  }
+  return std::string(section::top(*design.cross_section));
 }
 
 Problem problem_of(const Design& design) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
-#include "glissade/solid/cross_section.hpp"
+#include "glissade/section/cross_section.hpp"
 
 #include "solid/level_curves.hpp"
 

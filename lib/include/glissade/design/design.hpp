@@ -7,6 +7,7 @@
 #include "glissade/design/body_design.hpp"
 #include "glissade/design/probe_design.hpp"
 #include "glissade/design/rules_design.hpp"
+#include "glissade/section/measures.hpp"
 #include "glissade/task/finish.hpp"
 #include "glissade/task/limits.hpp"
 #include "glissade/task/objective.hpp"
@@ -85,24 +86,8 @@ struct CenterlineDesign {
   friend bool operator==(const CenterlineDesign&, const CenterlineDesign&) = default;
 };
 
-enum class CrossSectionKind { slab, u_channel, trapezoid, half_pipe, pipe, polygon };
-
-/// @return the word that a design file uses, e.g. "u-channel"
-[[nodiscard]] std::string_view word(CrossSectionKind kind);
-
-/// Inside measures [m]; which of them count is said in docs/design-file.md and cross_section.hpp.
-struct CrossSectionDesign {
-  CrossSectionKind kind = CrossSectionKind::u_channel;
-  double width = 0.0;  ///< of a `trapezoid` its floor, of a `pipe` its inner diameter
-  double wall_height = 0.0;
-  double thickness = 0.0;
-  Angle wall_angle;          ///< of `trapezoid`, from upright
-  double curb_height = 0.0;  ///< of `slab`
-  double curb_width = 0.0;
-  std::vector<Vec2> outline;  ///< of `polygon`
-
-  friend bool operator==(const CrossSectionDesign&, const CrossSectionDesign&) = default;
-};
+/// A cross-section by its kind and measures: one struct a kind, see section/measures.hpp.
+using CrossSectionDesign = section::Measures;
 
 struct MeshDesign {
   double tolerance = 0.5e-3;  ///< [m]; > 0

@@ -7,7 +7,7 @@
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
 #include "glissade/optimize/optimize.hpp"
-#include "glissade/solid/cross_section.hpp"
+#include "glissade/section/cross_section.hpp"
 #include "glissade/solid/placement.hpp"
 
 #include <optional>
@@ -156,9 +156,5 @@ class LimitsConflict : public InfeasibleError {
 /// What a user should hear of beside a sound answer: something asked for that had no effect, or data that may
 /// not say what they seem to.
 [[nodiscard]] std::vector<Issue> warnings(const Design& design, const Track& track);
-
-/// The outline that a design asks for.
-/// @throws InputError if the measures do not make a cross-section
-[[nodiscard]] CrossSection make_cross_section(const CrossSectionDesign& design);
 
 }  // namespace glissade

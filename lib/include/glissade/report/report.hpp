@@ -6,7 +6,7 @@
 #include "glissade/motion/motion.hpp"
 #include "glissade/motion/probe.hpp"
 #include "glissade/optimize/optimize.hpp"
-#include "glissade/solid/cross_section.hpp"
+#include "glissade/section/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/placement.hpp"
 #include "glissade/solid/sweep.hpp"

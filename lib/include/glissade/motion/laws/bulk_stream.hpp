@@ -1,17 +1,12 @@
 #pragma once
 
+#include "glissade/core/width_law.hpp"
 #include "glissade/motion/law.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace glissade {
-
-/// The inside width of a chute at a place.
-struct WidthAt {
-  double at = 0.0;     ///< arc length [m]
-  double width = 0.0;  ///< B [m]; > 0
-};
 
 /// What flows, and in what channel.
 struct StreamShape {

@@ -1,4 +1,4 @@
-#include "glissade/solid/cross_section.hpp"
+#include "glissade/section/cross_section.hpp"
 
 #include "glissade/core/error.hpp"
 
@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 using namespace glissade;
 
@@ -53,6 +54,8 @@ std::vector<CrossSection> one_of_each() {
           CrossSection::half_pipe(0.5, 0.01),
           CrossSection::half_pipe(0.5, 0.01, 0.1),
           CrossSection::pipe(0.3, 0.006),
+          CrossSection::v_channel(Angle::from_degrees(70.0), 0.05, 0.3, 0.006),
+          CrossSection::track_groove(0.6, 0.135, 0.03, 0.32, 0.05),
           CrossSection::polygon({{0.0, 0.0}, {-0.2, 0.1}, {-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}})};
 }
 
@@ -102,6 +105,102 @@ TEST_CASE("cross-section: known areas and moments") {
   CHECK(CrossSection::pipe(0.3, 0.01).area() == Approx(kPi * (0.16 * 0.16 - 0.15 * 0.15)).epsilon(1e-14));
   CHECK(CrossSection::pipe(0.3, 0.01).first_moment() ==
         Approx(0.15 * kPi * (0.16 * 0.16 - 0.15 * 0.15)).epsilon(1e-14));
+  const CrossSection track = CrossSection::track_groove(0.6, 0.135, 0.03, 0.32, 0.05);
+  CHECK(track.area() == Approx(0.6 * 0.08 - 2.0 * 0.135 * 0.03).epsilon(1e-14));
+  CHECK(track.first_moment() ==
+        Approx(0.5 * 0.6 * (0.03 * 0.03 - 0.05 * 0.05) - 0.135 * 0.03 * 0.03).epsilon(1e-13));
+}
+
+TEST_CASE(
+    "cross-section: a v-channel is a bent plate: its arc is tangent to both walls, its rims are level") {
+  const double angle = 70.0 * kPi / 180.0;
+  const double radius = 0.05;
+  const double height = 0.3;
+  const double thickness = 0.006;
+  const CrossSection section = CrossSection::v_channel(Angle::from_radians(angle), radius, height, thickness);
+  // The plate by its two faces: half a ring of the bend, and two walls between parallel lines.
+  const double turn = kPi - angle;
+  const auto wall_length = [&](double r, double low) {
+    return (height - (low + r * (1.0 - std::cos(0.5 * turn)))) / std::sin(0.5 * turn);
+  };
+  const double inner = wall_length(radius, 0.0);
+  const double outer = wall_length(radius + thickness, -thickness);
+  const double ring = 0.5 * turn * thickness * (2.0 * radius + thickness);
+  CHECK(section.area() == Approx(ring + thickness * (inner + outer)).epsilon(1e-13));
+  for (const section::Side side : {section::Side::left_wall, section::Side::right_wall}) {
+    const auto strokes = section.strokes(side);
+    REQUIRE(strokes.size() == 1);
+    CHECK(strokes[0].length() == Approx(inner).epsilon(1e-13));
+    const Vec2 along = strokes[0].to - strokes[0].from;
+    CHECK(std::atan2(std::fabs(along.x), std::fabs(along.y)) == Approx(0.5 * angle).epsilon(1e-13));
+    // The radius at the end of the arc is square to the wall.
+    const Vec2 foot = strokes[0].to.y < strokes[0].from.y ? strokes[0].to : strokes[0].from;
+    CHECK(std::fabs(dot(foot - Vec2{0.0, radius}, along)) <= 1e-15);
+    CHECK(norm(foot - Vec2{0.0, radius}) == Approx(radius).epsilon(1e-13));
+  }
+  for (const section::Stroke& rim : section.strokes(section::Side::rim)) CHECK(rim.from.y == rim.to.y);
+  double floor = 0.0;
+  for (const section::Stroke& stroke : section.strokes(section::Side::floor)) floor += stroke.length();
+  CHECK(floor == Approx(turn * radius).epsilon(1e-13));
+}
+
+TEST_CASE("cross-section: sides are named, and together they are the outline") {
+  for (const CrossSection& section : one_of_each()) {
+    INFO(section.kind());
+    double whole = 0.0;
+    for (const section::Outline& loop : section.loops()) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        whole += loop[i].length();
+        CHECK(loop[i].to == loop[(i + 1) % loop.size()].from);
+      }
+    }
+    double named = 0.0;
+    for (const section::Side side :
+         {section::Side::floor, section::Side::left_wall, section::Side::right_wall, section::Side::rim,
+          section::Side::underside}) {
+      for (const section::Stroke& stroke : section.strokes(side)) {
+        named += stroke.length();
+        const double middle = 0.5 * (stroke.from.x + stroke.to.x);
+        if (section.kind() == "track-groove") continue;  // each groove has both walls
+        if (side == section::Side::left_wall) CHECK(middle > 0.0);
+        if (side == section::Side::right_wall) CHECK(middle < 0.0);
+      }
+    }
+    CHECK(named == Approx(whole).epsilon(1e-14));
+    CHECK_FALSE(section.strokes(section::Side::floor).empty());
+    CHECK_FALSE(section.strokes(section::Side::underside).empty());
+  }
+}
+
+TEST_CASE("cross-section: a u-channel's sides, one by one") {
+  const CrossSection section = CrossSection::u_channel(0.4, 0.25, 0.004);
+  const auto ends = [&](section::Side side) {
+    std::vector<Vec2> points;
+    for (const section::Stroke& stroke : section.strokes(side)) {
+      points.push_back(stroke.from);
+      points.push_back(stroke.to);
+    }
+    return points;
+  };
+  CHECK(ends(section::Side::floor) == Polygon{{0.2, 0.0}, {-0.2, 0.0}});
+  CHECK(ends(section::Side::left_wall) == Polygon{{0.2, 0.25}, {0.2, 0.0}});
+  CHECK(ends(section::Side::right_wall) == Polygon{{-0.2, 0.0}, {-0.2, 0.25}});
+  CHECK(ends(section::Side::rim) ==
+        Polygon{{0.2 + 0.004, 0.25}, {0.2, 0.25}, {-0.2, 0.25}, {-0.2 - 0.004, 0.25}});
+  CHECK(word(section::Side::left_wall) == "left wall");
+}
+
+TEST_CASE("cross-section: a polygon's sides are named by where they face") {
+  // A groove: a block with a v in it that is flatter than 45 deg on the left, steeper on the right.
+  const CrossSection section =
+      CrossSection::polygon({{0.0, 0.0}, {-0.1, 0.3}, {-0.2, 0.3}, {-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.05}});
+  const auto count = [&](section::Side side) { return section.strokes(side).size(); };
+  CHECK(count(section::Side::floor) == 1);
+  CHECK(section.strokes(section::Side::floor)[0].from == Vec2{0.2, 0.05});
+  CHECK(count(section::Side::right_wall) == 1);
+  CHECK(count(section::Side::rim) == 1);
+  CHECK(count(section::Side::left_wall) == 0);
+  CHECK(count(section::Side::underside) == 3);
 }
 
 TEST_CASE("cross-section: a trapezoid's plates have their thickness measured square to them") {
@@ -160,9 +259,12 @@ TEST_CASE("cross-section: either winding of a polygon is the same section") {
 TEST_CASE("cross-section: sizes that make no section are refused with their value and bound") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   CHECK(message_of([] { return CrossSection::u_channel(0.4, 0.25, 0.45); }) ==
-        "thickness: 450 mm is wider than the channel, 400 mm (width)\n"
-        "      The plates of a channel are thinner than the channel is wide.\n"
-        "      Try: a thickness below 400 mm");
+        "thickness: 450 mm is no thinner than the width, 400 mm\n"
+        "      A plate is thinner than the width that it encloses.\n"
+        "      Try: the units of both");
+  CHECK_THAT(
+      message_of([] { return CrossSection::pipe(0.15, 0.15); }),
+      Catch::Matchers::StartsWith("thickness: 150 mm is no thinner than the inner_diameter, 150 mm\n"));
   CHECK_THAT(message_of([] { return CrossSection::slab(0.0, 0.1); }),
              Catch::Matchers::StartsWith("width: 0 m is not"));
   CHECK_THAT(message_of([] { return CrossSection::slab(0.4, -0.1); }),
@@ -170,9 +272,21 @@ TEST_CASE("cross-section: sizes that make no section are refused with their valu
   CHECK_THAT(message_of([] { return CrossSection::u_channel(0.4, kNan, 0.004); }),
              Catch::Matchers::StartsWith("wall_height: nan m"));
   CHECK_THAT(message_of([] { return CrossSection::slab(0.4, 0.1, 0.1); }),
-             Catch::Matchers::StartsWith("curb_width: missing"));
+             Catch::Matchers::StartsWith("curb_height stands alone"));
   CHECK_THAT(message_of([] { return CrossSection::trapezoid(0.4, 0.1, Angle::from_degrees(89.0), 0.01); }),
-             Catch::Matchers::StartsWith("wall_angle: 89 deg"));
+             Catch::Matchers::StartsWith(
+                 "wall_angle: 89 deg is out of range\n"
+                 "      The walls of a trapezoid lean outward from upright by 0 deg to 80 deg."));
+  CHECK_THAT(message_of([] { return CrossSection::v_channel(Angle::from_degrees(175.0), 0.05, 0.3, 0.006); }),
+             Catch::Matchers::StartsWith("angle: 175 deg is out of range\n"
+                                         "      The walls of a v-channel open by 20 deg to 170 deg."));
+  CHECK_THAT(message_of([] { return CrossSection::v_channel(Angle::from_degrees(90.0), 1.0, 0.25, 0.006); }),
+             Catch::Matchers::StartsWith(
+                 "wall_height: 250 mm is too small beside the end of the bottom's arc, 292.9 mm"));
+  CHECK_THAT(message_of([] { return CrossSection::track_groove(0.6, 0.135, 0.03, 0.1, 0.05); }),
+             Catch::Matchers::StartsWith("groove_spacing: 100 mm is too small beside groove_width, 135 mm"));
+  CHECK_THAT(message_of([] { return CrossSection::track_groove(0.4, 0.135, 0.03, 0.32, 0.05); }),
+             Catch::Matchers::StartsWith("width: 400 mm is too small beside both grooves, 455 mm"));
   CHECK_THAT(message_of([] { return CrossSection::half_pipe(0.4, 0.5); }),
              Catch::Matchers::StartsWith("thickness: 500 mm"));
   CHECK_THAT(message_of([] { return CrossSection::pipe(0.4, std::numeric_limits<double>::infinity()); }),
