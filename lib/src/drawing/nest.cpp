@@ -1,0 +1,349 @@
+#include "glissade/drawing/nest.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace glissade {
+namespace {
+
+constexpr double kMillimetres = 1000.0;  // in a metre
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Of chords that stand for arcs where columns are measured; spacing is widened by as much.
+constexpr double kSagitta = 2e-5;
+
+// --- shapes
+
+std::vector<Vec2> hull_of(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](Vec2 a, Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<Vec2> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t base = hull.size();
+    for (const Vec2 point : points) {
+      while (hull.size() >= base + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.0) {
+        hull.pop_back();
+      }
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+/// @return the angle that lays the least rectangle round the points along x, its long side level
+double lying_angle(const std::vector<Vec2>& points) {
+  const std::vector<Vec2> hull = hull_of(points);
+  double least = kInfinity;
+  double angle = 0.0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+    const double size = norm(edge);
+    if (size == 0.0) continue;
+    const Vec2 along = (1.0 / size) * edge;
+    double low = kInfinity, high = -kInfinity, up = 0.0;
+    for (const Vec2 point : hull) {
+      const double x = dot(along, point - hull[i]);
+      low = std::min(low, x);
+      high = std::max(high, x);
+      up = std::max(up, cross(along, point - hull[i]));
+    }
+    const double area = (high - low) * up;
+    if (area >= least * (1.0 - 1e-9)) continue;
+    least = area;
+    const double turn = -math::atan2(along.y, along.x);
+    angle = high - low >= up ? turn : turn + 0.5 * kPi;
+  }
+  return angle;
+}
+
+/// Underside and top of a piece in one of its attitudes, column by column; infinite where it has nothing.
+struct Attitude {
+  PlaneMotion motion;  ///< its box's lower left corner to the origin
+  double width = 0.0;
+  double height = 0.0;
+  std::vector<double> low;
+  std::vector<double> high;
+};
+
+void cover(Attitude& attitude, Vec2 a, Vec2 b, double column) {
+  if (a.x > b.x) std::swap(a, b);
+  const auto last = static_cast<double>(attitude.low.size() - 1);
+  const auto first_column = static_cast<std::size_t>(std::clamp(std::floor(a.x / column), 0.0, last));
+  const auto last_column = static_cast<std::size_t>(std::clamp(std::floor(b.x / column), 0.0, last));
+  for (std::size_t i = first_column; i <= last_column; ++i) {
+    const auto at = [&](double x) {
+      const double inside = std::clamp(x, a.x, b.x);
+      return b.x > a.x ? a.y + (b.y - a.y) * (inside - a.x) / (b.x - a.x) : a.y;
+    };
+    const double left = b.x > a.x ? at(static_cast<double>(i) * column) : std::min(a.y, b.y);
+    const double right = b.x > a.x ? at(static_cast<double>(i + 1) * column) : std::max(a.y, b.y);
+    attitude.low[i] = std::min({attitude.low[i], left, right});
+    attitude.high[i] = std::max({attitude.high[i], left, right});
+  }
+}
+
+Attitude attitude_of(const ArcPath& outline, double angle, double column) {
+  Attitude attitude;
+  attitude.motion = PlaneMotion::turn(angle);
+  const PlaneBox box = bounds(moved(outline, attitude.motion));
+  attitude.motion.shift = -1.0 * box.low;
+  attitude.width = box.width();
+  attitude.height = box.height();
+  const auto columns = static_cast<std::size_t>(std::floor(attitude.width / column)) + 1;
+  attitude.low.assign(columns, kInfinity);
+  attitude.high.assign(columns, -kInfinity);
+  const std::vector<Vec2> points = flattened(moved(outline, attitude.motion), kSagitta);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) cover(attitude, points[i], points[i + 1], column);
+  return attitude;
+}
+
+// --- one sheet
+
+/// The top of the heap on a sheet, column by column, raised and widened by the spacing.
+class Heap {
+ public:
+  Heap(const NestStock& stock, double column)
+      : stock_(stock),
+        column_(column),
+        tops_(static_cast<std::size_t>(std::floor(stock.width / column)) + 1, stock.margin - stock.spacing) {}
+
+  /// Where a piece comes to lie, and how high it then reaches.
+  struct Place {
+    Vec2 at;
+    double top = 0.0;
+  };
+
+  /// @return the place where its top is lowest, of several the leftmost; none where it does not fit
+  [[nodiscard]] std::optional<Place> place_for(const Attitude& attitude) const {
+    std::optional<Place> best;
+    const double room = stock_.width - 2.0 * stock_.margin - attitude.width;
+    if (room < 0.0) return best;
+    const auto steps = static_cast<std::size_t>(std::floor(room / column_));
+    for (std::size_t step = 0; step <= steps; ++step) {
+      const double x = stock_.margin + static_cast<double>(step) * column_;
+      double y = stock_.margin;
+      // The piece's columns lie askew to the sheet's: each looks at both that it touches, and a spacing beyond.
+      const auto shift = static_cast<std::size_t>(std::floor(x / column_));
+      for (std::size_t i = 0; i < attitude.low.size(); ++i) {
+        const double top = std::max(tops_[std::min(shift + i, tops_.size() - 1)],
+                                    tops_[std::min(shift + i + 1, tops_.size() - 1)]);
+        y = std::max(y, top + stock_.spacing - attitude.low[i]);
+      }
+      const double top = y + attitude.height;
+      if (top > stock_.height - stock_.margin) continue;
+      if (!best || top < best->top - 1e-9) best = Place{{x, y}, top};
+    }
+    return best;
+  }
+
+  void add(const Attitude& attitude, Vec2 at) {
+    const auto reach = static_cast<std::ptrdiff_t>(std::ceil((stock_.spacing + kSagitta) / column_)) + 1;
+    const auto shift = static_cast<std::ptrdiff_t>(std::floor(at.x / column_));
+    const auto count = static_cast<std::ptrdiff_t>(attitude.high.size());
+    for (std::ptrdiff_t i = -reach; i <= count + reach; ++i) {
+      const std::ptrdiff_t on = shift + i;
+      if (on < 0 || on >= static_cast<std::ptrdiff_t>(tops_.size())) continue;
+      double top = -kInfinity;
+      for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - reach); k <= std::min(count - 1, i + reach);
+           ++k) {
+        top = std::max(top, attitude.high[static_cast<std::size_t>(k)]);
+      }
+      double& known = tops_[static_cast<std::size_t>(on)];
+      known = std::max(known, at.y + top + 2.0 * kSagitta);
+    }
+  }
+
+ private:
+  NestStock stock_;
+  double column_;
+  std::vector<double> tops_;
+};
+
+/// A piece to be laid down, with its attitudes.
+struct Piece {
+  std::size_t part = 0;
+  double area = 0.0;
+  std::vector<Attitude> attitudes;
+};
+
+struct SheetInWork {
+  Heap heap;
+  NestedSheet sheet;
+};
+
+bool lay(SheetInWork& sheet, const Piece& piece) {
+  std::optional<Heap::Place> best;
+  const Attitude* chosen = nullptr;
+  for (const Attitude& attitude : piece.attitudes) {
+    const auto place = sheet.heap.place_for(attitude);
+    if (place && (!best || place->top < best->top - 1e-9)) {
+      best = place;
+      chosen = &attitude;
+    }
+  }
+  if (!best) return false;
+  PlaneMotion motion = chosen->motion;
+  motion.shift = motion.shift + best->at;
+  sheet.heap.add(*chosen, best->at);
+  sheet.sheet.pieces.push_back({piece.part, motion});
+  sheet.sheet.utilisation += piece.area / (sheet.sheet.stock.width * sheet.sheet.stock.height);
+  return true;
+}
+
+void require_stock(const NestStock& stock) {
+  const auto bad = [](const std::string& what, double value) {
+    return InputError(
+        {"stock sheet", what + ": " + length_text(value), "A sheet is wider than its margins.", ""});
+  };
+  if (!(stock.spacing >= 0.0)) throw bad("spacing", stock.spacing);
+  if (!(stock.margin >= 0.0)) throw bad("margin", stock.margin);
+  if (!(stock.width > 2.0 * stock.margin) || !std::isfinite(stock.width)) throw bad("width", stock.width);
+  if (!(stock.height > 2.0 * stock.margin) || !std::isfinite(stock.height)) throw bad("height", stock.height);
+}
+
+double column_of(const NestStock& stock) {
+  constexpr double kMost = 4000.0;
+  constexpr double kLeast = 20.0;
+  return std::clamp(kNestColumn, stock.width / kMost, stock.width / kLeast);
+}
+
+Piece piece_of(const ShopPart& part, std::size_t index, double column) {
+  Piece piece;
+  piece.part = index;
+  piece.area = moments(part.pattern->region).area;
+  const ArcPath& outline = part.pattern->region.outline;
+  const double lying = lying_angle(flattened(outline, kSagitta));
+  for (const double turn : {0.0, 1.0, 0.5, 1.5})
+    piece.attitudes.push_back(attitude_of(outline, lying + turn * kPi, column));
+  return piece;
+}
+
+Issue too_large(const ShopPart& part, const Piece& piece, const NestStock& stock) {
+  const Attitude& lying = piece.attitudes.front();
+  return {"part " + std::to_string(part.number) + ", " + part.name,
+          "its pattern of " + length_text(lying.width) + " x " + length_text(lying.height) + " fits no sheet",
+          "Sheets are " + length_text(stock.width) + " x " + length_text(stock.height) +
+              " with a margin of " + length_text(stock.margin) + ".",
+          "a larger sheet, a smaller margin, or shorter parts"};
+}
+
+SheetInWork fresh_sheet(const ShopPart& part, const NestStock& stock, double column) {
+  return {Heap(stock, column), {part.material, part.thickness, stock, {}, 0.0}};
+}
+
+/// @param pieces  each fits an empty sheet
+void lay_group(std::vector<Piece>& pieces, const Workshop& workshop, const NestStock& stock, double column,
+               std::vector<NestedSheet>& done) {
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return a.attitudes.front().width * a.attitudes.front().height >
+           b.attitudes.front().width * b.attitudes.front().height;
+  });
+  std::vector<SheetInWork> sheets;
+  for (const Piece& piece : pieces) {
+    const bool laid =
+        std::any_of(sheets.begin(), sheets.end(), [&](SheetInWork& sheet) { return lay(sheet, piece); });
+    if (laid) continue;
+    sheets.push_back(fresh_sheet(workshop.parts[piece.part], stock, column));
+    (void)lay(sheets.back(), piece);
+  }
+  for (SheetInWork& sheet : sheets) done.push_back(std::move(sheet.sheet));
+}
+
+/// A place inside a region for its number: beside its centre of area where that is a hollow.
+Vec2 place_for_number(const PlaneRegion& region) {
+  const Vec2 centre = moments(region).centroid;
+  if (contains(region.outline, centre)) return centre;
+  const PlaneBox box = bounds(region.outline);
+  // Up from below the centre: the middle of the first stretch inside; a curved band is crossed by this upright.
+  constexpr int kSteps = 256;
+  int first = -1;
+  for (int i = 0; i <= kSteps; ++i) {
+    const Vec2 point{centre.x, box.low.y + box.height() * i / kSteps};
+    const bool inside = i < kSteps && contains(region.outline, point);
+    if (inside && first < 0) first = i;
+    if (!inside && first >= 0) return {centre.x, box.low.y + box.height() * (first + i - 1) / (2.0 * kSteps)};
+  }
+  return centre;
+}
+
+}  // namespace
+
+std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock) {
+  require_stock(stock);
+  const double column = column_of(stock);
+  std::map<std::pair<std::string, double>, std::vector<Piece>> groups;
+  std::vector<Issue> issues;
+  for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
+    const ShopPart& part = workshop.parts[i];
+    if (!part.pattern || part.bought_in || part.places.empty()) continue;
+    const Piece piece = piece_of(part, i, column);
+    SheetInWork fresh = fresh_sheet(part, stock, column);
+    if (!lay(fresh, piece)) issues.push_back(too_large(part, piece, stock));
+    auto& group = groups[{part.material, part.thickness}];
+    group.insert(group.end(), part.quantity(), piece);
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
+  std::vector<NestedSheet> sheets;
+  for (auto& [kind, pieces] : groups) lay_group(pieces, workshop, stock, column, sheets);
+  return sheets;
+}
+
+Drawing nest_drawing(const Workshop& workshop, const NestedSheet& sheet) {
+  Drawing drawing;
+  drawing.name = "nest of " + sheet.material + ", " + length_text(sheet.thickness);
+  const std::size_t edge = drawing.layer({"SHEET", LineStyle::chain, 0.18, 8});
+  const std::size_t cut = drawing.layer({"CUT", LineStyle::continuous, 0.25, 7});
+  const std::size_t mark = drawing.layer({"MARK", LineStyle::continuous, 0.18, 5});
+  const double width = kMillimetres * sheet.stock.width;
+  const double height = kMillimetres * sheet.stock.height;
+  drawing.add(edge, rectangle({0.0, 0.0}, {width, height}));
+  // The bar lies above the sheet, where nothing is cut.
+  drawing.line(edge, {0.0, height + 20.0}, {100.0, height + 20.0});
+  for (const double x : {0.0, 100.0}) drawing.line(edge, {x, height + 15.0}, {x, height + 25.0});
+  for (const ArcPath& stroke : stroked_text("100 mm", {110.0, height + 15.0}, 10.0))
+    drawing.add(edge, stroke);
+  for (const NestedPiece& piece : sheet.pieces) {
+    const ShopPart& part = workshop.parts[piece.part];
+    const PlaneRegion region = scaled(moved(part.pattern->region, piece.motion), kMillimetres);
+    drawing.add(cut, region);
+    const PlaneBox box = bounds(region.outline);
+    const double size = std::clamp(0.05 * std::min(box.width(), box.height()), 3.0, 20.0);
+    const std::string digits = (part.number < 10 ? "0" : "") + std::to_string(part.number);
+    const Vec2 at = place_for_number(region) - Vec2{0.0, 0.5 * size};
+    for (const ArcPath& stroke : stroked_text(digits, at, size, 0.0, TextAnchor::centre))
+      drawing.add(mark, stroke);
+  }
+  return drawing;
+}
+
+std::string nest_stem(const std::vector<NestedSheet>& sheets, std::size_t index) {
+  const NestedSheet& sheet = sheets[index];
+  const auto alike = [&](const NestedSheet& other) {
+    return other.material == sheet.material && other.thickness == sheet.thickness;
+  };
+  const auto here = sheets.begin() + static_cast<std::ptrdiff_t>(index);
+  const auto count = std::count_if(sheets.begin(), sheets.end(), alike);
+  const auto number = std::count_if(sheets.begin(), here, alike) + 1;
+  std::string material;
+  for (const char c : sheet.material) {
+    const bool plain =
+        (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '.' || c == '-';
+    material += plain ? c : '-';
+  }
+  return "nest_" + material + "_" + rounded_text(kMillimetres * sheet.thickness, 6) + "mm_" +
+         std::to_string(number) + "_of_" + std::to_string(count);
+}
+
+}  // namespace glissade

@@ -1,0 +1,147 @@
+#include "glissade/drawing/nest.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/io/dxf_file.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/shop_parts.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+
+namespace {
+
+ShopPart flat_part(int number, const PlaneRegion& region, std::size_t quantity, double thickness = 0.004) {
+  ShopPart part = testing::shop_part(number, "part", Prism{region, thickness});
+  part.thickness = thickness;
+  part.pattern = FlatPattern{region, {}, {}, {}, {}, 0.0};
+  part.places.assign(quantity, Frame{});
+  return part;
+}
+
+PlaneRegion plate(double width, double height) {
+  return {rectangle({1.0, -2.0}, {1.0 + width, -2.0 + height}), {}, {}};
+}
+
+std::vector<PlaneRegion> regions_on(const Workshop& workshop, const NestedSheet& sheet) {
+  std::vector<PlaneRegion> regions;
+  for (const NestedPiece& piece : sheet.pieces) {
+    regions.push_back(moved(workshop.parts[piece.part].pattern->region, piece.motion));
+  }
+  return regions;
+}
+
+/// Every piece on its sheet, apart, and as often as ordered; areas add up.
+void require_sound(const Workshop& workshop, const std::vector<NestedSheet>& sheets) {
+  constexpr double kSlack = 1e-9;
+  std::vector<std::size_t> laid(workshop.parts.size(), 0);
+  for (const NestedSheet& sheet : sheets) {
+    const std::vector<PlaneRegion> regions = regions_on(workshop, sheet);
+    double area = 0.0;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      const ShopPart& part = workshop.parts[sheet.pieces[i].part];
+      CHECK(part.material == sheet.material);
+      CHECK(part.thickness == sheet.thickness);
+      ++laid[sheet.pieces[i].part];
+      area += moments(regions[i]).area;
+      const PlaneBox box = bounds(regions[i].outline);
+      CHECK(box.low.x >= sheet.stock.margin - kSlack);
+      CHECK(box.low.y >= sheet.stock.margin - kSlack);
+      CHECK(box.high.x <= sheet.stock.width - sheet.stock.margin + kSlack);
+      CHECK(box.high.y <= sheet.stock.height - sheet.stock.margin + kSlack);
+      for (std::size_t k = 0; k < i; ++k) {
+        CHECK(distance(regions[i].outline, regions[k].outline) >= sheet.stock.spacing - kSlack);
+        CHECK_FALSE(contains(regions[i].outline, regions[k].outline.vertices[0].at));
+        CHECK_FALSE(contains(regions[k].outline, regions[i].outline.vertices[0].at));
+      }
+    }
+    CHECK(sheet.utilisation == Approx(area / (sheet.stock.width * sheet.stock.height)).epsilon(1e-12));
+  }
+  for (std::size_t i = 0; i < laid.size(); ++i) {
+    CHECK(laid[i] == (workshop.parts[i].pattern ? workshop.parts[i].quantity() : 0));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("random parts are nested apart, inside their sheets, as often as ordered, and the same twice") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int round = 0; round < 6; ++round) {
+    Workshop workshop;
+    const int parts = random.integer(3, 8);
+    for (int i = 1; i <= parts; ++i) {
+      const double size = random.between(0.2, 0.9);
+      PlaneRegion region = random.integer(0, 1) == 0
+                               ? plate(size, random.between(0.05, 0.5))
+                               : scaled(testing::metre_band(random.integer(2, 8), 3), 0.5 * size);
+      region = moved(region, PlaneMotion::turn(random.between(-3.0, 3.0), {random.between(-5.0, 5.0), 1.0}));
+      workshop.parts.push_back(flat_part(i, region, static_cast<std::size_t>(random.integer(1, 4)),
+                                         random.integer(0, 2) == 0 ? 0.004 : 0.006));
+    }
+    NestStock stock{random.between(1.6, 3.0), 1.5, random.between(0.0, 0.02), random.between(0.0, 0.03)};
+    const std::vector<NestedSheet> sheets = nest(workshop, stock);
+    require_sound(workshop, sheets);
+    const std::vector<NestedSheet> again = nest(workshop, stock);
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+      CHECK(dxf_text(nest_drawing(workshop, sheets[i])) == dxf_text(nest_drawing(workshop, again[i])));
+    }
+  }
+}
+
+TEST_CASE("rectangles that fill a sheet fill it") {
+  Workshop workshop;
+  // Three rows of two, 0.9 m x 0.4 m, on 2 m x 1.5 m with 10 mm margin and spacing.
+  workshop.parts.push_back(flat_part(1, plate(0.9, 0.4), 6));
+  const auto sheets = nest(workshop, {2.0, 1.5, 0.01, 0.01});
+  REQUIRE(sheets.size() == 1);
+  CHECK(sheets[0].utilisation == Approx(6 * 0.36 / 3.0));
+  require_sound(workshop, sheets);
+  // Turned where only that fits.
+  workshop.parts[0] = flat_part(1, plate(0.4, 1.9), 1);
+  CHECK(nest(workshop, {2.0, 0.5, 0.01, 0.01}).size() == 1);
+}
+
+TEST_CASE("curved bands stack into each other's hollows") {
+  // 2.4 m long, 0.25 m wide, curved by more than half their width: in boxes of their own, two fit a sheet; stacked, four.
+  Workshop workshop;
+  const PlaneRegion band = testing::metre_band(6, 0);
+  workshop.parts.push_back(flat_part(1, band, 4));
+  const auto sheets = nest(workshop, {3.0, 2.0, 0.01, 0.01});
+  REQUIRE(sheets.size() == 1);
+  require_sound(workshop, sheets);
+}
+
+TEST_CASE("parts that fit no sheet are named, all of them; so are sheets that are none") {
+  Workshop workshop;
+  workshop.parts.push_back(flat_part(1, plate(3.5, 0.4), 2));
+  workshop.parts.push_back(flat_part(2, plate(0.5, 0.4), 2));
+  workshop.parts.push_back(flat_part(3, plate(2.0, 1.6), 1));
+  try {
+    (void)nest(workshop);
+    FAIL("laid");
+  } catch (const InputError& error) {
+    REQUIRE(error.issues().size() == 2);
+    CHECK(error.issues()[0].where == "part 1, part");
+    CHECK(error.issues()[0].what == "its pattern of 3.5 m x 400 mm fits no sheet");
+    CHECK(error.issues()[0].why == "Sheets are 3 m x 1.5 m with a margin of 10 mm.");
+    CHECK(error.issues()[1].where == "part 3, part");
+  }
+  CHECK_THROWS_AS(nest(workshop, {0.0, 1.5, 0.01, 0.01}), InputError);
+  CHECK_THROWS_AS(nest(workshop, {1.0, 1.5, -0.01, 0.01}), InputError);
+}
+
+TEST_CASE(
+    "a nest's drawing has every contour, hole and number; its file says material and which of how many") {
+  Workshop workshop = testing::sample_workshop();
+  workshop.parts[0].places.resize(2);
+  const auto sheets = nest(workshop, {3.0, 1.5, 0.01, 0.01});
+  const Drawing drawing = nest_drawing(workshop, sheets[0]);
+  CHECK(drawing.circles.size() == 9 * sheets[0].pieces.size());
+  CHECK(bounds(drawing)->width() == Approx(3000.0));
+  CHECK(nest_stem(sheets, 0) == "nest_S235_4mm_1_of_" + std::to_string(sheets.size()));
+}
