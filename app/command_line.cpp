@@ -50,6 +50,8 @@ ExitCode run(int argc, const char* const* argv) {
   add_plot(program, action);
   add_inspect(program, action);
   add_init(program, action);
+  add_gates(program, action);
+  add_fit(program, action);
   add_rules(program, action);
   add_sweep(program, action);
   add_schema(program, action);

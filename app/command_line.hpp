@@ -20,6 +20,8 @@ void add_ride(CLI::App& program, Action& action);
 void add_compare(CLI::App& program, Action& action);
 void add_plot(CLI::App& program, Action& action);
 void add_inspect(CLI::App& program, Action& action);
+void add_fit(CLI::App& program, Action& action);
+void add_gates(CLI::App& program, Action& action);
 void add_init(CLI::App& program, Action& action);
 void add_rules(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);

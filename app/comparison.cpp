@@ -24,7 +24,7 @@ std::vector<CenterlineKind> kinds_for(const Design& design) {
                                        CenterlineKind::straight, CenterlineKind::cycloid,
                                        CenterlineKind::no_curvature_load};
   const CenterlineKind own = design.centerline.kind;
-  if (own == CenterlineKind::segments || own == CenterlineKind::points) kinds.insert(kinds.begin(), own);
+  if (is_drawn(own)) kinds.insert(kinds.begin(), own);
   return kinds;
 }
 
@@ -98,8 +98,7 @@ std::vector<double> friction_angles_deg(const Design& design) {
 /// @param own  the entry of the design's own centerline
 Entry at_friction(Design design, const Entry& own) {
   const CenterlineKind kind = design.centerline.kind;
-  const bool is_drawn = kind == CenterlineKind::segments || kind == CenterlineKind::points;
-  if (!is_drawn || !own.track) return solved(std::move(design), {});
+  if (!is_drawn(kind) || !own.track) return solved(std::move(design), {});
   return entry_of(std::move(design), [&](const Design& one) { return ride(one, own.track->centerline); });
 }
 

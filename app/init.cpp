@@ -5,6 +5,7 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
+#include "app/option_value.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -24,6 +25,7 @@ constexpr const char* kDescription =
 struct Options {
   std::string kind;
   std::string output;
+  std::string hill_size;
   bool force = false;
 };
 
@@ -39,6 +41,7 @@ std::string footer() {
          "\n"
          "Examples:\n"
          "  glissade init > chute.yaml\n"
+         "  glissade init in-run --hill-size 106 -o hill.yaml\n"
          "  glissade init points -o wall.yaml                 with the profile that it reads beside it\n"
          "\n"
          "Beside a file goes its schema, glissade.schema.json, for editors that check and complete YAML;\n"
@@ -64,9 +67,18 @@ std::string profile_note() {
          "      'glissade init points -o FILE' writes both.\n";
 }
 
+std::string template_of(const std::string& kind, const Options& options) {
+  if (options.hill_size.empty()) return design_template(kind);
+  if (kind != "in-run") {
+    throw InputError({"--hill-size", "a design of kind " + kind + " has no hill", "",
+                      "glissade init in-run --hill-size 106"});
+  }
+  return in_run_template(option_value(options.hill_size, Dimension::length, "--hill-size"));
+}
+
 ExitCode write_template(const Options& options) {
   const std::string kind = options.kind.empty() ? std::string(design_templates().front().kind) : options.kind;
-  const std::string text = design_template(kind);
+  const std::string text = template_of(kind, options);
   const bool needs_profile = kind == "points";
   if (options.output.empty()) {
     print(text);
@@ -95,6 +107,10 @@ void add_init(CLI::App& program, Action& action) {
   command.add_option("kind", options->kind, "What to start from, see below")->type_name("KIND");
   command.add_option("-o,--output", options->output, "File to write; one that exists is kept")
       ->type_name("FILE");
+  command
+      .add_option("--hill-size", options->hill_size,
+                  "Of in-run: HS in metres, whose sizes it takes [default: 140]")
+      ->type_name("LENGTH");
   command.add_flag("--force", options->force, "Replace a file that exists");
   command.callback([options, &action] { action = [options] { return write_template(*options); }; });
 }

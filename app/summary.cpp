@@ -2,11 +2,13 @@
 
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/centerline/in_run.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/pipeline/rules.hpp"
 
 #include "app/console.hpp"
+#include "app/gates_text.hpp"
 #include "app/law_text.hpp"
 #include "app/limits_text.hpp"
 #include "app/probes_text.hpp"
@@ -43,6 +45,7 @@ std::string kind_text(const Design& design, const Track& track) {
     return name + "\n" + "a body fed at " + speed_text(std::sqrt(curve->p())) + " keeps that speed, for " +
            time_text(curve->travel_time_at_constant_speed());
   }
+  if (const auto* const in_run = dynamic_cast<const InRun*>(&centerline)) return in_run_text(*in_run);
   if (centerline.kind() == "no-curvature-load") return "no-curvature-load (for comparison only)";
   return std::string(centerline.kind());
 }
@@ -216,7 +219,8 @@ std::string track_summary(const Design& design, const Track& track) {
          labelled("Arc length", length_text(track.centerline->length())) +
          labelled("Normal load", load_lines(track.motion)) + law_lines(design, track) +
          labelled("Smallest radius", radius_text(track)) + friction_lines(track) +
-         limits_lines(design, track) + probes_lines(design, track) + rules_lines(judge_rules(design, track));
+         limits_lines(design, track) + probes_lines(design, track) + gates_lines(track) +
+         rules_lines(judge_rules(design, track));
 }
 
 std::string build_summary(const Design& design, const Build& build) {

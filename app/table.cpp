@@ -58,6 +58,18 @@ std::string Table::csv() const {
   return text;
 }
 
+std::string fixed_text(double value, int decimals) {
+  double scale = 1.0;
+  for (int i = 0; i < decimals; ++i) scale *= 10.0;
+  // Rounded away from zero at a half; columns hold nothing near the range of an integer.
+  const auto units = static_cast<long long>(value * scale + (value < 0.0 ? -0.5 : 0.5));
+  std::string digits = std::to_string(units < 0 ? -units : units);
+  const auto behind = static_cast<std::size_t>(decimals);
+  if (digits.size() <= behind) digits.insert(0, behind + 1 - digits.size(), '0');
+  digits.insert(digits.size() - behind, ".");
+  return (units < 0 ? "-" : "") + digits;
+}
+
 std::string labelled(const std::string& label, const std::string& text) {
   constexpr std::size_t kTextColumn = 20;
   std::string lines = "  " + label;

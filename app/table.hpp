@@ -25,6 +25,9 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// @return a number with so many digits behind the point, as columns want it: "-0.50"
+[[nodiscard]] std::string fixed_text(double value, int decimals);
+
 /// @return "  Label          text" with the texts of several lines below each other
 [[nodiscard]] std::string labelled(const std::string& label, const std::string& text);
 

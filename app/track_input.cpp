@@ -21,7 +21,7 @@ CenterlineKind kind_named(const std::string& word_given) {
 }
 
 void require_drawable(CenterlineKind kind) {
-  if (kind != CenterlineKind::segments && kind != CenterlineKind::points) return;
+  if (!is_drawn(kind)) return;
   throw InputError({"--centerline", "a track of " + std::string(word(kind)) + " needs a design file",
                     "Its shape does not fit on a command line.", "glissade init " + std::string(word(kind))});
 }

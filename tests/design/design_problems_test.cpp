@@ -100,9 +100,10 @@ TEST_CASE("a missing or wrong unit is refused where the value stands") {
 }
 
 TEST_CASE("a kind that is not known is refused with the one that was meant") {
-  CHECK_THAT(problems_with("fastest", "fastst"),
-             StartsWith("d.yaml:8:20: kind: fastst is not known\n      It is one of fastest, constant-speed, "
-                        "straight, cycloid, no-curvature-load, segments or points.\n      Try: fastest"));
+  CHECK_THAT(
+      problems_with("fastest", "fastst"),
+      StartsWith("d.yaml:8:20: kind: fastst is not known\n      It is one of fastest, constant-speed, "
+                 "straight, cycloid, no-curvature-load, segments, points or in-run.\n      Try: fastest"));
   CHECK_THAT(problems_with("off", "obj"), Contains("d.yaml:11:15: export[1]: obj is not known"));
 }
 

@@ -13,7 +13,7 @@ using namespace glissade;
 
 TEST_CASE("every design in designs/ is sound") {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(designs_path())) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(designs_path())) {
     if (entry.path().extension() != ".yaml") continue;
     INFO(entry.path().filename().string());
     const Design design = read_design(entry.path());

@@ -31,7 +31,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"parts", {"core", "centerline", "motion", "section", "solid"}},
     {"design", {"core", "centerline", "clearance", "task", "trades", "section", "data", "io"}},
     {"drawing", {"core", "centerline", "motion", "section", "solid", "parts"}},
-    {"io", {"core", "centerline", "motion", "section", "solid", "parts", "drawing"}},
+    {"io", {"core", "centerline", "motion", "section", "solid", "parts", "trades", "drawing"}},
     {"report",
      {"core", "centerline", "motion", "clearance", "task", "referee", "optimize", "section", "solid", "parts",
       "trades", "design", "io"}},
@@ -47,7 +47,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 /// name them.
 const std::map<std::string, std::set<std::string>> kThirdParties = {
     {"CGAL/", {"solid"}},        {"nlopt", {"centerline", "optimize"}},
-    {"yaml-cpp/", {"design"}},   {"boost/", {"centerline", "motion", "solid", "pipeline", "study"}},
+    {"yaml-cpp/", {"design"}},   {"boost/", {"centerline", "motion", "trades", "solid", "pipeline", "study"}},
     {"fmt/", {"report"}},        {"nlohmann/", {"design", "report", "pipeline", "study"}},
     {"openssl/", {"report"}},    {"librsvg/", {"report"}},
     {"cairo", {"report", "io"}}, {"tbb/", {"study"}},

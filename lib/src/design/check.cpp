@@ -28,11 +28,6 @@ std::string drop_over_run(const TrackDesign& track) {
   return "drop " + metres(drop_of(track)) + " over " + metres(run_of(track));
 }
 
-/// Whether a track of this kind is drawn by the design, and not found by Glissade.
-bool is_given(CenterlineKind kind) {
-  return kind == CenterlineKind::segments || kind == CenterlineKind::points;
-}
-
 std::string friction_key(const Design& design) {
   if (design.body.rolling) return "rolling_resistance";
   if (!design.body.friction_changes.empty()) return "friction";
@@ -44,6 +39,8 @@ std::vector<Finding> check_values(const Design& design) {
   check_track(design, findings);
   check_body(design, findings);
   check_centerline(design, findings);
+  check_hill(design, findings);
+  check_gates(design, findings);
   check_cross_section(design, findings);
   check_mesh(design, findings);
   check_export(design, findings);
@@ -94,7 +91,7 @@ std::optional<Finding> find_unreachable(const Design& design) {
   const double drop = drop_of(track);
   const Friction friction = least_friction(body);
   const double mu = friction.coefficient();
-  if (finish_is_unbounded(track) || is_given(design.centerline.kind)) return {};
+  if (finish_is_unbounded(track) || is_drawn(design.centerline.kind)) return {};
   // A wind from behind can blow a body where no slope takes it; with speed, the theorem is told of the sliding point.
   if (body.head_wind < 0.0 && body.drag_per_metre > 0.0) return {};
   if (body.entry_speed > 0.0 && !is_sliding_point(body)) return {};

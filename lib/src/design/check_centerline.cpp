@@ -103,6 +103,7 @@ void check_segments(const Design& design, Collected& findings) {
 void check_centerline(const Design& design, Collected& findings) {
   const CenterlineDesign& centerline = design.centerline;
   if (centerline.kind == CenterlineKind::segments) check_segments(design, findings);
+  if (centerline.kind == CenterlineKind::in_run) check_in_run(design, findings);
   if (centerline.kind == CenterlineKind::points && centerline.points_file.empty()) {
     report(
         findings, {"centerline.file"},

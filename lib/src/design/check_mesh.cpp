@@ -38,7 +38,7 @@ double least_triangles(const Design& design, const CrossSection& section) {
 
 void check_mesh_size(const Design& design, Collected& findings) {
   constexpr double kBytesPerTriangle = 60.0;  // facet, half of a vertex, and what checking them takes
-  const bool curved = !is_given(design.centerline.kind) && design.centerline.kind != CenterlineKind::straight;
+  const bool curved = !is_drawn(design.centerline.kind) && design.centerline.kind != CenterlineKind::straight;
   if (!curved) return;
   const std::optional<CrossSection> section = sound_cross_section(design);
   if (!section) return;

@@ -28,7 +28,7 @@ void check_coordinates(const Vec3& position, const std::string& key_path, Collec
 
 bool may_climb(const Design& design) {
   const CenterlineKind kind = design.centerline.kind;
-  if (is_given(kind)) return true;
+  if (is_drawn(kind)) return true;
   return (kind == CenterlineKind::fastest || kind == CenterlineKind::straight) &&
          design.body.entry_speed > 0.0;
 }

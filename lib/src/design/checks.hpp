@@ -18,6 +18,9 @@ using Collected = std::vector<Finding>;
 void check_track(const Design& design, Collected& findings);
 void check_body(const Design& design, Collected& findings);
 void check_centerline(const Design& design, Collected& findings);
+void check_in_run(const Design& design, Collected& findings);
+void check_hill(const Design& design, Collected& findings);
+void check_gates(const Design& design, Collected& findings);
 void check_cross_section(const Design& design, Collected& findings);
 void check_mesh(const Design& design, Collected& findings);
 void check_export(const Design& design, Collected& findings);
@@ -42,9 +45,6 @@ inline void report(Collected& findings, std::vector<std::string> key_paths, Issu
 
 /// @return the section of the design; none if it has none, or check_cross_section() finds something wrong with it
 [[nodiscard]] std::optional<CrossSection> sound_cross_section(const Design& design);
-
-/// Whether a track of this kind is drawn by the design, and not found by Glissade.
-[[nodiscard]] bool is_given(CenterlineKind kind);
 
 /// @return the key by which the design says what resists: "friction_angle", "rolling_resistance", ...
 [[nodiscard]] std::string friction_key(const Design& design);

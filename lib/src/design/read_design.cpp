@@ -1,3 +1,4 @@
+#include "glissade/centerline/in_run.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/words.hpp"
@@ -10,6 +11,8 @@
 #include "design/overrides.hpp"
 #include "design/read_body.hpp"
 #include "design/read_cross_section.hpp"
+#include "design/read_gates.hpp"
+#include "design/read_in_run.hpp"
 #include "design/read_limits.hpp"
 #include "design/read_probes.hpp"
 #include "design/read_rules.hpp"
@@ -118,12 +121,36 @@ void read_finish(const Value& value, TrackDesign& track, Findings& findings) {
   }
 }
 
-/// @param finish_may_follow  the centerline itself says where it ends
-TrackDesign read_track(MapReader& top, bool finish_may_follow, Findings& findings) {
+/// An in-run lies where its edge or its start does, and leads in a direction that is +x if nothing else is said.
+TrackDesign read_track_of_in_run(const Value& value, Findings& findings) {
+  MapReader map(value, "The track of an in-run", "{edge: {x: 0 m, z: 0 m}}", findings);
+  map.expect({"edge", "start", "azimuth"});
+  map.add_stranger("finish", "edge, which is where an in-run ends");
+  TrackDesign track;
+  track.finish_given = false;
+  if (const auto edge = map.find("edge")) track.edge = read_position(*edge, "An edge", findings);
+  if (const auto start = map.find("start")) track.start = read_position(*start, "A start", findings);
+  track.azimuth = Angle::from_radians(map.quantity("azimuth", Dimension::angle).value_or(0.0));
+  if (map.readable() && map.has("edge") == map.has("start")) {
+    findings.add(findings.position(value.key_path), value.key_path,
+                 {"", map.has("edge") ? "track: both edge and start are given" : "track: edge is missing",
+                  "An in-run is placed by its take-off edge, or by its highest start; the other follows.",
+                  "edge: {x: 0 m, z: 0 m}"});
+  }
+  map.refuse_unknown_keys();
+  track.finish = track.edge.value_or(track.start);
+  track.start = track.finish;
+  return track;
+}
+
+/// @param kind  some say themselves where they end
+TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) {
   TrackDesign track;
   const std::optional<Value> value =
       top.need("track", "track: {start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}");
   if (!value) return track;
+  if (kind == CenterlineKind::in_run) return read_track_of_in_run(*value, findings);
+  const bool finish_may_follow = is_drawn(kind);
   MapReader map(*value, "A track", "{start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}", findings);
   if (const auto start = map.need("start", "start: {x: 0 m, z: 6.2 m}")) {
     track.start = read_position(*start, "A start", findings);
@@ -133,7 +160,13 @@ TrackDesign read_track(MapReader& top, bool finish_may_follow, Findings& finding
   const auto finish =
       finish_may_follow ? map.find("finish") : map.need("finish", "finish: {x: 5.4 m, z: 1.1 m}");
   if (finish) read_finish(*finish, track, findings);
+  for (const std::string_view key : {"edge", "azimuth"}) {
+    map.add_stranger(key, "kind: in-run in the centerline, which is placed by its edge");
+  }
   map.refuse_unknown_keys();
+  // A schema does not know here of which kind the centerline is.
+  if (const auto edge = map.find("edge")) static_cast<void>(read_position(*edge, "An edge", findings));
+  static_cast<void>(map.quantity("azimuth", Dimension::angle));
   return track;
 }
 
@@ -229,10 +262,14 @@ CenterlineDesign read_centerline(MapReader& top, const std::filesystem::path& fi
   for (const std::string_view key : {"file", "columns", "unit", "max_deviation"}) {
     map.add_stranger(key, "kind: points, which has file, columns, unit and max_deviation");
   }
+  for (const std::string_view key : {"gamma", "alpha", "r1", "t", "e1", "e2", "es", "transition"}) {
+    map.add_stranger(key, "kind: in-run, which has the letters of a ski jump's certificate");
+  }
   if (*kind == CenterlineKind::constant_speed) {
     centerline.constant_speed_p = map.quantity("p", Dimension::specific_energy);
   }
   if (*kind == CenterlineKind::segments) read_segments(map, centerline, findings);
+  if (*kind == CenterlineKind::in_run) read_in_run(map, centerline.in_run, findings);
   if (*kind == CenterlineKind::points) read_points(map, centerline, file, findings);
   map.refuse_unknown_keys();
   return centerline;
@@ -277,8 +314,27 @@ ExportDesign read_export(MapReader& top, Findings& findings) {
   return exports;
 }
 
+/// Start or finish of an in-run follow from the other.
+void place_in_run(Design& design) {
+  TrackDesign& track = design.track;
+  const Endpoints end = InRun(design.centerline.in_run.shape()).endpoints();
+  const Vec3 way{end.run * math::cos(track.azimuth.radians()), end.run * math::sin(track.azimuth.radians()),
+                 -end.drop};
+  if (track.edge) {
+    track.finish = *track.edge;
+    track.start = track.finish - way;
+  } else {
+    track.finish = track.start + way;
+  }
+}
+
 /// The finish of `segments` follows from them where the file leaves it out; only sound ones have one.
 void complete_finish(Design& design, Findings& findings) {
+  if (design.centerline.kind == CenterlineKind::in_run && findings.empty()) {
+    place_in_run(design);
+    for (Finding& finding : check_values(design)) findings.add_unless_spoiled(std::move(finding));
+    return;
+  }
   const bool follows = design.centerline.kind == CenterlineKind::segments && !design.track.finish_given;
   if (!follows || !findings.empty()) return;
   const Vec2 end = end_of_segments(design.centerline);
@@ -294,8 +350,8 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
-  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "probes", "rules",
-              "cross_section", "mesh", "export"});
+  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "probes", "hill",
+              "gates", "rules", "cross_section", "mesh", "export"});
   for (const std::string_view key : body_keys()) {
     top.add_stranger(key, "two spaces before it, below body:");
   }
@@ -304,13 +360,13 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   read_version(top, findings);
   design.name = read_name(top, findings);
   design.centerline = read_centerline(top, file, findings);
-  const bool finish_may_follow =
-      design.centerline.kind == CenterlineKind::segments || design.centerline.kind == CenterlineKind::points;
-  design.track = read_track(top, finish_may_follow, findings);
+  design.track = read_track(top, design.centerline.kind, findings);
   design.body = read_body(top, findings);
   design.gravity = top.quantity("gravity", Dimension::acceleration).value_or(kDefaultGravity);
   read_limits(top, design, findings);
   design.probes = read_probes(top, findings);
+  design.hill = read_hill(top, findings);
+  design.gates = read_gates(top, findings);
   read_rules(top, design, findings);
   design.cross_section = read_cross_section(top, findings);
   design.mesh = read_mesh(top, findings);

@@ -194,8 +194,9 @@ void replace_or_add(std::vector<Rule>& rules, const Rule& rule) {
 
 /// The sets that a kind of centerline brings along.
 std::vector<std::string> suggested_sets(const Design& design) {
-  static_cast<void>(design);
-  return {};
+  if (design.centerline.kind != CenterlineKind::in_run) return {};
+  const bool is_circle = design.centerline.in_run.transition == InRunTransition::circle;
+  return {is_circle ? "fis-in-run-circle" : "fis-in-run"};
 }
 
 void leave_out(const Value& list, RulesDesign& rules, Findings& findings) {

@@ -16,6 +16,7 @@ const Words<CenterlineKind>& centerline_words() {
       {"no-curvature-load", CenterlineKind::no_curvature_load},
       {"segments", CenterlineKind::segments},
       {"points", CenterlineKind::points},
+      {"in-run", CenterlineKind::in_run},
   };
   return words;
 }
@@ -77,6 +78,10 @@ std::optional<CenterlineKind> centerline_kind(std::string_view word) {
     if (text == word) return kind;
   }
   return {};
+}
+
+bool is_drawn(CenterlineKind kind) {
+  return kind == CenterlineKind::segments || kind == CenterlineKind::points || kind == CenterlineKind::in_run;
 }
 
 const std::vector<CenterlineKind>& centerline_kinds() {

@@ -2,7 +2,12 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/nearest_word.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/words.hpp"
+#include "glissade/trades/ski_jump/sizing.hpp"
+
+#include <algorithm>
+#include <cstddef>
 
 namespace glissade {
 namespace {
@@ -167,6 +172,53 @@ constexpr std::string_view kProfile = R"(x,z
 2.000,0.500
 )";
 
+/// A line of a template, its remark where those of the others stand.
+std::string with_remark(std::string text, std::string_view remark) {
+  constexpr std::size_t kRemarkColumn = 39;
+  text.resize(std::max(text.size() + 1, kRemarkColumn), ' ');
+  return text.append("# ").append(remark).append("\n");
+}
+
+std::string in_run_text(const InRunSizes& sizes) {
+  const auto metres = [](double value) { return rounded_text(value, 6) + " m"; };
+  const auto degrees = [](Angle angle) { return rounded_text(angle.degrees(), 6) + " deg"; };
+  std::string text = "name: In-run of a hill of " + rounded_text(sizes.hill_size, 6) + " m\n";
+  text += with_remark("track: {edge: {x: 0 m, z: 0 m}}",
+                      "the take-off edge T; or start, the highest gate; azimuth turns it");
+  text += "body:\n";
+  text += with_remark("  friction_coefficient: 0.03", "of skis on the ice track");
+  text += with_remark("  drag: " + rounded_text(kInRunDrag, 4) + " 1/m", "or drag_area, mass and air");
+  text += "centerline:\n  kind: in-run\n";
+  text += with_remark("  gamma: " + degrees(sizes.gamma), "slope of the straight");
+  text += with_remark("  alpha: " + degrees(sizes.alpha), "slope of the table");
+  text += with_remark("  r1: " + metres(sizes.r1), "radius where the transition ends, at least 0.14 v0^2");
+  text += with_remark("  t: " + metres(sizes.t), "length of the table, at least 0.25 v0");
+  text += with_remark("  e1: " + metres(sizes.e1), "length from the highest gate");
+  text += with_remark("  es: " + metres(sizes.es), "length of the start area");
+  text += with_remark("  e_counts_to: table", "both definitions are in use; edge is the other");
+  text += with_remark("  transition: cubic", "or circle, clothoid, two-radii with first_radius");
+  text += "hill: {size: " + metres(sizes.hill_size) +
+          ", construction_point: " + metres(sizes.construction_point) +
+          ", table_height: " + metres(sizes.table_height) +
+          ", design_speed: " + rounded_text(sizes.design_speed, 4) + " m/s}\n";
+  text += "gates:\n";
+  text += with_remark("  count: " + std::to_string(sizes.gates), "numbered from the lowest");
+  text += with_remark("  measuring_place: 10 m", "before the edge");
+  text += "  slow: {friction_coefficient: " + rounded_text(kSlowFriction, 2) + "}\n";
+  text += "  fast: {friction_coefficient: 0.02}\n";
+  text +=
+      "cross_section: {kind: slab, width: 2.8 m, thickness: 200 mm, curb_height: 500 mm, curb_width: 100 "
+      "mm}\n";
+  return text + "mesh: {tolerance: 5 mm}\nexport: [stl, csv]\n";
+}
+
+constexpr double kTemplateHill = 140.0;  // [m]
+
+const std::string& in_run_of_template() {
+  static const std::string text = in_run_text(suggested_in_run(kTemplateHill));
+  return text;
+}
+
 struct Source {
   DesignTemplate entry;
   std::string_view text;
@@ -177,6 +229,7 @@ const std::vector<Source>& sources() {
       {{"chute", "a U-channel for bulk material, the fastest track"}, kChute},
       {{"ramp", "a flat ramp with curbs, such as a ski in-run"}, kRamp},
       {{"toboggan", "a half-pipe between two points in space"}, kToboggan},
+      {{"in-run", "a ski jump's in-run from its certificate, with gates; --hill-size"}, in_run_of_template()},
       {{"pipe", "a closed pipe"}, kPipe},
       {{"marble-run", "a section of your own outline, for a 3-D printer"}, kMarbleRun},
       {{"constant-speed", "a chute that keeps a body at its speed"}, kConstantSpeed},
@@ -205,6 +258,10 @@ std::string design_template(std::string_view kind) {
   }
   throw InputError({"", "there is no template named " + shown(kind), "There are " + listed(kinds) + ".",
                     std::string(nearest_word(kind, kinds))});
+}
+
+std::string in_run_template(double hill_size) {
+  return std::string(kHead).append(in_run_text(suggested_in_run(hill_size)));
 }
 
 std::string_view design_template_profile() {

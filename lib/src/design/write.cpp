@@ -4,6 +4,8 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "design/read_in_run.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <string_view>
@@ -93,7 +95,16 @@ std::string track(const TrackDesign& design) {
   start.add("y", design.start.y, Dimension::length);
   start.add("z", design.start.z, Dimension::length);
   Group group;
-  group.add("start", start.inlined());
+  if (design.edge) {
+    Group edge;
+    edge.add("x", design.edge->x, Dimension::length);
+    edge.add("y", design.edge->y, Dimension::length);
+    edge.add("z", design.edge->z, Dimension::length);
+    group.add("edge", edge.inlined());
+  } else {
+    group.add("start", start.inlined());
+  }
+  group.add_unless(0.0, "azimuth", design.azimuth.radians(), Dimension::angle);
   if (!design.finish_given) return group.lines();
   const std::string free = design.free_range.limited() ? range(design.free_range, Dimension::length) : "free";
   Group finish;
@@ -209,6 +220,51 @@ std::string segment(const SegmentDesign& design) {
   return group.inlined();
 }
 
+void add_in_run(const InRunDesign& design, Group& group) {
+  group.add("gamma", design.gamma.radians(), Dimension::angle);
+  group.add("alpha", design.alpha.radians(), Dimension::angle);
+  group.add("r1", design.r1, Dimension::length);
+  group.add("t", design.t, Dimension::length);
+  group.add("e1", design.e1, Dimension::length);
+  group.add("e2", design.e2, Dimension::length);
+  group.add("es", design.es, Dimension::length);
+  if (design.counts_to_edge) group.add("e_counts_to", "edge");
+  group.add("transition", std::string(design_file::word(design.transition)));
+  if (design.transition == InRunTransition::two_radii) {
+    group.add("first_radius", design.first_radius, Dimension::length);
+  }
+}
+
+std::string hill(const HillDesign& design) {
+  Group group;
+  group.add("size", design.size, Dimension::length);
+  group.add("construction_point", design.construction_point, Dimension::length);
+  group.add("table_height", design.table_height, Dimension::length);
+  group.add("height", design.height, Dimension::length);
+  group.add("design_speed", design.design_speed, Dimension::speed);
+  return group.lines();
+}
+
+std::string condition(const ConditionDesign& design) {
+  Group group;
+  if (design.friction) group.add("friction_coefficient", coefficient_of(*design.friction));
+  group.add("drag", design.drag_per_metre, Dimension::per_length);
+  group.add("head_wind", design.head_wind, Dimension::speed);
+  return group.inlined();
+}
+
+std::string gates(const GatesDesign& design) {
+  Group group;
+  if (design.count) group.add("count", std::to_string(*design.count));
+  group.add("step", design.step, Dimension::length);
+  group.add("vertical_step", design.vertical_step, Dimension::length);
+  group.add("start_area", design.start_area, Dimension::length);
+  group.add("measuring_place", design.measuring_place, Dimension::length);
+  if (design.slow) group.add("slow", condition(*design.slow));
+  if (design.fast) group.add("fast", condition(*design.fast));
+  return group.lines();
+}
+
 std::string centerline(const CenterlineDesign& design, const std::filesystem::path& file) {
   const auto unit = [](LengthUnit of) { return std::string(unit_symbol(of)); };
   Group group;
@@ -218,6 +274,7 @@ std::string centerline(const CenterlineDesign& design, const std::filesystem::pa
     group.add("entry_slope_angle", design.entry_slope_angle.radians(), Dimension::angle);
     group.add("segments", list_of(design.segments, segment));
   }
+  if (design.kind == CenterlineKind::in_run) add_in_run(design.in_run, group);
   if (design.kind == CenterlineKind::points) {
     const std::filesystem::path beside = design.points_file.lexically_relative(file.parent_path());
     group.add("file", in_quotes((beside.empty() ? design.points_file : beside).generic_string()));
@@ -423,6 +480,8 @@ std::string design_text(const Design& design) {
   text += "centerline:" + centerline(design.centerline, design.file);
   if (design.limits) text += "limits:" + limits(*design.limits, design.objective);
   if (!design.probes.empty()) text += "probes: " + list_of(design.probes, probe) + "\n";
+  if (design.hill != HillDesign{}) text += "hill:" + hill(design.hill);
+  if (design.gates) text += "gates:" + gates(*design.gates);
   if (design.rules.sets || !design.rules.own.empty() || !design.rules.left_out.empty()) {
     text += "rules:" + rules(design.rules);
   }

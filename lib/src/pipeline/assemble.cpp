@@ -2,6 +2,7 @@
 // to be made of them. Nothing here touches a disk.
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/io/gates_csv.hpp"
 #include "glissade/pipeline.hpp"
 
 #include "pipeline/cross_section.hpp"
@@ -236,6 +237,18 @@ std::vector<PendingFile> files_of(const Design& design, const std::string& stem,
   return files;
 }
 
+/// The table of a hill's gates, beside the files of the solid.
+void add_gates(const Track& track, const std::string& stem, std::vector<PendingFile>& files) {
+  if (!track.gates) return;
+  PendingFile file;
+  file.name = stem + ".gates.csv";
+  file.cost = 0.0;
+  file.write = [table = *track.gates](const std::filesystem::path& path, const std::stop_token& /*stop*/) {
+    write_gates_csv(path, table);
+  };
+  files.push_back(std::move(file));
+}
+
 }  // namespace
 
 Assembly assemble(const Design& design, Track track, const RunContext& context, const BuildOptions& options) {
@@ -274,6 +287,7 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
             .solid = ProvenSolid{std::move(solid), reference.facts, max_deviation, offset},
             .files = {}};
   for (const PendingFile& file : files) part.files.push_back(file.name);
+  add_gates(track, stem, files);
   std::vector<Part> parts;
   parts.push_back(std::move(part));
   return {

@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/centerline/in_run.hpp"
 #include "glissade/core/version.hpp"
 #include "glissade/pipeline/probes.hpp"
 #include "glissade/pipeline/rules.hpp"
@@ -41,6 +42,24 @@ Json constant_speed_json(const ConstantSpeedCurve& curve) {
           {"travel_time_at_that_speed_s", curve.travel_time_at_constant_speed()}};
 }
 
+/// A place of an in-run by its letter.
+Json letter_json(const InRun& in_run, const Placement& placement, double arc_length) {
+  const CenterlinePoint point = in_run.at(arc_length);
+  const Vec3 position = placement.to_space(point.x, point.drop, 0.0);
+  return {{"arc_length_m", arc_length}, {"x_m", position.x}, {"y_m", position.y}, {"z_m", position.z}};
+}
+
+Json in_run_json(const InRun& in_run, const Placement& placement) {
+  const auto letter = [&](double at) { return letter_json(in_run, placement, at); };
+  return {{"transition_length_m", in_run.table_begins() - in_run.transition_begins()},
+          {"straight_length_m", in_run.transition_begins()},
+          {"table_length_m", in_run.length() - in_run.table_begins()},
+          {"A", letter(0.0)},
+          {"E1", letter(in_run.transition_begins())},
+          {"E2", letter(in_run.table_begins())},
+          {"T", letter(in_run.length())}};
+}
+
 void add_curve(Json& json, const Track& track) {
   const Centerline& centerline = *track.centerline;
   json["entry_slope_angle_deg"] = degrees(centerline.slope_angle(0.0));
@@ -50,6 +69,9 @@ void add_curve(Json& json, const Track& track) {
   json["min_radius_m"] = number(track.min_radius);
   if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline)) {
     json["profile"] = profile_json(*profile);
+  }
+  if (const auto* const in_run = dynamic_cast<const InRun*>(&centerline)) {
+    json["in_run"] = in_run_json(*in_run, track.placement);
   }
   if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
     json["constant_speed"] = constant_speed_json(*curve);
@@ -100,6 +122,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   json["limits"] = limits_json(report.checks);
   json["search"] = search_json(report);
   json["probes"] = Json::array();
+  json["gates"] = nullptr;
   json["rules"] = Json::array();
   json["warnings"] = Json::array();
   return json;
@@ -119,6 +142,7 @@ Json pipeline::track_document(const Design& design, const Track& track, StallMar
   json["limits"] = limits_json(track.limit_checks);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
   json["probes"] = probes_json(probe_readings(design, track));
+  json["gates"] = track.gates ? gates_json(*track.gates) : Json(nullptr);
   json["rules"] = report::rules_json(judge_rules(design, track));
   json["warnings"] = issues_json(warnings(design, track));
   return json;
@@ -197,6 +221,32 @@ std::string verdicts_json(const Design& design, const std::vector<Judgement>& ju
   if (!design.name.empty()) json["name"] = design.name;
   json["verdict"] = to_text(worst(judgements));
   json["rules"] = report::rules_json(judgements);
+  return document_text(json);
+}
+
+std::string fit_json(const SpeedSheet& sheet, const SpeedFit& fit,
+                     const std::vector<SpeedResidual>& as_designed) {
+  Json json{{"glissade", version()}};
+  json["friction_coefficient"] = fit.friction;
+  json["friction_coefficient_uncertainty"] = number(fit.friction_uncertainty);
+  json["drag_per_m"] = fit.drag;
+  json["drag_uncertainty_per_m"] = number(fit.drag_uncertainty);
+  json["correlation"] = number(fit.correlation);
+  json["rms_m_per_s"] = fit.rms;
+  json["design_friction_coefficient"] = sheet.body.friction.coefficient();
+  json["design_drag_per_m"] = sheet.body.drag_per_metre;
+  json["design_rms_m_per_s"] = rms_of(as_designed);
+  json["speeds"] = Json::array();
+  for (std::size_t i = 0; i < sheet.readings.size(); ++i) {
+    const SpeedReading& reading = sheet.readings[i];
+    json["speeds"].push_back({{"name", reading.name},
+                              {"distance_to_edge_m", reading.track->length() - reading.from_start},
+                              {"before_edge_m", reading.track->length() - reading.place},
+                              {"count", reading.count},
+                              {"measured_m_per_s", reading.speed},
+                              {"design_m_per_s", as_designed[i].computed},
+                              {"fitted_m_per_s", fit.residuals[i].computed}});
+  }
   return document_text(json);
 }
 

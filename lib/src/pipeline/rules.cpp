@@ -3,6 +3,7 @@
 #include "glissade/core/math.hpp"
 
 #include "pipeline/extremes.hpp"
+#include "pipeline/in_run_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,10 +100,11 @@ void measure_rides(const Track& track, Measurements& measurements) {
 
 }  // namespace
 
-Measurements rule_measurements(const Design& /*design*/, const Track& track) {
+Measurements rule_measurements(const Design& design, const Track& track) {
   Measurements measurements;
   measure_shape(track, measurements);
   measure_rides(track, measurements);
+  measure_in_run(design, track, measurements);
   return measurements;
 }
 

@@ -5,6 +5,7 @@
 #include "glissade/centerline/cycloid.hpp"
 #include "glissade/centerline/fastest_track.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/centerline/in_run.hpp"
 #include "glissade/centerline/no_curvature_load.hpp"
 #include "glissade/centerline/reach.hpp"
 #include "glissade/centerline/straight_line.hpp"
@@ -15,6 +16,7 @@
 #include "pipeline/body.hpp"
 #include "pipeline/extremes.hpp"
 #include "pipeline/friction_range.hpp"
+#include "pipeline/gates.hpp"
 #include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
 
@@ -97,6 +99,8 @@ CenterlinePtr make_of_kind(const Design& design) {
       return make_segments(design.centerline);
     case CenterlineKind::points:
       return make_points(design);
+    case CenterlineKind::in_run:
+      return std::make_shared<InRun>(design.centerline.in_run.shape());
   }
   throw InternalError({"", "a centerline of this kind cannot be made", "", ""});
 }
@@ -105,10 +109,6 @@ CenterlinePtr make_of_kind(const Design& design) {
 Endpoints endpoints_of(const Centerline& centerline) {
   const CenterlinePoint finish = centerline.at(centerline.length());
   return {finish.x, finish.drop};
-}
-
-bool is_drawn(CenterlineKind kind) {
-  return kind == CenterlineKind::segments || kind == CenterlineKind::points;
 }
 
 std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body, double gravity) {
@@ -163,8 +163,10 @@ Track ride(const Design& design, CenterlinePtr centerline) {
   Motion motion(centerline, body, design.gravity);
   std::vector<LimitCheck> limit_checks = checked_limits(design, endpoints, centerline);
   std::vector<RangeRide> range = rides_of_range(design, centerline);
+  const Placement placement = Placement::through(design.track.start, design.track.finish);
+  std::optional<GateTable> gates = gate_table(design, centerline, placement);
   return {endpoints,
-          Placement::through(design.track.start, design.track.finish),
+          placement,
           std::move(centerline),
           std::move(motion),
           straight_ride(endpoints, body, design.gravity),
@@ -174,7 +176,8 @@ Track ride(const Design& design, CenterlinePtr centerline) {
           steepest,
           {},
           std::move(limit_checks),
-          std::move(range)};
+          std::move(range),
+          std::move(gates)};
 }
 
 Track solve(const Design& design, const RunContext& context) {

@@ -5,6 +5,8 @@
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 #include "glissade/design/body_design.hpp"
+#include "glissade/design/gates_design.hpp"
+#include "glissade/design/in_run_design.hpp"
 #include "glissade/design/probe_design.hpp"
 #include "glissade/design/rules_design.hpp"
 #include "glissade/section/measures.hpp"
@@ -31,6 +33,10 @@ struct TrackDesign {
   /// +x. Of a free coordinate it holds some value within its range.
   Vec3 finish;
   bool finish_given = true;  ///< false only for `segments` and `points` whose file leaves the finish out
+  /// Of an in-run that is placed by its take-off edge: the finish; the start follows [m].
+  std::optional<Vec3> edge = {};
+  /// Of an in-run the direction that it leads in, counter-clockwise from +x seen from above.
+  Angle azimuth = {};
   FinishKind free_finish = FinishKind::point;  ///< z is free on a vertical_line, x on a level
   Range free_range;                            ///< of the free coordinate, x or z [m]
 
@@ -51,7 +57,19 @@ inline constexpr double kFinishAgreement = 1e-3;
 /// @return (run, drop) in the plane of the centerline: run from the start, positive towards the finish
 [[nodiscard]] Vec2 in_track_plane(const TrackDesign& track, Vec2 point);
 
-enum class CenterlineKind { fastest, constant_speed, straight, cycloid, no_curvature_load, segments, points };
+enum class CenterlineKind {
+  fastest,
+  constant_speed,
+  straight,
+  cycloid,
+  no_curvature_load,
+  segments,
+  points,
+  in_run
+};
+
+/// @return true for kinds that the design draws, and that say themselves where they end
+[[nodiscard]] bool is_drawn(CenterlineKind kind);
 
 /// @return the word that a design file uses, e.g. "constant-speed"
 [[nodiscard]] std::string_view word(CenterlineKind kind);
@@ -72,6 +90,7 @@ struct SegmentDesign {
 struct CenterlineDesign {
   CenterlineKind kind = CenterlineKind::fastest;
   std::optional<double> constant_speed_p;  ///< P of the constant-speed track [m^2/s^2]; none: the fastest P
+  InRunDesign in_run;                      ///< of `in-run`
   Angle entry_slope_angle;                 ///< of `segments`
   std::vector<SegmentDesign> segments;
   /// CSV of a measured profile, for `points`; relative paths are taken from the design file's directory.
@@ -121,9 +140,11 @@ struct Design {
   /// them: x is the design's x for a track along the x axis, otherwise the horizontal distance from the start
   /// towards the finish; in_track_plane() turns them into run and drop.
   std::optional<Limits> limits;
-  Objective objective;              ///< what the search is for
-  std::vector<ProbeDesign> probes;  ///< places whose speed, slope angle and load are told
-  RulesDesign rules;                ///< what a trade asks of the track; verdicts, no limits of a search
+  Objective objective;               ///< what the search is for
+  std::vector<ProbeDesign> probes;   ///< places whose speed, slope angle and load are told
+  HillDesign hill;                   ///< below an in-run
+  std::optional<GatesDesign> gates;  ///< from which the track is ridden, too
+  RulesDesign rules;                 ///< what a trade asks of the track; verdicts, no limits of a search
   std::optional<CrossSectionDesign> cross_section;
   MeshDesign mesh;
   ExportDesign exports;

@@ -20,6 +20,11 @@ struct DesignTemplate {
 /// @throws InputError if there is no template of that kind (names those that there are)
 [[nodiscard]] std::string design_template(std::string_view kind);
 
+/// The template "in-run" with the sizes that rules and certificates suggest for a hill.
+/// @param hill_size  HS [m]; the template itself is that of a hill of 140 m
+/// @throws InputError as suggested_in_run()
+[[nodiscard]] std::string in_run_template(double hill_size);
+
 /// The file that the "points" template reads, and a small measured profile to put into it.
 inline constexpr std::string_view kTemplateProfileName = "profile.csv";
 [[nodiscard]] std::string_view design_template_profile();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/speeds.hpp"
 
 #include <string>
 #include <vector>
@@ -39,6 +40,11 @@ struct ComparedTrack {
 
 /// What rules say of a track.
 [[nodiscard]] std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements);
+
+/// Friction and drag fitted to measured speeds.
+/// @param as_designed  the same speeds with the friction and drag of the sheet's body
+[[nodiscard]] std::string fit_json(const SpeedSheet& sheet, const SpeedFit& fit,
+                                   const std::vector<SpeedResidual>& as_designed);
 
 /// A track that stays as it is, ridden at several frictions.
 /// @param rides  as ride_at() gives them

@@ -9,6 +9,7 @@
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/solid/placement.hpp"
+#include "glissade/trades/ski_jump/gates.hpp"
 
 #include <optional>
 #include <stop_token>
@@ -64,6 +65,8 @@ struct Track {
   std::vector<LimitCheck> limit_checks;
   /// The same body at the ends of the design's friction range; empty where it has none.
   std::vector<RangeRide> range;
+  /// The rides from every gate of the design; none where it has none.
+  std::optional<GateTable> gates = {};
 
   /// @return the rides at every friction that the design names, from low to high; the nominal one is always
   ///         among them. They live as long as the track.

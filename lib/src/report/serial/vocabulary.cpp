@@ -198,6 +198,47 @@ Json probes_json(const std::vector<ProbeReading>& probes) {
   return list;
 }
 
+namespace {
+
+/// How a gate rides in one condition.
+void add_gate_ride(Json& json, const GateRide& ride) {
+  const auto told = [&](double value) { return ride.arrived ? number(value) : Json(nullptr); };
+  json["travel_time_s"] = told(ride.travel_time);
+  json["speed_at_measuring_place_m_per_s"] = told(ride.speed_at_measuring_place);
+  json["speed_at_edge_m_per_s"] = told(ride.speed_at_edge);
+  json["max_normal_load_m_per_s2"] = number(ride.highest_load);
+  json["max_normal_load_at_m"] = number(ride.highest_load_at);
+  json["min_normal_load_m_per_s2"] = number(ride.lowest_load);
+  json["max_radial_acceleration_m_per_s2"] = number(ride.highest_radial);
+  json["speed_by_friction_m_per_s"] = told(ride.slopes.by_friction);
+  json["speed_by_drag_m2_per_s"] = told(ride.slopes.by_drag);
+  json["speed_by_length_per_s"] = told(ride.slopes.by_length);
+}
+
+}  // namespace
+
+Json gates_json(const GateTable& table) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < table.gates.size(); ++i) {
+    Json gate{{"gate", table.gates[i].number},
+              {"distance_to_edge_m", table.gates[i].to_edge},
+              {"x_m", table.positions[i].x},
+              {"y_m", table.positions[i].y},
+              {"z_m", table.positions[i].z}};
+    add_gate_ride(gate, table.conditions.front().rides[i]);
+    gate["conditions"] = Json::object();
+    for (std::size_t k = 1; k < table.conditions.size(); ++k) {
+      Json& ridden = gate["conditions"][table.conditions[k].name];
+      add_friction(ridden, table.conditions[k].body.friction);
+      ridden["drag_per_m"] = table.conditions[k].body.drag_per_metre;
+      ridden["head_wind_m_per_s"] = table.conditions[k].body.head_wind;
+      add_gate_ride(ridden, table.conditions[k].rides[i]);
+    }
+    list.push_back(std::move(gate));
+  }
+  return list;
+}
+
 Json rules_json(const std::vector<Judgement>& judgements) {
   Json list = Json::array();
   for (const Judgement& judgement : judgements) {

@@ -9,6 +9,7 @@
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/trades/rules.hpp"
+#include "glissade/trades/ski_jump/gates.hpp"
 
 #include <optional>
 #include <string>
@@ -48,6 +49,9 @@ void add_ride(Json& json, const Motion& motion);
 /// @return how a search ended; conflict and relaxations are null unless the limits contradict each other
 [[nodiscard]] Json search_json(const OptimizeReport& report);
 [[nodiscard]] Json probes_json(const std::vector<ProbeReading>& probes);
+
+/// @return list of gates with their rides in the nominal condition, and those in others below `conditions`
+[[nodiscard]] Json gates_json(const GateTable& table);
 
 /// @return list of verdicts; `where` is an arc length, null where a rule is about the whole track
 [[nodiscard]] Json rules_json(const std::vector<Judgement>& judgements);

@@ -1,0 +1,159 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/io/gates_csv.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/gates_text.hpp"
+#include "app/option_value.hpp"
+#include "app/summary.hpp"
+#include "app/table.hpp"
+#include "app/track_input.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "The start gates of a ski jump: where each lies, and the speed, time and load from it in every "
+    "condition.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade gates designs/hills/garmisch_hs142.yaml\n"
+    "  glissade gates designs/hills/garmisch_hs142.yaml --speed 90km/h            the gate for that speed\n"
+    "  glissade gates designs/hills/garmisch_hs142.yaml --head-wind-change 1m/s   how many gates make up for "
+    "it\n"
+    "  glissade gates designs/hills/garmisch_hs142.yaml --csv gates.csv";
+
+struct Options {
+  std::string design;
+  Overrides overrides;
+  std::string speed;
+  std::string wind_change;
+  std::string csv;
+  bool json = false;
+};
+
+/// Which gate gives a speed, in words, for each condition.
+std::string gate_for(const GateTable& table, double speed) {
+  std::string text;
+  for (const GateCondition& condition : table.conditions) {
+    const auto gate = gate_for_speed(condition.rides, speed);
+    const std::string what =
+        gate ? "gate " + rounded_text(*gate, 3) + (*gate == std::floor(*gate) ? "" : ", between gates")
+             : "no gate: they give " + speed_text(condition.rides.front().speed_at_measuring_place) + " to " +
+                   speed_text(condition.rides.back().speed_at_measuring_place);
+    text += (text.empty() ? "" : "\n") + condition.name + ": " + what;
+  }
+  return labelled("For " + speed_text(speed), text);
+}
+
+/// How many gates make up for a change of wind: from the middle gate, what the speed loses over what a gate gains.
+std::string gates_for_wind(const Design& design, const Track& track, double change) {
+  Design blown = design;
+  blown.body.head_wind += change;
+  for (auto* const condition : {&blown.gates->slow, &blown.gates->fast}) {
+    if (*condition && (*condition)->head_wind) *(*condition)->head_wind += change;
+  }
+  const Track other = ride(blown, track.centerline);
+  const std::vector<GateCondition>& conditions = track.gates->conditions;
+  std::string text;
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    const std::vector<GateRide>& before = conditions[k].rides;
+    const std::vector<GateRide>& after = other.gates->conditions[k].rides;
+    const std::size_t middle = before.size() / 2;
+    const double gain = after[middle].speed_at_measuring_place - before[middle].speed_at_measuring_place;
+    const double per_gate = (after.back().speed_at_measuring_place - after.front().speed_at_measuring_place) /
+                            static_cast<double>(after.size() - 1);
+    text += (text.empty() ? "" : "\n") + conditions[k].name + ": " + (gain < 0.0 ? "-" : "+") +
+            speed_text(std::fabs(gain)) + " from gate " + std::to_string(before[middle].gate.number) + ", " +
+            rounded_text(std::fabs(gain / per_gate), 2) + (gain < 0.0 ? " gates higher" : " gates lower") +
+            " make up for it";
+  }
+  return labelled(std::string(change < 0.0 ? "Tail" : "Head") + " wind +" + speed_text(std::fabs(change)),
+                  text);
+}
+
+/// What was asked beside the table.
+std::string answers(const Options& options, const Design& design, const Track& track) {
+  std::string text;
+  if (!options.speed.empty()) {
+    text += gate_for(*track.gates, option_value(options.speed, Dimension::speed, "--speed"));
+  }
+  if (options.wind_change.empty()) return text;
+  const double change = option_value(options.wind_change, Dimension::speed, "--head-wind-change");
+  if (!(design.body.drag_per_metre > 0.0)) {
+    throw InputError({"--head-wind-change", "the body has no drag that a wind could act on", "",
+                      "drag: 0.0013 1/m in the body"});
+  }
+  if (track.gates->gates.size() < 2) {
+    throw InputError({"--head-wind-change", "one gate cannot make up for a wind", "", "gates: {count: 20}"});
+  }
+  return text + gates_for_wind(design, track, change);
+}
+
+void require_arrivals(const Design& design, const GateTable& table) {
+  for (const GateCondition& condition : table.conditions) {
+    for (const GateRide& ride : condition.rides) {
+      if (ride.arrived) continue;
+      throw InfeasibleError({design.where("gates"),
+                             "from gate " + std::to_string(ride.gate.number) + " (" + condition.name +
+                                 ") the body does not arrive at the edge",
+                             "It stalls, or leaves the track.",
+                             "less friction, or a longer in-run below the gates"});
+    }
+  }
+}
+
+ExitCode show_gates(const Options& options) {
+  const Design design = read_design(options.design, options.overrides.values());
+  if (!design.gates) {
+    throw InputError({design.where("centerline"), "the design has no gates", "",
+                      "gates: {count: 49}; with a centerline that is no in-run, their start_area too"});
+  }
+  const Track track = solve(design);
+  const std::string asked = answers(options, design, track);
+  if (options.json) {
+    print(track_json(design, track));
+  } else {
+    const std::string heading = design.name.empty() ? std::string("Gates") : design.name;
+    print(emphasised(heading, Emphasis::heading) + "\n  speed v " +
+          length_text(track.gates->measuring_place) + " before the edge\n\n" +
+          gates_table(*track.gates).text() + (asked.empty() ? "" : "\n" + asked));
+  }
+  if (!options.csv.empty()) write_gates_csv(options.csv, *track.gates);
+  require_arrivals(design, *track.gates);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_gates(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("gates", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
+  options->overrides.add_to(command);
+  command.add_option("--speed", options->speed, "Tell which gate gives this speed at the measuring place")
+      ->type_name("SPEED");
+  command
+      .add_option("--head-wind-change", options->wind_change,
+                  "Tell how many gates make up for this much more wind from ahead; less where negative")
+      ->type_name("SPEED");
+  command.add_option("--csv", options->csv, "Write the table, SI, with the derivatives of the speed")
+      ->type_name("FILE");
+  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  command.callback([options, &action] { action = [options] { return show_gates(*options); }; });
+}
+
+}  // namespace glissade::app

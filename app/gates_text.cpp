@@ -1,0 +1,99 @@
+#include "app/gates_text.hpp"
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
+
+#include "app/console.hpp"
+#include "app/summary.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace glissade::app {
+namespace {
+
+std::string_view word(InRunTransition transition) {
+  switch (transition) {
+    case InRunTransition::cubic:
+      return "a cubic parabola";
+    case InRunTransition::circle:
+      return "an arc of a circle";
+    case InRunTransition::clothoid:
+      return "a clothoid";
+    case InRunTransition::two_radii:
+      return "of two radii";
+  }
+  return "";
+}
+
+std::string speeds_text(const GateCondition& condition) {
+  const GateRide& lowest = condition.rides.front();
+  const GateRide& highest = condition.rides.back();
+  const auto from = [](const GateRide& ride) {
+    const std::string gate = " from gate " + std::to_string(ride.gate.number);
+    return ride.arrived ? speed_text(ride.speed_at_measuring_place) + gate : "does not arrive" + gate;
+  };
+  std::string text = condition.name + " (friction " + rounded_text(condition.body.friction.coefficient(), 4) +
+                     ", drag " + rounded_text(condition.body.drag_per_metre, 4) + " 1/m";
+  if (condition.body.head_wind != 0.0) text += ", head wind " + speed_text(condition.body.head_wind);
+  text += "): " + from(lowest);
+  return condition.rides.size() == 1 ? text : text + ", " + from(highest);
+}
+
+std::string spacing_text(const GateTable& table) {
+  if (table.gates.size() < 2) return "one gate";
+  const double step = table.gates[1].to_edge - table.gates[0].to_edge;
+  return count_text(table.gates.size()) + " gates, " + length_text(step) + " apart along the track, " +
+         length_text(table.largest_height_step) + " in height";
+}
+
+}  // namespace
+
+std::string in_run_text(const InRun& in_run) {
+  const double bend = in_run.table_begins() - in_run.transition_begins();
+  return "in-run, the transition " + std::string(word(in_run.shape().transition)) + "\nstraight " +
+         length_text(in_run.transition_begins(), 6) + ", transition " + length_text(bend, 6) + ", table " +
+         length_text(in_run.length() - in_run.table_begins(), 6);
+}
+
+std::string gates_lines(const Track& track) {
+  if (!track.gates) return "";
+  const GateTable& table = *track.gates;
+  std::string text =
+      spacing_text(table) + "\nspeed " + length_text(table.measuring_place) + " before the edge";
+  for (const GateCondition& condition : table.conditions) text += "\n" + speeds_text(condition);
+  return labelled("Gates", text);
+}
+
+Table gates_table(const GateTable& table) {
+  std::vector<std::string> headings = {"gate", "to edge [m]", "x [m]", "z [m]"};
+  for (const GateCondition& condition : table.conditions) {
+    const std::string name = table.conditions.size() > 1 ? condition.name + " " : "";
+    for (const char* const column : {"v [m/s]", "[km/h]", "edge [m/s]", "t [s]", "load [g]"}) {
+      headings.push_back((headings.size() % 5 == 4 ? name : "") + column);
+    }
+  }
+  Table text(std::move(headings));
+  for (std::size_t i = 0; i < table.gates.size(); ++i) {
+    std::vector<std::string> row = {std::to_string(table.gates[i].number),
+                                    fixed_text(table.gates[i].to_edge, 2),
+                                    fixed_text(table.positions[i].x, 2), fixed_text(table.positions[i].z, 2)};
+    for (const GateCondition& condition : table.conditions) {
+      const GateRide& ride = condition.rides[i];
+      const auto told = [&](double value, int decimals) {
+        return ride.arrived ? fixed_text(value, decimals) : std::string("-");
+      };
+      constexpr double kKilometresPerHour = 3.6;
+      row.push_back(told(ride.speed_at_measuring_place, 2));
+      row.push_back(told(ride.speed_at_measuring_place * kKilometresPerHour, 1));
+      row.push_back(told(ride.speed_at_edge, 2));
+      row.push_back(told(ride.travel_time, 2));
+      row.push_back(fixed_text(ride.highest_load / kStandardGravity, 2));
+    }
+    text.add(std::move(row));
+  }
+  return text;
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "glissade/centerline/in_run.hpp"
+#include "glissade/pipeline.hpp"
+
+#include "app/table.hpp"
+
+#include <string>
+
+namespace glissade::app {
+
+/// The kind of an in-run: its transition and where that lies.
+[[nodiscard]] std::string in_run_text(const InRun& in_run);
+
+/// Gates for a summary: how many, how far apart, and the speeds from the lowest and the highest; empty without gates.
+[[nodiscard]] std::string gates_lines(const Track& track);
+
+/// Every gate with its place and its rides, for people.
+[[nodiscard]] Table gates_table(const GateTable& table);
+
+}  // namespace glissade::app

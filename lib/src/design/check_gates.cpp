@@ -1,0 +1,53 @@
+#include "glissade/centerline/in_run.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/trades/ski_jump/gates.hpp"
+
+#include "design/checks.hpp"
+
+#include <string>
+#include <utility>
+
+namespace glissade::design_file {
+namespace {
+
+/// The start area of an in-run lies on its straight; check_in_run() holds es to that.
+void check_area_of_in_run(const Design& design, Collected& findings) {
+  const InRunDesign& in_run = design.centerline.in_run;
+  const GatesDesign& gates = *design.gates;
+  if (!gates.start_area) {
+    if (in_run.start_area()) return;
+    report(findings, {"gates", "centerline"},
+           {"", "gates: nothing says how long the start area is", "Gates fill the start area, es.",
+            "es: 24 m in the centerline, or start_area: 24 m here"});
+    return;
+  }
+  try {
+    const double straight = InRun(in_run.shape()).transition_begins();
+    if (*gates.start_area <= straight) return;
+    report(findings, {"gates.start_area", "centerline"},
+           {"",
+            "start_area: gates over " + length_text(*gates.start_area) + " lie beyond the straight, " +
+                length_text(straight),
+            "Gates lie on the straight, above the transition.",
+            "a start_area of at most " + length_text(straight)});
+  } catch (const InputError&) {
+    return;  // the centerline has problems of its own, which are told
+  }
+}
+
+}  // namespace
+
+void check_gates(const Design& design, Collected& findings) {
+  if (!design.gates) return;
+  const GatesDesign& gates = *design.gates;
+  if (design.centerline.kind == CenterlineKind::in_run) {
+    check_area_of_in_run(design, findings);
+  } else if (!gates.start_area) {
+    report(findings, {"gates", "centerline.kind"},
+           {"", "gates: nothing says how long the start area is",
+            "A centerline of kind " + std::string(word(design.centerline.kind)) + " has no es.",
+            "start_area: 24 m, from the start of the track on"});
+  }
+}
+
+}  // namespace glissade::design_file

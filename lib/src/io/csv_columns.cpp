@@ -1,0 +1,73 @@
+#include "glissade/io/csv_columns.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/odd_characters.hpp"
+#include "glissade/core/words.hpp"
+
+#include "io/csv_lines.hpp"
+#include "io/reading.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace glissade {
+
+using namespace io;
+
+CsvColumns CsvColumns::read(const std::filesystem::path& file, std::string_view what) {
+  const std::string text = read_csv_text(file, what, kLargestCsvFile);
+  CsvLines lines(text);
+  const auto header = lines.next();
+  if (!header)
+    throw FileError({file.string(), "the file is empty", "", "a line of names, then a line a point"});
+  const char separator = csv_separator(*header);
+  CsvColumns columns;
+  columns.file_ = file;
+  columns.header_line_ = lines.number();
+  for (const std::string_view name : csv_cells(*header, separator)) columns.names_.emplace_back(name);
+  while (const auto line = lines.next()) {
+    const std::vector<std::string_view> cells = csv_cells(*line, separator);
+    columns.cells_.emplace_back(cells.begin(), cells.end());
+    columns.lines_.push_back(lines.number());
+  }
+  return columns;
+}
+
+bool CsvColumns::has(std::string_view column) const {
+  return index_of(column) < names_.size();
+}
+
+std::size_t CsvColumns::index_of(std::string_view column) const {
+  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), column) - names_.begin());
+}
+
+std::string CsvColumns::place(std::size_t row) const {
+  return file_.string() + ":" + std::to_string(lines_[row]);
+}
+
+void CsvColumns::require(std::string_view column, std::string_view hint) const {
+  if (has(column)) return;
+  throw FileError(
+      {file_.string() + ":" + std::to_string(header_line_), "there is no column " + in_quotes(column),
+       "The first line names the columns; here they are " + listed(names_) + ".", std::string(hint)});
+}
+
+std::string CsvColumns::text(std::size_t row, std::string_view column) const {
+  const std::size_t index = index_of(column);
+  return index < cells_[row].size() ? cells_[row][index] : std::string();
+}
+
+double CsvColumns::number(std::size_t row, std::string_view column) const {
+  const std::string cell = text(row, column);
+  double number = 0.0;
+  const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (status == std::errc() && rest == cell.data() + cell.size() && std::isfinite(number)) return number;
+  const auto odd = odd_character(cell);
+  throw FileError({place(row), "column " + in_quotes(column) + ": " + in_quotes(cell) + " is no number",
+                   odd ? "It holds " + odd->name + "." : "",
+                   odd ? with_plain_characters(cell) : "numbers with a decimal point and without a unit"});
+}
+
+}  // namespace glissade

@@ -1,0 +1,72 @@
+#include "io/csv_lines.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include "io/system_error.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace glissade::io {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t from = text.find_first_not_of(kBlanks);
+  if (from == std::string_view::npos) return text.substr(text.size());
+  text = text.substr(from, text.find_last_not_of(kBlanks) + 1 - from);
+  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+}  // namespace
+
+std::string read_csv_text(const std::filesystem::path& file, std::string_view what, std::size_t largest) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) throw system_error(file, "cannot read " + std::string(what), error.value());
+  if (size > largest) {
+    throw FileError({file.string(), "larger than " + std::to_string(largest >> 20U) + " MiB",
+                     "Such a file has a line a point.", "fewer points"});
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw system_error(file, "cannot read " + std::string(what), errno);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return text;
+}
+
+std::vector<std::string_view> csv_cells(std::string_view line, char separator) {
+  std::vector<std::string_view> cells;
+  for (std::size_t from = 0; from <= line.size();) {
+    const std::size_t to = std::min(line.find(separator, from), line.size());
+    cells.push_back(trimmed(line.substr(from, to - from)));
+    from = to + 1;
+  }
+  return cells;
+}
+
+char csv_separator(std::string_view header) {
+  for (const char separator : {';', '\t'}) {
+    if (header.find(separator) != std::string_view::npos) return separator;
+  }
+  return ',';
+}
+
+std::optional<std::string_view> CsvLines::next() {
+  while (!rest_.empty()) {
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++number_;
+    const std::string_view content = trimmed(line);
+    if (!content.empty() && content.front() != '#') return line;
+  }
+  return {};
+}
+
+}  // namespace glissade::io

@@ -1,0 +1,107 @@
+#include "pipeline/in_run_rules.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace glissade::pipeline {
+namespace {
+
+/// The most of something over all gates and conditions.
+void measure_worst(const GateTable& table, const std::function<double(const GateRide&)>& value,
+                   const std::function<std::optional<double>(const GateRide&)>& place, double sign,
+                   std::string_view key, Measurements& measurements) {
+  const GateRide* worst = nullptr;
+  std::string condition_of_worst;
+  for (const GateCondition& condition : table.conditions) {
+    for (const GateRide& ride : condition.rides) {
+      if (worst != nullptr && !(sign * value(ride) > sign * value(*worst))) continue;
+      worst = &ride;
+      condition_of_worst = condition.name;
+    }
+  }
+  if (worst == nullptr) return;
+  std::string name = "gate " + std::to_string(worst->gate.number);
+  if (table.conditions.size() > 1) name += ", " + condition_of_worst;
+  measurements.set(key, value(*worst), place(*worst), name);
+}
+
+void measure_gates(const GateTable& table, Measurements& measurements) {
+  const auto nowhere = [](const GateRide& /*ride*/) { return std::optional<double>(); };
+  measure_worst(
+      table, [](const GateRide& ride) { return ride.highest_load; },
+      [](const GateRide& ride) { return std::optional(ride.highest_load_at); }, 1.0, "highest_normal_load",
+      measurements);
+  measure_worst(
+      table, [](const GateRide& ride) { return ride.lowest_load; }, nowhere, -1.0, "lowest_normal_load",
+      measurements);
+  measure_worst(
+      table, [](const GateRide& ride) { return ride.highest_radial; },
+      [](const GateRide& ride) { return std::optional(ride.highest_radial_at); }, 1.0,
+      "highest_radial_acceleration", measurements);
+  measure_worst(
+      table, [](const GateRide& ride) { return ride.speed_at_edge; }, nowhere, 1.0, "highest_take_off_speed",
+      measurements);
+  measure_worst(
+      table, [](const GateRide& ride) { return ride.speed_at_edge; }, nowhere, -1.0, "lowest_take_off_speed",
+      measurements);
+  if (table.gates.size() > 1) measurements.set("gate_step_height", table.largest_height_step);
+}
+
+void set_or_ask(Measurements& measurements, std::string_view key, const std::optional<double>& value,
+                const char* missing) {
+  if (value) {
+    measurements.set(key, *value);
+  } else {
+    measurements.set_missing(key, missing);
+  }
+}
+
+void measure_certificate(const Design& design, const Track& track, Measurements& measurements) {
+  const InRunDesign& in_run = design.centerline.in_run;
+  const HillDesign& hill = design.hill;
+  measurements.set("in_run_slope_angle", in_run.gamma.radians());
+  measurements.set("table_slope_angle", in_run.alpha.radians());
+  measurements.set("table_length", in_run.t);
+  measurements.set("transition_radius", in_run.r1);
+  constexpr const char* kSpeed = "hill: {design_speed: 27 m/s}, v0 of the norm";
+  std::optional<double> table_time;
+  std::optional<double> radial;
+  if (hill.design_speed) {
+    table_time = in_run.t / *hill.design_speed;
+    radial = *hill.design_speed * *hill.design_speed / in_run.r1;
+  }
+  set_or_ask(measurements, "table_time", table_time, kSpeed);
+  set_or_ask(measurements, "design_radial_acceleration", radial, kSpeed);
+  std::optional<double> ratio;
+  if (hill.table_height && hill.construction_point) ratio = *hill.table_height / *hill.construction_point;
+  set_or_ask(measurements, "table_height_ratio", ratio,
+             "hill: {table_height: 3.2 m, construction_point: 125 m}, s and w of the certificate");
+  std::optional<double> area;
+  if (const auto es = in_run.start_area()) area = *es / in_run.longest();
+  set_or_ask(measurements, "start_area_ratio", area, "es, or e2, in the centerline");
+  const double e1 = track.centerline->breaks()[1];
+  measurements.set("curvature_step_at_e1", track.centerline->at(e1).curvature, e1, "E1");
+}
+
+}  // namespace
+
+void measure_in_run(const Design& design, const Track& track, Measurements& measurements) {
+  const HillDesign& hill = design.hill;
+  if (design.centerline.kind == CenterlineKind::in_run || hill.size) {
+    set_or_ask(measurements, "hill_size", hill.size, "hill: {size: 142 m}, HS of the certificate");
+    set_or_ask(measurements, "construction_point", hill.construction_point,
+               "hill: {construction_point: 125 m}, w of the certificate");
+    set_or_ask(measurements, "hill_height", hill.height, "hill: {height: 62 m}, zU of the certificate");
+  }
+  if (design.centerline.kind == CenterlineKind::in_run) measure_certificate(design, track, measurements);
+  if (track.gates) {
+    measure_gates(*track.gates, measurements);
+  } else {
+    for (const char* const key : {"gate_step_height", "highest_take_off_speed", "lowest_take_off_speed"}) {
+      measurements.set_missing(key, "gates: {count: 49}");
+    }
+  }
+}
+
+}  // namespace glissade::pipeline

@@ -1,0 +1,217 @@
+// Gauss-Newton with halved steps; a parameter that would fall below zero is held there and the other one fitted alone.
+
+#include "glissade/trades/ski_jump/fit.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/trades/ski_jump/gates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace glissade {
+namespace {
+
+/// Normal equations of the two parameters; one that is held has neither row nor column.
+struct Normal {
+  double ff = 0.0, fd = 0.0, dd = 0.0;  // sums of products of derivatives
+  double f = 0.0, d = 0.0;              // sums of derivative times excess
+};
+
+Body with(Body body, double friction, double drag) {
+  body.friction = Friction::from_coefficient(friction);
+  body.friction_changes.clear();
+  body.drag_per_metre = drag;
+  return body;
+}
+
+double speed_of(const SpeedReading& reading, const Body& body, double gravity) {
+  const Motion motion = ride_from(reading.track, reading.from_start, body, gravity);
+  const double way = reading.place - reading.from_start;
+  if (motion.distance() >= way) return motion.at(way).speed;
+  throw InputError({"",
+                    reading.name + ": with a friction coefficient of " +
+                        rounded_text(body.friction.coefficient(), 3) + " and a drag of " +
+                        rounded_text(body.drag_per_metre, 3) +
+                        " 1/m the body does not come to where its "
+                        "speed was measured",
+                    "A speed is compared where it was measured.", "less friction to begin with"});
+}
+
+void require_readings(const std::vector<SpeedReading>& readings, std::size_t parameters) {
+  if (readings.size() < parameters) {
+    throw InputError({"",
+                      std::to_string(readings.size()) + " speeds do not tell " + std::to_string(parameters) +
+                          " parameters",
+                      "There are at least as many speeds as parameters.",
+                      "one of the two held at a known value"});
+  }
+  for (const SpeedReading& reading : readings) {
+    const bool in_place = reading.from_start >= 0.0 && reading.place > reading.from_start &&
+                          reading.place <= reading.track->length();
+    if (in_place && reading.speed > 0.0 && std::isfinite(reading.speed)) continue;
+    throw InputError(
+        {"",
+         reading.name + ": " +
+             (in_place ? "the speed, " + rounded_text(reading.speed, 4) + " m/s, is not positive"
+                       : "speed was measured " + length_text(reading.place) +
+                             " from the start, the ride began at " + length_text(reading.from_start)),
+         "A ride leads from its gate down to where its speed is measured, on the in-run.",
+         "the length of the in-run, and what e counts to"});
+  }
+}
+
+class Fit {
+ public:
+  Fit(const std::vector<SpeedReading>& readings, const Body& body, const SpeedFitOptions& options,
+      double gravity)
+      : readings_(readings), body_(body), gravity_(gravity) {
+    constexpr double kFirstFriction = 0.03;
+    constexpr double kFirstDrag = 0.001;  // [1/m]
+    friction_ = options.friction.value_or(kFirstFriction);
+    drag_ = options.drag.value_or(kFirstDrag);
+    fits_friction_ = !options.friction;
+    fits_drag_ = !options.drag;
+  }
+
+  SpeedFit run() {
+    iterate();
+    SpeedFit fit;
+    fit.friction_at_bound = fits_friction_ && hold_if_negative(friction_, fits_friction_);
+    fit.drag_at_bound = !fit.friction_at_bound && fits_drag_ && hold_if_negative(drag_, fits_drag_);
+    if (fit.friction_at_bound || fit.drag_at_bound) iterate();
+    fit.friction = friction_;
+    fit.drag = drag_;
+    fit.residuals = speed_residuals(readings_, current(), gravity_);
+    fit.rms = rms_of(fit.residuals);
+    add_uncertainties(fit);
+    return fit;
+  }
+
+ private:
+  [[nodiscard]] Body current() const { return with(body_, friction_, drag_); }
+  [[nodiscard]] std::size_t parameters() const {
+    return static_cast<std::size_t>(fits_friction_) + static_cast<std::size_t>(fits_drag_);
+  }
+
+  [[nodiscard]] double squares(double friction, double drag) const {
+    double sum = 0.0;
+    for (const SpeedResidual& one : speed_residuals(readings_, with(body_, friction, drag), gravity_)) {
+      sum += one.excess * one.excess;
+    }
+    return sum;
+  }
+
+  [[nodiscard]] Normal normal() const {
+    Normal sums;
+    const Body body = current();
+    for (const SpeedReading& reading : readings_) {
+      const double excess = speed_of(reading, body, gravity_) - reading.speed;
+      SpeedSlopes slopes = speed_slopes(reading.track, reading.from_start, reading.place, body, gravity_);
+      if (!fits_friction_) slopes.by_friction = 0.0;
+      if (!fits_drag_) slopes.by_drag = 0.0;
+      sums.ff += slopes.by_friction * slopes.by_friction;
+      sums.fd += slopes.by_friction * slopes.by_drag;
+      sums.dd += slopes.by_drag * slopes.by_drag;
+      sums.f += slopes.by_friction * excess;
+      sums.d += slopes.by_drag * excess;
+    }
+    return sums;
+  }
+
+  /// @return the step of friction and drag
+  [[nodiscard]] std::array<double, 2> step(const Normal& sums) const {
+    if (!fits_drag_) return {-sums.f / sums.ff, 0.0};
+    if (!fits_friction_) return {0.0, -sums.d / sums.dd};
+    const double determinant = sums.ff * sums.dd - sums.fd * sums.fd;
+    return {(-sums.f * sums.dd + sums.d * sums.fd) / determinant,
+            (-sums.d * sums.ff + sums.f * sums.fd) / determinant};
+  }
+
+  void iterate() {
+    if (parameters() == 0) return;
+    constexpr int kMostRounds = 100;
+    constexpr double kSettledFriction = 1e-12;
+    constexpr double kSettledDrag = 1e-14;  // [1/m]
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::array<double, 2> wanted = step(normal());
+      const double before = squares(friction_, drag_);
+      // A body that pushes itself is beyond the laws: steps end where friction or drag is none.
+      double share = 1.0;
+      while (share > 1e-6 && squares(std::max(friction_ + share * wanted[0], 0.0),
+                                     std::max(drag_ + share * wanted[1], 0.0)) > before * (1.0 + 1e-12)) {
+        share *= 0.5;
+      }
+      const double friction = std::max(friction_ + share * wanted[0], 0.0);
+      const double drag = std::max(drag_ + share * wanted[1], 0.0);
+      const bool settled =
+          std::fabs(friction - friction_) <= kSettledFriction && std::fabs(drag - drag_) <= kSettledDrag;
+      friction_ = friction;
+      drag_ = drag;
+      if (settled) return;
+    }
+    throw ConvergenceError({"", "friction and drag do not settle", "The speeds tell the two apart too badly.",
+                            "one of the two held at a known value"});
+  }
+
+  /// At a bound the value is held; what is left to fit is the other one.
+  bool hold_if_negative(double value, bool& fitted) {
+    if (value > 0.0) return false;
+    fitted = false;
+    return true;
+  }
+
+  void add_uncertainties(SpeedFit& fit) const {
+    if (parameters() == 0 || readings_.size() <= parameters()) return;
+    const Normal sums = normal();
+    const double variance = fit.rms * fit.rms * static_cast<double>(readings_.size()) /
+                            static_cast<double>(readings_.size() - parameters());
+    if (parameters() == 1) {
+      if (fits_friction_) fit.friction_uncertainty = std::sqrt(variance / sums.ff);
+      if (fits_drag_) fit.drag_uncertainty = std::sqrt(variance / sums.dd);
+      return;
+    }
+    const double determinant = sums.ff * sums.dd - sums.fd * sums.fd;
+    fit.friction_uncertainty = std::sqrt(variance * sums.dd / determinant);
+    fit.drag_uncertainty = std::sqrt(variance * sums.ff / determinant);
+    fit.correlation = -sums.fd / std::sqrt(sums.ff * sums.dd);
+  }
+
+  const std::vector<SpeedReading>& readings_;
+  const Body& body_;
+  double gravity_;
+  double friction_ = 0.0;
+  double drag_ = 0.0;
+  bool fits_friction_ = true;
+  bool fits_drag_ = true;
+};
+
+}  // namespace
+
+std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings, const Body& body,
+                                           double gravity) {
+  std::vector<SpeedResidual> residuals;
+  residuals.reserve(readings.size());
+  for (const SpeedReading& reading : readings) {
+    const double computed = speed_of(reading, body, gravity);
+    residuals.push_back({computed, computed - reading.speed});
+  }
+  return residuals;
+}
+
+double rms_of(const std::vector<SpeedResidual>& residuals) {
+  if (residuals.empty()) return 0.0;
+  double sum = 0.0;
+  for (const SpeedResidual& one : residuals) sum += one.excess * one.excess;
+  return std::sqrt(sum / static_cast<double>(residuals.size()));
+}
+
+SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const Body& body,
+                    const SpeedFitOptions& options, double gravity) {
+  require_readings(readings,
+                   static_cast<std::size_t>(!options.friction) + static_cast<std::size_t>(!options.drag));
+  return Fit(readings, body, options, gravity).run();
+}
+
+}  // namespace glissade
