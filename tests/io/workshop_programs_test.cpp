@@ -3,12 +3,14 @@
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/mesh_file.hpp"
 #include "glissade/io/step_file.hpp"
+#include "glissade/io/three_mf_file.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
 #include "support/openscad_check.hpp"
 #include "support/oracle.hpp"
 #include "support/paths.hpp"
+#include "support/shapes.hpp"
 #include "support/shop_parts.hpp"
 #include "support/temp_dir.hpp"
 #include "support/workshop_shapes.hpp"
@@ -172,4 +174,26 @@ TEST_CASE("Open CASCADE reads STEP as valid closed solids with the volumes of th
       CHECK(others == 0);
     }
   }
+}
+
+TEST_CASE("PrusaSlicer finds every piece of a 3MF file, whole and in its size", "[external]") {
+  if (!oracle_is_there("prusa-slicer", {"--help"})) return;
+  const TempDir directory;
+  std::vector<PrintPiece> pieces;
+  for (int i = 1; i <= 3; ++i) {
+    pieces.push_back(
+        {"ring " + std::to_string(i), "0" + std::to_string(i), shapes::torus(0.03, 0.002 * i, 40, 20)});
+  }
+  const auto file = directory / "rings.3mf";
+  write_three_mf(file, laid_on_beds(pieces), "rings");
+  const Outcome run = run_program("prusa-slicer", {"--info", file.string()});
+  INFO(run.output << run.errors);
+  std::size_t whole = 0;
+  for (std::size_t at = run.output.find("manifold = yes"); at != std::string::npos;
+       at = run.output.find("manifold = yes", at + 1)) {
+    ++whole;
+  }
+  CHECK(whole == 3);
+  CHECK(run.output.find("manifold = no") == std::string::npos);
+  CHECK(run.output.find("size_z = 12.0") != std::string::npos);
 }

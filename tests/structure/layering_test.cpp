@@ -50,7 +50,8 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
     {"yaml-cpp/", {"design"}},   {"boost/", {"centerline", "motion", "trades", "solid", "pipeline", "study"}},
     {"fmt/", {"report"}},        {"nlohmann/", {"design", "report", "pipeline", "study"}},
     {"openssl/", {"report"}},    {"librsvg/", {"report"}},
-    {"cairo", {"report", "io"}}, {"tbb/", {"study"}},
+    {"cairo", {"report", "io"}}, {"zlib", {"io"}},
+    {"tbb/", {"study"}},
 };
 
 std::string text_of(const fs::path& file) {
