@@ -8,9 +8,11 @@
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
+#include "app/watch.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -32,7 +34,8 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  glissade build designs/grain_chute.yaml                     into out/grain_chute/\n"
     "  glissade build designs/grain_chute.yaml -o chute --json\n"
-    "  glissade build designs/grain_chute.yaml --set mesh.tolerance=0.1mm --set export=[stl]";
+    "  glissade build designs/grain_chute.yaml --set mesh.tolerance=0.1mm --set export=[stl]\n"
+    "  glissade build designs/grain_chute.yaml --watch             again at each save, until Ctrl-C";
 
 struct Options {
   std::string design;
@@ -41,6 +44,7 @@ struct Options {
   TimeBudget time_budget;
   bool no_report = false;
   bool json = false;
+  bool watch = false;
   Verbosity verbosity;
 };
 
@@ -49,23 +53,42 @@ std::filesystem::path directory_of(const Options& options) {
   return std::filesystem::path("out") / std::filesystem::path(options.design).stem();
 }
 
-ExitCode build_design(const Options& options) {
+Build built(const Design& design, const Options& options, const std::stop_token& stop) {
+  ProgressLine progress(options.verbosity);
+  return build(design, directory_of(options), {progress.callback(), stop, options.time_budget.seconds()},
+               {.report = !options.no_report});
+}
+
+ExitCode build_once(const Options& options) {
   const Design design = read_design(options.design, options.overrides.values());
   const Interrupt interrupt;
-  const Build built = [&] {
-    ProgressLine progress(options.verbosity);
-    return build(design, directory_of(options),
-                 {progress.callback(), interrupt.token(), options.time_budget.seconds()},
-                 {.report = !options.no_report});
-  }();
+  const Build made = built(design, options, interrupt.token());
   if (options.json) {
-    print(build_json(design, built));
+    print(build_json(design, made));
   } else if (!options.verbosity.quiet()) {
-    print(build_summary(design, built));
+    print(build_summary(design, made));
   }
-  print_warnings(warnings(design, built.track));
-  if (const auto problem = search_problem(design, built.track)) throw ConvergenceError(*problem);
+  print_warnings(warnings(design, made.track));
+  if (const auto problem = search_problem(design, made.track)) throw ConvergenceError(*problem);
   return ExitCode::done;
+}
+
+/// @return one line about what was built
+std::string rebuilt(const Options& options, const std::stop_token& stop) {
+  const Design design = read_design(options.design, options.overrides.values());
+  const Build made = built(design, options, stop);
+  print_warnings(warnings(design, made.track));
+  if (const auto problem = search_problem(design, made.track)) print_problem(ConvergenceError(*problem));
+  return "travel time " + time_text(made.track.motion.travel_time()) + ", exit speed " +
+         speed_text(made.track.motion.exit_speed()) + ", " + std::to_string(made.files.size()) +
+         " files in " + directory_of(options).string();
+}
+
+ExitCode build_design(const Options& options) {
+  if (!options.watch) return build_once(options);
+  return watch({options.design, options.overrides,
+                [&](const std::stop_token& stop) { return rebuilt(options, stop); },
+                options.verbosity.quiet()});
 }
 
 }  // namespace
@@ -81,7 +104,12 @@ void add_build(CLI::App& program, Action& action) {
   options->overrides.add_to(command);
   options->time_budget.add_to(command);
   command.add_flag("--no-report", options->no_report, "Write no report page");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
+  CLI::Option* const json = command.add_flag("--json", options->json,
+                                             "Print one JSON object with SI values instead of the summary");
+  command
+      .add_flag("--watch", options->watch,
+                "Build again whenever the design or a file that it names changes, until Ctrl-C")
+      ->excludes(json);
   options->verbosity.add_to(command, "Print nothing but errors (and what --json asks for)");
   command.callback([options, &action] { action = [options] { return build_design(*options); }; });
 }

@@ -3,12 +3,15 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/version.hpp"
 
+#include "app/completion.hpp"
 #include "app/console.hpp"
 #include "app/help.hpp"
 #include "app/usage_problem.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -30,13 +33,14 @@ constexpr const char* kFooter =
     "Exit codes: 0 done; 1 the inspected mesh is faulty; 2 wrong usage or design; 3 infeasible, or the\n"
     "body does not arrive; 4 not converged; 5 a file cannot be read or written; 70 a defect of Glissade;\n"
     "130 interrupted.\n"
-    "'glissade COMMAND --help' tells more about a command.";
+    "'glissade help COMMAND' tells more about a command.";
 
 }  // namespace
 
 ExitCode run(int argc, const char* const* argv) {
   CLI::App program(kDescription, "glissade");
   program.footer(kFooter);
+  program.require_subcommand(0, 1);  // what follows a command is its own, also the name of another
   program.set_help_flag("-h,--help", "Print this help and end");
   program.set_version_flag("--version", "glissade " + std::string(version()), "Print the version and end");
   program.formatter(std::make_shared<CLI::FormatterLambda>(
@@ -55,7 +59,15 @@ ExitCode run(int argc, const char* const* argv) {
   add_rules(program, action);
   add_sweep(program, action);
   add_schema(program, action);
+  add_rewrite(program, action);
+  add_help(program, action);
+  add_completion(program, action);
 
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == kCompleteWord) {
+    print(completions(program, {words.begin() + 1, words.end()}));
+    return ExitCode::done;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

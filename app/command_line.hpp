@@ -26,6 +26,9 @@ void add_init(CLI::App& program, Action& action);
 void add_rules(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_schema(CLI::App& program, Action& action);
+void add_rewrite(CLI::App& program, Action& action);
+void add_help(CLI::App& program, Action& action);
+void add_completion(CLI::App& program, Action& action);
 
 /// Understands the arguments and does what they ask for.
 /// @return how it ended

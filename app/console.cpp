@@ -45,6 +45,12 @@ void print_error(std::string_view text) {
   (void)std::fflush(stderr);
 }
 
+void print_problem(const Error& error) {
+  std::string text;
+  for (const Issue& issue : error.issues()) text += "glissade: error: " + to_text(issue) + "\n";
+  print_error(text);
+}
+
 void print_warnings(const std::vector<Issue>& warnings) {
   for (const Issue& warning : warnings) print_error("glissade: warning: " + to_text(warning) + "\n");
 }

@@ -19,6 +19,9 @@ void reserve_standard_streams();
 /// Writes to standard error; what cannot be written there is lost.
 void print_error(std::string_view text);
 
+/// Writes each of an error's issues as "glissade: error: ..." to standard error.
+void print_problem(const Error& error);
+
 /// Writes each as "glissade: warning: ..." to standard error.
 void print_warnings(const std::vector<Issue>& warnings);
 

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
 namespace glissade::app {
 namespace {
-
-using Entries = std::vector<std::pair<std::string, std::string>>;
 
 constexpr std::size_t kColumn = 31;
 constexpr std::size_t kWidth = 100;
@@ -42,11 +38,12 @@ std::string wrapped(const std::string& text) {
   return lines;
 }
 
-std::string section(const std::string& heading, const Entries& entries) {
+/// @param name_column  where names begin: options of one letter stand before those of a word
+std::string section(const std::string& heading, const HelpPage::Entries& entries) {
   if (entries.empty()) return "";
   std::string text = "\n" + heading + ":\n";
   for (const auto& [name, description] : entries) {
-    std::string line = "  " + name;
+    std::string line = name.starts_with("--") ? "      " + name : "  " + name;
     if (line.size() + 2 > kColumn) {
       line += '\n' + std::string(kColumn, ' ');
     } else {
@@ -60,44 +57,56 @@ std::string section(const std::string& heading, const Entries& entries) {
 std::string option_name(const CLI::Option& option) {
   std::string name;
   for (const std::string& letter : option.get_snames()) name += "-" + letter + ", ";
-  if (name.empty()) name = "    ";
   for (const std::string& word : option.get_lnames()) name += "--" + word;
   if (!option.get_type_name().empty()) name += " " + option.get_type_name();
   return name;
 }
 
+/// The entries of a group of options, made where there is none of that heading yet.
+HelpPage::Entries& group_of(HelpPage& page, const std::string& heading) {
+  const auto known = std::find_if(page.options.begin(), page.options.end(),
+                                  [&](const auto& group) { return group.first == heading; });
+  return known != page.options.end() ? known->second
+                                     : page.options.emplace_back(heading, HelpPage::Entries{}).second;
+}
+
 }  // namespace
 
-std::string help_text(const CLI::App& command) {
-  const bool is_program = command.get_parent() == nullptr;
-  std::string usage = "Usage: " + full_name(command);
-  Entries arguments;
-  std::vector<std::pair<std::string, Entries>> groups;
+bool is_hidden(const CLI::App& command) {
+  return command.get_group().empty();
+}
+
+HelpPage help_page(const CLI::App& command) {
+  HelpPage page;
+  page.name = full_name(command);
+  page.usage = page.name;
+  page.description = command.get_description();
+  page.footer = command.get_footer();
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_positional()) {
       const std::string name = option->get_type_name();
-      usage += option->get_required() ? " " + name : " [" + name + "]";
-      arguments.emplace_back(name, option->get_description());
-      continue;
+      page.usage += option->get_required() ? " " + name : " [" + name + "]";
+      page.arguments.emplace_back(name, option->get_description());
+    } else {
+      group_of(page, option->get_group()).emplace_back(option_name(*option), option->get_description());
     }
-    const std::string& group = option->get_group();
-    auto place =
-        std::find_if(groups.begin(), groups.end(), [&](const auto& known) { return known.first == group; });
-    if (place == groups.end()) place = groups.insert(groups.end(), {group, {}});
-    place->second.emplace_back(option_name(*option), option->get_description());
   }
-  Entries commands;
   for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
-    commands.emplace_back(subcommand->get_name(),
-                          subcommand->get_description().substr(0, subcommand->get_description().find('\n')));
+    if (is_hidden(*subcommand)) continue;
+    const std::string& description = subcommand->get_description();
+    page.commands.emplace_back(subcommand->get_name(), description.substr(0, description.find('\n')));
   }
+  page.usage += page.commands.empty() ? " [OPTIONS]" : " COMMAND [OPTIONS]";
+  return page;
+}
 
-  std::string text = usage + (is_program ? " COMMAND [OPTIONS]\n" : " [OPTIONS]\n") + "\n" +
-                     command.get_description() + "\n";
-  text += section("Commands", commands);
-  text += section("Arguments", arguments);
-  for (const auto& [heading, entries] : groups) text += section(heading, entries);
-  if (!command.get_footer().empty()) text += "\n" + command.get_footer() + "\n";
+std::string help_text(const CLI::App& command) {
+  const HelpPage page = help_page(command);
+  std::string text = "Usage: " + page.usage + "\n\n" + page.description + "\n";
+  text += section("Commands", page.commands);
+  text += section("Arguments", page.arguments);
+  for (const auto& [heading, entries] : page.options) text += section(heading, entries);
+  if (!page.footer.empty()) text += "\n" + page.footer + "\n";
   return text;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
+#include "app/new_file.hpp"
 #include "app/option_value.hpp"
 
 #include <cstddef>
@@ -46,12 +47,6 @@ std::string footer() {
          "\n"
          "Beside a file goes its schema, glissade.schema.json, for editors that check and complete YAML;\n"
          "'glissade schema' prints it.";
-}
-
-void require_new(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return;
-  throw FileError({path.string(), "the file exists already", "It may hold work of yours.",
-                   "another name, or --force to replace it"});
 }
 
 void write(const std::filesystem::path& path, std::string_view text) {

@@ -13,9 +13,7 @@ namespace {
 using glissade::app::ExitCode;
 
 int failed(const glissade::Error& error, ExitCode code) {
-  std::string text;
-  for (const glissade::Issue& issue : error.issues()) text += "glissade: error: " + to_text(issue) + "\n";
-  glissade::app::print_error(text);
+  glissade::app::print_problem(error);
   return static_cast<int>(code);
 }
 

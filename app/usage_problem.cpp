@@ -45,13 +45,6 @@ std::string nearest_of(const std::string& word, const std::vector<std::string>& 
   return std::string(nearest_word(word, candidates));
 }
 
-Issue unknown_command(const CLI::App& program, const std::string& word) {
-  const std::vector<std::string> commands = commands_of(program);
-  const std::string near = nearest_of(word, commands);
-  return {"", "there is no command " + with_visible_characters(word), "There are " + listed(commands) + ".",
-          near.empty() ? full_name(program) + " --help" : full_name(program) + " " + near};
-}
-
 Issue unknown_option(const CLI::App& program, const std::string& argument) {
   const std::string word = argument.substr(0, argument.find('='));
   const std::string help = full_name(program) + " --help";
@@ -103,6 +96,13 @@ void require_values_of(const CLI::Option& option) {
 }
 
 }  // namespace
+
+Issue unknown_command(const CLI::App& program, const std::string& word) {
+  const std::vector<std::string> commands = commands_of(program);
+  const std::string near = nearest_of(word, commands);
+  return {"", "there is no command " + with_visible_characters(word), "There are " + listed(commands) + ".",
+          near.empty() ? full_name(program) + " --help" : full_name(program) + " " + near};
+}
 
 Issue usage_issue(const CLI::App& program, const std::string& parser_text) {
   const std::vector<std::string> rest = program.remaining(true);

@@ -16,6 +16,9 @@ namespace glissade::app {
 ///         the parser says
 [[nodiscard]] Issue usage_issue(const CLI::App& program, const std::string& parser_text);
 
+/// What is wrong with a command that the program does not have.
+[[nodiscard]] Issue unknown_command(const CLI::App& program, const std::string& word);
+
 /// Looks at values that the parser took but that name nothing: an empty one, or "-" for a file.
 /// @throws InputError with the option
 void require_values(const CLI::App& program);

@@ -436,6 +436,14 @@ Design DesignSource::with(const std::vector<Override>& overrides, ReachCheck rea
   throw InputError(findings.issues());
 }
 
+std::vector<std::filesystem::path> DesignSource::data_files(const std::vector<Override>& overrides) const {
+  Findings findings(parsed_->file, overrides);
+  Node root = parsed_->root;
+  apply_overrides(root, overrides, findings);
+  static_cast<void>(read_tree(root, parsed_->file, findings));
+  return findings.data_files();
+}
+
 Design parse_design(std::string_view text, const std::filesystem::path& file,
                     const std::vector<Override>& overrides) {
   return DesignSource::parse(std::string(text), file).with(overrides);

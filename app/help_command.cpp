@@ -1,0 +1,85 @@
+#include "glissade/core/error.hpp"
+#include "glissade/io/atomic_file.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/help.hpp"
+#include "app/man_page.hpp"
+#include "app/usage_problem.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Print the help of a command, as 'glissade COMMAND --help' does.\n"
+    "\n"
+    "--man-pages writes the same as pages for man(1), one a command.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade help build\n"
+    "  glissade help --man-pages man && man -l man/glissade-build.1";
+
+struct Options {
+  std::string command;
+  std::string directory;
+};
+
+void write_page(const std::filesystem::path& directory, const HelpPage& page,
+                const std::vector<std::string>& also) {
+  AtomicFile file(directory / (man_name(page) + ".1"));
+  file.write(man_page(page, also));
+  file.commit();
+}
+
+void write_man_pages(const CLI::App& program, const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error)
+    throw FileError({directory.string(), "the directory cannot be made: " + error.message(), "", ""});
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    const HelpPage page = help_page(*command);
+    names.push_back(man_name(page));
+    write_page(directory, page, {"glissade"});
+  }
+  write_page(directory, help_page(program), names);
+}
+
+ExitCode help(const CLI::App& program, const Options& options) {
+  if (!options.directory.empty()) {
+    write_man_pages(program, options.directory);
+    return ExitCode::done;
+  }
+  const CLI::App* asked = &program;
+  if (!options.command.empty()) {
+    const auto commands =
+        program.get_subcommands([&](const CLI::App* one) { return one->get_name() == options.command; });
+    if (commands.empty()) throw InputError(unknown_command(program, options.command));
+    asked = commands.front();
+  }
+  print(help_text(*asked));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_help(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("help", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  command.add_option("command", options->command, "Of which command [default: of all]")->type_name("COMMAND");
+  command
+      .add_option("--man-pages", options->directory, "Write all of it for man(1) into a directory instead")
+      ->type_name("DIR");
+  command.callback(
+      [&program, options, &action] { action = [&program, options] { return help(program, *options); }; });
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,66 @@
+#include "glissade/design/write.hpp"
+#include "glissade/io/atomic_file.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/new_file.hpp"
+#include "app/track_input.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Write a design as it is read, with what --set replaces, as a design file that reads as the same "
+    "design.\n"
+    "\n"
+    "Each number is the shortest decimal, in a metric unit, that reads as the same value. Comments are not "
+    "kept.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade rewrite designs/grain_chute.yaml --set body.friction_angle=19deg -o rough.yaml\n"
+    "  glissade rewrite --run 10 --drop 5 --friction-angle 11deg          options become a design file";
+
+struct Options {
+  TrackInput input{TrackInput::Scope::one_kind};
+  std::string output;
+  bool force = false;
+};
+
+ExitCode rewrite(const Options& options) {
+  Design design = options.input.design();
+  if (options.output.empty()) {
+    print(design_text(design));
+    return ExitCode::done;
+  }
+  if (!options.force) require_new(options.output);
+  // Files that it names are written as seen from where it will lie.
+  std::filesystem::path& points = design.centerline.points_file;
+  if (!points.empty()) points = std::filesystem::absolute(points).lexically_normal();
+  design.file = std::filesystem::absolute(options.output).lexically_normal();
+  AtomicFile file(options.output);
+  file.write(design_text(design));
+  file.commit();
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_rewrite(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("rewrite", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  options->input.add_to(command);
+  command.add_option("-o,--output", options->output, "File to write; one that exists is kept")
+      ->type_name("FILE")
+      ->group("Options");
+  command.add_flag("--force", options->force, "Replace a file that exists")->group("Options");
+  command.callback([options, &action] { action = [options] { return rewrite(*options); }; });
+}
+
+}  // namespace glissade::app
