@@ -59,6 +59,19 @@ TEST_CASE("DXF read back is the drawing, to the last digit; the same drawing has
   }
 }
 
+TEST_CASE("numbers of DXF have no exponent, however small or large") {
+  const TempDir directory;
+  Drawing drawing = plate(2, 1);
+  drawing.line(0, {7.5254e-9, -5e-324}, {1e22, 1.7976931348623157e308});
+  const auto file = directory / "tiny.dxf";
+  write_dxf(file, drawing);
+  require_same_dxf(file, drawing);
+  const std::string text = bytes_of(file);
+  CHECK(text.find("\n0.0000000075254\n") != std::string::npos);
+  CHECK(text.find("e-") == std::string::npos);
+  CHECK(text.find("e+") == std::string::npos);
+}
+
 TEST_CASE("a DXF file that is not the drawing is found out") {
   const TempDir directory;
   const auto file = directory / "plate.dxf";

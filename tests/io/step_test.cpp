@@ -41,12 +41,12 @@ TEST_CASE(
   write_step(file, workshop);
   require_same_step(file, workshop);
   const StepFacts facts = read_step_facts(file);
-  REQUIRE(facts.solids.size() == 5);
+  REQUIRE(facts.solids.size() == 6);
   for (const StepSolid& solid : facts.solids) {
     CHECK(solid.closed);
     CHECK(solid.worst_gap_mm <= kStepAccuracy);
   }
-  CHECK(facts.occurrences.size() == 7);
+  CHECK(facts.occurrences.size() == 8);
   CHECK(facts.solids[0].name == "01 left_wall");
   // A wall: 7 arcs on both edges, 9 holes, half circles at both ends of a slot; planes: faces, ends, slot.
   CHECK(facts.solids[0].cylinders == 14 + 9 + 2);
@@ -61,6 +61,9 @@ TEST_CASE(
   const std::string text = bytes_of(file);
   CHECK(text == step_text(workshop));
   CHECK(text.find("B_SPLINE") == std::string::npos);
+  // ISO 10303-21 has capital exponents, after a decimal point.
+  CHECK(text.find(",7.5254E-06,") != std::string::npos);
+  CHECK(text.find("e-") == std::string::npos);
   CHECK(text.find("'Chute with ''quotes'', L\\X2\\00E4\\X0\\nge'") != std::string::npos);
 }
 
@@ -104,6 +107,7 @@ TEST_CASE("a STEP file that is not the parts is found out") {
   CHECK_THROWS_AS(spoil("01 left_wall", "01 left_wal")(), InternalError);
   CHECK_THROWS_AS(spoil("CYLINDRICAL_SURFACE('',#", "CYLINDRICAL_SURFACE('',#9999")(), FileError);
   CHECK_THROWS_AS(spoil("PLANE(", "B_SPLINE_SURFACE(")(), FileError);
+  CHECK_THROWS_AS(spoil("7.5254E-06", "7.5254e-06")(), FileError);
   Workshop other = workshop;
   std::get<Prism>(other.parts[0].body).region.holes.pop_back();
   put_bytes(file, good);

@@ -71,6 +71,10 @@ inline glissade::Workshop sample_workshop() {
   workshop.parts.push_back(shop_part(4, "gore", glissade::TubeGore{0.1, 0.003, 0.3, -0.1, 0.12}));
   workshop.parts.back().places = {{{1.0, 0.0, 0.0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {{2.0, 0.0, 0.0}}};
   workshop.parts.push_back(shop_part(5, "pipe", glissade::TubeGore{0.05, 0.002, 1.0, 0.0, 0.0}));
+  // Coordinates of some nanometres, which take an exponent.
+  const glissade::PathVertex tiny{{0.4, 7.5254e-9}, 0.2};
+  glissade::ArcPath plate{{{{0.0, 0.3}}, {{0.0, 0.0}}, tiny, {{0.5, 3e-7}}, {{0.5, 0.3}}}, true};
+  workshop.parts.push_back(shop_part(6, "plate", glissade::Prism{{plate, {}, {}}, 0.4}));
   workshop.items.push_back({"bolt M12 x 40", "ISO 4017 8.8", 24, "joint 1"});
   workshop.bends.push_back({2, 1, 0.25, 0.0, 0.03, 0.03, 2.5, 2e-4});
   workshop.setting_out.push_back({"start", 0.0, 0.0, 0.0, {0.0, 0.0, 0.0}, 1.2, 2.5, 0.0, {-0.1}});

@@ -73,8 +73,11 @@ class DxfText {
   }
   void group(int code, double value) {
     number(code);
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0).ptr;
+    // Without an exponent: not every machine's control reads one. The smallest double takes some 350 digits.
+    std::array<char, 400> digits{};
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0, std::chars_format::fixed)
+            .ptr;
     text_.append(digits.data(), end);
     text_ += '\n';
   }

@@ -113,8 +113,9 @@ class StepEntities {
   [[nodiscard]] double number(std::string_view text) const {
     double value = 0.0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-      throw error("\"" + std::string(text.substr(0, 20)) + "\" stands where a number is due");
+    const bool as_due = text.find('.') != std::string_view::npos && text.find('e') == std::string_view::npos;
+    if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) || !as_due) {
+      throw error("\"" + std::string(text.substr(0, 20)) + "\" stands where a real number is due");
     }
     return value;
   }

@@ -67,9 +67,11 @@ class StepText {
   void put(double value) {
     const std::size_t start = text_.size();
     number(value + 0.0);
-    // A real number has a decimal point, before the exponent if it has one.
-    if (text_.find('.', start) != std::string::npos) return;
+    // A real number has a decimal point, before the exponent if it has one; that is a capital E: of others, Open CASCADE
+    // takes the digits and leaves the exponent.
     const std::size_t exponent = text_.find('e', start);
+    if (exponent != std::string::npos) text_[exponent] = 'E';
+    if (text_.find('.', start) != std::string::npos) return;
     text_.insert(exponent == std::string::npos ? text_.size() : exponent, ".");
   }
   void put(const std::vector<Id>& ids) {
