@@ -3,6 +3,7 @@
 // all run in one program so that the ratios are measured together.
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/motion/motion.hpp"
 
 #include <cmath>
@@ -52,6 +53,21 @@ void ride_of(benchmark::State& state, const CenterlinePtr& track) {
   }
 }
 
+/// 650 t/h of ore in a chute of 800 mm.
+void ride_of_stream(benchmark::State& state, const CenterlinePtr& track) {
+  StreamShape shape;
+  shape.mass_flow = 650.0 / 3.6;
+  shape.bulk_density = 1600.0;
+  shape.widths = {{0.0, 0.8}};
+  shape.wall_height = 0.5;
+  Body body = kBody;
+  body.law = std::make_shared<const BulkStream>(shape);
+  for (auto _ : state) {
+    const Motion ride(track, body);
+    benchmark::DoNotOptimize(ride.travel_time());
+  }
+}
+
 /// (v, t) after 1000 steps of the plain rule.
 void runge_kutta(benchmark::State& state, const CenterlinePtr& track) {
   const double mu = kBody.friction.coefficient();
@@ -82,6 +98,7 @@ void runge_kutta(benchmark::State& state, const CenterlinePtr& track) {
 }  // namespace
 
 BENCHMARK_CAPTURE(ride_of, eased_track, eased_track());
+BENCHMARK_CAPTURE(ride_of_stream, eased_track, eased_track());
 BENCHMARK_CAPTURE(table_of, eased_track_1000_stations, eased_track());
 BENCHMARK_CAPTURE(runge_kutta, eased_track_1000_steps, eased_track());
 BENCHMARK_CAPTURE(ride_of, fastest_track, fastest_track());

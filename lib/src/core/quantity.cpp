@@ -83,6 +83,20 @@ constexpr std::array kUnits = {
     Unit{"degC", Dimension::temperature, 1.0, 1.0, true, 273.15},
     Unit{"\u00b0C", Dimension::temperature, 1.0, 1.0, false, 273.15},
     Unit{"K", Dimension::temperature, 1.0, 1.0, true},
+    Unit{"t/h", Dimension::mass_flow, 10.0, 36.0, true},
+    Unit{"kg/s", Dimension::mass_flow, 1.0, 1.0, true},
+    Unit{"kg/h", Dimension::mass_flow, 1.0, 3600.0, true},
+    Unit{"kg/min", Dimension::mass_flow, 1.0, 60.0, true},
+    Unit{"t/min", Dimension::mass_flow, 1e3, 60.0, true},
+    Unit{"lb/h", Dimension::mass_flow, 45359237.0, 36e10, true},
+    Unit{"Pa", Dimension::pressure, 1.0, 1.0, true},
+    Unit{"kPa", Dimension::pressure, 1e3, 1.0, true},
+    Unit{"MPa", Dimension::pressure, 1e6, 1.0, true},
+    Unit{"GPa", Dimension::pressure, 1e9, 1.0, true},
+    Unit{"W/m^2", Dimension::power_per_area, 1.0, 1.0, true},
+    Unit{"W/m2", Dimension::power_per_area, 1.0, 1.0, false},
+    Unit{"W/m\u00b2", Dimension::power_per_area, 1.0, 1.0, false},
+    Unit{"kW/m^2", Dimension::power_per_area, 1e3, 1.0, true},
     Unit{"s/(m/s)", Dimension::time_per_speed, 1.0, 1.0, true},
     Unit{"s^2/m", Dimension::time_per_speed, 1.0, 1.0, true},
 };
@@ -117,6 +131,12 @@ std::string_view noun(Dimension dimension) {
       return "density";
     case Dimension::temperature:
       return "temperature";
+    case Dimension::mass_flow:
+      return "mass flow";
+    case Dimension::pressure:
+      return "pressure";
+    case Dimension::power_per_area:
+      return "power per area";
   }
   throw InternalError({"", "a dimension without a name", "", ""});
 }
@@ -150,6 +170,11 @@ std::string units_that_fit(Dimension dimension) {
 
 std::string example(std::string_view number, Dimension dimension) {
   if (dimension == Dimension::number) return std::string(number);
+  // Whoever writes a density of 1.6 thinks of tonnes.
+  constexpr double kOfTonnes = 30.0;
+  double value = kOfTonnes;
+  std::from_chars(number.data(), number.data() + number.size(), value);
+  if (dimension == Dimension::density && value < kOfTonnes) return std::string(number).append(" t/m^3");
   const std::vector<std::string_view> units = listed_units_of(dimension);
   std::string text = std::string(number).append(" ").append(units[0]);
   if (dimension == Dimension::length) text.append(" or ").append(number).append(" ").append(units[1]);
@@ -301,12 +326,20 @@ std::string_view unit_for_people(Dimension dimension) {
       return "kg/m^3";
     case Dimension::temperature:
       return "K";
+    case Dimension::mass_flow:
+      return "t/h";
+    case Dimension::pressure:
+      return "Pa";
+    case Dimension::power_per_area:
+      return "W/m^2";
   }
   throw InternalError({"", "a dimension without a unit", "", ""});
 }
 
 double in_unit_for_people(double value, Dimension dimension) {
-  return dimension == Dimension::angle ? Angle::from_radians(value).degrees() : value;
+  if (dimension == Dimension::angle) return Angle::from_radians(value).degrees();
+  if (dimension == Dimension::mass_flow) return value * 36.0 / 10.0;
+  return value;
 }
 
 std::string quantity_text(double value, Dimension dimension, int digits) {
@@ -314,7 +347,8 @@ std::string quantity_text(double value, Dimension dimension, int digits) {
   if (dimension == Dimension::angle) return angle_text(value, digits);
   if (dimension == Dimension::length) return length_text(value, digits);
   const std::string_view unit = unit_for_people(dimension);
-  return rounded_text(value, digits) + (unit.empty() ? "" : " ") + std::string(unit);
+  return rounded_text(in_unit_for_people(value, dimension), digits) + (unit.empty() ? "" : " ") +
+         std::string(unit);
 }
 
 }  // namespace glissade

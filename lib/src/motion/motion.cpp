@@ -283,11 +283,16 @@ QuantityPeak Motion::Ride::highest(std::size_t index) const {
   return peak;
 }
 
+double speed_after(const Landing& landing, double slope_angle, Friction friction) {
+  const double theta = landing.angle - slope_angle;
+  return landing.speed * (math::cos(theta) - math::sin(theta) * friction.coefficient());
+}
+
 bool is_sliding_point(const Body& body) {
   const bool point = !body.law || (body.law->inertia() == 1.0 && body.law->centre_height() == 0.0 &&
                                    !body.law->depends_on_speed());
   const bool calm = body.head_wind == 0.0 || body.drag_per_metre == 0.0;
-  return point && calm && body.friction_changes.empty();
+  return point && calm && body.friction_changes.empty() && !body.landing;
 }
 
 Friction least_friction(const Body& body) {
@@ -298,6 +303,12 @@ Friction least_friction(const Body& body) {
 
 Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
   if (!centerline) throw InputError({"", "there is no centerline to ride on", "", ""});
+  if (body.landing) {
+    // What friction stops at once is a stream without speed: it chokes where it lands.
+    constexpr double kStopped = 1e-9;
+    const double left = speed_after(*body.landing, centerline->slope_angle(0.0), body.friction);
+    body.entry_speed = std::max(left, kStopped);
+  }
   require_body(body, gravity);
   require_ride(*centerline, body);
   ride_ = std::make_unique<const Ride>(std::move(centerline), body, gravity);

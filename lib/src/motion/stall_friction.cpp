@@ -26,7 +26,10 @@ Body with_friction(Body body, Angle angle) {
 std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const Body& body, double gravity) {
   const auto stalls = [&](Angle angle) {
     try {
-      return Motion(centerline, with_friction(body, angle), gravity).stall().has_value();
+      const Motion motion(centerline, with_friction(body, angle), gravity);
+      // A stream that slows down chokes before it stands.
+      const bool chokes = motion.law_end() && motion.law_end()->what != "valley_radius_m";
+      return motion.stall().has_value() || chokes;
     } catch (const ConvergenceError&) {
       return false;  // free flight along a track at an absurd friction: it feels none
     }

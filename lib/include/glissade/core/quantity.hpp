@@ -25,6 +25,9 @@ enum class Dimension {
   area,             ///< [m^2]
   density,          ///< [kg/m^3]
   temperature,      ///< [K]
+  mass_flow,        ///< [kg/s]
+  pressure,         ///< hardness too [Pa]
+  power_per_area,   ///< of rubbing [W/m^2]
 };
 
 /// As parse_quantity().

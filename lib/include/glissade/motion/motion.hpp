@@ -18,6 +18,17 @@ struct FrictionChange {
   Friction friction;
 };
 
+/// A stream that comes down on the start of a track and slides on, without bounce.
+struct Landing {
+  double speed = 0.0;  ///< V1, before the impact [m/s]; > 0
+  double angle = 0.0;  ///< of its way below the horizontal [rad]
+};
+
+/// @return V2 = V1 (cos(theta) - sin(theta) tan(phi)), theta the angle between the way and the track [m/s]; not
+///         positive where friction takes all of it
+/// Source: Stuart-Dick & Royal 1991; docs/chutes.md, feed
+[[nodiscard]] double speed_after(const Landing& landing, double slope_angle, Friction friction);
+
 /// What slides, rolls or flows, and on what.
 struct Body {
   Friction friction;            ///< between body and track; of a rolling body its rolling resistance
@@ -28,6 +39,8 @@ struct Body {
   /// Wind along the track, against the motion where positive [m/s]: drag is k (u + w)|u + w|.
   double head_wind = 0.0;
   LawPtr law = nullptr;  ///< none: a sliding point
+  /// How it comes down on the start; entry_speed is then what the impact leaves, of a Motion's body() known.
+  std::optional<Landing> landing = {};
 };
 
 /// Whether a body is the sliding point of Coulomb's law with one friction everywhere and no wind, whose

@@ -45,6 +45,11 @@ BulkStream::BulkStream(const StreamShape& shape)
     motion::require_positive("wall_height", *shape.wall_height, " m",
                              "A wall that holds a stream has a height.");
   }
+  motion::require_positive("least_speed", shape.least_speed, " m/s", "A stream that stands does not flow.");
+  if (!(shape.slip_ratio > 0.0 && shape.slip_ratio <= 1.0)) {
+    throw InputError({"", "slip_ratio: " + exact_text(shape.slip_ratio) + " is not above 0 and at most 1",
+                      "Speed at the floor over the mean speed.", "0.6"});
+  }
   if (shape.lateral_pressure_ratio >= 0.0 && std::isfinite(shape.lateral_pressure_ratio)) return;
   throw InputError({"",
                     "lateral_pressure_ratio: " + exact_text(shape.lateral_pressure_ratio) +
@@ -56,8 +61,16 @@ double BulkStream::width(double s) const {
   return width_at(shape_.widths, s).value;
 }
 
+double BulkStream::width_slope(double s) const {
+  return width_at(shape_.widths, s).by_s;
+}
+
 double BulkStream::depth(double s, double speed) const {
   return flow_ / (width(s) * speed);
+}
+
+double BulkStream::floor_wear(double s, Friction friction, double normal_load) const {
+  return shape_.slip_ratio * shape_.mass_flow * friction.coefficient() * normal_load / width(s);
 }
 
 Resistance BulkStream::resistance(double s, double v) const {
@@ -96,7 +109,7 @@ double BulkStream::quantity(std::size_t index, const LawState& state) const {
 double BulkStream::least_v(double s) const {
   const double wide = width(s);
   const double deepest = std::min(wide, shape_.wall_height.value_or(wide));
-  const double speed = flow_ / (wide * deepest);
+  const double speed = std::max(flow_ / (wide * deepest), shape_.least_speed);
   return speed * speed;
 }
 
@@ -109,6 +122,7 @@ LawPtr BulkStream::in_units(double length, double speed) const {
     width.at /= length;
     width.width /= length;
   }
+  scaled.least_speed /= speed;
   if (scaled.wall_height) *scaled.wall_height /= length;
   return std::make_shared<const BulkStream>(scaled);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/units.hpp"
 #include "glissade/core/width_law.hpp"
 #include "glissade/motion/law.hpp"
 
@@ -15,7 +16,12 @@ struct StreamShape {
   double lateral_pressure_ratio = 0.5;  ///< K_v [-]; >= 0
   /// Widths by ascending places, at least one; linear in between, constant before the first and after the last.
   std::vector<WidthAt> widths;
-  std::optional<double> wall_height;  ///< inside [m]; > 0; none: no wall to spill over
+  std::optional<double> wall_height = {};  ///< inside [m]; > 0; none: no wall to spill over
+  /// K_c: speed at the floor over the mean speed; > 0, at most 1. It decides wear, not motion.
+  double slip_ratio = 0.6;
+  /// Slower than this a stream stands, however thin it is [m/s]; > 0. Without it a stream of next to nothing would
+  /// change its law within less than the last digit of a place.
+  double least_speed = 1e-3;
 };
 
 /// A stream of bulk solid that moves as one: Roberts' lumped model of a fast, thin stream.
@@ -24,18 +30,29 @@ struct StreamShape {
 /// c = mu (1 + K_v H/B). Body::friction is the wall friction of floor and side walls.
 /// Source: Roberts 1969, Roberts & Scott 1981, Roberts 2003; docs/theory.md, laws of motion.
 /// Domain: H < B. Where the stream grows deeper than its chute is wide, or than its wall, it chokes and the
-///   ride ends: quantity 0. It must enter with speed, since a stream at rest is infinitely deep.
+///   ride ends: quantity 0. It ends, too, where the stream stands: slower than StreamShape::least_speed, its
+///   depth then below what chokes it. It must enter with speed, since a stream at rest is infinitely deep.
 /// Quantities: 0 "burden_depth" H [m]; 1 "equivalent_friction" c.
 class BulkStream final : public Law {
  public:
+  /// Of quantities().
+  static constexpr std::size_t kDepth = 0;
+  static constexpr std::size_t kEquivalentFriction = 1;
+
   /// @throws InputError if a value breaks its stated bound
   explicit BulkStream(const StreamShape& shape);
 
   [[nodiscard]] const StreamShape& shape() const noexcept { return shape_; }
   /// @return B at s [m]
   [[nodiscard]] double width(double s) const;
+  /// @return dB/ds at s; that after the place where it changes there
+  [[nodiscard]] double width_slope(double s) const;
   /// @return H at s for a speed [m]
   [[nodiscard]] double depth(double s, double speed) const;
+  /// W_c = Q K_c mu N/B: rubbing power per area of the floor [W/m^2]; Roberts' abrasive wear factor
+  /// @param friction     of the wall
+  /// @param normal_load  N [m/s^2]
+  [[nodiscard]] double floor_wear(double s, Friction friction, double normal_load) const;
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "stream"; }
   [[nodiscard]] bool depends_on_speed() const noexcept override { return true; }
