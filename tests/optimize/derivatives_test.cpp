@@ -36,6 +36,8 @@ struct Rider {
   double entry_speed = 0.0;
   LawPtr law;
   double head_wind = 0.0;
+  ObjectiveKind objective = ObjectiveKind::travel_time;
+  bool lands = false;
 };
 
 std::vector<Rider> riders() {
@@ -51,7 +53,10 @@ std::vector<Rider> riders() {
           {"ball from rest", 0.0, std::make_shared<const RollingBall>(ball)},
           {"ball", 2.5, std::make_shared<const RollingBall>(ball)},
           {"wind", 2.5, nullptr, 3.0},
-          {"stream", 2.5, std::make_shared<const BulkStream>(stream)}};
+          {"stream", 2.5, std::make_shared<const BulkStream>(stream)},
+          {"even stream", 2.5, std::make_shared<const BulkStream>(stream), 0.0, ObjectiveKind::even_speed},
+          {"landing stream", 3.5, std::make_shared<const BulkStream>(stream), 0.0, ObjectiveKind::travel_time,
+           true}};
 }
 
 Setup make_setup(const Rider& rider) {
@@ -77,6 +82,14 @@ Setup make_setup(const Rider& rider) {
   limits.half_planes.push_back({{0.0, 1.0}, {-0.5, 1.0}, 0.1});
   limits.stay_above.push_back({{{1.0, 4.0}, {4.0, 5.0}, {7.0, 6.5}}, 0.2});
   limits.waypoints.push_back({5.0, 3.6});
+  limits.lowest_slope_margin = -0.4;
+  limits.match_belt = BeltMatch{3.0, 0.4, 0.1};
+  if (rider.law && rider.law->kind() == "stream") {
+    limits.highest_burden_depth = 0.3;
+    limits.highest_floor_wear = 2500.0;
+  }
+  given.objective.kind = rider.objective;
+  if (rider.lands) given.body.landing = Landing{entry_speed, 1.4};
   limits.exit_speed.highest = 9.0;
   Setup setup;
   setup.problem = scaled(given, {});

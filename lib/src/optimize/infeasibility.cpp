@@ -31,7 +31,9 @@ double relaxed_bound(const LimitSpec& limit, double t, double measured) {
   }
   if (squared) {
     const double v = limit.bound * limit.bound + limit.side * t * 2.0 * limit.bound * limit.scale;
-    return std::sqrt(std::max(v, 0.0)) / limit.bound * limit.bound_si;
+    const double share = std::sqrt(std::max(v, 0.0)) / limit.bound;
+    // A depth is as much larger as the speed may be smaller.
+    return limit.name.id == LimitId::highest_burden_depth ? limit.bound_si / share : limit.bound_si * share;
   }
   if (limit.measure == Measure::curvature_rate) return limit.bound_si * (1.0 + t);
   return limit.bound_si + limit.side * t * limit.scale / limit.per_si;
@@ -175,7 +177,8 @@ bool asks_for_bends(const Attempt& attempt) {
   const std::vector<LimitSpec>& limits = attempt.problem->limits;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     if (share[i] <= kPartOf || limits[i].built_in) continue;
-    const bool slows = limits[i].measure == Measure::speed || limits[i].measure == Measure::exit_speed;
+    const bool slows = limits[i].measure == Measure::exit_run_speed || limits[i].measure == Measure::speed ||
+                       limits[i].measure == Measure::exit_speed;
     if (slows && limits[i].side >= 0) return true;
     if (limits[i].measure == Measure::arc_length && limits[i].side <= 0) return true;
   }

@@ -3,6 +3,8 @@
 // backward for the Hessian. Where c does not depend on the speed and no wind blows the equations are linear and
 // one step of Newton's method solves them.
 
+#include "glissade/core/math.hpp"
+
 #include "optimize/quadrature.hpp"
 #include "optimize/transcription.hpp"
 
@@ -43,6 +45,18 @@ Term dragged(double v, double wind) {
   const double sign = u + wind < 0.0 ? -1.0 : 1.0;
   const Term term{sign * (u + wind) * (u + wind), sign * (1.0 + wind / u), -0.5 * sign * wind / (u * at)};
   return term.continued(v - at);
+}
+
+/// v where a ride enters, and its derivatives by the slope angle there: V1^2 r |r| with r what the impact leaves.
+Term entry_v(const Ride& ride, double slope_angle) {
+  if (!ride.landing) return {ride.entry_speed2, 0.0, 0.0};
+  const double theta = ride.landing->angle - slope_angle;
+  const double left = math::cos(theta) - ride.friction * math::sin(theta);
+  const double first = math::sin(theta) + ride.friction * math::cos(theta);
+  const double v = ride.landing->speed * ride.landing->speed;
+  const double sign = left < 0.0 ? -1.0 : 1.0;
+  return {v * left * std::fabs(left), 2.0 * v * std::fabs(left) * first,
+          2.0 * v * sign * (first * first - left * left)};
 }
 
 /// (M2) at one place: dv/ds and its derivatives by slope angle, curvature, v and arc length.
@@ -196,11 +210,13 @@ void Transcription::law_flow(const Vector& z, const Shape& shape, const Ride& ri
   const std::size_t at_length = layout_.length();
   const double length = z[at_length];
   out.v.assign(stations_.size(), 0.0);
-  out.v[0] = ride.entry_speed2;
+  const Term entry = entry_v(ride, shape.zeta[0]);
+  out.v[0] = entry.value;
   out.time = 0.0;
   if (derivatives) {
     out.dv = Matrix(stations_.size(), n);
     out.dtime.assign(n, 0.0);
+    add_scaled(out.dv.row(0), entry.first, dzeta_.row(0), n);
   }
   std::vector<Vector> source(kNodes, Vector(n, 0.0));  // d(ds F) of each node at fixed v
   for (std::size_t p = 0; p < panels_.size(); ++p) {
@@ -255,7 +271,7 @@ void Transcription::law_flow(const Vector& z, const Shape& shape, const Ride& ri
     }
     for (std::size_t q = 0; q < kNodes; ++q) {
       const std::size_t at = panel.first + q;
-      const Slowness slow = slowness(out.v[at], slowest(ride, at));
+      const Slowness slow = pace_of(ride, out.v[at], slowest(ride, at));
       const double path = 1.0 - places[q].curvature * ride.height;
       const double part = rule.weight[q] * ds[q];
       out.time += part * path * slow.value;
@@ -294,7 +310,7 @@ void Transcription::add_law_parts(const Vector& z, const Shape& shape, const Rid
       const std::size_t at = panel.first + k;
       const Place place{shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
       slopes[k] = slope_at(ride, place, flow.v[at]);
-      slow[k] = slowness(flow.v[at], slowest(ride, at));
+      slow[k] = pace_of(ride, flow.v[at], slowest(ride, at));
       factor[k] = scale * panel.ds[k] * slopes[k].v;
       const double path = 1.0 - place.curvature * ride.height;
       const double timed = weights.time[index] * rule.weight[k] * panel.ds[k];
@@ -347,6 +363,7 @@ void Transcription::add_law_parts(const Vector& z, const Shape& shape, const Rid
     }
     for (const double value : multiplier) by_end += value;
   }
+  parts.zeta_zeta[0] += (by_end + weights.v[index][0]) * entry_v(ride, shape.zeta[0]).second;
 }
 
 }  // namespace glissade::optimizer

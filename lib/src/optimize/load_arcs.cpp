@@ -44,7 +44,7 @@ double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const 
     const double of_centre = (bound - weight) / state.flows[ride].v[station];
     return of_centre / (1.0 + of_centre * problem.rides[ride].height);
   };
-  const double first = at_ride(0);
+  const double first = at_ride(spec.ride.value_or(0));
   // The rides at which the limit is held are those of Rows::candidates.
   if (spec.side > 0 || problem.rides.size() == 1) return first;
   return std::max(first, at_ride(problem.rides.size() - 1));

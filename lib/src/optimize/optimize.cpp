@@ -454,7 +454,8 @@ class Searcher {
         margins_[i] *= 2.0;
         continue;
       }
-      if (limit.measure == Measure::arrival && judgement.stall) {
+      const bool keeps_moving = limit.measure == Measure::arrival || limit.name.id == LimitId::no_choking;
+      if (keeps_moving && judgement.stall) {
         margins_[i] = std::max(kStallMargin, 2.0 * margins_[i]);
         continue;
       }

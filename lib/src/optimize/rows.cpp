@@ -1,6 +1,7 @@
 #include "optimize/rows.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,22 @@ Vector Rows::objective_gradient(const State& state) const {
   return gradient;
 }
 
+Rows::RunSpeed Rows::exit_run_speed(const State& state, const Row& row) const {
+  // u cos(zeta), a squared speed below zero continued as in objective().
+  const double v = state.flows[row.ride].v[row.place];
+  const double u = std::sqrt(std::max(std::fabs(v), 1e-12));
+  const double cosine = state.shape.cos[row.place];
+  const double sine = state.shape.sin[row.place];
+  RunSpeed run;
+  run.value = std::copysign(u, v) * cosine;
+  run.by_v = 0.5 * cosine / u;
+  run.by_zeta = -u * sine;
+  run.by_v_v = -0.25 * cosine / (u * u * u);
+  run.by_zeta_v = -0.5 * sine / u;
+  run.by_zeta_zeta = -u * cosine;
+  return run;
+}
+
 double Rows::effective_bound(const LimitSpec& limit) const {
   const bool squared = limit.measure == Measure::speed || limit.measure == Measure::exit_speed;
   return squared ? limit.bound * limit.bound : limit.bound;
@@ -194,7 +211,32 @@ Ride::CurvatureLoad Rows::curvature_load(const State& state, const Row& row) con
                                                  state.flows[row.ride].v[row.place]);
 }
 
+Rows::WidthFactor Rows::width_factor(const State& state, const LimitSpec& limit, const Row& row) const {
+  const auto* const stream = dynamic_cast<const BulkStream*>(problem_.rides[row.ride].law.get());
+  if (limit.width_power == 0 || stream == nullptr || stream->shape().widths.size() == 1) return {};
+  const Station& station = track_.stations()[row.place];
+  const double s = station.arc_length(state.z[track_.layout().length()]);
+  const double width = stream->width(s);
+  const double share = width / stream->width(0.0);
+  const double value = math::pow(share, limit.width_power);
+  const double narrowing = stream->width_slope(s) / width * station.sigma;
+  const double power = limit.width_power;
+  return {value, power * value * narrowing, power * (power - 1.0) * value * narrowing * narrowing};
+}
+
 double Rows::measure(const State& state, const LimitSpec& limit, const Row& row) const {
+  return width_factor(state, limit, row).value * plain_measure(state, limit, row);
+}
+
+void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const {
+  plain_gradient(state, limit, row, out);
+  const WidthFactor width = width_factor(state, limit, row);
+  if (width.value == 1.0 && width.first == 0.0) return;
+  for (std::size_t j = 0; j < track_.layout().size(); ++j) out[j] *= width.value;
+  out[track_.layout().length()] += width.first * plain_measure(state, limit, row);
+}
+
+double Rows::plain_measure(const State& state, const LimitSpec& limit, const Row& row) const {
   const Shape& shape = state.shape;
   const Layout& layout = track_.layout();
   const std::size_t last = track_.stations().size() - 1;
@@ -218,6 +260,8 @@ double Rows::measure(const State& state, const LimitSpec& limit, const Row& row)
     case Measure::speed:
     case Measure::exit_speed:
       return state.flows[row.ride].v[row.place];
+    case Measure::exit_run_speed:
+      return exit_run_speed(state, row).value;
     case Measure::arc_length:
       return problem_.lead_in + length + problem_.lead_out;
     case Measure::finish_coordinate:
@@ -246,7 +290,7 @@ double Rows::measure(const State& state, const LimitSpec& limit, const Row& row)
   return 0.0;
 }
 
-void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const {
+void Rows::plain_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const {
   const Shape& shape = state.shape;
   const Layout& layout = track_.layout();
   const std::size_t n = layout.size();
@@ -297,6 +341,12 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
     case Measure::exit_speed:
       std::copy_n(state.flows[row.ride].dv.row(row.place), n, out);
       return;
+    case Measure::exit_run_speed: {
+      const RunSpeed run = exit_run_speed(state, row);
+      add_scaled(out, run.by_v, state.flows[row.ride].dv.row(row.place), n);
+      add_scaled(out, run.by_zeta, track_.dzeta(row.place), n);
+      return;
+    }
     case Measure::arc_length:
       out[layout.length()] = 1.0;
       return;
@@ -438,7 +488,7 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
         break;
       // More friction is a slower body at every point, so the ends of the friction range hold all between.
       case Measure::normal_load:
-        everywhere(0, 0);
+        everywhere(limit.ride.value_or(0), 0);
         if (limit.side < 0 && last_ride > 0) everywhere(last_ride, 0);
         break;
       case Measure::curvature_load:
@@ -449,11 +499,17 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
         for (row.place = 0; row.place <= last; ++row.place) {
           const double s = stations[row.place].arc_length(length);
           if (!stations[row.place].watched) continue;
-          if (limit.side < 0 && s < problem_.lowest_speed_from * (1.0 - 1e-9)) continue;
+          const bool of_speed = limit.name.id == LimitId::speed;
+          if (limit.side < 0 && of_speed && s < problem_.lowest_speed_from * (1.0 - 1e-9)) continue;
           consider(row);
         }
         break;
       case Measure::exit_speed:
+        row.ride = limit.side > 0 ? 0 : last_ride;
+        row.place = last;
+        consider(row);
+        break;
+      case Measure::exit_run_speed:
         row.ride = limit.side > 0 ? 0 : last_ride;
         row.place = last;
         consider(row);
@@ -496,6 +552,7 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
 void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,
                                StationWeights& weights) const {
   // Second derivatives through the state; the others are direct terms.
+  factor *= width_factor(state, limit, row).value;
   const Shape& shape = state.shape;
   const std::size_t last = track_.stations().size() - 1;
   switch (limit.measure) {
@@ -510,6 +567,13 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
     case Measure::exit_speed:
       weights.v[row.ride][row.place] += factor;
       return;
+    case Measure::exit_run_speed: {
+      const RunSpeed run = exit_run_speed(state, row);
+      weights.v[row.ride][row.place] += factor * run.by_v;
+      weights.v_v[row.ride][row.place] += factor * run.by_v_v;
+      weights.zeta_zeta[row.place] += factor * run.by_zeta_zeta;
+      return;
+    }
     case Measure::arrival:
       weights.v[row.ride][row.place] +=
           factor / free_fall(track_, row.place, problem_.rides[row.ride].entry_speed2);
@@ -638,6 +702,21 @@ void add_foot_terms(const Transcription& track, const State& state, const Foot& 
 
 void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
                             Matrix& hessian) const {
+  const WidthFactor width = width_factor(state, limit, row);
+  add_plain_terms(state, limit, row, factor * width.value, hessian);
+  if (width.first == 0.0) return;
+  const std::size_t n = track_.layout().size();
+  Vector gradient(n);
+  plain_gradient(state, limit, row, gradient.data());
+  Vector by_length(n, 0.0);
+  by_length[track_.layout().length()] = 1.0;
+  add_symmetric(hessian, factor * width.first, gradient, by_length);
+  const double value = plain_measure(state, limit, row);
+  add_symmetric(hessian, 0.5 * factor * width.second * value, by_length, by_length);
+}
+
+void Rows::add_plain_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
+                           Matrix& hessian) const {
   const Layout& layout = track_.layout();
   const std::size_t n = layout.size();
   const std::size_t at_length = layout.length();
@@ -697,6 +776,13 @@ void Rows::add_direct_terms(const State& state, const LimitSpec& limit, const Ro
       const Foot foot = foot_of(state, limit, row);
       if (foot.end) return;
       add_foot_terms(track_, state, foot, corner_distance(foot, corner, side), side, factor, hessian);
+      return;
+    }
+    case Measure::exit_run_speed: {
+      const double* const dv = state.flows[row.ride].dv.row(row.place);
+      const double* const dz = track_.dzeta(row.place);
+      add_symmetric(hessian, factor * exit_run_speed(state, row).by_zeta_v, Vector(dv, dv + n),
+                    Vector(dz, dz + n));
       return;
     }
     case Measure::entry_slope_angle:

@@ -80,12 +80,31 @@ class Rows {
   [[nodiscard]] Foot foot_of(const State& state, const LimitSpec& limit, const Row& row) const;
   [[nodiscard]] Row row_of_equality(std::size_t index) const;
   [[nodiscard]] Ride::CurvatureLoad curvature_load(const State& state, const Row& row) const;
+  /// u cos(zeta) with its derivatives by v and by the slope angle.
+  struct RunSpeed {
+    double value = 0.0;
+    double by_v = 0.0, by_zeta = 0.0;
+    double by_v_v = 0.0, by_zeta_v = 0.0, by_zeta_zeta = 0.0;
+  };
+  [[nodiscard]] RunSpeed exit_run_speed(const State& state, const Row& row) const;
+  /// The channel's width over that at the start, to the limit's power, and its derivatives by the core's length.
+  struct WidthFactor {
+    double value = 1.0;
+    double first = 0.0;
+    double second = 0.0;
+  };
+  [[nodiscard]] WidthFactor width_factor(const State& state, const LimitSpec& limit, const Row& row) const;
   [[nodiscard]] double measure(const State& state, const LimitSpec& limit, const Row& row) const;
   void measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
+  /// The same without the factor of the width.
+  [[nodiscard]] double plain_measure(const State& state, const LimitSpec& limit, const Row& row) const;
+  void plain_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
   void add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,
                            StationWeights& weights) const;
   void add_direct_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
                         Matrix& hessian) const;
+  void add_plain_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
+                       Matrix& hessian) const;
   struct Bend {
     std::size_t piece = 0;
     double share = 0.0;  ///< of the way through it

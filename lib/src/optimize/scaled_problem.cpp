@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
 #include <algorithm>
@@ -32,9 +33,15 @@ Measure measure_of(LimitId id) {
     case LimitId::highest_curvature_load:
       return Measure::curvature_load;
     case LimitId::speed:
+    case LimitId::highest_burden_depth:
+    case LimitId::no_choking:
       return Measure::speed;
+    case LimitId::highest_floor_wear:
+      return Measure::normal_load;
     case LimitId::exit_speed:
       return Measure::exit_speed;
+    case LimitId::match_belt:
+      return Measure::exit_run_speed;
     case LimitId::arc_length:
       return Measure::arc_length;
     case LimitId::finish_run:
@@ -84,6 +91,7 @@ class LimitList {
       if (entry.id == LimitId::concave && limits.concave) add({entry.id, entry.bound}, 0.0);
       if (entry.value != nullptr && limits.*entry.value) add_value(entry, *(limits.*entry.value));
     }
+    if (problem_.limits.match_belt) add_match(*problem_.limits.match_belt);
     if (problem_.finish.kind == FinishKind::point) return;
     const bool level = problem_.finish.kind == FinishKind::level;
     add_range(entry_of(level ? LimitId::finish_run : LimitId::finish_drop), problem_.finish.free_range);
@@ -118,6 +126,21 @@ class LimitList {
     out_.waypoints.push_back((1.0 / out_.chord) * problem_.limits.waypoints[index]);
   }
 
+  /// A stream keeps faster than where it is as deep as its wall is high, or as its channel is wide.
+  void add_no_choking() {
+    const BulkStream* const stream = stream_of_problem();
+    if (stream == nullptr) return;
+    const LimitName name{LimitId::no_choking, Bound::highest};
+    const double flow = stream->depth(0.0, 1.0) * stream->width(0.0);
+    const auto add_side = [&](double deepest, int power) {
+      add_lowest_speed(name, flow / (stream->width(0.0) * deepest));
+      out_.limits.back().built_in = true;
+      out_.limits.back().width_power = power;
+    };
+    if (stream->shape().wall_height) add_side(*stream->shape().wall_height, 2);
+    add_side(stream->width(0.0), 4);
+  }
+
   /// What holds without being asked for.
   void add_built_in(LimitId id, Measure measure, double bound) {
     LimitSpec limit;
@@ -148,6 +171,9 @@ class LimitList {
       if (entry.id == LimitId::smallest_valley_radius || !problem_.limits.concave) add_radius(name, value);
       return;
     }
+    if (entry.id == LimitId::highest_burden_depth) return add_depth(name, value);
+    if (entry.id == LimitId::highest_floor_wear) return add_wear(name, value);
+    if (entry.id == LimitId::lowest_slope_margin) return add_slope_margin(name, value);
     add(name, value);
     if (entry.id != LimitId::highest_curvature_rate) return;
     // The rate is limited both ways.
@@ -157,6 +183,62 @@ class LimitList {
     other.side = -1;
     other.bound = -rate;
     other.scale = rate;
+  }
+
+  void add_match(const BeltMatch& match) {
+    const double seen = math::cos(match.direction);
+    for (const Bound bound : {Bound::lowest, Bound::highest}) {
+      const double side = bound == Bound::highest ? 1.0 : -1.0;
+      LimitSpec& limit = add({LimitId::match_belt, bound}, match.speed * (1.0 + side * match.within));
+      limit.bound /= seen;
+      limit.per_si /= seen;
+      limit.scale = 1.0;
+    }
+  }
+
+  /// H <= depth is u B(s) >= Q/(rho depth): a lowest speed.
+  void add_depth(const LimitName& name, double depth) {
+    const BulkStream* const stream = stream_of_problem();
+    if (stream == nullptr) return;
+    add_lowest_speed(name, stream->depth(0.0, 1.0) / depth);
+    out_.limits.back().bound_si = depth;
+    out_.limits.back().per_si = out_.limits.back().bound / depth;
+    out_.limits.back().width_power = 2;
+  }
+
+  /// mu N/B(s) <= wear/(Q K_c): a highest load, on each ride its own.
+  void add_wear(const LimitName& name, double wear) {
+    const BulkStream* const stream = stream_of_problem();
+    if (stream == nullptr) return;
+    for (std::size_t ride = 0; ride < out_.rides.size(); ++ride) {
+      const Friction friction = Friction::from_coefficient(out_.rides[ride].friction);
+      const double per_load = stream->floor_wear(0.0, friction, 1.0);
+      if (!(per_load > 0.0)) continue;
+      LimitSpec& limit = add(name, wear);
+      limit.side = 1;
+      limit.ride = ride;
+      limit.bound = wear / (per_load * problem_.gravity);
+      limit.per_si = limit.bound / wear;
+      limit.scale = limit.bound;
+      limit.width_power = -1;
+    }
+  }
+
+  /// zeta >= atan(mu) + margin at the highest friction.
+  void add_slope_margin(const LimitName& name, double margin) {
+    LimitSpec& limit = add(name, margin);
+    limit.bound += math::atan(out_.rides.back().friction);
+  }
+
+  void add_lowest_speed(const LimitName& name, double speed) {
+    LimitSpec& limit = add(name, 1.0);
+    limit.side = -1;
+    limit.bound = speed / out_.speed;
+    limit.scale = 1.0;
+  }
+
+  [[nodiscard]] const BulkStream* stream_of_problem() const {
+    return dynamic_cast<const BulkStream*>(problem_.body.law.get());
   }
 
   void add_radius(const LimitName& name, double radius) {
@@ -257,6 +339,7 @@ Ride scaled_ride(const Body& body, double friction, const ScaledProblem& units) 
   ride.drag = units.drag;
   // Without drag there is no air to feel.
   if (units.drag > 0.0) ride.head_wind = body.head_wind / units.speed;
+  if (body.landing) ride.landing = Landing{body.landing->speed / units.speed, body.landing->angle};
   if (!body.law) return ride;
   ride.gain = 2.0 / body.law->inertia();
   ride.height = body.law->centre_height() / units.chord;
@@ -299,6 +382,10 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
   constexpr double kCreep = 1e-6;
   list.add_built_in(LimitId::arrival, Measure::arrival, kCreep);
+  list.add_no_choking();
+  // A stream flatter than the floor flies on over it.
+  if (problem.body.landing)
+    list.add_built_in(LimitId::landing, Measure::entry_slope_angle, problem.body.landing->angle);
 }
 
 }  // namespace
@@ -343,6 +430,10 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   switch (problem.objective.kind) {
     case ObjectiveKind::travel_time:
       break;
+    case ObjectiveKind::even_speed:
+      for (Ride& ride : out.rides) ride.even_speed = entry_speed;
+      break;
+    case ObjectiveKind::least_wear:
     case ObjectiveKind::exit_speed:
       out.time_weight = 0.0;
       out.speed_weight = 1.0;

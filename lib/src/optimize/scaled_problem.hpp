@@ -8,6 +8,7 @@
 #include "optimize/transcription.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ enum class Measure {
   curvature_load,
   speed,
   exit_speed,
+  exit_run_speed,  ///< the level part of the exit speed
   arc_length,
   finish_coordinate,  ///< whichever is free
   distance,           ///< from an obstacle, positive on its free side
@@ -42,6 +44,10 @@ struct LimitSpec {
   double per_si = 1.0;       ///< |d bound/d bound_si|
   std::size_t obstacle = 0;  ///< of distance and waypoint
   bool built_in = false;     ///< not set by the user: arrival
+  /// The one ride that it is held on, its bound being that ride's; none: wherever the measure binds.
+  std::optional<std::size_t> ride;
+  /// The measure is multiplied by the width of a stream's channel, over that at the start, to this power.
+  int width_power = 0;
 };
 
 /// A chain of straight edges that forbids what lies behind it.

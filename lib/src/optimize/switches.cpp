@@ -40,6 +40,7 @@ bool holds_along(Measure measure) {
     case Measure::entry_slope_angle:
     case Measure::exit_slope_angle:
     case Measure::exit_speed:
+    case Measure::exit_run_speed:
     case Measure::arc_length:
     case Measure::finish_coordinate:
     case Measure::waypoint:

@@ -18,6 +18,9 @@ constexpr double kPanelGrowth = 2.5;
 // And by at most this share of the whole track's r, so that a long first piece is resolved too.
 constexpr double kLargestPanel = 1.0 / 14.0;
 
+// What a second weighs beside a second of speed that is off by all of itself: enough for one optimum to be left.
+constexpr double kFasterOfTwo = 1e-3;
+
 // Below this share of free fall a body counts as not arriving.
 constexpr double kSlowest = 2e-6;
 
@@ -33,6 +36,28 @@ Slowness slowness(double v, double floor) {
   const double second = 0.75 * root / (floor * floor);
   const double below = v - floor;
   return {root + below * (first + 0.5 * below * second), first + below * second, second};
+}
+
+Slowness evenness(double v, double floor, double even_speed) {
+  // ((1 + epsilon u0 w + v w^2 ...) written in 1/u = w: (v/u0^2 - 2 u/u0 + 1)/u0 + epsilon w.
+  const double u0 = even_speed;
+  const Slowness slow = slowness(v, floor);
+  const double at = std::max(v, floor);
+  const double u = std::sqrt(at);
+  const double below = v - at;
+  // u and its derivatives, continued as slowness() is.
+  const double first = 0.5 / u;
+  const double second = -0.25 / (u * at);
+  const double speed = u + below * (first + 0.5 * below * second);
+  const double speed_first = first + below * second;
+  const double share = 1.0 / (u0 * u0 * u0);
+  return {share * v - 2.0 / (u0 * u0) * speed + 1.0 / u0 + kFasterOfTwo * slow.value,
+          share - 2.0 / (u0 * u0) * speed_first + kFasterOfTwo * slow.first,
+          -2.0 / (u0 * u0) * second + kFasterOfTwo * slow.second};
+}
+
+Slowness pace_of(const Ride& ride, double v, double floor) {
+  return ride.even_speed > 0.0 ? evenness(v, floor, ride.even_speed) : slowness(v, floor);
 }
 
 Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/motion/law.hpp"
+#include "glissade/motion/motion.hpp"
 
 #include "optimize/dense.hpp"
 
@@ -60,7 +61,11 @@ struct Ride {
   double gain = 2.0;          ///< 2/f
   double height = 0.0;        ///< h, of the centre of mass above the track [chords]
   double head_wind = 0.0;     ///< [sqrt(gravity chord)]
-  LawPtr law = nullptr;       ///< where c depends on the speed, in these units; none otherwise
+  /// How it comes down on the start, in these units; entry_speed2 is then that before the impact.
+  std::optional<Landing> landing;
+  /// Above 0: what counts as time is not 1/u, but how uneven the speed is (evenness()).
+  double even_speed = 0.0;
+  LawPtr law = nullptr;  ///< where c depends on the speed, in these units; none otherwise
 
   /// kappa v/(1 - kappa h): what curvature adds to the load, and its derivatives.
   struct CurvatureLoad {
@@ -79,7 +84,7 @@ struct Ride {
 
   /// Coulomb's law, whose flow has a closed integrating factor.
   [[nodiscard]] bool sliding_point() const {
-    return gain == 2.0 && height == 0.0 && head_wind == 0.0 && law == nullptr;
+    return !landing && gain == 2.0 && height == 0.0 && head_wind == 0.0 && law == nullptr;
   }
 };
 
@@ -220,5 +225,10 @@ struct Slowness {
   double second = 0.0;
 };
 [[nodiscard]] Slowness slowness(double v, double floor);
+/// ((u/u0 - 1)^2 + epsilon u0/u)/u0, of two tracks that are equally even the faster.
+/// @param even_speed  u0
+[[nodiscard]] Slowness evenness(double v, double floor, double even_speed);
+/// @return what the objective integrates along the centre's way: slowness() or evenness()
+[[nodiscard]] Slowness pace_of(const Ride& ride, double v, double floor);
 
 }  // namespace glissade::optimizer

@@ -3,6 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/motion/motion.hpp"
 
 #include "clearance/region.hpp"
@@ -181,12 +182,14 @@ clearance::Pass pass_of(Passage passage) {
 /// All watches of a problem, and how to feed them.
 class Watches {
  public:
-  Watches(const Problem& problem, double chord) : problem_(problem), chord_(chord) {}
+  Watches(const Problem& problem, double chord)
+      : problem_(problem), chord_(chord), stream_(dynamic_cast<const BulkStream*>(problem.body.law.get())) {}
 
   void at_point(const CenterlinePoint& point) {
     const Limits& limits = problem_.limits;
     const double s = point.arc_length;
     see(LimitId::slope_angle, point.slope_angle, s);
+    see(LimitId::lowest_slope_margin, point.slope_angle - steepest_friction(s), s);
     if (!limits.envelope.is_line()) return;
     const Vec2 place{point.x, point.drop};
     for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
@@ -253,7 +256,10 @@ class Watches {
   void at_rate(double s, double rate) { see(LimitId::highest_curvature_rate, std::fabs(rate), s); }
 
   /// What is seen from here on is of the ride at this friction, or of none.
-  void ride_at(std::optional<FrictionLevel> friction) { friction_ = friction; }
+  void ride_at(std::optional<FrictionLevel> level, Friction friction = {}) {
+    friction_ = level;
+    friction_of_ride_ = friction;
+  }
 
   void at_state(const MotionState& state, const CenterlinePoint& point) {
     const double s = state.arc_length;
@@ -264,6 +270,10 @@ class Watches {
     see(LimitId::highest_normal_load, state.normal_load, s);
     see(LimitId::lowest_normal_load, state.normal_load, s);
     see(LimitId::highest_curvature_load, curvature_load, s);
+    if (stream_ != nullptr) {
+      see(LimitId::highest_burden_depth, stream_->depth(s, state.speed), s);
+      see(LimitId::highest_floor_wear, stream_->floor_wear(s, friction_of_ride_, state.normal_load), s);
+    }
     const Range& speed = problem_.limits.speed;
     if (s >= problem_.limits.lowest_speed_from) {
       see(LimitId::speed, state.speed, s);
@@ -272,7 +282,15 @@ class Watches {
     }
   }
 
-  void at_exit_speed(double exit_speed, double end) { see(LimitId::exit_speed, exit_speed, end); }
+  void at_exit_speed(double exit_speed, const CenterlinePoint& end) {
+    see(LimitId::exit_speed, exit_speed, end.arc_length);
+    if (!problem_.limits.match_belt) return;
+    const BeltMatch& match = *problem_.limits.match_belt;
+    const double along = exit_speed * math::cos(end.slope_angle) * math::cos(match.direction);
+    see_side({LimitId::match_belt, Bound::lowest}, match.speed * (1.0 - match.within), along, end.arc_length);
+    see_side({LimitId::match_belt, Bound::highest}, match.speed * (1.0 + match.within), along,
+             end.arc_length);
+  }
 
   void at_end(const Centerline& track) {
     const double end = track.length();
@@ -371,6 +389,7 @@ class Watches {
       case Dimension::acceleration:
         return std::max(problem_.gravity, std::fabs(bound));
       case Dimension::per_area:
+      case Dimension::power_per_area:
         return bound;
       default:
         return 1.0;
@@ -384,9 +403,20 @@ class Watches {
     return watches_.emplace_back(limit, bound, scale);
   }
 
+  /// @return the highest friction angle of the range at a place [rad]
+  [[nodiscard]] double steepest_friction(double s) const {
+    Friction friction = problem_.high_friction.value_or(problem_.body.friction);
+    for (const FrictionChange& change : problem_.body.friction_changes) {
+      if (change.from <= s) friction = change.friction;
+    }
+    return friction.angle().radians();
+  }
+
   const Problem& problem_;
   double chord_;
+  const BulkStream* stream_ = nullptr;
   std::optional<FrictionLevel> friction_;
+  Friction friction_of_ride_;
   std::vector<Watch> watches_;
 };
 
@@ -554,7 +584,7 @@ Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int sa
   Judgement judgement;
   judgement.arrived = true;
   for (const auto& [friction, level, arrival] : frictions_of(problem)) {
-    watches.ride_at(level);
+    watches.ride_at(level, friction);
     Body body = problem.body;
     body.friction = friction;
     const Motion motion(track, body, problem.gravity);
@@ -573,7 +603,7 @@ Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int sa
     const auto ridden = std::upper_bound(stations.begin(), stations.end(), motion.distance());
     const std::vector<MotionState> states = motion.at({stations.begin(), ridden});
     for (std::size_t i = 0; i < states.size(); ++i) watches.at_state(states[i], points[i]);
-    if (motion.arrived()) watches.at_exit_speed(motion.exit_speed(), track->length());
+    if (motion.arrived()) watches.at_exit_speed(motion.exit_speed(), end);
   }
   watches.ride_at({});
   watches.at_end(*track);

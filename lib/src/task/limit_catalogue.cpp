@@ -95,9 +95,28 @@ constexpr std::array kCatalogue = {
                &Limits::lowest_normal_load},
     positive(LimitId::highest_curvature_load, "highest_curvature_load", Bound::highest,
              Dimension::acceleration, "highest curvature load", &Limits::highest_curvature_load),
+    positive(LimitId::highest_burden_depth, "highest_burden_depth", Bound::highest, Dimension::length,
+             "highest burden depth", &Limits::highest_burden_depth),
+    positive(LimitId::highest_floor_wear, "highest_floor_wear", Bound::highest, Dimension::power_per_area,
+             "highest wear of the floor", &Limits::highest_floor_wear),
+    LimitEntry{LimitId::lowest_slope_margin,
+               "lowest_slope_margin",
+               LimitForm::value,
+               Bound::lowest,
+               Dimension::angle,
+               -kUpright,
+               kUpright,
+               false,
+               false,
+               "slope above the friction angle",
+               {},
+               nullptr,
+               &Limits::lowest_slope_margin},
     amount(LimitId::speed, "speed", Dimension::speed, kFastest, "speed", &Limits::speed, false),
     amount(LimitId::exit_speed, "exit_speed", Dimension::speed, kFastest, "exit speed", &Limits::exit_speed,
            true),
+    LimitEntry{LimitId::match_belt, "match_belt", LimitForm::of_group, Bound::exactly, Dimension::speed, 0.0,
+               kFastest, true, false, "speed along the belt"},
     amount(LimitId::arc_length, "arc_length", Dimension::length, kLongest, "arc length", &Limits::arc_length,
            true),
     lead(LimitId::lead_in, "lead_in", "lead in", &Limits::lead_in),
@@ -126,6 +145,8 @@ constexpr std::array kCatalogue = {
     implied(LimitId::not_many_chords_long, "no longer than 20 chords", Bound::highest, Dimension::length),
     implied(LimitId::room_for_body, "a valley that the body fits into", Bound::highest,
             Dimension::per_length),
+    implied(LimitId::no_choking, "a stream that does not choke", Bound::highest, Dimension::length),
+    implied(LimitId::landing, "a start no steeper than the feed falls", Bound::highest, Dimension::angle),
 };
 
 constexpr bool is_in_order() {
@@ -207,7 +228,8 @@ std::string LimitName::key() const {
   const LimitEntry& entry = entry_of(id);
   std::string text(entry.key);
   if (entry.form == LimitForm::list) return text + "[" + std::to_string(index) + "]";
-  const bool ranged = entry.form == LimitForm::range || (entry.form == LimitForm::of_task && entry.fixable);
+  const bool ranged = entry.form == LimitForm::range || entry.form == LimitForm::of_group ||
+                      (entry.form == LimitForm::of_task && entry.fixable);
   if (ranged && bound != Bound::exactly) text += bound == Bound::lowest ? ".lowest" : ".highest";
   return text;
 }

@@ -28,6 +28,7 @@ enum class LimitForm {
   length,    ///< one length, 0 if it is left out; a number of Limits
   flag,      ///< true or false
   list,      ///< a list of shapes or points; a check names each by its number
+  of_group,  ///< a group of keys of its own
   of_task,   ///< not under `limits`
   of_search  ///< not asked for
 };

@@ -58,6 +58,15 @@ enum class ClearancesFrom {
   centerline  ///< the middle line of the floor
 };
 
+/// A belt whose speed a stream is to have along it when it lands.
+struct BeltMatch {
+  double speed = 0.0;      ///< of the belt [m/s]; > 0
+  double direction = 0.0;  ///< seen from above, from the track's own [rad]; within +-pi/2
+  double within = 0.1;     ///< share of the speed by which the stream may miss it; > 0, at most 1
+
+  friend bool operator==(const BeltMatch&, const BeltMatch&) = default;
+};
+
 /// What a job asks of a track. Every limit is optional; each holds at every point of the track, and at every
 /// friction of the range. Their names, dimensions and bounds: limit_catalogue().
 ///
@@ -79,10 +88,19 @@ struct Limits {
   std::optional<double> lowest_normal_load = 0.0;
   std::optional<double> highest_curvature_load;  ///< kappa u^2 <= value [m/s^2]; valleys alone can break it
 
+  /// H <= depth along the track [m]; of a stream alone
+  std::optional<double> highest_burden_depth;
+  /// W_c = Q K_c mu N/B <= value along the track [W/m^2]; of a stream alone
+  std::optional<double> highest_floor_wear;
+  /// zeta(s) - atan(mu) >= value for every s, at the highest friction [rad]
+  std::optional<double> lowest_slope_margin;
+
   Range speed;  ///< of u(s) [m/s]; `lowest` from `lowest_speed_from` on, `highest` everywhere
   double lowest_speed_from = 0.0;  ///< arc length from which speed.lowest holds [m]; >= 0
   Range exit_speed;                ///< of u(S) [m/s]
-  Range arc_length;                ///< of S [m]
+  /// u(S) cos(zeta(S)) cos(direction) within `within` of the belt's speed: what flight leaves unchanged
+  std::optional<BeltMatch> match_belt;
+  Range arc_length;  ///< of S [m]
 
   double lead_in = 0.0;   ///< the track starts with a straight exactly this long [m]; >= 0
   double lead_out = 0.0;  ///< the track ends with a straight exactly this long [m]; >= 0
@@ -119,8 +137,12 @@ enum class LimitId {
   highest_normal_load,
   lowest_normal_load,
   highest_curvature_load,
+  highest_burden_depth,
+  highest_floor_wear,
+  lowest_slope_margin,
   speed,
   exit_speed,
+  match_belt,
   arc_length,
   lead_in,
   lead_out,
@@ -145,6 +167,8 @@ enum class LimitId {
   not_shorter_than_chord,
   not_many_chords_long,
   room_for_body,  ///< whose centre of mass runs above the track
+  no_choking,     ///< of a stream
+  landing,        ///< of a stream that falls on the start
 };
 
 }  // namespace glissade

@@ -7,7 +7,12 @@ namespace glissade {
 enum class ObjectiveKind {
   travel_time,  ///< least T
   exit_speed,   ///< greatest u(S)
-  blend         ///< least T - exit_speed_weight * u(S)
+  /// Least work of friction on floor and walls for each kilogram. With the ends given and no drag that is the
+  /// greatest exit speed: what is not rubbed off arrives.
+  least_wear,
+  /// Of a stream: least integral of (u/u(0) - 1)^2 along the track; even speed is even burden depth
+  even_speed,
+  blend  ///< least T - exit_speed_weight * u(S)
 };
 
 struct Objective {
@@ -20,7 +25,9 @@ struct Objective {
 
 /// @return what a unit of the objective is: "s", "m/s"
 [[nodiscard]] constexpr std::string_view unit_of(const Objective& objective) {
-  return objective.kind == ObjectiveKind::exit_speed ? "m/s" : "s";
+  const bool by_speed =
+      objective.kind == ObjectiveKind::exit_speed || objective.kind == ObjectiveKind::least_wear;
+  return by_speed ? "m/s" : "s";
 }
 
 }  // namespace glissade
