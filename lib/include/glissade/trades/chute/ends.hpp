@@ -1,0 +1,76 @@
+#pragma once
+
+#include "glissade/core/units.hpp"
+#include "glissade/core/vec.hpp"
+#include "glissade/motion/motion.hpp"
+
+namespace glissade {
+
+/// The head pulley of a belt that feeds a chute.
+struct HeadPulley {
+  double belt_speed = 0.0;  ///< [m/s]; > 0
+  double radius = 0.0;      ///< of the pulley with its belt [m]; > 0
+  Angle belt_angle;         ///< of the belt before it, upwards where positive
+};
+
+/// How a feed comes down on the start of a track, in the plane of the track.
+struct FeedFall {
+  Landing landing;      ///< on the start
+  double reach = 0.0;   ///< horizontal way through the air [m]
+  double time = 0.0;    ///< through the air [s]
+  double height = 0.0;  ///< fallen [m]
+  /// Of a belt: how far round the pulley past its top the stream leaves it [rad]; minus the belt's angle where it
+  /// leaves at once because it is faster than the pulley can hold it.
+  double leaves_at = 0.0;
+  Vec2 pulley;  ///< of a belt: its centre seen from the start of the track, run and height above it [m]
+};
+
+/// @param drop  from where the stream leaves the pulley down to the start [m]; > 0
+/// A stream stays on the pulley until cos(psi) = v^2/(g R), psi from the vertical; where v^2/(g R) >= cos(belt
+/// angle) it leaves at once, in the belt's direction. From there it flies without air.
+[[nodiscard]] FeedFall fall_from_belt(const HeadPulley& pulley, double drop, double gravity);
+
+/// @param outlet_speed  straight down [m/s]; >= 0
+/// @param drop          from the outlet down to the start [m]; >= 0, one of the two > 0
+[[nodiscard]] FeedFall fall_from_outlet(double outlet_speed, double drop, double gravity);
+
+/// What the impact of a feed does (docs/chutes.md, feed).
+struct Impact {
+  double angle = 0.0;        ///< theta, between the way of the stream and the floor [rad]
+  double speed_ratio = 0.0;  ///< V2/V1 = cos(theta + phi)/cos(phi); not positive: it stalls there
+  double pressure = 0.0;     ///< rho V1^2 sin^2(theta) [Pa]
+};
+
+[[nodiscard]] Impact impact_on(const Landing& landing, double slope_angle, Friction friction,
+                               double bulk_density);
+
+/// A belt that takes a stream away.
+struct ReceivingBelt {
+  double speed = 0.0;     ///< v_b [m/s]; > 0
+  Angle direction;        ///< seen from above, from the track's own to the left
+  Angle slope;            ///< it climbs where positive
+  double drop = 0.0;      ///< from the finish of the track down to the belt [m]; >= 0
+  double friction = 0.5;  ///< mu_b between stream and belt
+};
+
+/// How a stream lands on a belt (docs/chutes.md, discharge).
+struct BeltLanding {
+  double speed_along = 0.0;   ///< of the stream along the belt [m/s]
+  double speed_into = 0.0;    ///< square to it, downwards [m/s]
+  double speed_across = 0.0;  ///< in the belt's plane, square to its run, to the left [m/s]
+  double speed = 0.0;         ///< [m/s]
+  double time = 0.0;          ///< through the air [s]
+  double reach = 0.0;         ///< horizontal way through the air [m]
+  double off_centre = 0.0;    ///< of it across the belt: how far beside the finish it lands [m]
+  double match = 0.0;         ///< speed_along over the belt's
+  /// K_b = W_a/(mu_b rho v_e^3), v_e the speed on landing; with a level belt and no drop cos^2(theta_e)(v_b/v_e -
+  /// sin(theta_e)), theta_e from the vertical
+  double wear_factor = 0.0;
+  double wear = 0.0;  ///< W_a = mu_b rho v_into^2 (v_b - v_along) [W/m^2]
+};
+
+/// @param slope_angle   of the track at its finish, downhill positive [rad]
+[[nodiscard]] BeltLanding land_on_belt(double exit_speed, double slope_angle, const ReceivingBelt& belt,
+                                       double bulk_density, double gravity);
+
+}  // namespace glissade

@@ -1,0 +1,82 @@
+#include "glissade/trades/chute/wear.hpp"
+
+#include "glissade/core/error.hpp"
+
+#include <algorithm>
+
+namespace glissade {
+namespace {
+
+// Wear follows load and width, which change slowly beside this many places.
+constexpr int kPlaces = 400;
+// Of its peak: where a floor wears less than this, a plate of its own pays little.
+constexpr double kWorthAPlate = 0.5;
+
+/// Places that a ride is looked at: evenly spread, and those of its extremes and of changes of width.
+std::vector<double> places_of(const Motion& motion) {
+  const double end = motion.distance();
+  std::vector<double> places;
+  for (int i = 0; i <= kPlaces; ++i) places.push_back(std::min(end, end * i / kPlaces));
+  places.push_back(motion.highest_load().arc_length);
+  for (const WidthAt& width : stream_of(motion.body())->shape().widths) {
+    if (width.at > 0.0 && width.at < end) places.push_back(width.at);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+void join(std::vector<WearStretch>& stretches) {
+  std::sort(stretches.begin(), stretches.end(),
+            [](const WearStretch& a, const WearStretch& b) { return a.from < b.from; });
+  std::vector<WearStretch> joined;
+  for (const WearStretch& stretch : stretches) {
+    if (!joined.empty() && stretch.from <= joined.back().to) {
+      joined.back().to = std::max(joined.back().to, stretch.to);
+    } else {
+      joined.push_back(stretch);
+    }
+  }
+  stretches = std::move(joined);
+}
+
+}  // namespace
+
+WearFacts wear_of(const std::vector<const Motion*>& rides) {
+  if (rides.empty()) throw InputError({"", "there is no ride to wear anything", "", ""});
+  WearFacts facts;
+  for (std::size_t i = 0; i < rides.size(); ++i) {
+    const Motion& motion = *rides[i];
+    for (const double s : places_of(motion)) {
+      const StreamState state = stream_state(motion, s);
+      if (state.wall_wear > facts.wall.value) facts.wall = {state.wall_wear, s};
+      if (state.floor_wear <= facts.floor.value) continue;
+      facts.floor = {state.floor_wear, s};
+      facts.ride = i;
+      const double speed = motion.at(s).speed;
+      const double factor = stream_of(motion.body())->resistance(s, speed * speed).factor;
+      facts.friction = state.equivalent_friction / factor;
+    }
+  }
+  const Motion& worst = *rides[facts.ride];
+  for (int i = 0; i < kPlaces; ++i)
+    facts.mean_floor += stream_state(worst, worst.distance() * (i + 0.5) / kPlaces).floor_wear / kPlaces;
+  for (const Motion* const ride : rides) {
+    const std::vector<double> places = places_of(*ride);
+    std::optional<double> from;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const bool worn = stream_state(*ride, places[i]).floor_wear >= kWorthAPlate * facts.floor.value;
+      if (worn && !from) from = i == 0 ? places[i] : places[i - 1];
+      if (worn && i + 1 < places.size()) continue;
+      if (from) facts.plates.push_back({*from, places[i]});
+      from.reset();
+    }
+  }
+  join(facts.plates);
+  return facts;
+}
+
+double thickness_loss_rate(const LinerWear& liner, double floor_wear, double friction) {
+  return liner.coefficient * floor_wear / (friction * liner.hardness);
+}
+
+}  // namespace glissade
