@@ -105,6 +105,33 @@ TEST_CASE("every key is written back") {
         "stay_below: [{line: [[0 m, 8 m], [6 m, 6 m]]}], waypoints: [[2 m, 3 m]], "
         "objective: {kind: blend, exit_speed_weight: 0.1 s/(m/s)}}\nmesh:");
   check("mesh:", "limits: {}\nmesh:");
+  const std::string fed = "friction_angle: 17 deg\n  entry_speed: 2 m/s\nstream:";
+  check("friction_angle: 17 deg", fed + " {mass_flow: 40 t/h, bulk_density: 780 kg/m^3}");
+  check("friction_angle: 17 deg",
+        fed +
+            " {mass_flow: 11.3 kg/s, bulk_density: {low: 750 kg/m^3, nominal: 0.78 t/m^3, high: 900 kg/m^3}, "
+            "lump_size: 6 mm, lateral_pressure_ratio: 0.54, slip_ratio: 0.7, surge: 2, trickle: 20 %, "
+            "liner_plate: {thickness: 12 mm, hardness: 4 GPa, wear_coefficient: 2e-4}}");
+  const std::string by_name = "entry_speed: 2 m/s\nstream: {mass_flow: 40 t/h, material: ";
+  check("friction_angle: 17 deg", by_name + "wheat, liner: mild-steel, moisture: 14 %}");
+  check("friction_angle: 17 deg", by_name + "wheat, liner: mild-steel, lateral_pressure_ratio: 0.5}");
+  check("friction_angle: 17 deg",
+        by_name +
+            "own, liner: plate}\nmaterials: [{material: own, name: \"Own\", density: {low: 700 kg/m^3, high: "
+            "800 "
+            "kg/m^3, source: s}, lateral_pressure_ratio: {value: 0.4, source: s}, friction: [{liner: plate, "
+            "angle: {low: 15 deg, high: 18 deg}, moisture: {low: 4 %, high: 9 %}, source: \"t: u\"}], "
+            "highest_speed: {value: 8 m/s, why: dust, source: s}, warnings: [\"a: b\"]}]");
+  check("friction_angle: 17 deg",
+        "friction_angle: 17 deg\nstream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3}\n"
+        "feed: {kind: belt, belt_speed: 3.2 m/s, pulley_radius: 400 mm, belt_angle: 12 deg, drop: 0.8 m}\n"
+        "discharge: {belt_speed: 2.5 m/s, drop: 40 cm, direction: 30 deg, belt_angle: 5 deg, belt_friction: "
+        "0.6}\n"
+        "limits: {match_belt: {speed: 3 m/s, direction: 30 deg, within: 5 %}, highest_burden_depth: 60 mm, "
+        "highest_floor_wear: 90 W/m^2, lowest_slope_margin: 5 deg, objective: least_wear}");
+  check("friction_angle: 17 deg",
+        "friction_angle: 17 deg\nstream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3}\n"
+        "feed: {kind: hopper, outlet_speed: 0.5 m/s, drop: 0.8 m}");
   check("mesh:", "probes: [{from_start: 2 m, name: gate}, {from_finish: 10 cm}, {x: 3.1 m}]\nmesh:");
 }
 

@@ -38,6 +38,8 @@ std::vector<Finding> check_values(const Design& design) {
   Collected findings;
   check_track(design, findings);
   check_body(design, findings);
+  check_stream(design, findings);
+  check_ends(design, findings);
   check_centerline(design, findings);
   check_hill(design, findings);
   check_gates(design, findings);
@@ -89,12 +91,13 @@ std::optional<Finding> find_unreachable(const Design& design) {
   const BodyDesign& body = design.body;
   const double run = run_of(track);
   const double drop = drop_of(track);
+  if (design.feed) return {};
   const Friction friction = least_friction(body);
   const double mu = friction.coefficient();
   if (finish_is_unbounded(track) || is_drawn(design.centerline.kind)) return {};
   // A wind from behind can blow a body where no slope takes it; with speed, the theorem is told of the sliding point.
   if (body.head_wind < 0.0 && body.drag_per_metre > 0.0) return {};
-  if (body.entry_speed > 0.0 && !is_sliding_point(body)) return {};
+  if (body.entry_speed > 0.0 && (design.stream || !is_sliding_point(body))) return {};
   // It is about the centre of mass, whose ends lie up to this much more favourably than the track's.
   const double height = centre_height(body);
   const double favour = height == 0.0 ? 0.0 : height * (std::sqrt(1.0 + mu * mu) + mu);

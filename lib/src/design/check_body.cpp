@@ -121,7 +121,8 @@ void check_drag(const BodyDesign& body, Collected& findings) {
 
 void check_closed_forms(const Design& design, Collected& findings) {
   const bool constant_speed = design.centerline.kind == CenterlineKind::constant_speed;
-  if (!constant_speed || is_sliding_point(design.body) || design.centerline.constant_speed_p) return;
+  if (!constant_speed || design.stream || is_sliding_point(design.body) || design.centerline.constant_speed_p)
+    return;
   report(findings, {"centerline.kind", "body"},
          {"", "constant-speed without p, for a body that is not a sliding point",
           "The p with the least travel time is known for the sliding point alone.",

@@ -299,6 +299,36 @@ void check_clearances(const Design& design, Collected& findings) {
   for (const NamedPoint& point : fixed_points(design)) check_fixed_point(*design.limits, point, findings);
 }
 
+/// Limits and objectives that only a stream can have.
+void check_of_stream(const Design& design, Collected& findings) {
+  const Limits& limits = *design.limits;
+  const auto needs_stream = [&](bool asked, const char* key, const char* why) {
+    if (!asked || design.stream) return;
+    report(findings, {path(key)},
+           {"", std::string(key) + ": of a body that is no stream", why,
+            "stream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}"});
+  };
+  needs_stream(limits.highest_burden_depth.has_value(), "highest_burden_depth", "Only a stream has a depth.");
+  needs_stream(limits.highest_floor_wear.has_value(), "highest_floor_wear",
+               "What rubs on the floor follows from a mass flow.");
+  const ObjectiveKind objective = design.objective.kind;
+  if (objective == ObjectiveKind::even_speed && !design.stream) {
+    report(findings, {path("objective")},
+           {"", "objective: even_speed, of a body that is no stream",
+            "A stream of even speed is of even depth; a single body has its constant-speed curve.",
+            "centerline: {kind: constant-speed}"});
+  }
+  const bool wears = objective == ObjectiveKind::least_wear;
+  if (wears && (design.track.free_finish != FinishKind::point || design.body.drag_per_metre > 0.0)) {
+    report(findings, {path("objective")},
+           {"",
+            std::string("objective: least_wear, with ") +
+                (design.body.drag_per_metre > 0.0 ? "drag" : "a finish that is free"),
+            "It is found as the greatest exit speed, which is the same between two fixed ends in still air.",
+            "objective: exit_speed"});
+  }
+}
+
 void check_objective(const Design& design, Collected& findings) {
   const Objective& objective = design.objective;
   if (!(objective.exit_speed_weight >= 0.0 && std::isfinite(objective.exit_speed_weight))) {
@@ -329,6 +359,7 @@ void check_limits(const Design& design, Collected& findings) {
   check_lengths(design, findings);
   check_clearances(design, findings);
   check_objective(design, findings);
+  check_of_stream(design, findings);
 }
 
 }  // namespace glissade::design_file

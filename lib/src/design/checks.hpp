@@ -17,6 +17,8 @@ using Collected = std::vector<Finding>;
 
 void check_track(const Design& design, Collected& findings);
 void check_body(const Design& design, Collected& findings);
+void check_ends(const Design& design, Collected& findings);
+void check_stream(const Design& design, Collected& findings);
 void check_centerline(const Design& design, Collected& findings);
 void check_in_run(const Design& design, Collected& findings);
 void check_hill(const Design& design, Collected& findings);

@@ -131,12 +131,14 @@ void read_friction_list(const Value& value, BodyDesign& body, Findings& findings
   body.friction = body.friction_changes.front().friction;
 }
 
-void read_sliding(MapReader& map, BodyDesign& body, Findings& findings) {
+void read_sliding(MapReader& map, bool friction_may_follow, BodyDesign& body, Findings& findings) {
   for (const std::string_view key : {"rolling_resistance", "radius", "groove_half_angle"}) {
     map.add_stranger(key, "kind: rolling, which has rolling_resistance, radius and groove_half_angle");
   }
   const auto list = map.find("friction");
-  const FrictionRange range = read_friction(map, !list, findings);
+  const bool given = list || map.has("friction_angle") || map.has("friction_coefficient");
+  body.friction_given = given || !friction_may_follow;
+  const FrictionRange range = read_friction(map, !list && !friction_may_follow, findings);
   if (!list) return set_friction(range, body);
   if (map.has("friction_angle") || map.has("friction_coefficient")) {
     findings.add(list->node->at, list->key_path,
@@ -233,7 +235,7 @@ const std::vector<std::string_view>& body_keys() {
   return keys;
 }
 
-BodyDesign read_body(MapReader& top, Findings& findings) {
+BodyDesign read_body(MapReader& top, bool friction_may_follow, Findings& findings) {
   BodyDesign body;
   const std::optional<Value> value = top.need("body", "body: {friction_angle: 17 deg}");
   if (!value) return body;
@@ -253,7 +255,7 @@ BodyDesign read_body(MapReader& top, Findings& findings) {
   } else {
     map.expect({"kind", "friction_angle", "friction_coefficient", "friction", "centre_height", "entry_speed",
                 "drag", "drag_area", "mass", "air", "head_wind"});
-    read_sliding(map, body, findings);
+    read_sliding(map, friction_may_follow, body, findings);
   }
   body.centre_height = map.quantity("centre_height", Dimension::length);
   body.entry_speed = map.quantity("entry_speed", Dimension::speed).value_or(0.0);

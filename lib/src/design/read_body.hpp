@@ -13,6 +13,7 @@ namespace glissade::design_file {
 [[nodiscard]] const std::vector<std::string_view>& body_keys();
 
 /// Reads the group `body` of a design.
-[[nodiscard]] BodyDesign read_body(MapReader& top, Findings& findings);
+/// @param friction_may_follow  from the material of a stream: then it need not be told
+[[nodiscard]] BodyDesign read_body(MapReader& top, bool friction_may_follow, Findings& findings);
 
 }  // namespace glissade::design_file

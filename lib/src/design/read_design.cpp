@@ -11,11 +11,14 @@
 #include "design/overrides.hpp"
 #include "design/read_body.hpp"
 #include "design/read_cross_section.hpp"
+#include "design/read_ends.hpp"
 #include "design/read_gates.hpp"
 #include "design/read_in_run.hpp"
 #include "design/read_limits.hpp"
+#include "design/read_materials.hpp"
 #include "design/read_probes.hpp"
 #include "design/read_rules.hpp"
+#include "design/read_stream.hpp"
 #include "design/read_text.hpp"
 #include "design/read_tree.hpp"
 #include "design/schema_words.hpp"
@@ -350,8 +353,8 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
-  top.expect({"glissade", "name", "track", "body", "gravity", "centerline", "limits", "probes", "hill",
-              "gates", "rules", "cross_section", "mesh", "export"});
+  top.expect({"glissade", "name", "track", "body", "stream", "feed", "discharge", "materials", "gravity",
+              "centerline", "limits", "probes", "hill", "gates", "rules", "cross_section", "mesh", "export"});
   for (const std::string_view key : body_keys()) {
     top.add_stranger(key, "two spaces before it, below body:");
   }
@@ -361,7 +364,12 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.name = read_name(top, findings);
   design.centerline = read_centerline(top, file, findings);
   design.track = read_track(top, design.centerline.kind, findings);
-  design.body = read_body(top, findings);
+  design.stream = read_stream(top, findings);
+  design.materials = read_materials(top, nullptr, findings);
+  design.body = read_body(top, design.stream && design.stream->material, findings);
+  follow_material(design, findings);
+  design.feed = read_feed(top, findings);
+  design.discharge = read_discharge(top, findings);
   design.gravity = top.quantity("gravity", Dimension::acceleration).value_or(kDefaultGravity);
   read_limits(top, design, findings);
   design.probes = read_probes(top, findings);

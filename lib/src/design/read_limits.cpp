@@ -49,6 +49,17 @@ std::optional<double> read_value(MapReader& map, const LimitEntry& entry, std::o
   return number ? number : unsaid;
 }
 
+BeltMatch read_match(const Value& value, Findings& findings) {
+  MapReader map(value, "A belt to match", "{speed: 2.5 m/s, within: 10 %}", findings);
+  map.expect({"speed", "direction", "within"});
+  BeltMatch match;
+  match.speed = map.needed_quantity("speed", Dimension::speed, "speed: 2.5 m/s").value_or(1.0);
+  match.direction = map.quantity("direction", Dimension::angle).value_or(0.0);
+  match.within = map.quantity("within", Dimension::number).value_or(match.within);
+  map.refuse_unknown_keys();
+  return match;
+}
+
 void read_numbers(MapReader& map, Limits& limits, Findings& findings) {
   // One key for both radii, before its parts are asked for.
   const auto both = map.quantity("smallest_radius", Dimension::length);
@@ -70,6 +81,7 @@ void read_numbers(MapReader& map, Limits& limits, Findings& findings) {
       limits.*entry.length = map.quantity(entry.key, entry.dimension).value_or(0.0);
     }
   }
+  if (const auto value = map.find("match_belt")) limits.match_belt = read_match(*value, findings);
   if (const auto value = map.find("concave")) limits.concave = as_flag(*value, findings).value_or(false);
 }
 
@@ -190,6 +202,8 @@ void read_clearances(MapReader& map, Limits& limits, const std::filesystem::path
 void read_objective(MapReader& limits_map, Objective& objective, Findings& findings) {
   static const Words<ObjectiveKind> kinds = {{"travel_time", ObjectiveKind::travel_time},
                                              {"exit_speed", ObjectiveKind::exit_speed},
+                                             {"least_wear", ObjectiveKind::least_wear},
+                                             {"even_speed", ObjectiveKind::even_speed},
                                              {"blend", ObjectiveKind::blend}};
   const auto value = limits_map.find("objective");
   if (!value) return;

@@ -194,6 +194,7 @@ void replace_or_add(std::vector<Rule>& rules, const Rule& rule) {
 
 /// The sets that a kind of centerline brings along.
 std::vector<std::string> suggested_sets(const Design& design) {
+  if (design.stream) return {"chute"};
   if (design.centerline.kind != CenterlineKind::in_run) return {};
   const bool is_circle = design.centerline.in_run.transition == InRunTransition::circle;
   return {is_circle ? "fis-in-run-circle" : "fis-in-run"};

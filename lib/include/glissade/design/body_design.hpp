@@ -40,6 +40,7 @@ struct FrictionFrom {
 };
 
 struct BodyDesign {
+  bool friction_given = true;             ///< false: the file leaves it to the material of its stream
   Friction friction;                      ///< the nominal one; of `rolling` its resistance to rolling
   std::optional<Friction> low_friction;   ///< <= friction; limits hold there too
   std::optional<Friction> high_friction;  ///< >= friction; limits hold there too

@@ -5,14 +5,17 @@
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 #include "glissade/design/body_design.hpp"
+#include "glissade/design/ends_design.hpp"
 #include "glissade/design/gates_design.hpp"
 #include "glissade/design/in_run_design.hpp"
 #include "glissade/design/probe_design.hpp"
 #include "glissade/design/rules_design.hpp"
+#include "glissade/design/stream_design.hpp"
 #include "glissade/section/measures.hpp"
 #include "glissade/task/finish.hpp"
 #include "glissade/task/limits.hpp"
 #include "glissade/task/objective.hpp"
+#include "glissade/trades/chute/materials.hpp"
 
 #include <filesystem>
 #include <map>
@@ -134,7 +137,11 @@ struct Design {
   std::string name;
   TrackDesign track;
   BodyDesign body;
-  double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
+  std::optional<StreamDesign> stream;        ///< none: a single body
+  std::optional<FeedDesign> feed;            ///< of a stream; none: body.entry_speed says how fast it enters
+  std::optional<DischargeDesign> discharge;  ///< of a stream; none: nothing takes it away
+  std::vector<Material> materials;           ///< the file's own, beside those of the library
+  double gravity = kDefaultGravity;          ///< [m/s^2]; > 0
   CenterlineDesign centerline;
   /// The kind `fastest` is searched for within them, others are checked. Their points are (x, z) as the file gives
   /// them: x is the design's x for a track along the x axis, otherwise the horizontal distance from the start

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "glissade/core/width_law.hpp"
+#include "glissade/design/design.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace glissade {
+
+/// What a stream runs in: a flat floor between two walls.
+struct StreamChannel {
+  WidthLaw width;            ///< of the floor along the track [m]
+  double wall_height = 0.0;  ///< [m]
+  /// @return whether a stream spills over the wall before it is as deep as its channel is wide, everywhere
+  [[nodiscard]] bool has_low_walls() const { return wall_height < width.narrowest(); }
+  /// @return the least depth at which a stream chokes [m]: its wall, or its width, at which Roberts' law ends
+  [[nodiscard]] double deepest() const { return std::min(width.narrowest(), wall_height); }
+};
+
+/// @return the channel that a cross-section is for a stream: of a trapezoid its floor, of a slab what lies
+///         between its curbs; none of round sections, grooves, polygons and slabs without curbs
+[[nodiscard]] std::optional<StreamChannel> stream_channel(const CrossSectionDesign& section);
+
+}  // namespace glissade

@@ -1,0 +1,124 @@
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+
+#include "design/checks.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace glissade::design_file {
+namespace {
+
+constexpr double kFastest = 100.0;                             // [m/s]
+constexpr double kHighest = 1e3;                               // [m]
+constexpr double kLargest = 10.0;                              // [m], of a pulley's radius
+constexpr double kSteepest = 45.0 * std::numbers::pi / 180.0;  // of a belt
+
+void check_between(double value, double least, double most, bool above_least, const std::string& key,
+                   Dimension dimension, const std::string& why, const std::string& hint,
+                   Collected& findings) {
+  const bool fine = value <= most && (above_least ? value > least : value >= least);
+  if (fine) return;
+  const std::string last = key.substr(key.rfind('.') + 1);
+  report(findings, {key},
+         {"", last + ": " + quantity_text(value, dimension) + " is out of range", why, hint});
+}
+
+void check_feed(const Design& design, Collected& findings) {
+  const FeedDesign& feed = *design.feed;
+  if (!design.stream) {
+    report(findings, {"feed"},
+           {"", "feed: without a stream", "A feed is that of a stream of bulk solid.",
+            "stream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}, or an entry_speed"});
+  }
+  if (design.body.entry_speed != 0.0) {
+    report(findings, {"body.entry_speed", "feed"},
+           {"", "entry_speed: beside a feed", "How fast the stream enters follows from the feed's impact.",
+            "one of the two"});
+  }
+  const bool even =
+      design.centerline.kind == CenterlineKind::constant_speed && !design.centerline.constant_speed_p;
+  if (even || design.objective.kind == ObjectiveKind::even_speed) {
+    report(findings, {"feed", "centerline.kind"},
+           {"", std::string(even ? "constant-speed without p" : "objective: even_speed") + ", with a feed",
+            "The speed to keep is the one at which the stream enters, and that follows from the track.",
+            "entry_speed below body: in place of the feed"});
+  }
+  const bool at_outlet = feed.kind == FeedKind::hopper && feed.outlet_speed > 0.0;
+  check_between(feed.drop, 0.0, kHighest, !at_outlet, "feed.drop", Dimension::length,
+                "Without a way down the feed never meets the floor: above 0, at most 1 km.",
+                "0.8 m, from where the stream leaves down to the start of the track", findings);
+  if (feed.kind == FeedKind::hopper) {
+    check_between(feed.outlet_speed, 0.0, kFastest, false, "feed.outlet_speed", Dimension::speed,
+                  "It lies between 0 and 100 m/s.", "0.5 m/s", findings);
+  }
+  if (feed.kind != FeedKind::belt) return;
+  check_between(feed.belt_speed, 0.0, kFastest, true, "feed.belt_speed", Dimension::speed,
+                "A belt runs: above 0, at most 100 m/s.", "3.2 m/s", findings);
+  check_between(feed.pulley_radius, 0.0, kLargest, true, "feed.pulley_radius", Dimension::length,
+                "It is positive, and at most 10 m.", "400 mm, belt included", findings);
+  check_between(feed.belt_angle.radians(), -kSteepest, kSteepest, false, "feed.belt_angle", Dimension::angle,
+                "A belt climbs or falls by at most 45 deg.", "12 deg", findings);
+}
+
+void check_discharge(const Design& design, Collected& findings) {
+  const DischargeDesign& discharge = *design.discharge;
+  if (!design.stream) {
+    report(findings, {"discharge"},
+           {"", "discharge: without a stream", "It is a stream that lands on a belt.",
+            "stream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}"});
+  }
+  check_between(discharge.belt_speed, 0.0, kFastest, true, "discharge.belt_speed", Dimension::speed,
+                "A belt runs: above 0, at most 100 m/s.", "2.5 m/s", findings);
+  check_between(discharge.drop, 0.0, kHighest, false, "discharge.drop", Dimension::length,
+                "The belt lies below the finish: 0 to 1 km.", "400 mm", findings);
+  check_between(discharge.direction.radians(), -std::numbers::pi, std::numbers::pi, false,
+                "discharge.direction", Dimension::angle, "Seen from above, between -180 and 180 deg.",
+                "0 deg", findings);
+  check_between(discharge.belt_angle.radians(), -kSteepest, kSteepest, false, "discharge.belt_angle",
+                Dimension::angle, "A belt climbs or falls by at most 45 deg.", "12 deg", findings);
+  check_between(discharge.belt_friction, 0.0, 10.0, false, "discharge.belt_friction", Dimension::number,
+                "A coefficient of friction: 0 to 10.", "0.5", findings);
+}
+
+/// What a stream can have along a belt at most: all of its energy, and none of it worn down.
+void check_match(const Design& design, Collected& findings) {
+  if (!design.limits || !design.limits->match_belt) return;
+  const BeltMatch& match = *design.limits->match_belt;
+  check_between(match.speed, 0.0, kFastest, true, "limits.match_belt.speed", Dimension::speed,
+                "A belt runs: above 0, at most 100 m/s.", "2.5 m/s", findings);
+  check_between(match.within, 0.0, 1.0, true, "limits.match_belt.within", Dimension::number,
+                "A share of the belt's speed: above 0, at most 100 %.", "10 %", findings);
+  const double cosine = math::cos(match.direction);
+  if (!(cosine > 0.0)) {
+    report(findings, {"limits.match_belt.direction"},
+           {"", "direction: " + angle_text(match.direction) + ", against the track",
+            "What lands has no speed along such a belt.", "a direction between -90 and 90 deg"});
+    return;
+  }
+  if (design.feed || design.track.free_finish != FinishKind::point) return;
+  const double entry = design.body.entry_speed;
+  const double most =
+      std::sqrt(std::max(0.0, entry * entry + 2.0 * design.gravity * drop_of(design.track))) * cosine;
+  const double least = match.speed * (1.0 - match.within);
+  if (!(least > most)) return;
+  report(findings, {"limits.match_belt.speed"},
+         {"",
+          "match_belt: a belt of " + quantity_text(match.speed, Dimension::speed) +
+              " is faster than the stream can be, " + quantity_text(most, Dimension::speed),
+          "That is the speed of free fall from start to finish" +
+              std::string(match.direction == 0.0 ? "." : ", of which the belt sees its direction's share."),
+          "a slower belt, or a longer drop"});
+}
+
+}  // namespace
+
+void check_ends(const Design& design, Collected& findings) {
+  if (design.feed) check_feed(design, findings);
+  if (design.discharge) check_discharge(design, findings);
+  check_match(design, findings);
+}
+
+}  // namespace glissade::design_file
