@@ -57,6 +57,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_gates(program, action);
   add_fit(program, action);
   add_rules(program, action);
+  add_materials(program, action);
   add_sweep(program, action);
   add_schema(program, action);
   add_rewrite(program, action);

@@ -29,6 +29,7 @@ void add_schema(CLI::App& program, Action& action);
 void add_rewrite(CLI::App& program, Action& action);
 void add_help(CLI::App& program, Action& action);
 void add_completion(CLI::App& program, Action& action);
+void add_materials(CLI::App& program, Action& action);
 
 /// Understands the arguments and does what they ask for.
 /// @return how it ended

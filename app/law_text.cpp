@@ -1,8 +1,11 @@
 #include "app/law_text.hpp"
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/trades/chute/stream.hpp"
 
 #include "app/console.hpp"
+#include "app/stream_text.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
 
@@ -25,7 +28,7 @@ std::string rolling_text(const BodyDesign& body) {
   return text + ", rolling resistance " + rounded_text(body.friction.coefficient(), 4);
 }
 
-std::string quantity_text(const LawQuantity& quantity, double value) {
+std::string value_text(const LawQuantity& quantity, double value) {
   if (std::isinf(value)) return "no bound";
   return quantity.unit == "m" ? length_text(value) : rounded_text(value, 4);
 }
@@ -48,6 +51,13 @@ std::string resistance_text(const Design& design) {
   } else {
     text = ", friction angle " + angle_and_coefficient(body.friction);
   }
+  if (design.stream) {
+    const StreamDesign& stream = *design.stream;
+    text += "\n  stream of " + quantity_text(stream.mass_flow, Dimension::mass_flow) + " at " +
+            quantity_text(stream.bulk_density, Dimension::density);
+    if (stream.lump_size) text += ", lumps up to " + length_text(*stream.lump_size);
+    text += ", lateral pressure ratio " + rounded_text(stream.lateral_pressure_ratio, 3);
+  }
   if (body.centre_height) text += ", centre of mass " + length_text(*body.centre_height) + " above the track";
   if (body.head_wind != 0.0) {
     text += std::string(body.head_wind > 0.0 ? ", head wind " : ", tail wind ") +
@@ -58,25 +68,31 @@ std::string resistance_text(const Design& design) {
 
 std::string_view ride_status(const Motion& motion) {
   if (motion.arrived()) return "arrived";
-  if (motion.stall()) return "stalled";
+  const auto stream = stream_facts(motion);
+  if (motion.stall() || (stream && stream->stall)) return "stalled";
   if (motion.lift_off()) return "lifted off";
   return motion.law_end()->what == "valley_radius_m" ? "does not fit" : "choked";
 }
 
-std::string law_end_text(const LawEnd& end) {
+std::string law_end_text(const Motion& motion) {
+  const LawEnd& end = motion.law_end().value();
+  if (ride_status(motion) == "stalled") {
+    return emphasised("stands", Emphasis::bad) + " after " + length_text(end.arc_length);
+  }
   const std::string how = end.what == "valley_radius_m" ? "does not fit into the valley" : "chokes";
   return emphasised(how, Emphasis::bad) + " after " + length_text(end.arc_length) + " at " +
          speed_text(end.speed);
 }
 
 std::string law_lines(const Design& design, const Track& track) {
+  if (design.stream) return stream_lines(design, track);
   const Motion& motion = track.motion;
   const std::vector<LawQuantity> quantities = motion.quantities();
   std::string lines;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const LawQuantity& quantity = quantities[i];
     const QuantityPeak peak = motion.highest(i);
-    std::string text = std::string(quantity.name) + " " + quantity_text(quantity, peak.value) +
+    std::string text = std::string(quantity.name) + " " + value_text(quantity, peak.value) +
                        (std::isinf(peak.value) ? ", " : " at most, ") + length_text(peak.arc_length) +
                        " down the track";
     if (quantity.highest) {

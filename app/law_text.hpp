@@ -14,7 +14,7 @@ namespace glissade::app {
 [[nodiscard]] std::string_view ride_status(const Motion& motion);
 
 /// @return the line of a ride that the body's law ended
-[[nodiscard]] std::string law_end_text(const LawEnd& end);
+[[nodiscard]] std::string law_end_text(const Motion& motion);
 
 /// @return labelled lines of what the body's law adds to the ride; empty for a sliding point
 [[nodiscard]] std::string law_lines(const Design& design, const Track& track);

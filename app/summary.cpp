@@ -36,12 +36,20 @@ std::string kind_text(const Design& design, const Track& track) {
   if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline))
     return profile_text(*profile);
   const bool point = is_sliding_point(track.motion.body());
+  if (track.search && design.objective.kind == ObjectiveKind::least_wear)
+    return "least wear within the limits: least work of rubbing on floor and walls";
+  if (track.search && design.objective.kind == ObjectiveKind::even_speed)
+    return "most even speed within the limits, and with it the most even burden depth";
   if (track.search) return searched_name(design);
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
   if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
     const std::string name =
         "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)";
     if (!point) return name;
+    if (design.stream)
+      return name + "\nat an entry speed of " + speed_text(std::sqrt(curve->p())) +
+             " the stream keeps its speed and its depth, for " +
+             time_text(curve->travel_time_at_constant_speed());
     return name + "\n" + "a body fed at " + speed_text(std::sqrt(curve->p())) + " keeps that speed, for " +
            time_text(curve->travel_time_at_constant_speed());
   }
@@ -72,6 +80,13 @@ std::string comparison_lines(const Track& track) {
                   track.limit_checks.empty() ? "the least possible," : "the least possible without limits,"));
     }
   }
+  if (const auto& fastest_within = track.fastest_within) {
+    const MotionState end = track.motion.at(track.motion.distance());
+    const double less = 100.0 * (1.0 - end.friction_loss / fastest_within->friction_loss);
+    add(rounded_text(time - fastest_within->travel_time, 3) +
+        " s more than the fastest within these limits; it rubs " + rounded_text(std::fabs(less), 3) + " % " +
+        (less < 0.0 ? "more" : "less"));
+  }
   if (track.centerline->kind() == "straight") return text;
   add(track.straight ? against(time, track.straight->travel_time(), "the straight line's")
                      : "on the straight line the body would not arrive");
@@ -89,7 +104,7 @@ std::string ride_lines(const Track& track) {
                                 length_text(motion.stall()->arc_length) + " of " +
                                 length_text(track.centerline->length()));
   }
-  if (motion.law_end()) return labelled("Ride", law_end_text(*motion.law_end()));
+  if (motion.law_end()) return labelled("Ride", law_end_text(motion));
   return labelled("Ride", emphasised("leaves the track", Emphasis::bad) + " after " +
                               length_text(motion.lift_off()->arc_length) + " at " +
                               speed_text(motion.lift_off()->speed));
@@ -201,7 +216,9 @@ std::string count_text(std::size_t count) {
 std::string span_line(const Design& design, const Endpoints& endpoints) {
   const BodyDesign& body = design.body;
   std::string text = "run " + length_text(endpoints.run) + ", drop " + length_text(endpoints.drop);
-  text += body.entry_speed == 0.0 ? ", from rest" : ", entry speed " + speed_text(body.entry_speed);
+  text += design.feed               ? ", fed from above"
+          : body.entry_speed == 0.0 ? ", from rest"
+                                    : ", entry speed " + speed_text(body.entry_speed);
   if (body.drag_per_metre != 0.0) text += ", drag " + rounded_text(body.drag_per_metre, 4) + " 1/m";
   if (design.gravity != kDefaultGravity) text += ", gravity " + rounded_text(design.gravity, 6) + " m/s^2";
   return text;

@@ -71,8 +71,8 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
   std::string text = bytes_of(path);
   const bool update = std::getenv("GLISSADE_UPDATE_GOLDEN") != nullptr;
   for (const std::string command :
-       {"", "build", "solve", "ride", "compare", "plot", "inspect", "init", "gates", "fit", "rules", "sweep",
-        "schema", "rewrite", "help", "completion"}) {
+       {"", "build", "solve", "ride", "compare", "plot", "inspect", "init", "gates", "fit", "rules",
+        "materials", "sweep", "schema", "rewrite", "help", "completion"}) {
     const Outcome help = glissade_run(with_help(command));
     REQUIRE(help.exit_code == 0);
     const std::string heading = command.empty() ? "## glissade\n" : "## glissade " + command + "\n";

@@ -3,20 +3,37 @@
 #include "pipeline/body.hpp"
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/design/stream_channel.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/motion/laws/rider.hpp"
 #include "glissade/motion/laws/rolling_ball.hpp"
 #include "glissade/pipeline/solve.hpp"
 
 #include "pipeline/located.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 namespace glissade {
 
 using namespace pipeline;
 
 namespace {
+
+LawPtr stream_law(const StreamDesign& design, const CrossSectionDesign& section) {
+  const auto channel = stream_channel(section);
+  if (!channel) throw InternalError({"", "a stream in a cross-section that is no channel", "", ""});
+  StreamShape shape;
+  shape.mass_flow = design.mass_flow;
+  shape.bulk_density = design.bulk_density;
+  shape.lateral_pressure_ratio = design.lateral_pressure_ratio;
+  shape.widths = channel->width.knots();
+  shape.wall_height = channel->wall_height;
+  shape.slip_ratio = design.slip_ratio;
+  return std::make_shared<const BulkStream>(shape);
+}
 
 LawPtr law_of(const BodyDesign& design) {
   if (design.rolling) {
@@ -33,6 +50,37 @@ LawPtr law_of(const BodyDesign& design) {
 
 }  // namespace
 
+FeedFall feed_fall(const Design& design) {
+  const FeedDesign& feed = design.feed.value();
+  if (feed.kind != FeedKind::belt) return fall_from_outlet(feed.outlet_speed, feed.drop, design.gravity);
+  return fall_from_belt({feed.belt_speed, feed.pulley_radius, feed.belt_angle}, feed.drop, design.gravity);
+}
+
+BeltLanding belt_landing(const Design& design, const Motion& motion) {
+  const DischargeDesign& belt = design.discharge.value();
+  return land_on_belt(motion.exit_speed(), motion.centerline().slope_angle(motion.distance()),
+                      {belt.belt_speed, belt.direction, belt.belt_angle, belt.drop, belt.belt_friction},
+                      design.stream.value().bulk_density, design.gravity);
+}
+
+WearFacts wear_at_frictions(const Track& track) {
+  std::vector<const Motion*> motions;
+  for (const LevelRide& ride : track.rides()) motions.push_back(ride.motion);
+  return wear_of(motions);
+}
+
+std::optional<LinerLoss> liner_loss(const Design& design, const WearFacts& wear) {
+  const StreamDesign& stream = design.stream.value();
+  if (!stream.liner_plate || !(wear.friction > 0.0)) return {};
+  const LinerPlateDesign& plate = *stream.liner_plate;
+  const double rate =
+      thickness_loss_rate({plate.wear_coefficient, plate.hardness}, wear.floor.value, wear.friction);
+  constexpr double kHour = 3600.0;
+  constexpr double kMegatonne = 1e9;  // [kg]
+  return LinerLoss{rate * 1000.0 * kHour, rate * kMegatonne / stream.mass_flow,
+                   plate.thickness / rate / kHour};
+}
+
 Body body_of(const Design& design) {
   const BodyDesign& from = design.body;
   Body body;
@@ -43,7 +91,14 @@ Body body_of(const Design& design) {
   for (const FrictionFrom& change : from.friction_changes) {
     if (change.from > 0.0) body.friction_changes.push_back({change.from, change.friction});
   }
-  body.law = at_place(design.where("body"), [&] { return law_of(from); });
+  if (design.feed) {
+    body.landing = feed_fall(design).landing;
+    // Before the impact; what it leaves is known on a track.
+    body.entry_speed = body.landing->speed;
+  }
+  body.law = at_place(design.where(design.stream ? "stream" : "body"), [&] {
+    return design.stream ? stream_law(*design.stream, design.cross_section.value()) : law_of(from);
+  });
   return body;
 }
 
@@ -57,6 +112,29 @@ std::string pipeline::friction_text(const Body& body, const Stall& stall) {
          angle_text(friction.angle().radians());
 }
 
+namespace {
+
+Issue choke_problem(const Design& design, const LawEnd& end, const std::string& before) {
+  const StreamChannel channel = stream_channel(design.cross_section.value()).value();
+  constexpr double kAsDeep = 1.0 - 1e-9;
+  const double width = channel.width.at(end.arc_length);
+  if (end.value < kAsDeep * std::min(width, channel.wall_height)) {
+    return {design.where("stream"), "the stream stands" + before,
+            "It is " + length_text(end.value) +
+                " deep there and hardly moves: it rubs more than the slope drives it.",
+            "a steeper track, less friction, or a higher entry_speed"};
+  }
+  const bool over_wall = channel.wall_height < width;
+  return {design.where("stream"), "the stream chokes" + before,
+          "At " + rounded_text(end.speed, 4) + " m/s it is " + length_text(end.value) + " deep there, " +
+              (over_wall ? "as high as the wall: it spills over."
+                         : "as deep as the channel is wide: Roberts' law of a fast, thin stream ends."),
+          std::string("a steeper track, a wider channel, ") + (over_wall ? "a higher wall, " : "") +
+              "a higher entry_speed, or less flow or friction"};
+}
+
+}  // namespace
+
 Issue pipeline::law_end_problem(const Design& design, const LawEnd& end, double length) {
   const std::string before =
       " after " + length_text(end.arc_length) + ", before the finish at " + length_text(length);
@@ -66,6 +144,7 @@ Issue pipeline::law_end_problem(const Design& design, const LawEnd& end, double 
                 "; the centre of mass runs " + length_text(end.bound) + " above the track.",
             "a valley with a larger radius, or a smaller body"};
   }
+  if (design.stream) return choke_problem(design, end, before);
   return {design.where("body"), std::string(end.what) + " reaches its bound" + before,
           "It is " + rounded_text(end.value, 4) + " there; the bound is " + rounded_text(end.bound, 4) + ".",
           ""};

@@ -6,8 +6,11 @@
 #include "glissade/core/version.hpp"
 #include "glissade/pipeline/probes.hpp"
 #include "glissade/pipeline/rules.hpp"
+#include "glissade/trades/chute/stream.hpp"
 
+#include "pipeline/chute_rules.hpp"
 #include "pipeline/track_document.hpp"
+#include "report/serial/stream.hpp"
 #include "report/serial/vocabulary.hpp"
 
 #include <cmath>
@@ -101,6 +104,55 @@ Json rides_of(const Track& track, pipeline::StallMargin margin) {
   return rides;
 }
 
+Json fastest_within_json(const Track& track) {
+  if (!track.fastest_within) return nullptr;
+  return {{"travel_time_s", track.fastest_within->travel_time},
+          {"friction_loss_j_per_kg", track.fastest_within->friction_loss},
+          {"price_s", track.motion.travel_time() - track.fastest_within->travel_time}};
+}
+
+Json wear_json(const Design& design, const Track& track) {
+  const std::vector<LevelRide> rides = track.rides();
+  const WearFacts facts = wear_at_frictions(track);
+  Json plates = Json::array();
+  for (const WearStretch& plate : facts.plates)
+    plates.push_back({{"from_m", plate.from}, {"to_m", plate.to}});
+  Json json = {{"highest_floor_wear_w_per_m2", facts.floor.value},
+               {"highest_floor_wear_at_m", facts.floor.arc_length},
+               {"friction", to_text(rides[facts.ride].level)},
+               {"mean_floor_wear_w_per_m2", facts.mean_floor},
+               {"highest_wall_wear_w_per_m2", facts.wall.value},
+               {"highest_wall_wear_at_m", facts.wall.arc_length},
+               {"wear_plates", std::move(plates)}};
+  const auto loss = liner_loss(design, facts);
+  json["loss_mm_per_1000_h"] = loss ? Json(loss->per_1000_h * 1e3) : Json(nullptr);
+  json["loss_mm_per_mt"] = loss ? Json(loss->per_megatonne * 1e3) : Json(nullptr);
+  json["liner_life_h"] = loss ? Json(loss->life_hours) : Json(nullptr);
+  return json;
+}
+
+/// Every friction with every flow, by what differs.
+Json cases_json(const Design& design, const CenterlinePtr& centerline) {
+  Json list = Json::array();
+  for (const pipeline::ChuteCase& run : pipeline::chute_cases(design, centerline)) {
+    Json entry;
+    entry["friction"] = to_text(run.friction);
+    entry["flow"] = run.flow;
+    add_ride(entry, run.motion);
+    Json kept = {{"friction", entry["friction"]},
+                 {"flow", entry["flow"]},
+                 {"status", entry["status"]},
+                 {"travel_time_s", entry["travel_time_s"]},
+                 {"exit_speed_m_per_s", entry["exit_speed_m_per_s"]},
+                 {"highest_speed_m_per_s", entry["highest_speed_m_per_s"]},
+                 {"stream", entry["stream"]}};
+    if (design.discharge && run.motion.arrived())
+      kept["discharge"] = belt_landing_json(belt_landing(design, run.motion));
+    list.push_back(std::move(kept));
+  }
+  return list;
+}
+
 Json conflict_document(const Design& design, const OptimizeReport& report) {
   Json json = task_document(design, endpoints_of(design));
   json["centerline"] = word(design.centerline.kind);
@@ -121,6 +173,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   json["clearances_from"] = clearances_from_json(design);
   json["limits"] = limits_json(report.checks);
   json["search"] = search_json(report);
+  json["fastest_within_limits"] = nullptr;
   json["probes"] = Json::array();
   json["gates"] = nullptr;
   json["rules"] = Json::array();
@@ -134,6 +187,22 @@ Json pipeline::track_document(const Design& design, const Track& track, StallMar
   Json json = task_document(design, track.endpoints);
   json["centerline"] = word(design.centerline.kind);
   add_ride(json, track.motion);
+  if (design.feed) {
+    const Body& body = track.motion.body();
+    json["entry_speed_m_per_s"] = body.entry_speed;
+    json["feed"] = feed_json(feed_fall(design),
+                             impact_on(body.landing.value(), track.centerline->slope_angle(0.0),
+                                       body.friction, design.stream->bulk_density),
+                             body.entry_speed);
+  }
+  if (design.discharge) {
+    json["discharge"] =
+        track.motion.arrived() ? belt_landing_json(belt_landing(design, track.motion)) : Json(nullptr);
+  }
+  if (design.stream) {
+    json["stream"]["choking_mass_flow_kg_per_s"] =
+        number(choking_mass_flow(track.centerline, track.motion.body(), design.gravity));
+  }
   json["straight_travel_time_s"] = number(track.straight_travel_time());
   json["optimum_travel_time_s"] = number(track.optimum_travel_time);
   add_curve(json, track);
@@ -141,9 +210,15 @@ Json pipeline::track_document(const Design& design, const Track& track, StallMar
   json["clearances_from"] = clearances_from_json(design);
   json["limits"] = limits_json(track.limit_checks);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
+  json["fastest_within_limits"] = fastest_within_json(track);
   json["probes"] = probes_json(probe_readings(design, track));
   json["gates"] = track.gates ? gates_json(*track.gates) : Json(nullptr);
   json["rules"] = report::rules_json(judge_rules(design, track));
+  if (design.stream) {
+    json["wear"] = wear_json(design, track);
+    json["verdicts"] = json["rules"];
+    json["cases"] = cases_json(design, track.centerline);
+  }
   json["warnings"] = issues_json(warnings(design, track));
   return json;
 }

@@ -129,6 +129,15 @@ std::optional<std::string> long_leads(const Design& design) {
          ": the track would have to turn back on itself, and the body to lose its speed in the bend.";
 }
 
+/// The bound that would do, as the design file says it.
+std::string relaxation_text(const Design& design, const Relaxation& relaxation) {
+  if (relaxation.limit.id == LimitId::match_belt) {
+    const double off = std::fabs(relaxation.needed / design.limits->match_belt->speed - 1.0);
+    return "match_belt.within: " + rounded_text(100.0 * off, 3) + " %";
+  }
+  return relaxation.limit.key() + ": " + quantity_text(relaxation.needed, relaxation.limit.dimension());
+}
+
 Issue conflict_issue(const Design& design, const OptimizeReport& report) {
   const Conflict& conflict = report.conflict;
   const std::string place =
@@ -137,7 +146,7 @@ Issue conflict_issue(const Design& design, const OptimizeReport& report) {
   for (std::size_t index = 0; index < conflict.relaxations.size(); ++index) {
     const Relaxation& relaxation = conflict.relaxations[index];
     if (index != 0) hint += index + 1 == conflict.relaxations.size() ? " or " : ", ";
-    hint += relaxation.limit.key() + ": " + quantity_text(relaxation.needed, relaxation.limit.dimension());
+    hint += relaxation_text(design, relaxation);
   }
   if (conflict.relaxations.size() > 1) hint += " (each alone would do)";
   std::string why = "Even the track that breaks them least still breaks them.";

@@ -3,6 +3,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
 
+#include "pipeline/chute_rules.hpp"
 #include "pipeline/cross_section.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/staging.hpp"
@@ -23,7 +24,11 @@ constexpr const char* kReportEnding = ".report.html";
 
 void write_report(const fs::path& path, const Design& design, const BuildForReport& build) {
   AtomicFile file(path);
-  file.write(report_html(report_input(design, build)));
+  const std::vector<ChuteCase> cases =
+      design.stream ? chute_cases(design, build.track.centerline) : std::vector<ChuteCase>{};
+  ReportInput input = report_input(design, build);
+  for (const ChuteCase& run : cases) input.cases.push_back({run.friction, run.flow, &run.motion});
+  file.write(report_html(input));
   file.commit();
 }
 

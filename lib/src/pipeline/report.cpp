@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/pipeline/probes.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +146,39 @@ std::vector<ReportLimit> limits_of(const Track& track) {
   return report_limits(track.limit_checks, track.search ? track.search->active : std::vector<ActiveLimit>{});
 }
 
+/// A parabola from a point with a velocity, downwards positive.
+ReportFlight flight_from(const char* name, Vec2 from, Vec2 velocity, double time, double gravity) {
+  constexpr int kPieces = 24;
+  ReportFlight flight{name, {}};
+  for (int i = 0; i <= kPieces; ++i) {
+    const double t = time * i / kPieces;
+    flight.points.push_back({from.x + velocity.x * t, from.y - velocity.y * t - 0.5 * gravity * t * t});
+  }
+  return flight;
+}
+
+std::vector<ReportFlight> flights_of(const Design& design, const Track& track) {
+  std::vector<ReportFlight> flights;
+  const double height = design.track.start.z;
+  const double g = design.gravity;
+  if (design.feed) {
+    const FeedFall fall = feed_fall(design);
+    const double ahead = fall.time > 0.0 ? fall.reach / fall.time : 0.0;
+    const double sinks = fall.time > 0.0 ? fall.height / fall.time - 0.5 * g * fall.time : 0.0;
+    flights.push_back(
+        flight_from("the feed falls", {-fall.reach, height + fall.height}, {ahead, sinks}, fall.time, g));
+  }
+  if (design.discharge && track.motion.arrived()) {
+    const BeltLanding landing = belt_landing(design, track.motion);
+    const CenterlinePoint end = track.centerline->at(track.centerline->length());
+    const double speed = track.motion.exit_speed();
+    flights.push_back(flight_from("the stream falls on the belt", {end.x, height - end.drop},
+                                  {speed * math::cos(end.slope_angle), speed * math::sin(end.slope_angle)},
+                                  landing.time, g));
+  }
+  return flights;
+}
+
 }  // namespace
 
 ReportInput report_input(const Design& design, const BuildForReport& build) {
@@ -166,6 +200,8 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.stall_angle = stall_angle_of(track);
   input.probes = probe_readings(design, track);
   input.warnings = warnings(design, track);
+  input.rules = judge_rules(design, track);
+  input.flights = flights_of(design, track);
   input.keep_outs = report_keep_outs(design);
   if (design.limits) input.envelope = envelope_of(design);
   input.limits = limits_of(track);

@@ -2,6 +2,7 @@
 
 #include "glissade/core/math.hpp"
 
+#include "pipeline/chute_rules.hpp"
 #include "pipeline/extremes.hpp"
 #include "pipeline/in_run_rules.hpp"
 
@@ -105,6 +106,7 @@ Measurements rule_measurements(const Design& design, const Track& track) {
   measure_shape(track, measurements);
   measure_rides(track, measurements);
   measure_in_run(design, track, measurements);
+  measure_chute(design, track, measurements);
   return measurements;
 }
 

@@ -12,6 +12,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/profile_csv.hpp"
+#include "glissade/trades/chute/stream.hpp"
 
 #include "pipeline/body.hpp"
 #include "pipeline/extremes.hpp"
@@ -41,11 +42,39 @@ void require_sound(const Design& design) {
   throw InputError(std::move(issues));
 }
 
+/// The track on which a stream keeps the speed at which it enters, and with it its depth and its friction.
+/// @throws InputError if at that speed there is none, with the entry speed from which on there is
+CenterlinePtr make_even_depth(const Design& design, const Endpoints& endpoints) {
+  const Body body = body_of(design);
+  const auto friction_at = [&](double speed) {
+    return Friction::from_coefficient(body.law->resistance(0.0, speed * speed).factor *
+                                      body.friction.coefficient());
+  };
+  const double entry = body.entry_speed;
+  // A faster stream is thinner and rubs less: the least speed is a fixed point that a few steps find.
+  double needed = entry;
+  for (int i = 0; i < 20; ++i) {
+    needed = std::sqrt(ConstantSpeedCurve::smallest_p(endpoints, friction_at(needed), design.gravity));
+  }
+  if (entry >= needed) {
+    return std::make_shared<ConstantSpeedCurve>(endpoints, friction_at(entry), design.gravity, entry * entry);
+  }
+  throw InputError(
+      {design.where("body.entry_speed"),
+       "entry_speed: no track between these points keeps a stream at " + rounded_text(entry, 4) + " m/s",
+       "Slower than " + rounded_text(needed, 4) +
+           " m/s it would have to start steeper than vertical to give off enough energy: even "
+           "burden depth is the constant-speed curve (docs/chutes.md).",
+       "an entry_speed of at least " + rounded_text(needed * (1.0 + 1e-3), 4) +
+           " m/s, ends less steep, or kind: fastest"});
+}
+
 CenterlinePtr make_constant_speed(const Design& design, const Endpoints& endpoints) {
   const Friction friction = design.body.friction;
   if (const auto p = design.centerline.constant_speed_p) {
     return std::make_shared<ConstantSpeedCurve>(endpoints, friction, design.gravity, *p);
   }
+  if (design.stream) return make_even_depth(design, endpoints);
   return std::make_shared<ConstantSpeedCurve>(
       ConstantSpeedCurve::fastest(endpoints, friction, design.gravity, design.body.entry_speed));
 }
@@ -175,10 +204,32 @@ Track ride(const Design& design, CenterlinePtr centerline) {
           radius,
           steepest,
           {},
+          {},
           std::move(limit_checks),
           std::move(range),
           std::move(gates)};
 }
+
+namespace {
+
+/// The same search for the travel time, which prices what it was given up for.
+std::optional<FastestWithin> fastest_within(Design design, const RunContext& context) {
+  const ObjectiveKind kind = design.objective.kind;
+  if (kind != ObjectiveKind::least_wear && kind != ObjectiveKind::even_speed) return {};
+  design.objective.kind = ObjectiveKind::travel_time;
+  try {
+    const Optimum optimum = search_within_limits(design, context);
+    const Motion motion(optimum.centerline, body_of(design), design.gravity);
+    if (!motion.arrived()) return {};
+    return FastestWithin{motion.travel_time(), motion.at(motion.distance()).friction_loss};
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace
 
 Track solve(const Design& design, const RunContext& context) {
   require_sound(design);
@@ -193,6 +244,7 @@ Track solve(const Design& design, const RunContext& context) {
   Optimum optimum = search_within_limits(design, context);
   Track track = ride(design, std::move(optimum.centerline));
   track.search = std::move(optimum.report);
+  track.fastest_within = fastest_within(design, context);
   return track;
 }
 
@@ -201,6 +253,21 @@ std::string searched_name(const Design& design) {
 }
 
 namespace {
+
+/// A feed that falls flatter than the floor where it should land never meets it there.
+std::optional<Issue> feed_problem(const Design& design, const Track& track) {
+  if (!design.feed) return {};
+  const double slope = track.centerline->slope_angle(0.0);
+  const double falls = feed_fall(design).landing.angle;
+  constexpr double kRounding = 1e-9;
+  if (slope <= falls + kRounding) return {};
+  return Issue{design.where("feed"),
+               "the feed flies over the start: it falls at " + angle_text(falls) + ", the floor at " +
+                   angle_text(slope),
+               "A stream meets a floor that is less steep than its way.",
+               "a larger drop, a slower belt, or limits: {entry_slope_angle: {highest: " +
+                   angle_text(falls, 3) + "}}"};
+}
 
 /// What keeps one ride from the finish. Of a ride at the nominal friction the friction needs no name.
 std::optional<Issue> problem_of_ride(const Design& design, const Track& track, const LevelRide& ride) {
@@ -234,6 +301,7 @@ std::optional<Issue> problem_of_ride(const Design& design, const Track& track, c
 }  // namespace
 
 std::optional<Issue> ride_problem(const Design& design, const Track& track) {
+  if (auto problem = feed_problem(design, track)) return problem;
   if (auto problem = problem_of_ride(design, track, {FrictionLevel::nominal, &track.motion})) return problem;
   for (const RangeRide& ride : track.range) {
     auto problem = problem_of_ride(design, track, {ride.level, &ride.motion});

@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/design/materials.hpp"
 #include "glissade/pipeline/solve.hpp"
 
 #include "pipeline/probes.hpp"
@@ -44,6 +45,35 @@ std::optional<Issue> passed_over(const Design& design, const Track& track) {
                "Scatter has no such pattern: the points show bends that are not in the curve.", hint};
 }
 
+/// What the library says of the stream's material, and what nobody measured of it.
+void add_material_warnings(const Design& design, std::vector<Issue>& found) {
+  if (!design.stream || !design.stream->material) return;
+  const MaterialChoice& choice = *design.stream->material;
+  const MaterialLibrary& library = shipped_materials();
+  const Material* material = library.material(choice.material);
+  for (const Material& own : design.materials) {
+    if (own.word == choice.material) material = &own;
+  }
+  if (material == nullptr) return;
+  const std::string where = design.where("stream.material");
+  for (const std::string& warning : material->warnings)
+    found.push_back({where, choice.material, warning, ""});
+  const Liner* const known = library.liner(choice.liner);
+  const Liner own{choice.liner, choice.liner, ""};
+  const auto friction = friction_on(*material, known == nullptr ? own : *known, choice.moisture);
+  if (!friction || design.body.friction_given) return;
+  for (const std::string& warning : friction->warnings) found.push_back({where, warning, "", ""});
+  if (!needs_checking(friction->certainty())) return;
+  found.push_back({where,
+                   "wall friction of " + choice.material + " on " + choice.liner + ": " +
+                       angle_text(friction->low.radians(), 3) + " to " +
+                       angle_text(friction->high.radians(), 3) +
+                       " from the library, not measured for this chute",
+                   "The least sure of its sources is \"" + std::string(word(friction->certainty())) +
+                       "\"; 'glissade materials " + choice.material + "' names them.",
+                   "a wall friction test of this material on this liner, as friction_angle below body:"});
+}
+
 }  // namespace
 
 std::vector<Issue> warnings(const Design& design, const Track& track) {
@@ -51,6 +81,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   if (auto issue = law_problem(design, track)) found.push_back(*std::move(issue));
   if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
+  add_material_warnings(design, found);
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));
   return found;
 }

@@ -1,6 +1,7 @@
 #include "report/document.hpp"
 
 #include "glissade/core/version.hpp"
+#include "glissade/trades/chute/stream.hpp"
 
 #include "report/ride_stations.hpp"
 #include "report/serial/vocabulary.hpp"
@@ -11,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,27 @@ constexpr std::array kTrackColumns = {"arc_length_m",   "x_m", "z_m", "drop_m", 
 constexpr std::array kRideColumns = {"time_s", "speed_m_per_s", "normal_load_m_per_s2",
                                      "friction_loss_j_per_kg", "drag_loss_j_per_kg"};
 
+constexpr std::array kStreamColumns = {"burden_depth_m", "equivalent_friction", "floor_pressure_pa",
+                                       "floor_wear_w_per_m2", "wall_wear_w_per_m2"};
+
+/// The columns of a ride, more of them where a stream flows.
+std::vector<std::string> ride_columns_of(const Motion& motion) {
+  std::vector<std::string> keys(kRideColumns.begin(), kRideColumns.end());
+  if (stream_of(motion.body()) != nullptr)
+    keys.insert(keys.end(), kStreamColumns.begin(), kStreamColumns.end());
+  return keys;
+}
+
+void add_stream_state(Json& columns, const Motion& motion, double s) {
+  if (stream_of(motion.body()) == nullptr) return;
+  const StreamState state = stream_state(motion, s);
+  columns["burden_depth_m"].push_back(state.depth);
+  columns["equivalent_friction"].push_back(state.equivalent_friction);
+  columns["floor_pressure_pa"].push_back(state.floor_pressure);
+  columns["floor_wear_w_per_m2"].push_back(state.floor_wear);
+  columns["wall_wear_w_per_m2"].push_back(state.wall_wear);
+}
+
 void add_state(Json& columns, const MotionState& state) {
   columns["time_s"].push_back(number(state.time));
   columns["speed_m_per_s"].push_back(state.speed);
@@ -35,7 +58,7 @@ void add_state(Json& columns, const MotionState& state) {
 Json ride_line(const Motion& motion, double start_height) {
   Json line;
   for (const char* key : kTrackColumns) line[key] = Json::array();
-  for (const char* key : kRideColumns) line[key] = Json::array();
+  for (const std::string& key : ride_columns_of(motion)) line[key] = Json::array();
   for (const double s : ride_stations(motion)) {
     const CenterlinePoint point = motion.centerline().at(s);
     line["arc_length_m"].push_back(s);
@@ -45,6 +68,7 @@ Json ride_line(const Motion& motion, double start_height) {
     line["slope_angle_deg"].push_back(degrees(point.slope_angle));
     line["curvature_per_m"].push_back(number(point.curvature));
     add_state(line, motion.at(s));
+    add_stream_state(line, motion, s);
   }
   return line;
 }
@@ -99,14 +123,16 @@ Json ride_facts(const ReportInput& input) {
 
 /// A ride at the stations of the nominal one, null from where it ends.
 Json ride_columns(const Motion& motion, const std::vector<double>& stations) {
+  const std::vector<std::string> keys = ride_columns_of(motion);
   Json columns;
-  for (const char* key : kRideColumns) columns[key] = Json::array();
+  for (const std::string& key : keys) columns[key] = Json::array();
   for (const double s : stations) {
     if (s > motion.distance()) {
-      for (const char* key : kRideColumns) columns[key].push_back(nullptr);
+      for (const std::string& key : keys) columns[key].push_back(nullptr);
       continue;
     }
     add_state(columns, motion.at(s));
+    add_stream_state(columns, motion, s);
   }
   return columns;
 }
@@ -237,6 +263,37 @@ Json envelope_of(const ReportInput& input) {
           {"edges", std::move(edges)}};
 }
 
+Json flights_of(const ReportInput& input) {
+  Json list = Json::array();
+  for (const ReportFlight& flight : input.flights) {
+    Json xs = Json::array();
+    Json zs = Json::array();
+    for (const Vec2& point : flight.points) {
+      xs.push_back(point.x);
+      zs.push_back(point.y);
+    }
+    list.push_back({{"name", flight.name}, {"x_m", std::move(xs)}, {"z_m", std::move(zs)}});
+  }
+  return list;
+}
+
+Json cases_of(const ReportInput& input) {
+  Json list = Json::array();
+  for (const ReportCase& one : input.cases) {
+    Json ride;
+    add_ride(ride, *one.motion);
+    list.push_back({{"friction", to_text(one.friction)},
+                    {"friction_angle_deg", one.motion->body().friction.angle().degrees()},
+                    {"flow", one.flow},
+                    {"status", ride["status"]},
+                    {"travel_time_s", ride["travel_time_s"]},
+                    {"exit_speed_m_per_s", ride["exit_speed_m_per_s"]},
+                    {"highest_speed_m_per_s", ride["highest_speed_m_per_s"]},
+                    {"stream", ride["stream"]}});
+  }
+  return list;
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_document(const ReportInput& input) {
@@ -256,9 +313,14 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
                            {"azimuth_deg", input.placement.azimuth().degrees()}};
   document["endpoints"] = {{"run_m", input.endpoints.run}, {"drop_m", input.endpoints.drop}};
   add_body(document["body"], design);
+  // With a feed it follows from the track.
+  document["body"]["entry_speed_m_per_s"] = input.motion->body().entry_speed;
   document["ride"] = ride_facts(input);
   document["rides"] = rides_of(input);
   document["probes"] = probes_json(input.probes);
+  document["rules"] = rules_json(input.rules);
+  document["flights"] = flights_of(input);
+  document["cases"] = cases_of(input);
   document["warnings"] = issues_json(input.warnings);
   document["checks"] = checks_of(input);
   document["limits"] = limits_of(input);

@@ -9,6 +9,8 @@
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/solid/placement.hpp"
+#include "glissade/trades/chute/ends.hpp"
+#include "glissade/trades/chute/wear.hpp"
 #include "glissade/trades/ski_jump/gates.hpp"
 
 #include <optional>
@@ -40,6 +42,12 @@ struct LevelRide {
   const Motion* motion = nullptr;
 };
 
+/// What an objective other than the travel time is paid for with.
+struct FastestWithin {
+  double travel_time = 0.0;    ///< [s]
+  double friction_loss = 0.0;  ///< work of rubbing on floor and walls per mass [J/kg]
+};
+
 /// A centerline with the ride down it and the two rides that it is measured by.
 struct Track {
   Endpoints endpoints;
@@ -60,6 +68,9 @@ struct Track {
   /// How the search within the limits ended, of the kind fastest with limits; none otherwise. Limits have the
   /// names and the frame of the design file: finish.x, finish.z.
   std::optional<OptimizeReport> search;
+  /// Of a search for less wear or more even speed: the fastest track within the same limits; none where the
+  /// search is for that, or where it failed.
+  std::optional<FastestWithin> fastest_within;
   /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without
   /// limits. Places of an envelope are (x, z) as the design's limits give them.
   std::vector<LimitCheck> limit_checks;
@@ -94,6 +105,29 @@ class LimitsConflict : public InfeasibleError {
 /// What slides or rolls, as Motion takes it.
 /// @throws InputError if a measure of the body breaks its bound
 [[nodiscard]] Body body_of(const Design& design);
+
+/// How the feed of a design comes down on its start.
+/// @param design  with a feed
+[[nodiscard]] FeedFall feed_fall(const Design& design);
+
+/// How the stream of a ride lands on the belt of a design.
+/// @param design  with a stream and a discharge
+/// @param motion  arrived
+[[nodiscard]] BeltLanding belt_landing(const Design& design, const Motion& motion);
+
+/// Where the stream of a track wears its chute, over every friction of the design.
+/// @param track  of a design with a stream
+[[nodiscard]] WearFacts wear_at_frictions(const Track& track);
+
+/// How fast a liner gets thinner where it wears most.
+struct LinerLoss {
+  double per_1000_h = 0.0;     ///< [m]
+  double per_megatonne = 0.0;  ///< of material that passes [m]
+  double life_hours = 0.0;     ///< until it is worn through
+};
+
+/// @return none for a stream whose design tells of no liner plate, or that nothing rubs
+[[nodiscard]] std::optional<LinerLoss> liner_loss(const Design& design, const WearFacts& wear);
 
 /// A design as the optimiser takes it: run and drop from the start.
 [[nodiscard]] Problem problem_of(const Design& design);

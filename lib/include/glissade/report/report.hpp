@@ -10,6 +10,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/placement.hpp"
 #include "glissade/solid/sweep.hpp"
+#include "glissade/trades/rules.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -65,6 +66,19 @@ struct ReportSolid {
   double max_deviation = 0.0;  ///< of the mesh as the files hold it [m]
 };
 
+/// A stream in the air, before its chute or after it.
+struct ReportFlight {
+  std::string name;          ///< "from the belt", "to the belt"
+  std::vector<Vec2> points;  ///< x run from the start, y height z [m]
+};
+
+/// A chute at one friction and one flow, in words and numbers.
+struct ReportCase {
+  FrictionLevel friction = FrictionLevel::nominal;
+  std::string flow;  ///< "trickle", "nominal", "surge"
+  const Motion* motion = nullptr;
+};
+
 /// What a report is made from. Everything was computed elsewhere: a report measures nothing of its own.
 struct ReportInput {
   const Design* design = nullptr;
@@ -86,7 +100,10 @@ struct ReportInput {
   std::vector<ReportRide> rides;
   std::optional<Angle> stall_angle;  ///< friction angle from which on the body stalls on this track
   std::vector<ProbeReading> probes;
-  std::vector<Issue> warnings;  ///< what to hear of beside the answer
+  std::vector<Judgement> rules;       ///< the rules of the design, judged
+  std::vector<ReportFlight> flights;  ///< of a stream
+  std::vector<ReportCase> cases;      ///< of a stream: every friction with every flow
+  std::vector<Issue> warnings;        ///< what to hear of beside the answer
   std::vector<ReportKeepOut> keep_outs;
   Envelope envelope;  ///< what the keep-outs are kept clear of; all 0: the centerline
   std::vector<ReportFile> files;

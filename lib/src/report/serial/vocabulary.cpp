@@ -4,6 +4,7 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "report/serial/law.hpp"
+#include "report/serial/stream.hpp"
 
 #include <cmath>
 #include <utility>
@@ -83,6 +84,7 @@ void add_body(Json& json, const Design& design) {
   json["drag_per_m"] = design.body.drag_per_metre;
   json["gravity_m_per_s2"] = design.gravity;
   add_law_body(json, design.body);
+  add_stream_body(json, design);
 }
 
 void add_ride(Json& json, const Motion& motion) {
@@ -105,6 +107,7 @@ void add_ride(Json& json, const Motion& motion) {
   json["stall"] = stall_json(motion.stall());
   json["lift_off"] = lift_off_json(motion.lift_off());
   add_law(json, motion);
+  add_stream(json, motion);
 }
 
 Json ride_json(FrictionLevel level, const Motion& motion, const std::optional<Angle>& stall_angle) {

@@ -44,6 +44,7 @@ function charts(doc, rides) {
   return [
     { id: "slope", title: "Slope angle", quantity: "angle", series: [["slope angle", stations.slope_angle_deg, "--series-1"]] },
     ranged({ id: "speed", title: "Speed", quantity: "speed", series: [["speed", stations.speed_m_per_s, "--series-2"]] }, rides, "speed_m_per_s"),
+    ...streamCharts(doc, rides),
     ranged({ id: "load", title: "Normal load", quantity: "load", range: boundedRange, series: [["normal load", stations.normal_load_m_per_s2, "--series-3"]] }, rides, "normal_load_m_per_s2"),
     { id: "curvature", title: "Curvature", quantity: "curvature", range: boundedRange, series: [["curvature", stations.curvature_per_m, "--series-4"]] },
     { id: "radius", title: "Radius of curvature", quantity: "length", range: (column) => radiusRange(column, longest), series: [["radius", radius, "--series-5"]] },
@@ -59,6 +60,17 @@ function charts(doc, rides) {
         ...(energy.hasDrag ? [["lost to drag", energy.drag, "--series-4"]] : []),
       ],
     },
+  ];
+}
+
+// What a stream of bulk solid adds: how deep it is, and what it does to the chute.
+function streamCharts(doc, rides) {
+  const { stations } = doc;
+  if (!stations.burden_depth_m) return [];
+  return [
+    ranged({ id: "depth", title: "Burden depth", quantity: "length", series: [["burden depth", stations.burden_depth_m, "--series-5"]] }, rides, "burden_depth_m"),
+    ranged({ id: "pressure", title: "Pressure on the floor", quantity: "pressure", series: [["pressure", stations.floor_pressure_pa, "--series-3"]] }, rides, "floor_pressure_pa"),
+    ranged({ id: "wear", title: "Wear factor of the floor", quantity: "rubbing", series: [["floor", stations.floor_wear_w_per_m2, "--series-1"]] }, rides, "floor_wear_w_per_m2"),
   ];
 }
 

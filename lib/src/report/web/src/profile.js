@@ -43,7 +43,7 @@ class Profile {
 
   wholeView() {
     let [x0, x1, z0, z1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const line of [...this.lines().map(([, one]) => one), ...(this.doc.envelope?.edges ?? [])]) {
+    for (const line of [...this.lines().map(([, one]) => one), ...(this.doc.envelope?.edges ?? []), ...this.doc.flights]) {
       for (let i = 0; i < line.x_m.length; i += 1) {
         x0 = Math.min(x0, line.x_m[i]);
         x1 = Math.max(x1, line.x_m[i]);
@@ -95,6 +95,25 @@ class Profile {
       ...edges.filter((edge) => edge.dashed).map((edge) => svgElement("path", { class: "line headroom", d: this.path(edge) },
         svgElement("title", {}, edge.name))),
     ];
+  }
+
+  // The surface of a stream, its depth square to the floor, and its ways through the air.
+  stream() {
+    const { stations, flights } = this.doc;
+    const { px, pz } = this.at;
+    const nodes = flights.map((flight) => svgElement("path", { class: "line flight", d: this.path(flight) },
+      svgElement("title", {}, flight.name)));
+    const depth = stations.burden_depth_m;
+    if (!depth) return nodes;
+    const corner = (x, z) => `${px(x).toFixed(2)},${pz(z).toFixed(2)}`;
+    const flowing = stations.x_m.map((_, i) => i).filter((i) => depth[i] !== null);
+    const floor = flowing.map((i) => corner(stations.x_m[i], stations.z_m[i]));
+    const surface = flowing.map((i) => {
+      const slope = (stations.slope_angle_deg[i] * Math.PI) / 180;
+      return corner(stations.x_m[i] + depth[i] * Math.sin(slope), stations.z_m[i] + depth[i] * Math.cos(slope));
+    });
+    return [svgElement("polygon", { class: "stream", points: [...floor, ...surface.reverse()].join(" ") },
+      svgElement("title", {}, "the stream, as deep as it is")), ...nodes];
   }
 
   axes() {
@@ -150,6 +169,7 @@ class Profile {
         points: outline(area),
       }, svgElement("title", {}, area.name))),
       this.body(),
+      this.stream(),
       this.lines().map(([name, line, style]) => svgElement("path", { class: `line ${style}`, d: this.path(line) }, svgElement("title", {}, name))),
       this.marker, this.bodies.straight, this.bodies.track);
     this.svg.setAttribute("viewBox", `0 0 ${at.width} ${at.height}`);

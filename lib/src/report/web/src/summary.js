@@ -39,10 +39,20 @@ function tiles(doc, units) {
     ["Exit speed", units.text("speed", ride.exit_speed_m_per_s, 4), [directionText(ride.exit_slope_angle_deg, units)]],
     ["Highest normal load", units.text("load", ride.max_normal_load_m_per_s2, 4), [place(ride.max_normal_load_at_m)]],
     ["Smallest radius", radius.text, [radius.remark]],
+    ...streamTiles(ride, units, place),
   ];
   return element("dl", { class: "tiles" }, all.map(([name, value, remarks]) => element("div", {},
     element("dt", {}, name), element("dd", { class: "value" }, value),
     remarks.map((remark) => element("dd", { class: "remark" }, remark)))));
+}
+
+function streamTiles({ stream }, units, place) {
+  if (!stream) return [];
+  const left = stream.choked ? "chokes" : `${number(100 * stream.highest_filling, 3)} % of what chokes it`;
+  return [
+    ["Greatest burden depth", units.text("length", stream.max_depth_m, 4), [place(stream.max_depth_at_m), left]],
+    ["Burden depth at the finish", stream.exit_depth_m === null ? "none" : units.text("length", stream.exit_depth_m, 4), []],
+  ];
 }
 
 function list(rows) {
@@ -57,6 +67,9 @@ function task({ endpoints, body, placement }, units) {
     ["Start (x, y, z)", point(placement.start_m)],
     ["Finish (x, y, z)", point(placement.finish_m)],
     ["Friction angle", `${units.text("angle", body.friction_angle_deg, 4)} (coefficient ${number(body.friction_coefficient, 4)})`],
+    ...(body.mass_flow_kg_per_s === undefined ? [] : [
+      ["Stream", `${number(3.6 * body.mass_flow_kg_per_s, 4)}${NO_BREAK}t/h at ${number(body.bulk_density_kg_per_m3, 4)}${NO_BREAK}kg/m\u00b3`],
+    ]),
     ["Entry speed", body.entry_speed_m_per_s === 0 ? "from rest" : units.text("speed", body.entry_speed_m_per_s, 4)],
     ["Drag", body.drag_per_m === 0 ? "none" : `${number(body.drag_per_m, 4)}${NO_BREAK}1/m`],
     ["Gravity", `${number(body.gravity_m_per_s2, 6)}${NO_BREAK}m/s\u00b2`],
@@ -130,7 +143,7 @@ function files(doc) {
 
 // One row a friction of the design's range.
 function frictions({ rides }, units) {
-  const ended = (ride) => (ride.stall ? "stalls" : ride.lift_off ? "leaves the track" : "does not arrive");
+  const ended = (ride) => (ride.stall ? "stalls" : ride.stream?.choked ? "chokes" : ride.lift_off ? "leaves the track" : "does not arrive");
   const heads = ["Friction", "Travel time", "Exit speed", "Highest speed", "Highest load", "Lowest load", "Stall margin"];
   return scrollable("Range of rides", element("table", { class: "frictions" },
     element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
@@ -160,6 +173,41 @@ function probes(doc, units) {
       element("td", {}, units.text("time", state.time_s, 5))))))));
 }
 
+const SIGNS = { pass: "\u2713", warn: "!", fail: "\u2717", "cannot be judged": "?" };
+
+// Rules that the design is held against: what each asks, what there is, and how sure its bound is.
+function rules(doc) {
+  const value = (rule, key) => (rule[key] === null ? null : `${number(rule[key], 4)}${rule.unit ? NO_BREAK + rule.unit : ""}`);
+  const bound = (rule) => [["lowest", "\u2265 "], ["highest", "\u2264 "]]
+    .filter(([key]) => rule[key] !== null).map(([key, sign]) => sign + value(rule, key)).join(", ");
+  const place = (rule) => [rule.where === null ? null : `s = ${number(rule.where, 4)}${NO_BREAK}m`, rule.place || null].filter(Boolean).join("; ");
+  const heads = ["Verdict", "Rule", "Value", "Bound", "Where", "Source"];
+  return scrollable("Table of rules", element("table", { class: "rules" },
+    element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
+    element("tbody", {}, doc.rules.map((rule) => element("tr", { class: rule.verdict === "fail" ? "violated" : "" },
+      element("th", { scope: "row" }, `${SIGNS[rule.verdict]} ${rule.verdict}`),
+      element("td", { class: "words" }, rule.sentence, rule.reason ? element("span", { class: "detail" }, rule.reason) : null),
+      element("td", {}, value(rule, "value") ?? "\u2013"),
+      element("td", {}, bound(rule)),
+      element("td", {}, place(rule)),
+      element("td", { class: "words" }, rule.source, element("span", { class: "detail" }, rule.certainty + (rule.needs_checking ? ", to be checked" : ""))))))));
+}
+
+// Every friction with every flow of a stream.
+function cases(doc, units) {
+  const heads = ["Friction", "Flow", "Ride", "Greatest depth", "Depth at the finish", "Highest speed", "Exit speed"];
+  return scrollable("Range of flows", element("table", { class: "frictions" },
+    element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
+    element("tbody", {}, doc.cases.map((one) => element("tr", {},
+      element("th", { scope: "row" }, `${one.friction}, ${units.text("angle", one.friction_angle_deg, 4)}`),
+      element("td", {}, one.flow),
+      element("td", {}, one.travel_time_s === null ? one.status : units.text("time", one.travel_time_s, 4)),
+      element("td", {}, units.text("length", one.stream.max_depth_m, 3)),
+      element("td", {}, one.stream.exit_depth_m === null ? "\u2013" : units.text("length", one.stream.exit_depth_m, 3)),
+      element("td", {}, units.text("speed", one.highest_speed_m_per_s, 4)),
+      element("td", {}, units.text("speed", one.exit_speed_m_per_s, 4)))))));
+}
+
 function notices({ warnings }) {
   return element("ul", { class: "warnings" }, warnings.map((warning) => element("li", {},
     element("strong", {}, warning.what), warning.why ? element("span", { class: "detail" }, warning.why) : null)));
@@ -171,6 +219,8 @@ export function summary(doc, units) {
     doc.warnings.length === 0 ? null : notices(doc),
     doc.rides.length < 2 ? null : [heading("Range of friction"), frictions(doc, units)],
     doc.probes.length === 0 ? null : [heading("Probes"), probes(doc, units)],
+    doc.cases.length === 0 ? null : [heading("Frictions and flows"), cases(doc, units)],
+    doc.rules.length === 0 ? null : [heading("Rules"), rules(doc)],
     heading("Verdicts"), tally(doc), checks(doc),
     heading("Task"), task(doc, units),
     heading("Track"), track(doc, units),

@@ -6,19 +6,19 @@ const STANDARD_GRAVITY = 9.80665;  // one g, whatever the gravity of a design
 const SYSTEMS = {
   "m, m/s": {
     length: ["m", 1], curvature: ["1/m", 1], speed: ["m/s", 1], time: ["s", 1], angle: ["deg", 1],
-    load: ["g", null], energy: ["J/kg", 1],
+    load: ["g", null], energy: ["J/kg", 1], pressure: ["Pa", 1], rubbing: ["W/m\u00b2", 1],
   },
   "mm, m/s": {
     length: ["mm", 1e3], curvature: ["1/m", 1], speed: ["m/s", 1], time: ["s", 1], angle: ["deg", 1],
-    load: ["g", null], energy: ["J/kg", 1],
+    load: ["g", null], energy: ["J/kg", 1], pressure: ["Pa", 1], rubbing: ["W/m\u00b2", 1],
   },
   "m, km/h": {
     length: ["m", 1], curvature: ["1/m", 1], speed: ["km/h", 3.6], time: ["s", 1], angle: ["deg", 1],
-    load: ["g", null], energy: ["J/kg", 1],
+    load: ["g", null], energy: ["J/kg", 1], pressure: ["Pa", 1], rubbing: ["W/m\u00b2", 1],
   },
   "m, m/s, loads in m/s\u00b2": {
     length: ["m", 1], curvature: ["1/m", 1], speed: ["m/s", 1], time: ["s", 1], angle: ["deg", 1],
-    load: ["m/s\u00b2", 1], energy: ["J/kg", 1],
+    load: ["m/s\u00b2", 1], energy: ["J/kg", 1], pressure: ["Pa", 1], rubbing: ["W/m\u00b2", 1],
   },
 };
 

@@ -1,0 +1,114 @@
+#include "app/stream_text.hpp"
+
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/design/stream_channel.hpp"
+#include "glissade/trades/chute/stream.hpp"
+
+#include "app/console.hpp"
+#include "app/summary.hpp"
+#include "app/table.hpp"
+
+#include <cmath>
+
+namespace glissade::app {
+namespace {
+
+std::string depth_text(const Design& design, const Motion& motion) {
+  const StreamFacts facts = stream_facts(motion).value();
+  const StreamChannel channel = stream_channel(design.cross_section.value()).value();
+  std::string text = length_text(facts.deepest.value) + " deep at most, " +
+                     length_text(facts.deepest.arc_length) + " down the track";
+  if (facts.exit_depth) text += ", " + length_text(*facts.exit_depth) + " at the finish";
+  const bool wall = channel.has_low_walls();
+  const std::string bound =
+      wall ? "wall of " + length_text(channel.wall_height)
+           : "depth of " + length_text(channel.width.narrowest()) + ", the width, at which its law ends";
+  text += "\n" + (facts.choke ? emphasised("chokes", Emphasis::bad) + ": it reaches the " + bound
+                              : rounded_text(100.0 * facts.filling.value, 3) + " % of the " + bound);
+  text += "\nfriction coefficient " + rounded_text(facts.equivalent_friction.value, 4) +
+          " at most with what the side walls add, " + length_text(facts.equivalent_friction.arc_length) +
+          " down the track";
+  return text;
+}
+
+std::string wear_lines(const Design& design, const Track& track) {
+  const WearFacts wear = wear_at_frictions(track);
+  const std::vector<LevelRide> rides = track.rides();
+  std::string text =
+      "floor " + quantity_text(wear.floor.value, Dimension::power_per_area) + " at most, " +
+      length_text(wear.floor.arc_length) + " down the track" +
+      (rides.size() > 1 ? ", at " + std::string(to_text(rides[wear.ride].level)) + " friction" : "") +
+      "; side walls " + quantity_text(wear.wall.value, Dimension::power_per_area);
+  std::string plates;
+  for (const WearStretch& plate : wear.plates)
+    plates += (plates.empty() ? "" : ", ") + length_text(plate.from, 3) + " to " + length_text(plate.to, 3);
+  text += "\nhalf of that or more: " + plates;
+  if (const auto loss = liner_loss(design, wear)) {
+    text += "\nliner " + length_text(loss->per_1000_h, 3) + " thinner after 1000 h, " +
+            length_text(loss->per_megatonne, 3) + " after a million tonnes; through after " +
+            rounded_text(loss->life_hours, 3) + " h";
+  }
+  return labelled("Wear", text);
+}
+
+std::string feed_lines(const Design& design, const Track& track) {
+  if (!design.feed) return "";
+  const FeedFall fall = feed_fall(design);
+  const Body& body = track.motion.body();
+  const Impact impact =
+      impact_on(fall.landing, track.centerline->slope_angle(0.0), body.friction, design.stream->bulk_density);
+  std::string text = "falls at " + speed_text(fall.landing.speed) + ", " + angle_text(fall.landing.angle, 3) +
+                     " below the horizontal, " + angle_text(impact.angle, 3) + " to the floor";
+  if (impact.speed_ratio > 0.0) {
+    text += "\nenters at " + speed_text(body.entry_speed) + ", " +
+            rounded_text(100.0 * impact.speed_ratio, 3) + " % of that; presses with " +
+            rounded_text(impact.pressure / 1e3, 3) + " kPa";
+  } else {
+    text += "\n" + emphasised("stalls", Emphasis::bad) + " where it lands: friction takes all of its speed";
+  }
+  if (design.feed->kind == FeedKind::belt) {
+    text += "\nhead pulley " + length_text(-fall.pulley.x) + (fall.pulley.x < 0.0 ? " before" : " beyond") +
+            " the start and " + length_text(fall.pulley.y) + " above it";
+  }
+  return labelled("Feed", text);
+}
+
+std::string discharge_lines(const Design& design, const Track& track) {
+  if (!design.discharge || !track.motion.arrived()) return "";
+  const BeltLanding landing = belt_landing(design, track.motion);
+  return labelled("Discharge",
+                  "lands with " + speed_text(landing.speed_along) + " along the belt, " +
+                      rounded_text(100.0 * landing.match, 3) + " % of its " +
+                      speed_text(design.discharge->belt_speed) + ", and " + speed_text(landing.speed_into) +
+                      " into it\n" + length_text(landing.reach) + " beyond the finish" +
+                      (landing.off_centre == 0.0 ? ""
+                                                 : ", " + length_text(std::fabs(landing.off_centre)) +
+                                                       " beside it across the belt") +
+                      "; belt wear factor " + rounded_text(landing.wear_factor, 3));
+}
+
+}  // namespace
+
+std::string stream_lines(const Design& design, const Track& track) {
+  std::string text = depth_text(design, track.motion);
+  const auto most = choking_mass_flow(track.centerline, track.motion.body(), design.gravity);
+  if (most && *most == 0.0) {
+    text += "\nnot even a grain arrives";
+  } else if (most) {
+    text += "\nchokes from " + quantity_text(*most, Dimension::mass_flow) + " on, " +
+            rounded_text(*most / design.stream->mass_flow, 3) + " times the flow";
+  } else {
+    text += "\nchokes at no flow below a thousand times its own";
+  }
+  for (const RangeRide& ride : track.range) {
+    const StreamFacts facts = stream_facts(ride.motion).value();
+    text += "\nat " + std::string(to_text(ride.level)) + " friction " + length_text(facts.deepest.value) +
+            " deep at most" +
+            (facts.exit_depth ? ", " + length_text(*facts.exit_depth) + " at the finish" : ", chokes");
+  }
+  return labelled("Stream", text) + wear_lines(design, track) + feed_lines(design, track) +
+         discharge_lines(design, track);
+}
+
+}  // namespace glissade::app

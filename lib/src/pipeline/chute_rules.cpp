@@ -1,0 +1,242 @@
+// What the checklist of chute designers asks of a stream: the worst over every friction and flow, with the case.
+
+#include "pipeline/chute_rules.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/design/materials.hpp"
+#include "glissade/design/stream_channel.hpp"
+#include "glissade/trades/chute/stream.hpp"
+
+#include "pipeline/extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace glissade::pipeline {
+namespace {
+
+/// Keeps the worst of several cases, with the case that it is of.
+class WorstCase {
+ public:
+  /// @param sign  1: the highest is the worst, -1: the lowest
+  explicit WorstCase(double sign) : sign_(sign) {}
+
+  void see(double value, std::optional<double> arc_length, const ChuteCase& of) {
+    // Of equals the last, which is the largest flow: at the start all are as fast as they enter.
+    if (value_ && sign_ * value < sign_ * *value_) return;
+    value_ = value;
+    arc_length_ = arc_length;
+    place_ = std::string(to_text(of.friction)) + " friction, " + of.flow + " flow";
+  }
+  void set_in(Measurements& measurements, std::string_view key) const {
+    if (value_) measurements.set(key, *value_, arc_length_, place_);
+  }
+
+ private:
+  double sign_;
+  std::optional<double> value_;
+  std::optional<double> arc_length_;
+  std::string place_;
+};
+
+double highest_friction_angle(const Design& design) {
+  return design.body.high_friction.value_or(design.body.friction).angle().radians();
+}
+
+void measure_slopes(const Design& design, const Track& track, Measurements& measurements) {
+  const BodyDesign& body = design.body;
+  const double high = highest_friction_angle(design);
+  const double low = body.low_friction.value_or(body.friction).angle().radians();
+  measurements.set("highest_friction_angle", high);
+  measurements.set("friction_spread", high - low);
+  const Centerline& centerline = *track.centerline;
+  const Extreme flattest = highest_along(centerline, [&](double s) { return -centerline.slope_angle(s); });
+  measurements.set("slope_margin", -flattest.value - high, flattest.at);
+  // The corner between floor and wall runs along the track; where the width changes, across it too.
+  const BulkStream& stream = *stream_of(track.motion.body());
+  const Extreme valley = highest_along(centerline, [&](double s) {
+    const double turned = math::atan(0.5 * stream.width_slope(s));
+    return -math::asin(math::sin(centerline.slope_angle(s)) * math::cos(turned));
+  });
+  measurements.set("valley_angle", -valley.value, valley.at);
+  if (const auto stops = stall_angle_of(track)) measurements.set("stall_margin", stops->radians() - high);
+}
+
+void measure_motion(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
+  WorstCase slowest(-1.0);
+  WorstCase lightest(-1.0);
+  WorstCase deepest(1.0);
+  WorstCase thickest(1.0);
+  WorstCase peak(1.0);
+  const double wall = stream_channel(design.cross_section.value()).value().wall_height;
+  for (const ChuteCase& run : cases) {
+    const Motion& motion = run.motion;
+    const BulkStream& stream = *stream_of(motion.body());
+    const auto within = [&](const std::function<double(double)>& quantity) {
+      return highest_along(motion.centerline(), quantity, motion.distance());
+    };
+    const Extreme slow = within([&](double s) { return -motion.at(s).speed; });
+    slowest.see(-slow.value, slow.at, run);
+    const Extreme light = within([&](double s) {
+      return -motion.at(s).normal_load / (motion.gravity() * math::cos(motion.centerline().slope_angle(s)));
+    });
+    lightest.see(-light.value, light.at, run);
+    const QuantityPeak depth = motion.highest(BulkStream::kDepth);
+    deepest.see(depth.value / wall, depth.arc_length, run);
+    const Extreme thick =
+        within([&](double s) { return stream.depth(s, motion.at(s).speed) / stream.width(s); });
+    thickest.see(thick.value, thick.at, run);
+    if (!motion.arrived()) continue;
+    const MotionState heaviest = motion.highest_load();
+    constexpr int kPlaces = 200;
+    double sum = 0.0;
+    for (int i = 0; i < kPlaces; ++i)
+      sum += stream_state(motion, motion.distance() * (i + 0.5) / kPlaces).floor_wear;
+    const double highest = stream_state(motion, heaviest.arc_length).floor_wear;
+    if (sum > 0.0) peak.see(highest * kPlaces / sum, heaviest.arc_length, run);
+  }
+  slowest.set_in(measurements, "lowest_stream_speed");
+  lightest.set_in(measurements, "contact_reserve");
+  deepest.set_in(measurements, "depth_over_wall");
+  thickest.set_in(measurements, "depth_over_width");
+  peak.set_in(measurements, "wear_peak");
+}
+
+void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
+  if (!design.feed) {
+    for (const char* const key : {"impact_speed_ratio", "impact_angle", "feed_drop"})
+      measurements.set_missing(key, "feed: {kind: belt, ...}, how the stream comes down");
+    return;
+  }
+  measurements.set("feed_drop", design.feed->drop);
+  WorstCase ratio(-1.0);
+  WorstCase angle(1.0);
+  for (const ChuteCase& run : cases) {
+    const Body& body = run.motion.body();
+    const Impact impact = impact_on(body.landing.value(), run.motion.centerline().slope_angle(0.0),
+                                    body.friction, design.stream->bulk_density);
+    ratio.see(impact.speed_ratio, 0.0, run);
+    angle.see(impact.angle, 0.0, run);
+  }
+  ratio.set_in(measurements, "impact_speed_ratio");
+  angle.set_in(measurements, "impact_angle");
+}
+
+void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases,
+                       Measurements& measurements) {
+  if (!design.discharge) {
+    for (const char* const key : {"belt_match", "speed_into_belt"})
+      measurements.set_missing(key, "discharge: {belt_speed: 2.5 m/s}, the belt that takes the stream");
+    return;
+  }
+  WorstCase into(1.0);
+  const BeltLanding* worst = nullptr;
+  std::vector<std::pair<BeltLanding, const ChuteCase*>> landings;
+  for (const ChuteCase& run : cases) {
+    if (run.motion.arrived()) landings.emplace_back(belt_landing(design, run.motion), &run);
+  }
+  const ChuteCase* of = nullptr;
+  for (const auto& [landing, run] : landings) {
+    into.see(landing.speed_into, run->motion.distance(), *run);
+    if (worst != nullptr && std::fabs(landing.match - 1.0) <= std::fabs(worst->match - 1.0)) continue;
+    worst = &landing;
+    of = run;
+  }
+  into.set_in(measurements, "speed_into_belt");
+  if (worst == nullptr) return;
+  WorstCase match(1.0);
+  match.see(worst->match, of->motion.distance(), *of);
+  match.set_in(measurements, "belt_match");
+}
+
+/// The speed that the material or its liner stands; none if nothing is known.
+std::optional<double> speed_cap(const Design& design) {
+  if (!design.stream->material) return {};
+  const MaterialChoice& choice = *design.stream->material;
+  std::optional<double> cap;
+  const auto lower_to = [&](double speed) { cap = std::min(cap.value_or(speed), speed); };
+  const Material* found = shipped_materials().material(choice.material);
+  for (const Material& own : design.materials) {
+    if (own.word == choice.material) found = &own;
+  }
+  if (found != nullptr && found->highest_speed) lower_to(found->highest_speed->value);
+  constexpr double kOfPolyethylene = 6.0;  // [m/s], rule of thumb of the trade
+  if (choice.liner == "uhmwpe") lower_to(kOfPolyethylene);
+  return cap;
+}
+
+void measure_speed(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
+  const std::optional<double> cap = speed_cap(design);
+  if (!cap) {
+    measurements.set_missing("speed_over_cap",
+                             "stream: {material: ...} of the library, or one of your own with highest_speed");
+    return;
+  }
+  WorstCase fastest(1.0);
+  for (const ChuteCase& run : cases) {
+    const MotionState state = run.motion.highest_speed();
+    fastest.see(state.speed / *cap, state.arc_length, run);
+  }
+  fastest.set_in(measurements, "speed_over_cap");
+}
+
+void measure_channel(const Design& design, const Track& track, Measurements& measurements) {
+  const BulkStream& stream = *stream_of(track.motion.body());
+  const std::vector<WidthAt>& widths = stream.shape().widths;
+  double narrowest = widths.front().width;
+  for (const WidthAt& width : widths) narrowest = std::min(narrowest, width.width);
+  measurements.set("narrowing", narrowest / stream.width(0.0));
+  if (design.stream->lump_size) {
+    measurements.set("width_over_lump", narrowest / *design.stream->lump_size);
+  } else {
+    measurements.set_missing("width_over_lump", "stream: {lump_size: 150 mm}");
+  }
+  const StreamChannel channel = stream_channel(design.cross_section.value()).value();
+  const double density = design.stream->high_density.value_or(design.stream->bulk_density);
+  const double full = density * design.gravity * channel.width.widest() * channel.wall_height;
+  measurements.set_missing("plugged_load", "to be shown by its designer: full of material it carries " +
+                                               rounded_text(full / 1e3, 3) + " kN on each metre");
+  measurements.set_missing("corner_radius", "to be looked at: the section has sharp inner corners");
+  measurements.set_missing("inspection_doors", "to be looked at");
+  measurements.set_missing("earthing_and_finish", "to be looked at");
+  measurements.set_missing("trim_allowance", "to be looked at: the model ends where the track ends");
+}
+
+}  // namespace
+
+std::vector<ChuteCase> chute_cases(const Design& design, const CenterlinePtr& centerline) {
+  const StreamDesign& stream = design.stream.value();
+  std::vector<std::pair<FrictionLevel, Friction>> frictions;
+  if (design.body.low_friction) frictions.emplace_back(FrictionLevel::low, *design.body.low_friction);
+  frictions.emplace_back(FrictionLevel::nominal, design.body.friction);
+  if (design.body.high_friction) frictions.emplace_back(FrictionLevel::high, *design.body.high_friction);
+  std::vector<ChuteCase> cases;
+  for (const auto& [level, friction] : frictions) {
+    Body body = body_of(design);
+    body.friction = friction;
+    const auto add = [&](const char* flow, const Body& with) {
+      cases.push_back({level, flow, Motion(centerline, with, design.gravity)});
+    };
+    if (stream.trickle < 1.0) add("trickle", with_flow(body, stream.trickle));
+    add("nominal", body);
+    const Body light = with_density(body, stream.low_density.value_or(stream.bulk_density));
+    if (stream.surge > 1.0) add("surge", with_flow(light, stream.surge));
+  }
+  return cases;
+}
+
+void measure_chute(const Design& design, const Track& track, Measurements& measurements) {
+  if (!design.stream) return;
+  const std::vector<ChuteCase> cases = chute_cases(design, track.centerline);
+  measure_slopes(design, track, measurements);
+  measure_motion(design, cases, measurements);
+  measure_feed(design, cases, measurements);
+  measure_discharge(design, cases, measurements);
+  measure_speed(design, cases, measurements);
+  measure_channel(design, track, measurements);
+}
+
+}  // namespace glissade::pipeline

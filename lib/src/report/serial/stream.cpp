@@ -1,0 +1,83 @@
+#include "report/serial/stream.hpp"
+
+#include "glissade/trades/chute/stream.hpp"
+
+#include <optional>
+
+namespace glissade::report {
+namespace {
+
+Json choke_json(const std::optional<Choke>& choke) {
+  if (!choke) return nullptr;
+  return {{"arc_length_m", choke->arc_length},
+          {"speed_m_per_s", choke->speed},
+          {"depth_m", choke->depth},
+          {"bound_m", choke->bound},
+          {"over_wall", choke->over_wall}};
+}
+
+}  // namespace
+
+void add_stream_body(Json& json, const Design& design) {
+  if (!design.stream) return;
+  const StreamDesign& stream = *design.stream;
+  json["body"] = "stream";
+  json["mass_flow_kg_per_s"] = stream.mass_flow;
+  json["bulk_density_kg_per_m3"] = stream.bulk_density;
+  json["lump_size_m"] = number(stream.lump_size);
+  json["lateral_pressure_ratio"] = stream.lateral_pressure_ratio;
+  json["slip_ratio"] = stream.slip_ratio;
+  json["surge"] = stream.surge;
+  json["trickle"] = stream.trickle;
+  if (!stream.material) return;
+  json["material"] = stream.material->material;
+  json["liner"] = stream.material->liner;
+  json["moisture"] = number(stream.material->moisture);
+}
+
+Json feed_json(const FeedFall& fall, const Impact& impact, double entry_speed) {
+  return {{"speed_m_per_s", fall.landing.speed},
+          {"angle_deg", degrees(fall.landing.angle)},
+          {"impact_angle_deg", degrees(impact.angle)},
+          {"speed_ratio", impact.speed_ratio},
+          {"entry_speed_m_per_s", entry_speed},
+          {"impact_pressure_pa", impact.pressure},
+          {"reach_m", fall.reach},
+          {"time_s", fall.time},
+          {"leaves_pulley_at_deg", degrees(fall.leaves_at)},
+          {"pulley_run_m", fall.pulley.x},
+          {"pulley_height_m", fall.pulley.y}};
+}
+
+Json belt_landing_json(const BeltLanding& landing) {
+  return {{"speed_along_belt_m_per_s", landing.speed_along},
+          {"speed_into_belt_m_per_s", landing.speed_into},
+          {"speed_across_belt_m_per_s", landing.speed_across},
+          {"landing_speed_m_per_s", landing.speed},
+          {"speed_along_over_belt_speed", landing.match},
+          {"belt_wear_factor", landing.wear_factor},
+          {"belt_wear_w_per_m2", landing.wear},
+          {"reach_m", landing.reach},
+          {"off_centre_m", landing.off_centre},
+          {"time_s", landing.time}};
+}
+
+void add_stream(Json& json, const Motion& motion) {
+  const std::optional<StreamFacts> facts = stream_facts(motion);
+  if (!facts) return;
+  json["stream"] = {{"max_depth_m", facts->deepest.value},
+                    {"max_depth_at_m", facts->deepest.arc_length},
+                    {"exit_depth_m", number(facts->exit_depth)},
+                    {"highest_equivalent_friction", facts->equivalent_friction.value},
+                    {"highest_equivalent_friction_at_m", facts->equivalent_friction.arc_length},
+                    {"highest_filling", facts->filling.value},
+                    {"highest_filling_at_m", facts->filling.arc_length},
+                    {"choked", facts->choke.has_value()},
+                    {"choke", choke_json(facts->choke)}};
+  if (!facts->stall) return;
+  json["status"] = "stalled";
+  json["stall"] = {{"arc_length_m", facts->stall->arc_length},
+                   {"missing_slope_deg", degrees(facts->stall->missing_slope)}};
+}
+
+}  // namespace glissade::report

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "glissade/trades/chute/ends.hpp"
+
+#include "report/serial/vocabulary.hpp"
+
+namespace glissade::report {
+
+/// Adds what flows, where the design has a stream.
+void add_stream_body(Json& json, const Design& design);
+[[nodiscard]] Json feed_json(const FeedFall& fall, const Impact& impact, double entry_speed);
+[[nodiscard]] Json belt_landing_json(const BeltLanding& landing);
+/// Adds `stream` to a ride of one: how deep it is, what it rubs, whether it chokes.
+void add_stream(Json& json, const Motion& motion);
+
+}  // namespace glissade::report

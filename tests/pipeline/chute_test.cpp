@@ -1,0 +1,245 @@
+// A chute from feed to belt: what a design tells of its ends, the checklist that it is held against, and what must move
+// which way when one thing changes.
+
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+#include "glissade/pipeline/rules.hpp"
+#include "glissade/trades/chute/stream.hpp"
+
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+/// A straight spoon: 100 t/h of ore fall on it and leave to a belt.
+std::string spoon(const std::string& more = "", const std::string& friction = "friction_angle: 27 deg") {
+  return "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 2 m, z: 0.6 m}}\nbody: {" + friction +
+         "}\nstream: {mass_flow: 100 t/h, bulk_density: 1600 kg/m^3, lump_size: 60 mm}\n"
+         "feed: {kind: belt, belt_speed: 2 m/s, pulley_radius: 300 mm, drop: 1 m}\n"
+         "discharge: {belt_speed: 3 m/s, drop: 300 mm}\ncenterline: {kind: straight}\n"
+         "cross_section: {kind: u-channel, width: 600 mm, wall_height: 400 mm, thickness: 8 mm}\n" +
+         more;
+}
+
+const Judgement& verdict(const std::vector<Judgement>& all, const std::string& id) {
+  for (const Judgement& one : all) {
+    if (one.rule.id == id) return one;
+  }
+  FAIL("no rule " + id);
+  return all.front();
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  const std::size_t at = text.find(part);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, part.size(), by);
+}
+
+std::string problems(const std::string& text) {
+  try {
+    static_cast<void>(parse_design(text, "d.yaml"));
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("feed and discharge of a straight spoon, by hand") {
+  const Design design = parse_design(spoon(), "d.yaml");
+  const Track track = solve(design);
+  REQUIRE(track.motion.arrived());
+  const json document = json::parse(track_json(design, track));
+  // v^2/(g R) = 1.36: it leaves the pulley at once, level.
+  const double speed = std::sqrt(4.0 + 2.0 * 9.81);
+  const double falls = std::atan2(std::sqrt(2.0 * 9.81), 2.0);
+  const double slope = std::atan2(2.4, 2.0);
+  const double phi = 27.0 * std::acos(-1.0) / 180.0;
+  const json& feed = document["feed"];
+  CHECK(feed["speed_m_per_s"].get<double>() == Approx(speed).epsilon(1e-12));
+  CHECK(feed["speed_ratio"].get<double>() ==
+        Approx(std::cos(falls - slope + phi) / std::cos(phi)).epsilon(1e-12));
+  CHECK(document["entry_speed_m_per_s"].get<double>() ==
+        Approx(speed * feed["speed_ratio"].get<double>()).epsilon(1e-12));
+  CHECK(feed["pulley_run_m"].get<double>() == Approx(-2.0 * std::sqrt(2.0 / 9.81)).epsilon(1e-12));
+  CHECK(feed["pulley_height_m"].get<double>() == Approx(1.0 - 0.3).epsilon(1e-12));
+  const json& belt = document["discharge"];
+  const double exit = track.motion.exit_speed();
+  CHECK(belt["speed_along_belt_m_per_s"].get<double>() == Approx(exit * std::cos(slope)).epsilon(1e-12));
+  CHECK(belt["speed_into_belt_m_per_s"].get<double>() ==
+        Approx(std::sqrt(std::pow(exit * std::sin(slope), 2) + 2.0 * 9.81 * 0.3)).epsilon(1e-12));
+}
+
+TEST_CASE("a chute is held against the checklist at every friction and flow, worst case named") {
+  const Design design =
+      parse_design(spoon("", "friction_angle: {low: 24 deg, nominal: 27 deg, high: 31 deg}"), "d.yaml");
+  const Track track = solve(design);
+  const std::vector<Judgement> all = judge_rules(design, track);
+  CHECK(all.size() >= 20);
+  const double slope = std::atan2(2.4, 2.0) * 180.0 / std::acos(-1.0);
+  const Judgement& margin = verdict(all, "chute.3.slope");
+  CHECK(*margin.value * 180.0 / std::acos(-1.0) == Approx(slope - 31.0).epsilon(1e-9));
+  CHECK(margin.verdict == RuleVerdict::pass);
+  const Judgement& depth = verdict(all, "chute.7.depth");
+  CHECK_THAT(depth.place, Contains("high friction, surge flow"));
+  const Judgement& slow = verdict(all, "chute.2.stall");
+  CHECK_THAT(slow.place, Contains("high friction, surge flow"));
+  CHECK(verdict(all, "chute.7.lump").value == Approx(10.0));
+  CHECK(verdict(all, "chute.12.structure").verdict == RuleVerdict::cannot_be_judged);
+  CHECK_THAT(verdict(all, "chute.12.structure").reason, Contains("3.77 kN on each metre"));
+  const json document = json::parse(track_json(design, track));
+  CHECK(document["verdicts"].size() == all.size());
+  CHECK(document["cases"].size() == 9);
+  for (const json& entry : document["verdicts"]) {
+    CHECK_FALSE(entry["source"].get<std::string>().empty());
+    CHECK(entry["needs_checking"] == true);
+  }
+}
+
+TEST_CASE("each verdict turns when what it is about does") {
+  const auto judged = [](const std::string& text, const char* id) {
+    const Design design = parse_design(text, "d.yaml");
+    return verdict(judge_rules(design, solve(design)), id).verdict;
+  };
+  CHECK(judged(spoon(), "chute.7.lump") == RuleVerdict::pass);
+  CHECK(judged(replaced(spoon(), "lump_size: 60 mm", "lump_size: 150 mm"), "chute.7.lump-running") ==
+        RuleVerdict::warn);
+  CHECK(judged(spoon(), "chute.7.depth") == RuleVerdict::pass);
+  CHECK(judged(replaced(spoon(), "wall_height: 400 mm", "wall_height: 18 mm"), "chute.7.depth") ==
+        RuleVerdict::fail);
+  CHECK(judged(replaced(spoon(), "27 deg", "46 deg"), "chute.3.slope") == RuleVerdict::fail);
+  CHECK(judged(replaced(spoon(), "{belt_speed: 3 m/s", "{belt_speed: 9 m/s"), "chute.6.belt") ==
+        RuleVerdict::fail);
+  CHECK(judged(replaced(spoon(), "drop: 1 m}", "drop: 2 m}"), "chute.4.fall") == RuleVerdict::warn);
+  CHECK(judged(replaced(
+                   replaced(spoon(),
+                            "feed: {kind: belt, belt_speed: 2 m/s, pulley_radius: 300 mm, drop: 1 m}\n", ""),
+                   "27 deg", "27 deg, entry_speed: 2 m/s"),
+               "chute.4.impact-ratio") == RuleVerdict::cannot_be_judged);
+}
+
+TEST_CASE("a feed that flies over the start is a problem with a way out") {
+  const Design design = parse_design(replaced(spoon(), "drop: 1 m}", "drop: 50 mm}"), "d.yaml");
+  const auto problem = ride_problem(design, solve(design));
+  REQUIRE(problem);
+  CHECK_THAT(problem->what, Contains("the feed flies over the start"));
+  CHECK_THAT(problem->hint, Contains("entry_slope_angle"));
+}
+
+TEST_CASE("ends that cannot be are refused") {
+  CHECK_THAT(problems(replaced(spoon(), "drop: 1 m}", "drop: 0 m}")), Contains("never meets the floor"));
+  CHECK_THAT(problems(replaced(spoon(), "27 deg", "27 deg, entry_speed: 2 m/s")),
+             Contains("entry_speed: beside a feed"));
+  CHECK_THAT(problems(replaced(spoon(), "pulley_radius: 300 mm, ", "")), Contains("pulley_radius"));
+  CHECK_THAT(problems(replaced(spoon(), "kind: belt, belt_speed: 2 m/s, pulley_radius: 300 mm",
+                               "kind: hopper, belt_speed: 2 m/s")),
+             Contains("kind: belt, which has belt_speed"));
+  const std::string fed =
+      replaced(replaced(spoon("limits: {match_belt: {speed: 9 m/s}}\n"),
+                        "feed: {kind: belt, belt_speed: 2 m/s, pulley_radius: 300 mm, drop: 1 m}\n", ""),
+               "27 deg", "27 deg, entry_speed: 2 m/s");
+  CHECK_THAT(problems(fed), Contains("a belt of 9 m/s is faster than the stream can be, 7.148 m/s"));
+}
+
+TEST_CASE("the search chooses how steep to start with what the impact leaves") {
+  std::string text = replaced(spoon("limits: {concave: true, smallest_valley_radius: 1 m}\n"),
+                              "kind: straight", "kind: fastest");
+  const Design design = parse_design(text, "d.yaml");
+  const Track best = solve(design);
+  REQUIRE(best.search);
+  REQUIRE(best.motion.arrived());
+  const double start = best.centerline->slope_angle(0.0);
+  CHECK(start <= feed_fall(design).landing.angle + 1e-6);
+  // Held a little steeper or flatter, it is never faster.
+  for (const double away : {-0.05, 0.05}) {
+    Design held = design;
+    held.limits->entry_slope_angle = Range::fixed(start + away);
+    double time = 0.0;
+    try {
+      time = solve(held).motion.travel_time();
+    } catch (const InfeasibleError&) {
+      CHECK(away > 0.0);  // steeper than the feed falls
+      continue;
+    }
+    CHECK(time >= best.motion.travel_time() * (1.0 - 1e-7));
+  }
+}
+
+TEST_CASE("match_belt: the stream leaves with the belt's level speed, at every friction") {
+  const std::string text =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 2.2 m, z: 0 m}}\n"
+      "body: {friction_angle: {low: 24 deg, nominal: 27 deg, high: 30 deg}, entry_speed: 2 m/s}\n"
+      "stream: {mass_flow: 300 t/h, bulk_density: 1600 kg/m^3}\ncenterline: {kind: fastest}\n"
+      "limits: {match_belt: {speed: 3.4 m/s, within: 12 %}, smallest_radius: 0.5 m}\n"
+      "cross_section: {kind: u-channel, width: 600 mm, wall_height: 400 mm, thickness: 8 mm}\n";
+  const Design design = parse_design(text, "d.yaml");
+  const Track track = solve(design);
+  for (const LevelRide& ride : track.rides()) {
+    const double level =
+        ride.motion->exit_speed() * std::cos(track.centerline->slope_angle(track.centerline->length()));
+    CHECK(std::fabs(level / 3.4 - 1.0) <= 0.12 + 1e-5);
+  }
+  Design open = design;
+  open.limits->match_belt.reset();
+  CHECK(solve(open).motion.travel_time() <= track.motion.travel_time() * (1.0 + 1e-9));
+}
+
+TEST_CASE("a material gives friction, density and pressure ratio, and what is given beside it counts") {
+  const std::string base =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 6 m}, finish: {x: 4 m, z: 1 m}}\nbody: {entry_speed: 2 m/s}\n"
+      "stream: {mass_flow: 60 t/h, material: wheat, liner: mild-steel, moisture: 14 %}\n"
+      "centerline: {kind: straight}\n"
+      "cross_section: {kind: u-channel, width: 300 mm, wall_height: 200 mm, thickness: 3 mm}\n";
+  const Design design = parse_design(base, "d.yaml");
+  CHECK(design.body.low_friction->angle().degrees() == Approx(15.5));
+  CHECK(design.body.high_friction->angle().degrees() == Approx(24.0));
+  CHECK(design.stream->low_density == 765.0);
+  CHECK(design.stream->lateral_pressure_ratio == 0.54);
+  const std::vector<Issue> told = warnings(design, solve(design));
+  REQUIRE(told.size() == 2);
+  CHECK_THAT(told[1].what, Contains("from the library, not measured for this chute"));
+  const Design own = parse_design(replaced(base, "body: {", "body: {friction_angle: 20 deg, "), "d.yaml");
+  CHECK(own.body.friction.angle().degrees() == Approx(20.0));
+  CHECK_FALSE(own.body.high_friction);
+  CHECK(own.stream->low_density == 765.0);
+  CHECK_THAT(problems(replaced(base, "material: wheat", "material: weat")), Contains("Try: wheat, or"));
+  CHECK_THAT(problems(replaced(base, "mild-steel", "mild-steal")), Contains("mild-steel"));
+  CHECK_THAT(problems(replaced(base, ", liner: mild-steel", "")), Contains("without a liner"));
+  CHECK_THAT(problems(replaced(base, "mild-steel", "rubber")),
+             Contains("nothing is known of wheat on rubber"));
+  const Design entry = parse_design(
+      replaced(
+          replaced(base, "material: wheat, liner: mild-steel, moisture: 14 %",
+                   "material: our-seed, liner: our-plate"),
+          "centerline:",
+          "materials:\n  - {material: our-seed, density: {nominal: 700 kg/m^3, source: weighed}, friction: "
+          "[{liner: our-plate, angle: {low: 18 deg, high: 22 deg}, source: shear test}]}\ncenterline:"),
+      "d.yaml");
+  CHECK(entry.body.friction.angle().degrees() == Approx(20.0));
+  CHECK(entry.stream->bulk_density == 700.0);
+  CHECK(warnings(entry, solve(entry)).empty());
+}
+
+TEST_CASE("the shipped chutes with streams arrive, and fail no rule that a program can judge") {
+  for (const char* const name : {"grain_chute_with_stream", "ore_transfer", "powder_chute_with_stream"}) {
+    INFO(name);
+    const Design design = read_design(designs_path(std::string(name) + ".yaml"));
+    const Track track = solve(design);
+    CHECK_FALSE(ride_problem(design, track));
+    CHECK_FALSE(limits_problem(design, track));
+    for (const Judgement& one : judge_rules(design, track)) {
+      INFO(one.rule.id << " " << one.value.value_or(0.0) << " " << one.place);
+      CHECK(one.verdict != RuleVerdict::fail);
+    }
+  }
+}

@@ -1,0 +1,326 @@
+// A stream of bulk solid from the design file to its results: Roberts' worked examples, an integrator that shares
+// nothing with the referee, choking, and what must not change when one thing is.
+
+#include "glissade/trades/chute/stream.hpp"
+
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A chute of one arc, or straight with a curvature of 0.
+struct Chute {
+  double slope_deg = 45.0;  ///< at the start
+  double length = 4.0;
+  double curvature = 0.0;
+  double mu = 0.25;
+  double entry_speed = 0.5;
+  double mass_flow = 20.0;  ///< [kg/s]
+  double density = 770.0;
+  double width = 0.3;
+  double wall = 0.25;
+  double ratio = 0.5;  ///< K_v
+  std::string more;
+
+  [[nodiscard]] std::string text() const {
+    const auto number = [](double value) { return std::to_string(value); };
+    return "glissade: 1\ntrack: {start: {x: 0 m, z: 20 m}}\nbody: {friction_coefficient: " + number(mu) +
+           ", entry_speed: " + number(entry_speed) + " m/s}\nstream: {mass_flow: " + number(mass_flow) +
+           " kg/s, bulk_density: " + number(density) + " kg/m^3, lateral_pressure_ratio: " + number(ratio) +
+           "}\ncenterline: {kind: segments, entry_slope_angle: " + number(slope_deg) +
+           " deg, segments: [{length: " + json(length).dump() + " m, curvature: " + json(curvature).dump() +
+           " 1/m}]}\ncross_section: {kind: u-channel, width: " + number(width) +
+           " m, wall_height: " + number(wall) + " m, thickness: 4 mm}\n" + more;
+  }
+  [[nodiscard]] Design design() const { return parse_design(text(), "d.yaml"); }
+};
+
+struct Passed {
+  double speed = 0.0;
+  double time = 0.0;
+};
+
+/// Roberts' equation by the classical Runge-Kutta method, in the speed and not in its square.
+Passed integrated(const Chute& chute, int steps) {
+  constexpr double kGravity = 9.81;
+  const auto slope = [&](double s, double u) {
+    const double angle = chute.slope_deg * kDegree - chute.curvature * s;
+    const double depth = chute.mass_flow / (chute.density * chute.width * u);
+    const double mu = chute.mu * (1.0 + chute.ratio * depth / chute.width);
+    return (kGravity * std::sin(angle) - mu * (kGravity * std::cos(angle) + chute.curvature * u * u)) / u;
+  };
+  const double h = chute.length / steps;
+  Passed at{chute.entry_speed, 0.0};
+  for (int i = 0; i < steps; ++i) {
+    const double s = h * i;
+    const double u = at.speed;
+    const double k1 = slope(s, u);
+    const double k2 = slope(s + h / 2, u + h / 2 * k1);
+    const double k3 = slope(s + h / 2, u + h / 2 * k2);
+    const double k4 = slope(s + h, u + h * k3);
+    at.speed += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    at.time += h / 6 * (1 / u + 2 / (u + h / 2 * k1) + 2 / (u + h / 2 * k2) + 1 / (u + h * k3));
+  }
+  return at;
+}
+
+Chute arc(double radius, double from_vertical_deg, double to_vertical_deg) {
+  Chute chute;
+  chute.slope_deg = 90.0 - from_vertical_deg;
+  chute.length = radius * (to_vertical_deg - from_vertical_deg) * kDegree;
+  chute.curvature = 1.0 / radius;
+  return chute;
+}
+
+}  // namespace
+
+TEST_CASE("a stream on straight chutes and arcs: Roberts' examples and an independent integrator") {
+  Chute grain;  // vector C of the facts
+  grain.slope_deg = 35.0;
+  Chute ore = grain;
+  ore.slope_deg = 45.0;
+  ore.length = 5.0;
+  ore.mu = 0.5;
+  ore.entry_speed = 1.0;
+  ore.mass_flow = 277.78;
+  ore.density = 1000.0;
+  ore.width = 1.0;
+  ore.wall = 0.8;
+  Chute grain_arc = arc(2.0, 20.0, 60.0);  // vector D
+  grain_arc.entry_speed = 1.0;
+  Chute ore_arc = arc(3.0, 0.0, 55.0);
+  ore_arc.mu = 0.5;
+  ore_arc.entry_speed = 4.0;
+  ore_arc.mass_flow = 277.78;
+  ore_arc.density = 1000.0;
+  ore_arc.width = 1.0;
+  ore_arc.wall = 0.8;
+  struct Example {
+    Chute chute;
+    double speed, time, exit_depth;
+  };
+  for (const Example& e :
+       {Example{grain, 5.327886, 1.390415, 0.0163}, Example{ore, 5.853409, 1.475125, 0.0475},
+        Example{grain_arc, 3.704754, 0.521927, 0.0234}, Example{ore_arc, 5.090361, 0.571912, 0.0546}}) {
+    const Design design = e.chute.design();
+    const Track track = solve(design);
+    REQUIRE(track.motion.arrived());
+    CHECK(track.motion.exit_speed() == Approx(e.speed).epsilon(2e-7));
+    CHECK(track.motion.travel_time() == Approx(e.time).epsilon(1e-6));
+    const Passed passed = integrated(e.chute, 40000);
+    CHECK(track.motion.exit_speed() == Approx(passed.speed).epsilon(1e-9));
+    CHECK(track.motion.travel_time() == Approx(passed.time).epsilon(1e-9));
+    const json stream = json::parse(track_json(design, track))["stream"];
+    CHECK(stream["exit_depth_m"].get<double>() == Approx(e.exit_depth).epsilon(4e-3));
+    CHECK(stream["exit_depth_m"].get<double>() * track.motion.exit_speed() ==
+          Approx(e.chute.mass_flow / (e.chute.density * e.chute.width)).epsilon(1e-12));
+    CHECK_FALSE(stream["choked"].get<bool>());
+    CHECK(stream["choke"].is_null());
+  }
+}
+
+TEST_CASE("the deepest place, the most friction and the margin agree with one another") {
+  Chute chute = arc(2.0, 10.0, 80.0);
+  chute.entry_speed = 1.2;
+  const Design design = chute.design();
+  const Track track = solve(design);
+  const StreamFacts facts = stream_facts(track.motion).value();
+  CHECK(facts.equivalent_friction.value ==
+        Approx(chute.mu * (1.0 + chute.ratio * facts.deepest.value / chute.width)).epsilon(1e-12));
+  CHECK(facts.equivalent_friction.arc_length == facts.deepest.arc_length);
+  CHECK(facts.filling.value == Approx(facts.deepest.value / chute.wall).epsilon(1e-12));
+  CHECK(facts.margin() == Approx(1.0 - facts.filling.value));
+  CHECK_FALSE(stream_facts(Motion(track.centerline, Body{}, 9.81)));
+  // The flow that chokes it, from both sides.
+  const double most = choking_mass_flow(track.centerline, track.motion.body(), 9.81).value();
+  CHECK(most > chute.mass_flow);
+  for (const double factor : {0.9999, 1.0001}) {
+    const Body body = with_flow(track.motion.body(), factor * most / chute.mass_flow);
+    CHECK(Motion(track.centerline, body, 9.81).law_end().has_value() == (factor > 1.0));
+  }
+}
+
+TEST_CASE("a stream chokes where it is as deep as its wall, with place, depth and what to try") {
+  Chute chute = arc(2.0, 20.0, 88.0);
+  chute.mu = 0.7;
+  chute.entry_speed = 1.0;
+  chute.wall = 0.12;
+  const Design design = chute.design();
+  const Track track = solve(design);
+  const StreamFacts facts = stream_facts(track.motion).value();
+  REQUIRE(facts.choke);
+  CHECK(facts.choke->over_wall);
+  CHECK(facts.choke->depth == Approx(0.12).epsilon(1e-9));
+  CHECK(facts.filling.value == 1.0);
+  CHECK_FALSE(facts.exit_depth);
+  CHECK_THAT(ride_problem(design, track)->what, Contains("the stream chokes after"));
+  CHECK_THAT(ride_problem(design, track)->why, Contains("as high as the wall: it spills over"));
+  const json document = json::parse(track_json(design, track));
+  CHECK(document["status"] == "choked");
+  CHECK(document["stream"]["choked"] == true);
+  CHECK(document["stream"]["choke"]["bound_m"].get<double>() == 0.12);
+  CHECK(document["stream"]["exit_depth_m"].is_null());
+  CHECK(document["travel_time_s"].is_null());
+  // It would not arrive as a single grain either.
+  CHECK(document["stream"]["choking_mass_flow_kg_per_s"] == 0.0);
+  // A higher wall carries it further, and beyond the width no wall helps.
+  double reached = track.motion.distance();
+  for (const double wall : {0.15, 0.2, 0.29}) {
+    chute.wall = wall;
+    const Track higher = solve(chute.design());
+    CHECK(higher.motion.distance() >= reached);
+    reached = higher.motion.distance();
+  }
+  chute.wall = 0.6;
+  const StreamFacts wide = stream_facts(solve(chute.design()).motion).value();
+  REQUIRE(wide.choke);
+  CHECK_FALSE(wide.choke->over_wall);
+  CHECK(wide.choke->bound == 0.3);
+}
+
+TEST_CASE(
+    "wear: Roberts' factor at the exit of his arcs, the peak where the load is, and Archard's thickness") {
+  Chute grain = arc(2.0, 20.0, 60.0);
+  grain.entry_speed = 1.0;
+  const Design design = parse_design(
+      [&] {
+        std::string text = grain.text();
+        const std::string part = "lateral_pressure_ratio";
+        return text.replace(text.find(part), 0,
+                            "liner_plate: {thickness: 10 mm, hardness: 4 GPa, wear_coefficient: 2e-4}, ");
+      }(),
+      "d.yaml");
+  const Track track = solve(design);
+  CHECK(stream_state(track.motion, track.motion.distance()).floor_wear == Approx(153.6).epsilon(4e-4));
+  const WearFacts wear = wear_at_frictions(track);
+  CHECK(wear.floor.arc_length == Approx(track.motion.highest_load().arc_length).margin(1e-6));
+  CHECK(wear.wall.value == Approx(wear.floor.value * 0.5 / (2.0 * 0.6)).epsilon(1e-9));
+  CHECK(wear.mean_floor < wear.floor.value);
+  REQUIRE(wear.plates.size() == 1);
+  CHECK(wear.plates[0].from <= wear.floor.arc_length);
+  CHECK(wear.plates[0].to >= wear.floor.arc_length);
+  // k p v_slip/H with p = rho H N and v_slip = K_c u.
+  const StreamState worst = stream_state(track.motion, wear.floor.arc_length);
+  const double slip = 0.6 * track.motion.at(wear.floor.arc_length).speed;
+  const double rate = 2e-4 * worst.floor_pressure * slip / 4e9;
+  const LinerLoss loss = liner_loss(design, wear).value();
+  CHECK(loss.per_1000_h == Approx(rate * 3.6e6).epsilon(1e-9));
+  CHECK(loss.per_megatonne == Approx(rate * 1e9 / 20.0).epsilon(1e-9));
+  CHECK(loss.life_hours == Approx(0.01 / rate / 3600.0).epsilon(1e-9));
+  const json told = json::parse(track_json(design, track))["wear"];
+  CHECK(told["loss_mm_per_1000_h"].get<double>() == Approx(rate * 3.6e9).epsilon(1e-9));
+}
+
+TEST_CASE("a stream of next to nothing stands where a sliding point stalls") {
+  Chute chute = arc(2.0, 20.0, 88.0);
+  chute.mu = 0.7;
+  chute.entry_speed = 1.0;
+  chute.mass_flow = 1e-6;
+  const Design design = chute.design();
+  const Track track = solve(design);
+  Body point = track.motion.body();
+  point.law = nullptr;
+  const Motion slides(track.centerline, point, 9.81);
+  REQUIRE(slides.stall());
+  const StreamFacts facts = stream_facts(track.motion).value();
+  REQUIRE(facts.stall);
+  CHECK_FALSE(facts.choke);
+  CHECK(facts.stall->arc_length == Approx(slides.stall()->arc_length).epsilon(1e-5));
+  CHECK(facts.stall->missing_slope == Approx(slides.stall()->missing_slope).epsilon(1e-3));
+  const json document = json::parse(track_json(design, track));
+  CHECK(document["status"] == "stalled");
+  CHECK(document["stream"]["choked"] == false);
+  CHECK(document["stall"]["arc_length_m"].get<double>() == facts.stall->arc_length);
+  CHECK_THAT(ride_problem(design, track)->what, Contains("the stream stands after"));
+}
+
+TEST_CASE("without pressure on the walls a stream rides as a sliding point does") {
+  Chute chute = arc(2.0, 20.0, 60.0);
+  chute.ratio = 0.0;
+  const Track track = solve(chute.design());
+  Body point = track.motion.body();
+  point.law = nullptr;
+  const Motion slides(track.centerline, point, 9.81);
+  CHECK(track.motion.travel_time() == Approx(slides.travel_time()).epsilon(1e-12));
+  CHECK(track.motion.exit_speed() == Approx(slides.exit_speed()).epsilon(1e-12));
+}
+
+TEST_CASE("a chute k times as large with k^2.5 times the flow is the same stream") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 10; ++i) {
+    Chute chute = arc(random.between(1.0, 4.0), random.between(5.0, 30.0), random.between(40.0, 60.0));
+    chute.entry_speed = random.between(1.0, 3.0);
+    chute.mu = random.between(0.1, 0.5);
+    const double k = 4.0;  // a power of two: nothing is rounded
+    Chute large = chute;
+    large.length *= k;
+    large.curvature /= k;
+    large.width *= k;
+    large.wall *= k;
+    large.entry_speed *= std::sqrt(k);
+    large.mass_flow *= std::pow(k, 2.5);
+    const Track small = solve(chute.design());
+    const Track big = solve(large.design());
+    const StreamFacts a = stream_facts(small.motion).value();
+    const StreamFacts b = stream_facts(big.motion).value();
+    CHECK(b.deepest.value == Approx(k * a.deepest.value).epsilon(1e-5));
+    CHECK(b.equivalent_friction.value == Approx(a.equivalent_friction.value).epsilon(1e-5));
+    CHECK(big.motion.exit_speed() == Approx(std::sqrt(k) * small.motion.exit_speed()).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("even burden depth is the constant-speed curve, at the friction of that depth") {
+  const std::string text =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 4.3 m, z: 0 m}}\n"
+      "body: {friction_angle: {low: 25 deg, nominal: 27 deg}, entry_speed: 4 m/s}\n"
+      "stream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}\ncenterline: {kind: constant-speed}\n"
+      "cross_section: {kind: u-channel, width: 800 mm, wall_height: 500 mm, thickness: 10 mm}\n";
+  const Design design = parse_design(text, "d.yaml");
+  const Track track = solve(design);
+  REQUIRE(track.motion.arrived());
+  const double depth = 650.0 / 3.6 / (1.6 * 0.8 * 4.0);
+  for (int i = 0; i <= 20; ++i) {
+    const double s = std::min(track.centerline->length(), track.centerline->length() * i / 20.0);
+    CHECK(track.motion.at(s).speed == Approx(4.0).epsilon(1e-9));
+    CHECK(track.motion.quantity(BulkStream::kDepth, s) == Approx(depth / 1000.0).epsilon(1e-9));
+  }
+  std::string slow = text;
+  slow.replace(slow.find("4 m/s"), 5, "1 m/s");
+  try {
+    static_cast<void>(solve(parse_design(slow, "d.yaml")));
+    FAIL("a speed that no track keeps");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Contains("no track between these points keeps a stream at 1 m/s") &&
+                                 Contains("an entry_speed of at least"));
+  }
+}
+
+TEST_CASE("rides over the friction range tell each its stream; more friction is a deeper one") {
+  Chute chute = arc(2.0, 20.0, 60.0);
+  std::string text = chute.text();
+  const std::string one = "friction_coefficient: 0.250000";
+  text.replace(text.find(one), one.size(), "friction_coefficient: {low: 0.2, nominal: 0.25, high: 0.35}");
+  const Design design = parse_design(text, "d.yaml");
+  const json rides = json::parse(track_json(design, solve(design)))["rides"];
+  REQUIRE(rides.size() == 3);
+  for (std::size_t i = 1; i < 3; ++i) {
+    CHECK(rides[i]["stream"]["exit_depth_m"].get<double>() >
+          rides[i - 1]["stream"]["exit_depth_m"].get<double>());
+  }
+}
