@@ -44,6 +44,11 @@ std::vector<Case> cases() {
        "glissade: 1\ntrack: {start: {z: 4 m}, finish: {x: 6 m, z: {lowest: 0 m, highest: 2 m}}}\n" + kBody +
            "centerline: {kind: fastest}\nlimits: {smallest_radius: 1 m}\n",
        false},
+      {"an in-run with gates",
+       "glissade: 1\ntrack: {edge: {x: 100 m, z: 20 m}}\n"
+       "body: {friction_coefficient: 0.03, drag: 0.0013 1/m}\n"
+       "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m}\n"
+       "gates: {count: 5}\n"},
       {"segments",
        "glissade: 1\ntrack: {start: {z: 4 m}}\n" + kBody +
            "centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 3 m}, {length: 2 m, "
@@ -98,4 +103,21 @@ TEST_CASE("a frozen design is no CSV file") {
   CHECK_THROWS_WITH(write_frozen_design(directory / "frozen.csv", design, solve(design)),
                     Contains("a design is no CSV file") && Contains("frozen.yaml"));
   CHECK(directory.names().empty());
+}
+
+TEST_CASE("a kink is told, a bend is not") {
+  const auto told = [](const std::string& radius) {
+    const Design design = parse_design(
+        "glissade: 1\ntrack: {start: {z: 4 m}}\nbody: {friction_coefficient: 0.1}\n"
+        "centerline: {kind: segments, entry_slope_angle: 60 deg, segments: "
+        "[{length: 4 m}, {length: 1 mm, radius: " +
+            radius + "}, {length: 2 m}]}\n",
+        "kink.yaml");
+    std::string text;
+    for (const Issue& issue : warnings(design, solve(design))) text += to_text(issue) + "\n";
+    return text;
+  };
+  CHECK_THAT(told("2 mm"),
+             Contains("kink after 4 m") && Contains("times gravity") && Contains("radius of 2 mm"));
+  CHECK(told("1 m").empty());
 }

@@ -29,6 +29,10 @@ Design emptied(const Design& design, const Track& track) {
   frozen.track.finish_given = true;
   frozen.track.free_finish = FinishKind::point;
   frozen.track.free_range = {};
+  frozen.track.edge.reset();
+  frozen.track.azimuth = {};
+  // Gates fill the start area of an in-run's certificate, which goes.
+  if (frozen.gates && !frozen.gates->start_area) frozen.gates->start_area = design.centerline.in_run.start_area();
   frozen.centerline = {};
   return frozen;
 }
