@@ -1,4 +1,5 @@
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/frozen.hpp"
 #include "glissade/pipeline/json.hpp"
 
 #include "app/command_line.hpp"
@@ -28,6 +29,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  glissade solve designs/grain_chute.yaml\n"
     "  glissade solve designs/grain_chute.yaml --csv ride.csv           speed, load, ... by stations\n"
+    "  glissade solve designs/grain_chute.yaml --frozen found.yaml      the track found, as a design\n"
     "  glissade solve designs/grain_chute.yaml --set body.friction_angle=19deg\n"
     "  glissade solve --run 10 --drop 5 --friction-angle 11deg\n"
     "  glissade solve --run 10 --drop 5 --friction-coefficient 0.2 --p 127 --json";
@@ -37,6 +39,7 @@ struct Options {
   TimeBudget time_budget;
   Verbosity verbosity;
   std::string csv;
+  std::string frozen;
   bool json = false;
 };
 
@@ -58,6 +61,7 @@ ExitCode solve_track(const Options& options) {
     const Track track = solved(design, options);
     print(options.json ? track_json(design, track) : track_summary(design, track));
     if (!options.csv.empty()) write_track_csv(options.csv, track);
+    if (!options.frozen.empty()) write_frozen_design(options.frozen, design, track);
     print_warnings(warnings(design, track));
     require_sound(design, track);
   } catch (const LimitsConflict& conflict) {
@@ -75,6 +79,12 @@ void add_solve(CLI::App& program, Action& action) {
   options->input.add_to(command);
   options->time_budget.add_to(command);
   command.add_option("--csv", options->csv, "Write the track and the ride by stations")->type_name("FILE");
+  command
+      .add_option(
+          "--frozen", options->frozen,
+          "Write the track as a design in which nothing is searched for any more: to ride it at other "
+          "frictions, to change what is built round it, to build it again")
+      ->type_name("FILE.yaml");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return solve_track(*options); }; });

@@ -45,6 +45,9 @@ TEST_CASE("compare says why a kind does not exist") {
   const json tracks = compared({"--run", "10", "--drop", "5", "--friction-coefficient", "0"});
   CHECK(tracks[1]["centerline"] == "constant-speed");
   CHECK(tracks[1]["problem"].is_string());
+  // A reader asks each track for the same keys.
+  CHECK(tracks[1].size() == tracks[0].size());
+  CHECK(tracks[1].at("travel_time_s").is_null());
 }
 
 TEST_CASE("a friction sweep at P = 100 gives the seven curves of the paper's figure 1") {

@@ -88,6 +88,8 @@ TEST_CASE("every key is written back") {
         "  friction_coefficient: 0.3");
   check("{x: 5.4 m, z: 1.1 m}", "{x: 5.4 m, y: 3 ft, z: {lowest: 1 m, highest: 2 m}}");
   check("{x: 5.4 m, z: 1.1 m}", "{x: free, z: 1.1 m}");
+  check("{kind: fastest}",
+        "{kind: points, file: found.csv, columns: [run_m, height_m, slope_angle_deg, curvature_per_m]}");
   check("{kind: fastest}", "{kind: constant-speed, p: 12.3 m^2/s^2}");
   check("mesh:", "gravity: 1 g\nmesh:");
   check("[stl, off, scad]", "{formats: [stl-ascii, csv], unit: m, frame: site}");

@@ -116,6 +116,11 @@ void check_centerline(const Design& design, Collected& findings) {
             "A smooth curve does not go through every measured point.",
             "the accuracy of the measurement, or no max_deviation: the points then show it"});
   }
+  if (max_deviation && !centerline.points_curvature_column.empty()) {
+    report(findings, {"centerline.max_deviation"},
+           {"", "max_deviation: nothing is fitted to points whose slope angles and curvatures are given",
+            "They are taken as they are.", "no max_deviation, or columns: [x, z]"});
+  }
   if (centerline.constant_speed_p && !(*centerline.constant_speed_p > 0.0)) {
     report(findings, {"centerline.p"},
            {"", "p: " + rounded_text(*centerline.constant_speed_p, 4) + " m^2/s^2 is not positive",

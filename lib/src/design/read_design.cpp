@@ -221,14 +221,20 @@ void read_point_columns(MapReader& map, CenterlineDesign& centerline, Findings& 
   const auto value = map.find("columns");
   if (!value) return;
   const std::vector<Value> columns = as_list(*value, "[x, z]", findings);
-  if (columns.size() == 2) {
+  if (columns.size() == 2 || columns.size() == 4) {
     centerline.points_distance_column = as_text(columns[0], findings).value_or("");
     centerline.points_height_column = as_text(columns[1], findings).value_or("");
+    if (columns.size() == 4) {
+      centerline.points_slope_angle_column = as_text(columns[2], findings).value_or("");
+      centerline.points_curvature_column = as_text(columns[3], findings).value_or("");
+    }
   } else if (value->node->kind == Node::Kind::sequence) {
-    findings.add(
-        value->node->at, value->key_path,
-        {"", "columns: " + std::to_string(columns.size()) + " names instead of 2",
-         "A profile needs the column of horizontal distance and that of height.", "columns: [x, z]"});
+    findings.add(value->node->at, value->key_path,
+                 {"", "columns: " + std::to_string(columns.size()) + " names instead of 2 or 4",
+                  "A profile needs the column of horizontal distance and that of height; one whose slope "
+                  "angles and curvatures "
+                  "are known has two columns more.",
+                  "columns: [x, z], or columns: [run_m, z_m, slope_angle_deg, curvature_per_m]"});
   }
 }
 

@@ -397,8 +397,11 @@ std::string centerline(const CenterlineDesign& design, const std::filesystem::pa
   if (design.kind == CenterlineKind::points) {
     const std::filesystem::path beside = design.points_file.lexically_relative(file.parent_path());
     group.add("file", in_quotes((beside.empty() ? design.points_file : beside).generic_string()));
-    group.add("columns", "[" + in_quotes(design.points_distance_column) + ", " +
-                             in_quotes(design.points_height_column) + "]");
+    std::vector<std::string> columns = {design.points_distance_column, design.points_height_column};
+    if (!design.points_curvature_column.empty()) {
+      columns.insert(columns.end(), {design.points_slope_angle_column, design.points_curvature_column});
+    }
+    group.add("columns", list_of(columns, in_quotes));
     group.add("unit", unit(design.points_unit));
     group.add("max_deviation", design.points_max_deviation, Dimension::length);
   }

@@ -45,9 +45,15 @@ ProfilePoints read_profile_csv(const std::filesystem::path& file, const ProfileC
   const std::vector<std::string_view> names = csv_cells(*header, separator);
   const std::size_t distance_column = column_named(names, options.distance_column, place());
   const std::size_t height_column = column_named(names, options.height_column, place());
+  const auto further_column = [&](const std::string& name) -> std::optional<std::size_t> {
+    if (name.empty()) return {};
+    return column_named(names, name, place());
+  };
+  const std::optional<std::size_t> slope_column = further_column(options.slope_angle_column);
+  const std::optional<std::size_t> curvature_column = further_column(options.curvature_column);
 
-  const auto value = [&](std::string_view line, const std::vector<std::string_view>& cells,
-                         std::size_t column) {
+  const auto number = [&](std::string_view line, const std::vector<std::string_view>& cells,
+                          std::size_t column, bool bounded) {
     if (column >= cells.size()) {
       throw FileError({place(), "column " + in_quotes(names[column]) + " is missing",
                        "The line has " + std::to_string(cells.size()) + " of " +
@@ -56,26 +62,40 @@ ProfilePoints read_profile_csv(const std::filesystem::path& file, const ProfileC
     }
     const std::string_view cell = cells[column];
     const std::string here = place() + ":" + std::to_string(cell.data() - line.data() + 1);
-    double number = 0.0;
-    const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (status != std::errc() || rest != cell.data() + cell.size() || !std::isfinite(number)) {
+    double read = 0.0;
+    const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), read);
+    const bool usable = bounded ? std::isfinite(read) : !std::isnan(read);
+    if (status != std::errc() || rest != cell.data() + cell.size() || !usable) {
       const auto odd = odd_character(cell);
       throw FileError(
           {here, "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is no number",
            odd ? "It holds " + odd->name + "." : "",
            odd ? with_plain_characters(cell) : "numbers with a decimal point and without a unit"});
     }
-    if (std::fabs(number * scale) > kLargestProfileCoordinate) {
+    return std::pair(read, here);
+  };
+  const auto value = [&](std::string_view line, const std::vector<std::string_view>& cells,
+                         std::size_t column) {
+    const auto [read, here] = number(line, cells, column, true);
+    if (std::fabs(read * scale) > kLargestProfileCoordinate) {
+      const std::string_view cell = cells[column];
       throw FileError({here, "column " + in_quotes(names[column]) + ": " + in_quotes(cell) + " is too large",
                        "Coordinates lie within 10000 km of the origin.", "the unit of the file"});
     }
-    return number * scale;
+    return read * scale;
   };
   ProfilePoints profile;
   while (const auto line = lines.next()) {
     const std::vector<std::string_view> cells = csv_cells(*line, separator);
     profile.points.push_back({value(*line, cells, distance_column), -value(*line, cells, height_column)});
     profile.lines.push_back(lines.number());
+    if (slope_column) {
+      const double degrees = number(*line, cells, *slope_column, true).first;
+      profile.slope_angles.push_back(Angle::from_degrees(degrees).radians());
+    }
+    if (curvature_column) {
+      profile.curvatures.push_back(number(*line, cells, *curvature_column, false).first / scale);
+    }
   }
   return profile;
 }

@@ -259,6 +259,23 @@ std::string mesh_json(const MeshFacts& facts) {
   return document_text(report::mesh_json(facts));
 }
 
+namespace {
+
+/// Gives every item the keys of all of them: null where there is nothing to tell.
+void complete_keys(Json& items) {
+  Json keys = Json::object();
+  for (const Json& item : items) {
+    for (const auto& [key, value] : item.items()) keys[key] = nullptr;
+  }
+  for (Json& item : items) {
+    for (const auto& [key, null] : keys.items()) {
+      if (!item.contains(key)) item[key] = null;
+    }
+  }
+}
+
+}  // namespace
+
 std::string comparison_json(const Design* common, const std::vector<ComparedTrack>& tracks) {
   Json json =
       common != nullptr ? task_document(*common, endpoints_of(*common)) : Json{{"glissade", version()}};
@@ -273,6 +290,7 @@ std::string comparison_json(const Design* common, const std::vector<ComparedTrac
                               {"friction_angle_deg", entry.design.body.friction.angle().degrees()},
                               {"problem", entry.problem}});
   }
+  complete_keys(json["tracks"]);
   return document_text(json);
 }
 

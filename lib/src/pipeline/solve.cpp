@@ -9,6 +9,7 @@
 #include "glissade/centerline/no_curvature_load.hpp"
 #include "glissade/centerline/reach.hpp"
 #include "glissade/centerline/straight_line.hpp"
+#include "glissade/centerline/tabulated_curve.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/profile_csv.hpp"
@@ -88,24 +89,54 @@ CenterlinePtr make_segments(const CenterlineDesign& design) {
   return std::make_shared<ClothoidSpline>(design.entry_slope_angle, std::move(segments));
 }
 
-FittedProfile fit_points(const CenterlineDesign& design) {
-  ProfilePoints profile = read_profile_csv(
-      design.points_file, {design.points_distance_column, design.points_height_column, design.points_unit});
-  if (const auto fault = profile_fault(profile.points)) {
-    Issue issue = fault->issue;
-    issue.where = design.points_file.string();
-    if (fault->point) issue.where += ":" + std::to_string(profile.lines[*fault->point]);
-    throw InputError(issue);
+/// A fault of a file's points, at their line.
+[[noreturn]] void refuse_point(const CenterlineDesign& design, const ProfilePoints& profile, Issue issue,
+                               std::optional<std::size_t> point) {
+  issue.where = design.points_file.string();
+  if (point) issue.where += ":" + std::to_string(profile.lines[*point]);
+  throw InputError(std::move(issue));
+}
+
+/// Points that say how the track leads on from each: nothing is fitted.
+CenterlinePtr make_tabulated(const CenterlineDesign& design, const ProfilePoints& profile) {
+  std::vector<TabulatedPoint> rows;
+  rows.reserve(profile.points.size());
+  for (std::size_t i = 0; i < profile.points.size(); ++i) {
+    const Vec2 place = profile.points[i];
+    rows.push_back({place.x, place.y, profile.slope_angles[i], profile.curvatures[i]});
   }
-  return FittedProfile(std::move(profile.points), ProfileFit{design.points_max_deviation});
+  if (const auto fault = table_fault(rows)) refuse_point(design, profile, fault->issue, fault->row);
+  return std::make_shared<TabulatedCurve>(std::move(rows));
+}
+
+ProfilePoints read_points(const CenterlineDesign& design) {
+  return read_profile_csv(design.points_file,
+                          {design.points_distance_column, design.points_height_column, design.points_unit,
+                           design.points_slope_angle_column, design.points_curvature_column});
+}
+
+std::shared_ptr<const FittedProfile> fit_points(const CenterlineDesign& design, ProfilePoints profile) {
+  if (const auto fault = profile_fault(profile.points)) {
+    refuse_point(design, profile, fault->issue, fault->point);
+  }
+  return std::make_shared<FittedProfile>(std::move(profile.points), ProfileFit{design.points_max_deviation});
 }
 
 CenterlinePtr make_points(const Design& design) {
-  auto profile = std::make_shared<FittedProfile>(fit_points(design.centerline));
-  if (!design.track.finish_given) return profile;
-  const Endpoints end = profile->endpoints();
-  auto missed = missed_finish(design.track, "the points", {end.run, end.drop}, profile->max_deviation());
-  if (!missed) return profile;
+  ProfilePoints points = read_points(design.centerline);
+  CenterlinePtr track;
+  double deviation = 0.0;
+  if (points.curvatures.empty()) {
+    const auto profile = fit_points(design.centerline, std::move(points));
+    deviation = profile->max_deviation();
+    track = profile;
+  } else {
+    track = make_tabulated(design.centerline, points);
+  }
+  if (!design.track.finish_given) return track;
+  const Endpoints end = track->endpoints();
+  auto missed = missed_finish(design.track, "the points", {end.run, end.drop}, deviation);
+  if (!missed) return track;
   missed->where = design.where("track.finish");
   throw InputError(*std::move(missed));
 }

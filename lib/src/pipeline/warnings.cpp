@@ -74,12 +74,28 @@ void add_material_warnings(const Design& design, std::vector<Issue>& found) {
                    "a wall friction test of this material on this liner, as friction_angle below body:"});
 }
 
+/// A bend so sharp that nothing is led round it.
+std::optional<Issue> kink(const Design& design, const Track& track) {
+  constexpr double kLoad = 50.0;  // times gravity: machines and riders end far below
+  const MotionState hardest = track.motion.highest_load();
+  if (!(hardest.normal_load > kLoad * design.gravity)) return {};
+  const std::string times = rounded_text(hardest.normal_load / design.gravity, 3) + " times gravity";
+  const bool searched = track.search.has_value();
+  return Issue{
+      design.where("centerline"),
+      "the track has a kink after " + length_text(hardest.arc_length) + ": the normal load reaches " + times,
+      "The track bends there with a radius of " + length_text(track.min_radius) +
+          ": a body is not led round, it hits it.",
+      searched ? "a smallest_radius or a highest_normal_load among the limits" : "a larger radius there"};
+}
+
 }  // namespace
 
 std::vector<Issue> warnings(const Design& design, const Track& track) {
   std::vector<Issue> found;
   if (auto issue = law_problem(design, track)) found.push_back(*std::move(issue));
   if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
+  if (auto issue = kink(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
   add_material_warnings(design, found);
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));

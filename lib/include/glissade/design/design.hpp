@@ -102,6 +102,9 @@ struct CenterlineDesign {
   /// Names of the CSV's columns of horizontal distance and of height (positive up).
   std::string points_distance_column = "x";
   std::string points_height_column = "z";
+  /// Names of its columns of slope angle and curvature; empty, both of them: a curve is fitted to the places alone.
+  std::string points_slope_angle_column;
+  std::string points_curvature_column;
   LengthUnit points_unit = LengthUnit::metre;  ///< of the CSV's numbers
   /// The farthest that the curve of `points` may pass one by [m]; none: chosen by their noise.
   std::optional<double> points_max_deviation;

@@ -15,12 +15,18 @@ struct ProfileCsvOptions {
   std::string distance_column = "x";  ///< name of the column of horizontal distance
   std::string height_column = "z";    ///< name of the column of height, positive up
   LengthUnit unit = LengthUnit::metre;
+  /// Names of the columns of slope angle (degrees, positive downhill) and of curvature (one over the unit, positive in
+  /// a valley; "inf" where it has no bound); empty: not read.
+  std::string slope_angle_column = {};
+  std::string curvature_column = {};
 };
 
 /// The points of a profile's file and where they stand in it.
 struct ProfilePoints {
   std::vector<Vec2> points;  ///< (distance, drop) [m], in the file's order; drop = -height, positive DOWN
-  std::vector<std::size_t> lines;  ///< of each point, counted from 1
+  std::vector<std::size_t> lines;    ///< of each point, counted from 1
+  std::vector<double> slope_angles;  ///< [rad]; one a point if there is a column of them
+  std::vector<double> curvatures;    ///< [1/m]; one a point if there is a column of them
 };
 
 /// Reads a measured profile from comma-separated values.

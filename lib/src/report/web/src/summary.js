@@ -60,13 +60,21 @@ function list(rows) {
     element("dt", {}, name), element("dd", {}, value))));
 }
 
+// What slides has a friction angle, what rolls a resistance.
+function frictionRow(body, units) {
+  if (body.body === "rolling") {
+    return ["Rolling body", `radius ${units.text("length", body.radius_m, 4)}, rolling resistance ${number(body.rolling_resistance, 4)}`];
+  }
+  return ["Friction angle", `${units.text("angle", body.friction_angle_deg, 4)} (coefficient ${number(body.friction_coefficient, 4)})`];
+}
+
 function task({ endpoints, body, placement }, units) {
   const point = (values) => values.map((v) => number(units.convert("length", v), 5)).join(", ") + NO_BREAK + units.unit("length");
   return list([
     ["Run and drop", `${units.text("length", endpoints.run_m, 5)} and ${units.text("length", endpoints.drop_m, 5)}`],
     ["Start (x, y, z)", point(placement.start_m)],
     ["Finish (x, y, z)", point(placement.finish_m)],
-    ["Friction angle", `${units.text("angle", body.friction_angle_deg, 4)} (coefficient ${number(body.friction_coefficient, 4)})`],
+    frictionRow(body, units),
     ...(body.mass_flow_kg_per_s === undefined ? [] : [
       ["Stream", `${number(3.6 * body.mass_flow_kg_per_s, 4)}${NO_BREAK}t/h at ${number(body.bulk_density_kg_per_m3, 4)}${NO_BREAK}kg/m\u00b3`],
     ]),
@@ -86,12 +94,18 @@ function track(doc, units) {
   return list([
     ["Centerline", design.centerline],
     ["Cross-section", design.cross_section],
-    ["Stalls from a friction angle of", marginText(doc, units)],
+    ...(doc.body.body === "rolling" ? [] : [["Stalls from a friction angle of", marginText(doc, units)]]),
     ["Arc length", units.text("length", ride.arc_length_m, 5)],
     ["Entry slope angle", units.text("angle", ride.entry_slope_angle_deg, 4)],
     ["Steepest slope angle", units.text("angle", ride.steepest_slope_angle_deg, 4)],
     ["Exit slope angle", units.text("angle", ride.exit_slope_angle_deg, 4)],
   ]);
+}
+
+// Where the origin of the mesh files lies on the site.
+function offsetText(offset, units) {
+  if (offset.every((value) => value === 0)) return "none: files are in the site's coordinates";
+  return `${offset.map((value) => number(units.convert("length", value), 9)).join(", ")}${NO_BREAK}${units.unit("length")}`;
 }
 
 function mesh({ mesh: facts }, units) {
@@ -101,6 +115,7 @@ function mesh({ mesh: facts }, units) {
     ["Volume", volumeText(facts.volume_m3)],
     ["Surface", `${number(facts.area_m2, 4)}${NO_BREAK}m\u00b2`],
     ["Bounding box (x \u00d7 y \u00d7 z)", sides.join(" \u00d7 ")],
+    ["Offset of the files to the site (x, y, z)", offsetText(facts.offset_m, units)],
     ["Largest deviation", units.text("length", facts.max_deviation_m, 3)],
     ["Smallest angle of a facet", units.text("angle", facts.smallest_angle_deg, 3)],
   ]);

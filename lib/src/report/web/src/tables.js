@@ -165,6 +165,13 @@ function priceText(limit, units) {
   return `${number(quantity ? price / units.convert(quantity, 1) : price, 3)} ${speed ? units.unit("speed") : objective} per ${unit}`;
 }
 
+// Of a clearance that the whole solid keeps: which part of it comes closest, and where.
+function closestText(limit, units) {
+  if (!limit.closest) return null;
+  const { part, x_m: x, z_m: z } = limit.closest;
+  return element("span", { class: "detail" }, `closest: ${part}, at x = ${units.text("length", x, 4)}, z = ${units.text("length", z, 4)}`);
+}
+
 export function limitTable(doc, store, units) {
   if (doc.limits.length === 0) return null;
   const body = element("tbody");
@@ -172,7 +179,7 @@ export function limitTable(doc, store, units) {
     element("th", { scope: "row" }, element("span", { class: "limit-name" }, limit.name), element("code", { class: "key" }, limit.limit)),
     element("td", {}, boundText(limit, units)),
     element("td", {}, reachedText(limit, units)),
-    element("td", {}, placeText(limit, units)),
+    element("td", {}, placeText(limit, units), closestText(limit, units)),
     element("td", {}, limit.status),
     element("td", {}, priceText(limit, units)))));
   draw();

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "glissade/centerline/centerline.hpp"
+#include "glissade/core/error.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace glissade {
+
+/// One row of a table that describes a track.
+struct TabulatedPoint {
+  double x = 0.0;            ///< horizontal distance [m]
+  double drop = 0.0;         ///< positive DOWN [m]
+  double slope_angle = 0.0;  ///< zeta [rad], positive downhill, seen towards the last row
+  /// kappa [1/m], positive in a valley. Of the first row it may be infinite: curvature then grows without bound
+  /// towards the start, like s^(-1/2).
+  double curvature = 0.0;
+
+  friend bool operator==(const TabulatedPoint&, const TabulatedPoint&) = default;
+};
+
+/// Why rows are no track, and which of them shows it.
+struct TableFault {
+  std::optional<std::size_t> row;  ///< its index; none where there are too few of them
+  Issue issue;                     ///< `where` names the row by number, counted from 1, and its place
+};
+
+/// @return the first fault of rows that TabulatedCurve would take; none if they make a track
+[[nodiscard]] std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows);
+
+/// A track that was found elsewhere, or before: taken as its table of slope angles and curvatures says, nothing fitted.
+///
+/// Between rows the slope angle is the cubic that has the angle and curvature of both; in arc length, or in its square
+/// root where curvature has no bound at the start. Arc lengths follow from the chords between rows, places from the
+/// slope angle. Two rows at one place are a jump of curvature.
+/// Frame: the first row is the start. Where the last row lies to the left of the first, the table is mirrored.
+/// Curve: slope angle and curvature continuous but at jumps; smooth between breaks(), which are the rows.
+/// Accuracy: fourth order in the distance of the rows; table_of() keeps travel times to kTableAccuracy.
+class TabulatedCurve final : public Centerline {
+ public:
+  /// @param rows  in order along the track, at least 2
+  /// @throws InputError with the table_fault()
+  explicit TabulatedCurve(std::vector<TabulatedPoint> rows);
+
+  [[nodiscard]] std::string_view kind() const noexcept override { return "points"; }
+  [[nodiscard]] double length() const noexcept override { return breaks_.back(); }
+  [[nodiscard]] CenterlinePoint at(double s) const override;
+  [[nodiscard]] double slope_angle(double s) const override;
+  [[nodiscard]] Direction direction(double s) const override;
+  [[nodiscard]] std::vector<double> breaks() const override { return breaks_; }
+  [[nodiscard]] bool unbounded_curvature_at_start() const noexcept override { return unbounded_; }
+
+ private:
+  /// A stretch between rows. Its parameter p is arc length, or the square root of it where curvature has no bound.
+  struct Stretch {
+    double from = 0.0;  // p
+    double width = 0.0;
+    double slope[4] = {};  // coefficients of the slope angle in (p - from) / width, lowest first
+    double x = 0.0;        // where it begins
+    double drop = 0.0;
+  };
+  [[nodiscard]] double parameter(double s) const;
+  [[nodiscard]] const Stretch& stretch_at(double s) const;
+  void append(const TabulatedPoint& left, const TabulatedPoint& right);
+
+  std::vector<double> breaks_ = {0.0};
+  std::vector<Stretch> stretches_;
+  bool unbounded_ = false;
+  double x_ = 0.0;  // where the next stretch begins
+  double drop_ = 0.0;
+};
+
+/// @return a table of the curve so dense that TabulatedCurve gives it back to kTableAccuracy
+[[nodiscard]] std::vector<TabulatedPoint> table_of(const Centerline& curve);
+
+/// Stated bound of the relative error of travel time, exit speed and length on TabulatedCurve(table_of(curve)), for
+/// curves that this library knows.
+inline constexpr double kTableAccuracy = 1e-9;
+
+}  // namespace glissade

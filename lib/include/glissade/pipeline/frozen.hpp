@@ -1,0 +1,21 @@
+#pragma once
+
+#include "glissade/pipeline/solve.hpp"
+
+#include <filesystem>
+
+namespace glissade {
+
+/// Writes a track that was found as a design of its own, in which nothing is searched for or fitted any more: to be
+/// judged at other frictions, changed in other respects, built again.
+///
+/// A track of straights, arcs and clothoids (searched, drawn, fitted) becomes the kind `segments`. Any other becomes
+/// the kind `points` with a table of its slope angles and curvatures, FILE with the ending .csv beside it. All else of
+/// the design is kept; the finish is the place where the track ends.
+/// Accuracy: solve() of the new design gives travel time, speeds and places as they were to kTableAccuracy, or to
+///   rounding where the track becomes segments.
+/// @param file  to write, with an ending other than .csv
+/// @throws InputError if its ending is .csv; FileError as AtomicFile
+void write_frozen_design(const std::filesystem::path& file, const Design& design, const Track& track);
+
+}  // namespace glissade

@@ -1,0 +1,248 @@
+#include "glissade/centerline/tabulated_curve.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/vec.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <boost/math/quadrature/gauss.hpp>
+
+namespace glissade {
+namespace {
+
+constexpr unsigned kGaussPoints = 10;  // of those that Boost has as a table
+
+/// Integral of density(p) * (cos, sin)(slope(p)) from a to b, in panels that turn little.
+template <typename Slope>
+Vec2 displacement(const Slope& slope, double a, double b, bool root, double turning) {
+  using Rule = boost::math::quadrature::gauss<double, kGaussPoints>;
+  constexpr double kPanelTurning = 0.5;
+  constexpr double kMostPanels = 1000.0;
+  const int panels = static_cast<int>(std::clamp(std::ceil(turning / kPanelTurning), 1.0, kMostPanels));
+  Vec2 sum;
+  for (int panel = 0; panel < panels; ++panel) {
+    const double half = 0.5 * (b - a) / panels;
+    const double middle = a + half * (2.0 * panel + 1.0);
+    const auto add = [&](double p, double weight) {
+      const auto [sine, cosine] = math::sine_cosine(slope(p));
+      sum = sum + (half * weight * (root ? 2.0 * p : 1.0)) * Vec2{cosine, sine};
+    };
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+      add(middle - half * Rule::abscissa()[i], Rule::weights()[i]);
+      add(middle + half * Rule::abscissa()[i], Rule::weights()[i]);
+    }
+  }
+  return sum;
+}
+
+/// The cubic on [0, 1] of these values and derivatives at its ends.
+void set_cubic(double (&cubic)[4], double from, double rise_from, double to, double rise_to) {
+  cubic[0] = from;
+  cubic[1] = rise_from;
+  cubic[2] = 3.0 * (to - from) - 2.0 * rise_from - rise_to;
+  cubic[3] = 2.0 * (from - to) + rise_from + rise_to;
+}
+
+double value_of(const double (&cubic)[4], double u) {
+  return cubic[0] + u * (cubic[1] + u * (cubic[2] + u * cubic[3]));
+}
+
+double rise_of(const double (&cubic)[4], double u) {
+  return cubic[1] + u * (2.0 * cubic[2] + u * 3.0 * cubic[3]);
+}
+
+double turning_of(const double (&cubic)[4]) {
+  return std::fabs(cubic[1]) + std::fabs(cubic[2]) + std::fabs(cubic[3]);
+}
+
+std::string row_text(const std::vector<TabulatedPoint>& rows, std::size_t index) {
+  return "row " + std::to_string(index + 1) + " (" + exact_text(rows[index].x) + ", " +
+         exact_text(rows[index].drop) + ")";
+}
+
+bool same_place(const TabulatedPoint& a, const TabulatedPoint& b) {
+  return a.x == b.x && a.drop == b.drop;
+}
+
+/// Whether the way from one row to the next is the one that their slope angles say.
+bool agrees(const TabulatedPoint& a, const TabulatedPoint& b, double reach) {
+  constexpr double kShareOfChord = 0.02;
+  constexpr double kShareOfReach = 1e-6;
+  const Vec2 chord{b.x - a.x, b.drop - a.drop};
+  // The mean of two slope angles less a twelfth of the curvatures' difference, as the cubic has it.
+  const double length = norm(chord);
+  const double before = std::isfinite(a.curvature) ? a.curvature : 0.0;
+  const double bow = std::isfinite(a.curvature) ? (before - b.curvature) * length / 12.0 : 0.0;
+  const double slope = 0.5 * (a.slope_angle + b.slope_angle) - bow;
+  const double off = std::fabs(cross(chord, {math::cos(slope), math::sin(slope)}));
+  const double turn = std::fabs(a.slope_angle - b.slope_angle);
+  const bool ahead = dot(chord, {math::cos(slope), math::sin(slope)}) > 0.0;
+  return ahead && off <= (kShareOfChord + 0.3 * turn) * length + kShareOfReach * reach;
+}
+
+}  // namespace
+
+std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
+  const auto fault = [&](std::size_t index, std::string what, std::string why, std::string hint) {
+    return TableFault{index, {row_text(rows, index), std::move(what), std::move(why), std::move(hint)}};
+  };
+  if (rows.size() < 2) {
+    return TableFault{{}, {"points", "there is no second row", "A track has a start and a finish.", ""}};
+  }
+  const double side = rows.back().x < rows.front().x ? -1.0 : 1.0;
+  double reach = 0.0;
+  for (const TabulatedPoint& row : rows) {
+    reach = std::max(reach, math::hypot(row.x - rows.front().x, row.drop - rows.front().drop));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const TabulatedPoint& row = rows[i];
+    if (!std::isfinite(row.x) || !std::isfinite(row.drop) || !std::isfinite(row.slope_angle)) {
+      return fault(i, "it is not finite", "A track is made of places and slopes.", "");
+    }
+    if (!std::isfinite(row.curvature) && (i > 0 || row.curvature < 0.0)) {
+      return fault(i, "its curvature is not finite",
+                   "Only at its start may a track bend without bound, and only upwards.", "");
+    }
+    if (i == 0) continue;
+    TabulatedPoint before = rows[i - 1];
+    TabulatedPoint here = row;
+    before.x *= side;
+    here.x *= side;
+    if (same_place(before, here)) {
+      constexpr double kSameSlope = 1e-6;
+      const bool jump = i > 1 && i + 1 < rows.size() && !same_place(rows[i - 2], row);
+      if (jump && std::fabs(before.slope_angle - here.slope_angle) <= kSameSlope) continue;
+      return fault(
+          i, "it repeats the row before it",
+          "Two rows at one place are a jump of curvature: the slope angle is the same in both, and the track "
+          "leads on.",
+          "leave one of them out");
+    }
+    if (!agrees(before, here, reach)) {
+      return fault(
+          i, "its slope angle of " + angle_text(row.slope_angle) + " does not agree with the places",
+          "From the row before it the way leads along " +
+              angle_text(math::atan2(here.drop - before.drop, here.x - before.x)) + ".",
+          "slope angles in degrees, positive downhill, and rows that lie near enough for their bends; or "
+          "columns: [x, z] alone, to which a curve is fitted");
+    }
+  }
+  return {};
+}
+
+TabulatedCurve::TabulatedCurve(std::vector<TabulatedPoint> rows) {
+  if (const auto fault = table_fault(rows)) throw InputError(fault->issue);
+  const TabulatedPoint start = rows.front();
+  const double side = rows.back().x < start.x ? -1.0 : 1.0;
+  for (TabulatedPoint& row : rows) {
+    row.x = side * (row.x - start.x);
+    row.drop -= start.drop;
+  }
+  unbounded_ = !std::isfinite(start.curvature);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (!same_place(rows[i - 1], rows[i])) append(rows[i - 1], rows[i]);
+  }
+}
+
+/// Adds the stretch between two rows, as long as its chord asks for.
+void TabulatedCurve::append(const TabulatedPoint& left, const TabulatedPoint& right) {
+  constexpr int kMostSteps = 60;
+  const double chord = math::hypot(right.x - left.x, right.drop - left.drop);
+  const double start = breaks_.back();
+  double length = chord;
+  Stretch stretch;
+  Vec2 way;
+  for (int step = 0; step < kMostSteps; ++step) {
+    stretch.from = parameter(start);
+    stretch.width = parameter(start + length) - stretch.from;
+    // d zeta / dp = -kappa ds/dp; ds/dp is 1, or 2 p where p is the square root.
+    const double end = stretch.from + stretch.width;
+    const double rise_to = -right.curvature * (unbounded_ ? 2.0 * end : 1.0) * stretch.width;
+    const bool first = unbounded_ && start == 0.0;
+    const double rise_from = first
+                                 ? 2.0 * (right.slope_angle - left.slope_angle) - rise_to
+                                 : -left.curvature * (unbounded_ ? 2.0 * stretch.from : 1.0) * stretch.width;
+    set_cubic(stretch.slope, left.slope_angle, rise_from, right.slope_angle, rise_to);
+    const auto slope = [&](double p) { return value_of(stretch.slope, (p - stretch.from) / stretch.width); };
+    way = displacement(slope, stretch.from, end, unbounded_, turning_of(stretch.slope));
+    const double next = length * (chord / norm(way));
+    const bool settled = std::fabs(next - length) <= 1e-16 * length;
+    length = next;
+    if (settled) break;
+  }
+  stretch.x = x_;
+  stretch.drop = drop_;
+  x_ += way.x;
+  drop_ += way.y;
+  stretches_.push_back(stretch);
+  breaks_.push_back(start + length);
+}
+
+double TabulatedCurve::parameter(double s) const {
+  return unbounded_ ? std::sqrt(s) : s;
+}
+
+const TabulatedCurve::Stretch& TabulatedCurve::stretch_at(double s) const {
+  require_on_track(s);
+  const auto next = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, s);
+  return stretches_[static_cast<std::size_t>(next - breaks_.begin()) - 1];
+}
+
+Direction TabulatedCurve::direction(double s) const {
+  const Stretch& stretch = stretch_at(s);
+  const double p = parameter(s);
+  const double u = (p - stretch.from) / stretch.width;
+  const double per_length = unbounded_ ? 1.0 / (2.0 * p) : 1.0;
+  return {value_of(stretch.slope, u), -rise_of(stretch.slope, u) / stretch.width * per_length};
+}
+
+double TabulatedCurve::slope_angle(double s) const {
+  const Stretch& stretch = stretch_at(s);
+  return value_of(stretch.slope, (parameter(s) - stretch.from) / stretch.width);
+}
+
+CenterlinePoint TabulatedCurve::at(double s) const {
+  const Stretch& stretch = stretch_at(s);
+  const auto slope = [&](double p) { return value_of(stretch.slope, (p - stretch.from) / stretch.width); };
+  const Vec2 way = displacement(slope, stretch.from, parameter(s), unbounded_, turning_of(stretch.slope));
+  const Direction here = direction(s);
+  return {s, stretch.x + way.x, stretch.drop + way.y, here.slope_angle, here.curvature};
+}
+
+std::vector<TabulatedPoint> table_of(const Centerline& curve) {
+  // Fourth order: on the sharpest bends that this library draws, 400 rows leave some 1e-11.
+  constexpr int kRows = 400;
+  const std::vector<double> breaks = curve.breaks();
+  const double length = curve.length();
+  const bool root = curve.unbounded_curvature_at_start();
+  std::vector<TabulatedPoint> rows;
+  const auto add = [&](double s, double curvature) {
+    const CenterlinePoint point = curve.at(s);
+    rows.push_back({point.x, point.drop, point.slope_angle, curvature});
+  };
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    const double from = root ? std::sqrt(breaks[k]) : breaks[k];
+    const double to = root ? std::sqrt(breaks[k + 1]) : breaks[k + 1];
+    const double whole = root ? std::sqrt(length) : length;
+    const int count = std::max(8, static_cast<int>(std::ceil(kRows * (to - from) / whole)));
+    for (int i = 0; i < count; ++i) {
+      const double p = from + (to - from) * i / count;
+      const double s = i == 0 ? breaks[k] : (root ? p * p : p);
+      add(s, s == 0.0 && root ? HUGE_VAL : curve.direction(s).curvature);
+    }
+    // The curvature with which this stretch ends: at() gives the one with which the next begins.
+    const double end = breaks[k + 1];
+    const double before = curve.direction(std::nextafter(end, breaks[k])).curvature;
+    const bool last = k + 2 == breaks.size();
+    const double after = last ? before : curve.direction(end).curvature;
+    constexpr double kJump = 1e-9;
+    if (last || std::fabs(after - before) > kJump * (std::fabs(after) + std::fabs(before))) add(end, before);
+  }
+  return rows;
+}
+
+}  // namespace glissade

@@ -1,0 +1,102 @@
+#include "glissade/pipeline/frozen.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/centerline/tabulated_curve.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
+#include "glissade/design/write.hpp"
+#include "glissade/io/atomic_file.hpp"
+
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace {
+
+/// The pieces of a track that is made of clothoids; none of another.
+const ClothoidSpline* clothoids_of(const Centerline& centerline) {
+  if (const auto* const fitted = dynamic_cast<const FittedProfile*>(&centerline)) return &fitted->curve();
+  return dynamic_cast<const ClothoidSpline*>(&centerline);
+}
+
+/// The design with the finish where the track ends and nothing left of what its centerline was.
+Design emptied(const Design& design, const Track& track) {
+  Design frozen = design;
+  const Endpoints end = track.centerline->endpoints();
+  frozen.track.finish = track.placement.to_space(end.run, end.drop, 0.0);
+  frozen.track.finish_given = true;
+  frozen.track.free_finish = FinishKind::point;
+  frozen.track.free_range = {};
+  frozen.track.edge.reset();
+  frozen.track.azimuth = {};
+  // Gates fill the start area of an in-run's certificate, which goes.
+  if (frozen.gates && !frozen.gates->start_area) frozen.gates->start_area = design.centerline.in_run.start_area();
+  frozen.centerline = {};
+  return frozen;
+}
+
+CenterlineDesign as_segments(const ClothoidSpline& spline) {
+  CenterlineDesign centerline;
+  centerline.kind = CenterlineKind::segments;
+  centerline.entry_slope_angle = spline.entry_slope_angle();
+  for (const ClothoidSegment& segment : spline.segments()) {
+    centerline.segments.push_back({segment.length, segment.entry_curvature, segment.exit_curvature});
+  }
+  return centerline;
+}
+
+CenterlineDesign as_table(const std::filesystem::path& csv) {
+  CenterlineDesign centerline;
+  centerline.kind = CenterlineKind::points;
+  centerline.points_file = csv;
+  centerline.points_distance_column = "run_m";
+  centerline.points_height_column = "height_m";
+  centerline.points_slope_angle_column = "slope_angle_deg";
+  centerline.points_curvature_column = "curvature_per_m";
+  return centerline;
+}
+
+/// Heights count from the start: what a site adds to them would cost digits.
+std::string table_text(const Centerline& curve) {
+  std::string text = "run_m,height_m,slope_angle_deg,curvature_per_m\n";
+  for (const TabulatedPoint& row : table_of(curve)) {
+    text += exact_text(row.x) + "," + exact_text(row.drop == 0.0 ? 0.0 : -row.drop) + "," +
+            exact_text(Angle::from_radians(row.slope_angle).degrees()) + "," + exact_text(row.curvature) +
+            "\n";
+  }
+  return text;
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  AtomicFile target(file);
+  target.write(text);
+  target.commit();
+}
+
+}  // namespace
+
+void write_frozen_design(const std::filesystem::path& file, const Design& design, const Track& track) {
+  std::filesystem::path csv = file;
+  csv.replace_extension(".csv");
+  if (csv == file) {
+    throw InputError(
+        {file.string(), "a design is no CSV file",
+         "Where the track needs a table of its own, it is put beside the design under this name.",
+         csv.replace_extension(".yaml").string()});
+  }
+  Design frozen = emptied(design, track);
+  frozen.file = file;
+  const ClothoidSpline* const clothoids = clothoids_of(*track.centerline);
+  if (clothoids == nullptr) write(csv, table_text(*track.centerline));
+  frozen.centerline = clothoids != nullptr ? as_segments(*clothoids) : as_table(csv);
+  const std::string origin = design.name.empty() ? std::string("a design") : design.name;
+  std::string note = "# The track found for " + origin + ", as it is: nothing is searched for any more.\n";
+  for (char& letter : note) {
+    if (static_cast<unsigned char>(letter) < 0x20U && letter != '\n') letter = ' ';
+  }
+  write(file, note + design_text(frozen));
+}
+
+}  // namespace glissade

@@ -1,0 +1,129 @@
+#include "glissade/centerline/tabulated_curve.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/constant_speed_curve.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/cycloid.hpp"
+#include "glissade/centerline/flying_start_brachistochrone.hpp"
+#include "glissade/centerline/straight_line.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+
+namespace {
+
+struct Ridden {
+  std::string name;
+  CenterlinePtr curve;
+  double entry_speed = 0.0;
+};
+
+std::vector<Ridden> curves() {
+  const Friction friction = Friction::from_coefficient(0.2);
+  const Endpoints ends{10.0, 6.0};
+  std::vector<Ridden> all = {
+      {"brachistochrone", std::make_shared<CoulombBrachistochrone>(ends, friction)},
+      {"flat brachistochrone", std::make_shared<CoulombBrachistochrone>(Endpoints{10.0, 2.6}, friction)},
+      {"brachistochrone with an entry speed",
+       std::make_shared<FlyingStartBrachistochrone>(ends, friction, 5.0, kDefaultGravity), 5.0},
+      {"constant speed", std::make_shared<ConstantSpeedCurve>(
+                             ConstantSpeedCurve::fastest(ends, friction, kDefaultGravity, 0.0))},
+      {"straight", std::make_shared<StraightLine>(ends)},
+      {"cycloid", std::make_shared<Cycloid>(ends)},
+  };
+  // Jumps of curvature, which a table says by two rows.
+  all.push_back({"straight, arc, straight",
+                 std::make_shared<ClothoidSpline>(
+                     Angle::from_degrees(50.0),
+                     std::vector<ClothoidSegment>{{4.0, 0.0, 0.0}, {2.0, 0.2, 0.2}, {3.0, 0.0, 0.1}})});
+  return all;
+}
+
+std::string refusal(std::vector<TabulatedPoint> rows) {
+  try {
+    const TabulatedCurve curve(std::move(rows));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a table of a curve is that curve, for bodies of any friction") {
+  for (const Ridden& ridden : curves()) {
+    INFO(ridden.name);
+    const auto again = std::make_shared<const TabulatedCurve>(table_of(*ridden.curve));
+    CHECK(again->length() == Approx(ridden.curve->length()).epsilon(1e-11));
+    CHECK(again->unbounded_curvature_at_start() == ridden.curve->unbounded_curvature_at_start());
+    for (const double share : {0.001, 0.1, 0.37, 0.62, 1.0}) {
+      const CenterlinePoint was = ridden.curve->at(share * ridden.curve->length());
+      const CenterlinePoint is = again->at(share * again->length());
+      CHECK(is.x == Approx(was.x).epsilon(1e-9).margin(1e-10));
+      CHECK(is.drop == Approx(was.drop).epsilon(1e-9).margin(1e-10));
+      CHECK(is.slope_angle == Approx(was.slope_angle).margin(1e-8));
+    }
+    for (const double mu : {0.1, 0.2, 0.24}) {
+      const Body body{Friction::from_coefficient(mu), ridden.entry_speed, 0.0};
+      const Motion was(ridden.curve, body);
+      const Motion is(again, body);
+      INFO("friction coefficient " << mu);
+      REQUIRE(is.arrived() == was.arrived());
+      if (!was.arrived()) continue;
+      CHECK(is.travel_time() == Approx(was.travel_time()).epsilon(kTableAccuracy));
+      CHECK(is.exit_speed() == Approx(was.exit_speed()).epsilon(kTableAccuracy));
+      CHECK(is.highest_load().normal_load == Approx(was.highest_load().normal_load).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("rows twice as dense err sixteen times less") {
+  const CoulombBrachistochrone curve({10.0, 6.0}, Friction::from_coefficient(0.2));
+  const auto length_error = [&](int rows) {
+    std::vector<TabulatedPoint> table;
+    for (int i = 0; i <= rows; ++i) {
+      const double root = std::sqrt(curve.length()) * i / rows;
+      const CenterlinePoint place = curve.at(std::min(root * root, curve.length()));
+      table.push_back({place.x, place.drop, place.slope_angle, i == 0 ? HUGE_VAL : place.curvature});
+    }
+    return std::fabs(TabulatedCurve(table).length() - curve.length());
+  };
+  CHECK(length_error(8) / length_error(16) > 10.0);
+  CHECK(length_error(16) / length_error(32) > 10.0);
+}
+
+TEST_CASE("a table that leads to the left is mirrored") {
+  const CoulombBrachistochrone curve({10.0, 6.0}, Friction::from_coefficient(0.2));
+  std::vector<TabulatedPoint> rows = table_of(curve);
+  for (TabulatedPoint& row : rows) row.x = 3.0 - row.x;
+  const TabulatedCurve left(rows);
+  CHECK(left.at(0.0).x == 0.0);
+  CHECK(left.endpoints().run == Approx(10.0).epsilon(1e-10));
+}
+
+TEST_CASE("rows that contradict themselves are refused by their number") {
+  const double level = 0.0;
+  CHECK_THAT(refusal({{0.0, 0.0, 0.0, 0.0}}), Contains("no second row"));
+  CHECK_THAT(refusal({{0.0, 0.0, 0.5, 0.0}, {1.0, level, 0.5, 0.0}}),
+             Contains("row 2 (1, 0)") && Contains("slope angle of 28.65 deg does not agree") &&
+                 Contains("leads along 0 deg"));
+  CHECK_THAT(refusal({{0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, HUGE_VAL}}),
+             Contains("row 2") && Contains("curvature is not finite"));
+  CHECK_THAT(refusal({{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}),
+             Contains("row 2") && Contains("repeats the row before it"));
+  CHECK_THAT(
+      refusal({{0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {0.5, 0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0}}),
+      Contains("row 3"));
+  CHECK(refusal(
+            {{0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.1}, {1.5, -0.0125, -0.05, 0.1}}) ==
+        "accepted");
+}

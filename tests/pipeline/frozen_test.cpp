@@ -1,0 +1,123 @@
+// A track that was found, written as a design of its own and solved again.
+#include "glissade/pipeline/frozen.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/design/design.hpp"
+
+#include "support/catch.hpp"
+#include "support/temp_dir.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kHead =
+    "glissade: 1\n"
+    "name: A chute\n"
+    "track: {start: {x: 3 m, y: 1 m, z: 6 m}, finish: {x: -3 m, y: 9 m, z: 0 m}}\n";
+const std::string kBody = "body: {friction_coefficient: {low: 0.18, nominal: 0.2, high: 0.22}}\n";
+
+struct Case {
+  std::string name;
+  std::string text;
+  bool table = true;  // or segments
+};
+
+std::vector<Case> cases() {
+  return {
+      {"fastest", kHead + kBody + "centerline: {kind: fastest}\n"},
+      {"fastest with an entry speed",
+       kHead + "body: {friction_coefficient: 0.2, entry_speed: 4 m/s}\ncenterline: {kind: fastest}\n"},
+      {"constant speed", kHead + kBody + "centerline: {kind: constant-speed}\n"},
+      {"cycloid", kHead + "body: {friction_coefficient: 0.05}\ncenterline: {kind: cycloid}\n"},
+      {"no curvature load", kHead + kBody + "centerline: {kind: no-curvature-load}\n"},
+      {"straight", kHead + kBody + "centerline: {kind: straight}\n"},
+      {"searched",
+       kHead + kBody +
+           "centerline: {kind: fastest}\nlimits: {smallest_radius: 2 m, slope_angle: {highest: 60 deg}}\n",
+       false},
+      {"a free finish",
+       "glissade: 1\ntrack: {start: {z: 4 m}, finish: {x: 6 m, z: {lowest: 0 m, highest: 2 m}}}\n" + kBody +
+           "centerline: {kind: fastest}\nlimits: {smallest_radius: 1 m}\n",
+       false},
+      {"an in-run with gates",
+       "glissade: 1\ntrack: {edge: {x: 100 m, z: 20 m}}\n"
+       "body: {friction_coefficient: 0.03, drag: 0.0013 1/m}\n"
+       "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m}\n"
+       "gates: {count: 5}\n"},
+      {"segments",
+       "glissade: 1\ntrack: {start: {z: 4 m}}\n" + kBody +
+           "centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 3 m}, {length: 2 m, "
+           "radius: 4 "
+           "m}, {length: 1.3 m, entry_curvature: 0.1 1/m, exit_curvature: 0.3 1/m}]}\n",
+       false},
+  };
+}
+
+}  // namespace
+
+TEST_CASE("a frozen track rides as the track that was found, at its own and at other frictions") {
+  const TempDir directory;
+  for (const Case& item : cases()) {
+    INFO(item.name);
+    const Design design = parse_design(item.text, directory / "design.yaml");
+    const Track found = solve(design);
+    const auto file = directory / "frozen.yaml";
+    write_frozen_design(file, design, found);
+    const Design frozen = read_design(file);
+    const Track again = solve(frozen);
+    CHECK((frozen.centerline.kind == CenterlineKind::points) == item.table);
+    CHECK_FALSE(again.search);
+    CHECK(frozen.limits.has_value() == design.limits.has_value());
+    CHECK(again.centerline->length() == Approx(found.centerline->length()).epsilon(1e-11));
+    CHECK(again.endpoints.run == Approx(found.endpoints.run).epsilon(1e-10));
+    CHECK(again.endpoints.drop == Approx(found.endpoints.drop).epsilon(1e-10));
+    CHECK(again.motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-9));
+    CHECK(again.motion.exit_speed() == Approx(found.motion.exit_speed()).epsilon(1e-9));
+    REQUIRE(again.range.size() == found.range.size());
+    for (std::size_t i = 0; i < found.range.size(); ++i) {
+      REQUIRE(again.range[i].motion.arrived() == found.range[i].motion.arrived());
+      if (!found.range[i].motion.arrived()) continue;
+      CHECK(again.range[i].motion.travel_time() == Approx(found.range[i].motion.travel_time()).epsilon(1e-9));
+    }
+    const Vec3 there = found.placement.to_space(found.endpoints.run, found.endpoints.drop, 0.0);
+    const Vec3 here = again.placement.to_space(again.endpoints.run, again.endpoints.drop, 0.0);
+    CHECK(norm(there - here) < 1e-9);
+    const Friction slippery = Friction::from_coefficient(0.04);
+    CHECK(ride_at(frozen, again.centerline, slippery).motion.travel_time() ==
+          Approx(ride_at(design, found.centerline, slippery).motion.travel_time()).epsilon(1e-9));
+    // Once more is the same again: the file of a frozen track is its own.
+    const auto twice = directory / "twice.yaml";
+    write_frozen_design(twice, frozen, again);
+    CHECK(solve(read_design(twice)).motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a frozen design is no CSV file") {
+  const TempDir directory;
+  const Design design = parse_design(cases().front().text, directory / "design.yaml");
+  CHECK_THROWS_WITH(write_frozen_design(directory / "frozen.csv", design, solve(design)),
+                    Contains("a design is no CSV file") && Contains("frozen.yaml"));
+  CHECK(directory.names().empty());
+}
+
+TEST_CASE("a kink is told, a bend is not") {
+  const auto told = [](const std::string& radius) {
+    const Design design = parse_design(
+        "glissade: 1\ntrack: {start: {z: 4 m}}\nbody: {friction_coefficient: 0.1}\n"
+        "centerline: {kind: segments, entry_slope_angle: 60 deg, segments: "
+        "[{length: 4 m}, {length: 1 mm, radius: " +
+            radius + "}, {length: 2 m}]}\n",
+        "kink.yaml");
+    std::string text;
+    for (const Issue& issue : warnings(design, solve(design))) text += to_text(issue) + "\n";
+    return text;
+  };
+  CHECK_THAT(told("2 mm"),
+             Contains("kink after 4 m") && Contains("times gravity") && Contains("radius of 2 mm"));
+  CHECK(told("1 m").empty());
+}
