@@ -232,6 +232,28 @@ TEST_CASE("a measure of another kind is told from where it belongs") {
   CHECK_THAT(section_problems("kind: gutter"), Contains("v-channel, track-groove"));
 }
 
+TEST_CASE("widths along the track are read by place, and their faults told") {
+  const auto channel = [](const std::string& widths) {
+    return section_problems("kind: u-channel, width: " + widths + ", wall_height: 250 mm, thickness: 4 mm");
+  };
+  const std::string sound = "[{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}]";
+  CHECK(channel(sound) == "");
+  const Design design = parse_design(sound_design_with("width: 400 mm", "width: " + sound), "d.yaml");
+  CHECK(section::width_law(*design.cross_section) == WidthLaw({{0.0, 0.6}, {2.0, 0.4}}));
+  CHECK_THAT(channel("[{at: 2 m, width: 600 mm}, {at: 1 m, width: 400 mm}]"),
+             StartsWith("d.yaml:9:42: width: the place at 1 m does not lie after the one at 2 m"));
+  CHECK_THAT(channel("[]"), StartsWith("d.yaml:9:42: width: no place is given"));
+  CHECK_THAT(channel("[{at: 0 m}]"), Contains("width is missing"));
+  CHECK_THAT(channel("[{at: 0 m, width: 600 mm, height: 2 m}]"), Contains("unknown key height"));
+  CHECK_THAT(channel("[{at: 0 m, width: 3 mm}, {at: 2 m, width: 400 mm}]"),
+             Contains("thickness: 4 mm is no thinner than the width, 3 mm"));
+  CHECK_THAT(channel("[{at: -1 m, width: 600 mm}, {at: 2 m, width: 400 mm}]"),
+             Contains("width: the place at -1 m is out of range"));
+  CHECK_THAT(channel("[{at: 0 m, width: 600 mm}, {at: 50 mm, width: 400 mm}]"),
+             Contains("width: after 0 m it changes by 4 times the length of track that it takes"));
+  CHECK_THAT(section_problems("kind: half-pipe, width: " + sound + ", thickness: 4 mm"), Contains("width"));
+}
+
 TEST_CASE("a tolerance that no mesh can have is refused, with the size that it would need") {
   CHECK_THAT(problems_with("0.5 mm", "0 mm"), StartsWith("d.yaml:10:19: tolerance: 0 mm is not positive"));
   CHECK_THAT(problems_with("0.5 mm", "1e-9 mm"),

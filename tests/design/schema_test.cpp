@@ -129,6 +129,11 @@ TEST_CASE("what hangs on a kind is asked of that kind alone") {
   };
   CHECK(section("kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm") == "");
   CHECK(section("kind: u-channel, width: 400 mm, thickness: 4 mm") != "");
+  CHECK(
+      section("kind: u-channel, width: [{at: 0 m, width: 1 m}, {at: 2 m, width: 2 m}], wall_height: 250 mm, "
+              "thickness: 4 mm") == "");
+  CHECK(section("kind: u-channel, width: [{at: 0 m, with: 1 m}], wall_height: 250 mm, thickness: 4 mm") !=
+        "");
   CHECK(section("kind: pipe, inner_diameter: 150 mm, thickness: 4 mm") == "");
   CHECK(section("kind: pipe, width: 150 mm, thickness: 4 mm") != "");
 }

@@ -153,3 +153,12 @@ TEST_CASE("a quantity is written as the shortest decimal that reads as the same 
     }
   }
 }
+
+TEST_CASE("widths along the track are written back as they were read") {
+  const Design design = parse_design(
+      sound_design_with("width: 400 mm", "width: [{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}]"),
+      "d.yaml");
+  CHECK(design_text(design).find("width: [{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}]") !=
+        std::string::npos);
+  check_written(design);
+}

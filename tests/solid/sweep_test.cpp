@@ -101,8 +101,13 @@ double volume_by_slices(const TriangleMesh& mesh) {
   return volume;
 }
 
-/// Signed distance of a point of the plane (z up) to a track, by nothing but the track's own points.
-double height_by_search(const Centerline& track, Vec2 point, int kCoarse = 100) {
+struct Foot {
+  double s = 0.0;
+  double height = 0.0;
+};
+
+/// Nearest point of a track to one of the plane (z up), by nothing but the track's own points.
+Foot foot_by_search(const Centerline& track, Vec2 point, int kCoarse = 100) {
   const auto distance = [&](double s) {
     const CenterlinePoint at = track.at(std::clamp(s, 0.0, track.length()));
     return norm(point - Vec2{at.x, -at.drop});
@@ -125,7 +130,11 @@ double height_by_search(const Centerline& track, Vec2 point, int kCoarse = 100) 
   const CenterlinePoint foot = track.at(std::clamp(0.5 * (low + high), 0.0, track.length()));
   const Vec2 normal{std::sin(foot.slope_angle), std::cos(foot.slope_angle)};
   const Vec2 away = point - Vec2{foot.x, -foot.drop};
-  return std::copysign(norm(away), dot(away, normal));
+  return {foot.arc_length, std::copysign(norm(away), dot(away, normal))};
+}
+
+double height_by_search(const Centerline& track, Vec2 point, int coarse = 100) {
+  return foot_by_search(track, point, coarse).height;
 }
 
 double distance_to_outline(const CrossSection::Polygon& loop, Vec2 point) {
@@ -141,7 +150,10 @@ double distance_to_outline(const CrossSection::Polygon& loop, Vec2 point) {
 /// Greatest distance from the ideal surface of points in the facets, their edges and corners; end faces left
 /// out.
 double deviation_by_sampling(const TriangleMesh& mesh, const Centerline& track, const CrossSection& section) {
-  const std::vector<CrossSection::Polygon> loops{section.outline(1e-6), section.bore(1e-6)};
+  const auto loops_of = [](const CrossSection& one) {
+    return std::vector<CrossSection::Polygon>{one.outline(1e-6), one.bore(1e-6)};
+  };
+  const std::vector<CrossSection::Polygon> loops = loops_of(section);
   const CenterlinePoint finish = track.at(track.length());
   const auto on_end_face = [&](Vec3 p) {
     const double beyond =
@@ -156,9 +168,11 @@ double deviation_by_sampling(const TriangleMesh& mesh, const Centerline& track, 
     const Vec3 centre = (1.0 / 3.0) * (a + b + c);
     if (on_end_face(centre)) continue;
     for (const Vec3 p : {a, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), centre}) {
-      const Vec2 place{p.y, height_by_search(track, {p.x, p.z})};
+      const Foot foot = foot_by_search(track, {p.x, p.z});
       double off = std::numeric_limits<double>::infinity();
-      for (const CrossSection::Polygon& loop : loops) off = std::min(off, distance_to_outline(loop, place));
+      for (const CrossSection::Polygon& loop : section.varies() ? loops_of(section.at(foot.s)) : loops) {
+        off = std::min(off, distance_to_outline(loop, {p.y, foot.height}));
+      }
       worst = std::max(worst, off);
     }
   }
@@ -600,4 +614,149 @@ TEST_CASE("sweep: ends when it is asked to") {
   options.stop = source.get_token();
   CHECK_THROWS_AS(sweep(CycloidTrack(1.0, 4.0), CrossSection::slab(0.4, 0.02), Placement(), options),
                   Interrupted);
+}
+
+namespace {
+
+const WidthLaw kWidths(std::vector<WidthAt>{{0.3, 0.6}, {1.1, 0.35}, {1.7, 0.35}, {3.0, 0.5}});
+
+std::vector<CrossSection> one_of_each_width(double wall) {
+  return {CrossSection(section::Slab{kWidths, 0.05, 0.0, 0.0}),
+          CrossSection(section::Slab{kWidths, 0.02, 0.05, 0.03}),
+          CrossSection(section::UChannel{kWidths, wall, 0.004}),
+          CrossSection(section::Trapezoid{kWidths, wall, Angle::from_degrees(25.0), 0.005}),
+          CrossSection(section::TrackGroove{kWidths, 0.1, 0.02, 0.15, 0.05})};
+}
+
+/// Integral of a function of the track by Simpson's rule on pieces that no knot of the widths lies within.
+double integral(double length, auto&& function) {
+  std::vector<double> places{0.0};
+  for (const WidthAt& knot : kWidths.knots()) {
+    if (knot.at < length) places.push_back(knot.at);
+  }
+  places.push_back(length);
+  double sum = 0.0;
+  constexpr int kPieces = 2000;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double step = (places[i + 1] - places[i]) / kPieces;
+    for (int k = 0; k < kPieces; ++k) {
+      const double s = places[i] + k * step;
+      sum += step / 6.0 * (function(s) + 4.0 * function(s + 0.5 * step) + function(s + step));
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("sweep: a width that changes along a straight track gives the prisms between its places, exactly") {
+  const StraightLine track(Endpoints{3.0, 2.0});
+  for (const CrossSection& section : one_of_each_width(0.3)) {
+    INFO(section.kind());
+    SweepOptions options;
+    options.tolerance = 1e-3;
+    const Solid solid = sweep(track, section, Placement({1.0, 2.0, 3.0}, Angle::from_degrees(40.0)), options);
+    check_solid(solid, options);
+    const double exact = integral(track.length(), [&](double s) { return section.at(s).area(); });
+    CHECK(solid.exact_volume == Approx(exact).epsilon(1e-12));
+    CHECK(measure(solid.mesh).volume == Approx(exact).epsilon(1e-11));
+    CHECK(solid.max_deviation < 1e-9);
+  }
+}
+
+TEST_CASE("sweep: the volume of a solid whose width changes is the integral over arc length and turn") {
+  const ClothoidSpline track(Angle::from_degrees(60.0), {{1.0, 0.0, 0.0}, {1.2, 0.1, 0.5}, {1.3, 0.5, -0.2}});
+  for (const CrossSection& section : one_of_each_width(0.3)) {
+    INFO(section.kind());
+    SweepOptions options;
+    options.tolerance = 1e-3;
+    const Solid solid = sweep(track, section, Placement(), options);
+    check_solid(solid, options);
+    CHECK_FALSE(solid.trimmed);
+    // dV = (A - M kappa) ds of the section that stands there.
+    const double exact = integral(track.length(), [&](double s) {
+      const CrossSection here = section.at(s);
+      return here.area() - here.first_moment() * track.at(s).curvature;
+    });
+    CHECK(solid.exact_volume == Approx(exact).epsilon(kSweepVolumeAccuracy));
+    CHECK(volume_of(solid.mesh) == Approx(exact).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("sweep: a changing width follows a vertical start, whose face trims the walls") {
+  const CycloidTrack track(1.0, 4.0);
+  SweepOptions options;
+  options.tolerance = 2e-3;
+  options.shape_triangles = 3000;
+  for (const double wall : {0.1, 0.4}) {
+    for (const CrossSection& section : one_of_each_width(wall)) {
+      INFO(section.kind() << ", wall " << wall);
+      const Solid solid = sweep(track, section, Placement(), options);
+      CHECK(solid.trimmed == (section.highest() > 0.0));
+      check_solid(solid, options);
+      CHECK(volume_by_slices(solid.mesh) == Approx(measure(solid.mesh).volume).epsilon(1e-11));
+    }
+  }
+}
+
+TEST_CASE(
+    "sweep: where the width changes, too, no point is further from the ideal solid than max_deviation says") {
+  SweepOptions options;
+  options.tolerance = 4e-3;
+  options.shape_triangles = 1000;
+  const CycloidTrack track(1.0, 4.0);
+  for (const CrossSection& section : one_of_each_width(0.3)) {
+    INFO(section.kind());
+    const Solid solid = sweep(track, section, Placement(), options);
+    const double worst = deviation_by_sampling(solid.mesh, track, section);
+    CHECK(worst <= options.tolerance);
+    CHECK(worst <= 1.05 * solid.max_deviation + 1e-9);
+    CHECK(worst >= 0.2 * solid.max_deviation);
+  }
+}
+
+TEST_CASE("sweep: the volume of the mesh tends to that of a solid whose width changes") {
+  const CycloidTrack track(1.0, 4.0);
+  const CrossSection section(section::UChannel{kWidths, 0.3, 0.02});
+  double last = 1.0;
+  for (const double tolerance : {4e-3, 1e-3, 2.5e-4}) {
+    SweepOptions options;
+    options.tolerance = tolerance;
+    options.shape_triangles = 1000;
+    const Solid solid = sweep(track, section, Placement(), options);
+    const double error = std::fabs(measure(solid.mesh).volume / solid.exact_volume - 1.0);
+    CHECK(error < 0.5 * last);
+    last = error;
+  }
+  CHECK(last < 1e-3);
+}
+
+TEST_CASE("sweep: widths that are all the same give the mesh of one width") {
+  const CycloidTrack track(1.0, 4.0);
+  const WidthLaw same(std::vector<WidthAt>{{0.5, 0.4}, {2.0, 0.4}});
+  const Solid listed = sweep(track, CrossSection(section::UChannel{same, 0.3, 0.004}), Placement());
+  const Solid plain = sweep(track, CrossSection::u_channel(0.4, 0.3, 0.004), Placement());
+  CHECK(listed.mesh.vertices == plain.mesh.vertices);
+  CHECK(listed.mesh.triangles == plain.mesh.triangles);
+}
+
+TEST_CASE(
+    "sweep: a width that changes where the walls fold over is refused, with the stretch that needs one "
+    "width") {
+  // A valley of radius 0.2 m between two straights: walls of 0.3 m fold over it.
+  const ClothoidSpline track(Angle::from_degrees(60.0), {{1.0, 0.0, 0.0}, {0.2, 5.0, 5.0}, {1.0, 0.0, 0.0}});
+  SweepOptions options;
+  options.tolerance = 2e-3;
+  const auto swept = [&](std::vector<WidthAt> widths) {
+    return sweep(track, CrossSection(section::UChannel{WidthLaw(std::move(widths)), 0.3, 0.01}), Placement(),
+                 options);
+  };
+  CHECK_THAT(
+      message_of([&] {
+        return swept({{0.0, 0.6}, {2.2, 0.4}});
+      }),
+      Catch::Matchers::StartsWith("cross_section: its width changes where the walls fold over, from "));
+  const Solid kept = swept({{0.0, 0.6}, {0.7, 0.4}, {1.5, 0.4}, {2.2, 0.6}});
+  CHECK(kept.trimmed);
+  check_solid(kept, options);
 }

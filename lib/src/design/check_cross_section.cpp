@@ -21,7 +21,12 @@ class MeasureCheck {
 
   void width(const std::string& key, const WidthLaw& law, const char* example) {
     note(key);
-    for (const WidthAt& knot : law.knots()) check(key, knot.width, example);
+    for (const WidthAt& knot : law.knots()) {
+      check(key, knot.width, example);
+      if (knot.at >= 0.0 && knot.at <= kLongestTrack) continue;
+      add(key, {"", key + ": the place at " + length_text(knot.at) + " is out of range",
+                "It is an arc length along the track, from 0 m.", ""});
+    }
   }
   void length(const std::string& key, double value, const char* example) {
     note(key);

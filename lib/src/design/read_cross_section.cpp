@@ -7,10 +7,42 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace glissade::design_file {
 namespace {
+
+constexpr const char* kWidthsExample = "[{at: 0 m, width: 600 mm}, {at: 3 m, width: 400 mm}]";
+
+std::optional<WidthAt> read_width_at(const Value& value, Findings& findings) {
+  MapReader map(value, "A width at a place", "{at: 2 m, width: 600 mm}", findings);
+  const auto at = map.needed_quantity("at", Dimension::length, "at: 2 m, along the track");
+  const auto width = map.needed_quantity("width", Dimension::length, "width: 600 mm");
+  map.refuse_unknown_keys();
+  if (!at || !width) return {};
+  return WidthAt{*at, *width};
+}
+
+/// @return the law that a list of widths makes; none if something is wrong with it, which is then a finding
+std::optional<WidthLaw> read_widths(const Value& value, Findings& findings) {
+  std::vector<WidthAt> knots;
+  bool sound = true;
+  for (const Value& item : as_list(value, kWidthsExample, findings)) {
+    const std::optional<WidthAt> knot = read_width_at(item, findings);
+    sound = sound && knot.has_value();
+    if (knot) knots.push_back(*knot);
+  }
+  if (!sound) return {};
+  try {
+    return WidthLaw(std::move(knots));
+  } catch (const InputError& error) {
+    Issue issue = error.issues().front();
+    if (issue.hint.empty()) issue.hint = kWidthsExample;
+    findings.add(value.node->at, value.key_path, std::move(issue));
+  }
+  return {};
+}
 
 /// Reads each measure of a kind under its key.
 class MeasureReader {
@@ -18,9 +50,13 @@ class MeasureReader {
   MeasureReader(MapReader& map, Findings& findings) : map_(map), findings_(findings) {}
 
   void width(const char* key, WidthLaw& law, const char* example) {
-    double width = 0.0;
-    length(key, width, example);
-    law = width;
+    const auto value = map_.need(key, std::string(key) + ": " + example);
+    if (!value) return;
+    if (value->node->kind == Node::Kind::sequence) {
+      law = read_widths(*value, findings_).value_or(WidthLaw());
+    } else {
+      law = as_quantity(*value, Dimension::length, findings_).value_or(0.0);
+    }
   }
   void length(const char* key, double& value, const char* example) {
     value = needed(key, Dimension::length, example);

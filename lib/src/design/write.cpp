@@ -508,7 +508,13 @@ class MeasureWriter {
   explicit MeasureWriter(Group& group) : group_(group) {}
 
   void width(const char* key, const WidthLaw& law, const char* example) {
-    length(key, law.narrowest(), example);
+    if (law.knots().size() == 1) return length(key, law.narrowest(), example);
+    group_.add(key, list_of(law.knots(), [](const WidthAt& knot) {
+                 Group place;
+                 place.add("at", knot.at, Dimension::length);
+                 place.add("width", knot.width, Dimension::length);
+                 return place.inlined();
+               }));
   }
   void length(const char* key, double value, const char*) { group_.add(key, value, Dimension::length); }
   void optional_length(const char* key, double value) {

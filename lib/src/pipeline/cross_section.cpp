@@ -18,7 +18,12 @@ class MeasureWords {
   explicit MeasureWords(std::string& text) : text_(text) {}
 
   void width(const std::string& key, const WidthLaw& law, const char*) {
-    add(key, length_text(law.narrowest()));
+    std::string widths;
+    for (const WidthAt& knot : law.knots()) {
+      widths += (widths.empty() ? "" : ", ") + length_text(knot.width);
+      if (law.knots().size() > 1) widths += " at " + length_text(knot.at);
+    }
+    add(key, widths);
   }
   void length(const std::string& key, double value, const char*) { add(key, length_text(value)); }
   void optional_length(const std::string& key, double value) {

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -470,9 +471,28 @@ Shape shape_of(const section::Polygon& polygon) {
   return straight_shape(outline, named_sides(outline));
 }
 
-Shape checked_shape(const section::Measures& measures) {
-  section::visit_measures(measures, RequireSizes());
+Shape any_shape(const section::Measures& measures) {
   return std::visit([](const auto& kind) { return shape_of(kind); }, measures);
+}
+
+/// @return how far the width changes over a length at its fastest, over that length
+double steepest_widening(const WidthLaw& law) {
+  double steepest = 0.0;
+  for (const WidthAt& knot : law.knots()) steepest = std::max(steepest, std::fabs(law.slope(knot.at)));
+  return steepest;
+}
+
+void require_gentle(const WidthLaw& law) {
+  for (const WidthAt& knot : law.knots()) {
+    const double slope = std::fabs(law.slope(knot.at));
+    if (slope <= CrossSection::kSteepestWidening) continue;
+    throw InputError(
+        {"",
+         "width: after " + length_text(knot.at) + " it changes by " + rounded_text(slope, 3) +
+             " times the length of track that it takes",
+         "It may change by twice that length: walls that turn further no longer keep their thickness.",
+         "places that are further apart"});
+  }
 }
 
 // --- chords --------------------------------------------------------------------------------------------
@@ -508,10 +528,20 @@ void put_arc(const Arc& arc, double half_step, Polygon& points) {
 
 }  // namespace
 
-CrossSection::CrossSection(const section::Measures& measures) : kind_(section::kind(measures)) {
-  Shape shape = checked_shape(measures);
-  loops_ = std::move(shape.loops);
+CrossSection::CrossSection(const section::Measures& measures)
+    : measures_(measures), kind_(section::kind(measures)) {
+  section::visit_measures(measures, RequireSizes());
+  // The narrowest first: what measures ask of each other holds there last.
+  Shape shape = any_shape(measures);
   narrowest_ = shape.narrowest;
+  if (const std::optional<WidthLaw> law = section::width_law(measures); law && !law->is_constant()) {
+    require_gentle(*law);
+    varies_ = true;
+    const double turned = 0.5 * steepest_widening(*law);
+    narrowest_ /= math::hypot(1.0, turned);
+    shape = any_shape(section::with_width(measures, law->at(0.0)));
+  }
+  loops_ = std::move(shape.loops);
   for (const Outline& loop : loops_) {
     for (const Stroke& stroke : loop) {
       lowest_ = std::min(lowest_, stroke.from.y);
@@ -520,6 +550,18 @@ CrossSection::CrossSection(const section::Measures& measures) : kind_(section::k
       widest_radius_ = std::max(widest_radius_, stroke.arc->radius);
     }
   }
+}
+
+CrossSection CrossSection::at(double s) const {
+  return varies_ ? CrossSection(section::with_width(measures_, width_law()->at(s))) : *this;
+}
+
+CrossSection CrossSection::at_narrowest() const {
+  return varies_ ? CrossSection(section::with_width(measures_, width_law()->narrowest())) : *this;
+}
+
+CrossSection CrossSection::at_widest() const {
+  return varies_ ? CrossSection(section::with_width(measures_, width_law()->widest())) : *this;
 }
 
 CrossSection CrossSection::slab(double width, double thickness, double curb_height, double curb_width) {

@@ -640,10 +640,14 @@ bool LevelCurves::are_neighbours(double from, double to) const {
   return after == stations_.end() || after->s >= to;
 }
 
+LevelCurves::Foot LevelCurves::foot(Vec2 point) const {
+  const Station station = foot_of(point);
+  const Vec2 away = point - station.point;
+  return {station.s, std::copysign(norm(away), dot(away, station.normal))};
+}
+
 double LevelCurves::height_of(Vec2 point) const {
-  const Station foot = foot_of(point);
-  const Vec2 away = point - foot.point;
-  return std::copysign(norm(away), dot(away, foot.normal));
+  return foot(point).height;
 }
 
 }  // namespace glissade::solid

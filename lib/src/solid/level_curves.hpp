@@ -89,6 +89,12 @@ class LevelCurves {
   /// @return whether no station lies between the two arc lengths
   [[nodiscard]] bool are_neighbours(double from, double to) const;
 
+  /// Where a point of the plane stands to the centerline.
+  struct Foot {
+    double s = 0.0;       ///< arc length of the nearest point [m]
+    double height = 0.0;  ///< signed distance [m]
+  };
+  [[nodiscard]] Foot foot(Vec2 point) const;
   /// @return the signed distance of a point to the centerline: its height above the floor [m]
   [[nodiscard]] double height_of(Vec2 point) const;
 

@@ -12,6 +12,7 @@
 #include "solid/sweep_plan.hpp"
 #include "solid/sweep_refusal.hpp"
 #include "solid/swept_volume.hpp"
+#include "solid/widening.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,6 +40,8 @@ constexpr double kTrimShare = 0.1;
 constexpr double kRoomAtTrims = 0.25;
 constexpr double kSagittaAtTrims = 0.9;
 constexpr int kMostRefinements = 12;
+// Halvings of a side that moves as the width changes: its facets depart in proportion to its pieces.
+constexpr int kMostRefinementsOfMoving = 6;
 // Whether the work is to end is asked once in so many steps of it.
 constexpr std::size_t kStepsBetweenPauses = 256;
 
@@ -101,31 +104,44 @@ struct Level {
 
 using Levels = std::map<double, Level>;
 
-struct SectionVertex {
+/// A corner of the section where it is narrowest, and how far it moves across until it is widest.
+struct SectionCorner {
   Vec2 at;  // (across, height)
+  double spread = 0.0;
+};
+
+struct SectionVertex {
+  SectionCorner corner;
   Levels::iterator level;
+
+  [[nodiscard]] const std::vector<LevelNode>& nodes() const { return level->second.curve.nodes; }
 };
 
 using Loop = std::vector<SectionVertex>;
 
 // Cuts a side into equal pieces, counted from its lower end: mirrored sides get the same heights.
-Polygon subdivided(const Polygon& corners, const Fineness& fineness) {
-  Polygon points;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec2 a = corners[i];
-    const Vec2 b = corners[(i + 1) % corners.size()];
-    const auto pieces = static_cast<std::size_t>(fineness.pieces(norm(b - a)));
-    const bool rises = a.y <= b.y;
-    const Vec2 low = rises ? a : b;
-    const Vec2 high = rises ? b : a;
-    points.push_back(a);
+std::vector<SectionCorner> subdivided(const Polygon& narrow, const Polygon& wide, const Fineness& fineness) {
+  std::vector<SectionCorner> points;
+  for (std::size_t i = 0; i < narrow.size(); ++i) {
+    const std::size_t next = (i + 1) % narrow.size();
+    const auto pieces = static_cast<std::size_t>(fineness.pieces(norm(wide[next] - wide[i])));
+    const bool rises = narrow[i].y <= narrow[next].y;
+    const std::size_t low = rises ? i : next;
+    const std::size_t high = rises ? next : i;
+    points.push_back({narrow[i], wide[i].x - narrow[i].x});
     for (std::size_t k = 1; k < pieces; ++k) {
       const std::size_t from_low = rises ? k : pieces - k;
       const double part = static_cast<double>(from_low) / static_cast<double>(pieces);
-      points.push_back(low + part * (high - low));
+      const Vec2 at = narrow[low] + part * (narrow[high] - narrow[low]);
+      points.push_back({at, wide[low].x + part * (wide[high].x - wide[low].x) - at.x});
     }
   }
   return points;
+}
+
+/// @return the arc length at whose width a node stands: both feet of a crease have one width
+double width_place(const std::vector<LevelNode>& nodes, std::size_t i) {
+  return i == 0 ? nodes[i].to : nodes[i].from;
 }
 
 // Walks the band between two level curves from the start face to the finish face: at each step the branch
@@ -158,6 +174,7 @@ class Sweeper {
           const Planner& planner, const Fineness& fineness)
       : centerline_(centerline),
         section_(section),
+        widening_(section),
         placement_(placement),
         planner_(planner),
         fineness_(fineness),
@@ -172,14 +189,16 @@ class Sweeper {
   [[nodiscard]] bool lay_out() {
     make_levels();
     make_loops();
-    if (blocked_height_ == 0.0) refine_at_trims();
+    if (blocked_height_ == 0.0) require_one_width_at_creases();
+    if (blocked_height_ == 0.0) refine_sides();
     if (blocked_height_ == 0.0) check_levels_at_trims();
+    if (blocked_height_ == 0.0) check_moving_levels();
     return blocked_height_ == 0.0;
   }
 
   /// @return greatest distance between the mesh laid out and the ideal solid [m]
   [[nodiscard]] double deviation() const {
-    return deviation_ + section_.chord_error(fineness_.outline_tolerance);
+    return deviation_ + moved_ + section_.chord_error(fineness_.outline_tolerance);
   }
 
   [[noreturn]] void refuse() const { refuse_section(centerline_, section_, *curves_, blocked_height_); }
@@ -190,7 +209,7 @@ class Sweeper {
     emit(solid);
     solid.max_deviation = deviation();
     solid.expected_euler = loops_.size() == 1 ? 2 : 0;
-    solid.exact_volume = swept_volume(centerline_, section_, *curves_, planner_.stop());
+    solid.exact_volume = swept_volume(centerline_, widening_, *curves_, planner_.stop());
     for (const Station& station : curves_->stations()) solid.stations.push_back(station.s);
     for (const auto& [height, level] : levels_) solid.trimmed = solid.trimmed || level.curve.trimmed;
     return solid;
@@ -225,41 +244,80 @@ class Sweeper {
       if (curves_->trims(height).obstacle) blocked_height_ = height;
     }
     if (blocked_height_ != 0.0) return;
-    for (const Polygon& corners :
-         {section_.outline(fineness_.outline_tolerance), section_.bore(fineness_.outline_tolerance)}) {
-      if (corners.empty()) continue;
+    const double tolerance = fineness_.outline_tolerance;
+    const CrossSection& narrow = widening_.narrow();
+    const CrossSection& wide = widening_.wide();
+    for (const auto& [from, to] : {std::pair{narrow.outline(tolerance), wide.outline(tolerance)},
+                                   std::pair{narrow.bore(tolerance), wide.bore(tolerance)}}) {
+      if (from.empty()) continue;
       Loop loop;
-      for (const Vec2 at : subdivided(corners, fineness_)) {
-        loop.push_back({at, level_at(at.y)});
+      for (const SectionCorner& corner : subdivided(from, to, fineness_)) {
+        loop.push_back({corner, level_at(corner.at.y)});
         if (blocked_height_ != 0.0) return;
       }
       loops_.push_back(std::move(loop));
     }
   }
 
-  // Distance of the facets beside trims from the ideal surface over one side of the section.
-  [[nodiscard]] double deviation_at_trims(const SectionVertex& a, const SectionVertex& b) const {
-    const std::vector<LevelNode>& first = a.level->second.curve.nodes;
-    const std::vector<LevelNode>& second = b.level->second.curve.nodes;
+  /// @return where a corner stands at an arc length, (across, height)
+  [[nodiscard]] Vec2 place_at(const SectionCorner& corner, double s) const {
+    return {corner.at.x + corner.spread * widening_.share(s), corner.at.y};
+  }
+  [[nodiscard]] double across_at(const SectionVertex& vertex, std::size_t node) const {
+    return place_at(vertex.corner, width_place(vertex.nodes(), node)).x;
+  }
+
+  /// @throws InputError unless the branches of every level that meet in a crease are of one width
+  void require_one_width_at_creases() const {
+    if (!widening_.varies()) return;
+    constexpr double kSame = 1e-9;
+    for (const auto& [height, level] : levels_) {
+      const std::vector<LevelNode>& nodes = level.curve.nodes;
+      for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+        if (!nodes[i].trim) continue;
+        const double change = widening_.share(nodes[i].from) - widening_.share(nodes[i].to);
+        if (std::fabs(change) > kSame) refuse_widening(nodes[i].from, nodes[i].to);
+      }
+    }
+  }
+
+  /// @return distance of a point on the facets over one side of the section from the ideal surface [m]
+  [[nodiscard]] double distance_from_side(Vec2 point, double across, const SectionVertex& a,
+                                          const SectionVertex& b) const {
+    const LevelCurves::Foot foot = curves_->foot(point);
+    return core::distance_to_segment({across, foot.height}, place_at(a.corner, foot.s),
+                                     place_at(b.corner, foot.s));
+  }
+
+  // Distance of the facets over one side of the section from the ideal surface: of those beside trims, and of the edges
+  // across all of them where the side moves as the width changes.
+  [[nodiscard]] double deviation_over_side(const SectionVertex& a, const SectionVertex& b, bool moves) const {
+    const std::vector<LevelNode>& first = a.nodes();
+    const std::vector<LevelNode>& second = b.nodes();
     double worst = 0.0;
     const auto measure = [&](Vec2 point, double across) {
-      worst = std::max(worst, core::distance_to_segment({across, curves_->height_of(point)}, a.at, b.at));
+      worst = std::max(worst, distance_from_side(point, across, a, b));
     };
     zip(first, second, [&](std::size_t i, std::size_t k, bool on_first) {
       const LevelNode& next = on_first ? first[i + 1] : second[k + 1];
-      if (!first[i].trim && !second[k].trim && !next.trim) return;
+      const bool trimmed = first[i].trim || second[k].trim || next.trim;
+      if (!trimmed && !moves) return;
+      const double across_first = across_at(a, i);
+      const double across_second = across_at(b, k);
+      measure(0.5 * (first[i].point + second[k].point), 0.5 * (across_first + across_second));
+      if (!trimmed) return;
       const Vec2 corner = next.point;
-      const double across = on_first ? a.at.x : b.at.x;
-      measure(0.5 * (first[i].point + second[k].point), 0.5 * (a.at.x + b.at.x));
-      measure(0.5 * (first[i].point + corner), 0.5 * (a.at.x + across));
-      measure(0.5 * (second[k].point + corner), 0.5 * (b.at.x + across));
-      measure((1.0 / 3.0) * (first[i].point + second[k].point + corner), (a.at.x + b.at.x + across) / 3.0);
+      const double across = on_first ? across_at(a, i + 1) : across_at(b, k + 1);
+      measure(0.5 * (first[i].point + corner), 0.5 * (across_first + across));
+      measure(0.5 * (second[k].point + corner), 0.5 * (across_second + across));
+      measure((1.0 / 3.0) * (first[i].point + second[k].point + corner),
+              (across_first + across_second + across) / 3.0);
     });
     return worst;
   }
 
-  // Halves slanted sides whose facets beside a trim miss the tolerance.
-  void refine_at_trims() {
+  // Halves sides whose facets miss the tolerance: slanted ones beside a trim, and those that move as the width changes.
+  void refine_sides() {
     const double allowed = fineness_.chord_tolerance / kPlannedShare;
     for (Loop& loop : loops_) {
       Loop refined;
@@ -275,22 +333,50 @@ class Sweeper {
   void refine_side(Loop& refined, const SectionVertex& end, double allowed, int depth) {
     const SectionVertex begin = refined.back();
     if (blocked_height_ != 0.0) return;
-    const bool slanted = begin.at.x != end.at.x && begin.at.y != end.at.y;
+    const bool rises = begin.corner.at.y != end.corner.at.y;
+    const bool moves = rises && (begin.corner.spread != 0.0 || end.corner.spread != 0.0);
+    const bool slanted = rises && (moves || begin.corner.at.x != end.corner.at.x);
     const bool trimmed = begin.level->second.curve.trimmed || end.level->second.curve.trimmed;
-    if (!slanted || !trimmed) return;
-    const double deviation = deviation_at_trims(begin, end);
-    if (deviation <= allowed || depth >= kMostRefinements) {
+    if (!moves && !(slanted && trimmed)) return;
+    const double deviation = deviation_over_side(begin, end, moves);
+    if (deviation <= allowed || depth >= (moves ? kMostRefinementsOfMoving : kMostRefinements)) {
       deviation_ = std::max(deviation_, deviation);
       return;
     }
-    const Vec2 low = begin.at.y <= end.at.y ? begin.at : end.at;
-    const Vec2 high = begin.at.y <= end.at.y ? end.at : begin.at;
-    const Vec2 middle = low + 0.5 * (high - low);
-    const SectionVertex half{middle, level_at(middle.y)};
+    const bool upward = begin.corner.at.y <= end.corner.at.y;
+    const SectionCorner low = upward ? begin.corner : end.corner;
+    const SectionCorner high = upward ? end.corner : begin.corner;
+    const SectionCorner middle{low.at + 0.5 * (high.at - low.at),
+                               low.spread + 0.5 * (high.spread - low.spread)};
+    const SectionVertex half{middle, level_at(middle.at.y)};
     if (blocked_height_ != 0.0) return;
     refine_side(refined, half, allowed, depth + 1);
     refined.push_back(half);
     refine_side(refined, end, allowed, depth + 1);
+  }
+
+  // A corner that moves stands where it should at its nodes; between them its edge is straight.
+  void check_moving_levels() {
+    if (!widening_.varies()) return;
+    double most = 0.0;
+    for (const Loop& loop : loops_) {
+      for (const SectionVertex& vertex : loop) most = std::max(most, std::fabs(vertex.corner.spread));
+    }
+    constexpr std::array<double, 3> kShares{0.25, 0.5, 0.75};
+    for (const auto& [height, level] : levels_) {
+      require_going(planner_.stop());
+      const std::vector<LevelNode>& nodes = level.curve.nodes;
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const double here = widening_.share(width_place(nodes, i));
+        const double there = widening_.share(width_place(nodes, i + 1));
+        if (here == 0.0 && there == 0.0) continue;
+        for (const double part : kShares) {
+          const Vec2 point = nodes[i].point + part * (nodes[i + 1].point - nodes[i].point);
+          const double share = here + part * (there - here);
+          moved_ = std::max(moved_, most * std::fabs(widening_.share(curves_->foot(point).s) - share));
+        }
+      }
+    }
   }
 
   // The steps beside trims, and those over stations that a level leaves out, are not those that check_steps()
@@ -324,7 +410,7 @@ class Sweeper {
       first_vertex.emplace_back();
       for (const SectionVertex& vertex : loop) {
         first_vertex.back().push_back(vertices);
-        vertices += vertex.level->second.curve.nodes.size();
+        vertices += vertex.nodes().size();
       }
       corners += loop.size();
     }
@@ -337,8 +423,10 @@ class Sweeper {
     mesh.triangles.reserve(triangles);
     for (const Loop& loop : loops_) {
       for (const SectionVertex& vertex : loop) {
-        for (const LevelNode& node : vertex.level->second.curve.nodes) {
-          mesh.vertices.push_back(placement_.to_space(node.point.x, -node.point.y, vertex.at.x));
+        const std::vector<LevelNode>& nodes = vertex.nodes();
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+          mesh.vertices.push_back(
+              placement_.to_space(nodes[i].point.x, -nodes[i].point.y, across_at(vertex, i)));
         }
       }
     }
@@ -356,12 +444,11 @@ class Sweeper {
 
   static void emit_band(const SectionVertex& a, std::size_t first_a, const SectionVertex& b,
                         std::size_t first_b, TriangleMesh& mesh) {
-    zip(a.level->second.curve.nodes, b.level->second.curve.nodes,
-        [&](std::size_t i, std::size_t k, bool on_first) {
-          const auto at_a = static_cast<std::uint32_t>(first_a + i);
-          const auto at_b = static_cast<std::uint32_t>(first_b + k);
-          mesh.triangles.push_back({at_a, at_b, on_first ? at_a + 1 : at_b + 1});
-        });
+    zip(a.nodes(), b.nodes(), [&](std::size_t i, std::size_t k, bool on_first) {
+      const auto at_a = static_cast<std::uint32_t>(first_a + i);
+      const auto at_b = static_cast<std::uint32_t>(first_b + k);
+      mesh.triangles.push_back({at_a, at_b, on_first ? at_a + 1 : at_b + 1});
+    });
   }
 
   void emit_face(const Station& station, bool finish,
@@ -372,10 +459,10 @@ class Sweeper {
       outlines.emplace_back();
       for (std::size_t j = 0; j < loops_[l].size(); ++j) {
         const SectionVertex& vertex = loops_[l][j];
-        const std::vector<LevelNode>& nodes = vertex.level->second.curve.nodes;
+        const std::vector<LevelNode>& nodes = vertex.nodes();
         const LevelNode& node = finish ? nodes.back() : nodes.front();
-        const double along = node.trim ? dot(node.point - station.point, station.normal) : vertex.at.y;
-        outlines.back().push_back({vertex.at.x, along});
+        const double along = node.trim ? dot(node.point - station.point, station.normal) : vertex.corner.at.y;
+        outlines.back().push_back({across_at(vertex, finish ? nodes.size() - 1 : 0), along});
         corners.push_back(static_cast<std::uint32_t>(first_vertex[l][j] + (finish ? nodes.size() - 1 : 0)));
       }
     }
@@ -390,11 +477,13 @@ class Sweeper {
 
   const Centerline& centerline_;
   const CrossSection& section_;
+  Widening widening_;
   const Placement& placement_;
   const Planner& planner_;
   Fineness fineness_;
   NodeSpacing spacing_;
   double deviation_ = 0.0;
+  double moved_ = 0.0;  // farthest that an edge across which the width changes departs from its place [m]
   double blocked_height_ = 0.0;
   std::unique_ptr<LevelCurves> curves_;
   Levels levels_;
@@ -403,8 +492,9 @@ class Sweeper {
 
 }  // namespace
 
-Solid sweep(const Centerline& centerline, const CrossSection& section, const Placement& placement,
+Solid sweep(const Centerline& track, const CrossSection& section, const Placement& placement,
             const SweepOptions& options) {
+  const WithBreaks centerline(track, Widening(section).knots_between(0.0, track.length()));
   check_options(centerline, section, placement, options);
   const Planner planner(centerline, section, options);
   constexpr int kAttempts = 6;

@@ -96,7 +96,7 @@ Fineness Planner::fineness(double tolerance) const {
   fineness.steps = 1.0;
   if (fineness.triangles() > limit()) return fineness;
 
-  const Sides sides = sides_of(section_, fineness.outline_tolerance);
+  const Sides sides = sides_of(section_.at_widest(), fineness.outline_tolerance);
   const double length = centerline_.length();
   const double budget = std::min(static_cast<double>(options_.shape_triangles), 0.5 * limit());
   fineness.longest_step =

@@ -56,4 +56,12 @@ void refuse_section(const Centerline& centerline, const CrossSection& section, c
   throw InputError(issue);
 }
 
+void refuse_widening(double from, double to) {
+  const std::string stretch = "from " + length_text(from) + " to " + length_text(to);
+  throw InputError(
+      {"", "cross_section: its width changes where the walls fold over, " + stretch + " along the track",
+       "In a curve tighter than the walls are high its two branches meet, and must be of one width there.",
+       "the same width " + stretch + ", or lower walls"});
+}
+
 }  // namespace glissade::solid

@@ -13,4 +13,9 @@ namespace glissade::solid {
 [[noreturn]] void refuse_section(const Centerline& centerline, const CrossSection& section,
                                  const LevelCurves& curves, double height);
 
+/// Tells that the width changes where the section folds over: the two branches that meet there are not of one width.
+/// @param from,to  arc lengths between which it folds over [m]
+/// @throws InputError always
+[[noreturn]] void refuse_widening(double from, double to);
+
 }  // namespace glissade::solid

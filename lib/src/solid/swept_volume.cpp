@@ -27,14 +27,33 @@ double width_at(const std::vector<Polygon>& loops, double height) {
   return width;
 }
 
+/// @return the length that a level loses, each piece of it weighted by the share of the way to the widest section
+double missing_share(const Centerline& centerline, const Widening& widening, const LevelCurves& curves,
+                     double height) {
+  double missing = 0.0;
+  for (const Trim& cut : curves.trims(height).cuts) {
+    missing +=
+        widening.over_length(cut.from, cut.to) + height * widening.over_slope(centerline, cut.from, cut.to);
+  }
+  return missing;
+}
+
 }  // namespace
 
 // V = A S - M dphi, less the integral of width(n) times the length that level n loses (coarea formula, |grad
-// d| = 1).
-double swept_volume(const Centerline& centerline, const CrossSection& section, const LevelCurves& curves,
+// d| = 1). Where the width changes, A and M are linear in the share t of the way to the widest section, and so are the
+// widths of levels: the parts beside the narrowest section are integrals of t over arc length and slope angle.
+double swept_volume(const Centerline& centerline, const Widening& widening, const LevelCurves& curves,
                     const std::stop_token& stop) {
+  const CrossSection& section = widening.narrow();
   const double turn = curves.stations().front().slope - curves.stations().back().slope;
   double volume = section.area() * centerline.length() - section.first_moment() * turn;
+  if (widening.varies()) {
+    const CrossSection& wide = widening.wide();
+    volume += (wide.area() - section.area()) * widening.over_length(0.0, centerline.length()) +
+              (wide.first_moment() - section.first_moment()) *
+                  widening.over_slope(centerline, 0.0, centerline.length());
+  }
   constexpr double kOutlineShare = 1e-6;
   constexpr double kPanels = 64.0;
   constexpr std::array<double, 3> kNodes{-0.7745966692414834, 0.0, 0.7745966692414834};
@@ -42,6 +61,8 @@ double swept_volume(const Centerline& centerline, const CrossSection& section, c
   const double size = section.highest() - section.lowest();
   const std::vector<Polygon> outlines{section.outline(kOutlineShare * size),
                                       section.bore(kOutlineShare * size)};
+  const std::vector<Polygon> wide_outlines{widening.wide().outline(kOutlineShare * size),
+                                           widening.wide().bore(kOutlineShare * size)};
   for (const int side : {1, -1}) {
     const double least = curves.least_room(side);
     const double reach = side > 0 ? section.highest() : -section.lowest();
@@ -63,6 +84,9 @@ double swept_volume(const Centerline& centerline, const CrossSection& section, c
         for (std::size_t k = 0; k < kNodes.size(); ++k) {
           const double height = side * (centre + kNodes[k] * half);
           volume -= kWeights[k] * half * width_at(outlines, height) * curves.missing_length(height);
+          if (!widening.varies()) continue;
+          const double spread = width_at(wide_outlines, height) - width_at(outlines, height);
+          volume -= kWeights[k] * half * spread * missing_share(centerline, widening, curves, height);
         }
       }
     }

@@ -6,6 +6,7 @@
 #include "glissade/section/outline.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace glissade {
 ///   along the normal of the track towards its concave (upper) side. The floor's lowest line is at y = 0; but
 ///   for a track-groove, whose floor lies on both sides of it, it passes through (0, 0): that point is the
 ///   centerline. Metres.
+/// Where the width changes along the track (section::Measures, a WidthLaw), the corners beside the floor move across
+///   with it and no height changes. What takes no arc length below is then that of the start; heights hold everywhere.
 /// Accuracy: area and first moment are those of the true shape, arcs included, to rounding.
 /// Identity: an immutable value; equal ones sweep to equal solids. Every kind but the polygon is its own mirror
 ///   image.
@@ -69,9 +72,23 @@ class CrossSection {
   static constexpr Angle kLeastVAngle = Angle::from_degrees(20.0);
   static constexpr Angle kMostVAngle = Angle::from_degrees(170.0);
   static constexpr std::size_t kMaxOutlineVertices = 2000;
+  /// Most that a width may change over a length, over that length: each wall turns by 45 deg from the track.
+  static constexpr double kSteepestWidening = 2.0;
 
   /// @return the word that a design file uses, e.g. "u-channel"
   [[nodiscard]] std::string_view kind() const { return kind_; }
+
+  /// @return whether the width changes along the track
+  [[nodiscard]] bool varies() const { return varies_; }
+  /// @return the law of a width that may change along the track; none for kinds without one
+  [[nodiscard]] std::optional<WidthLaw> width_law() const { return section::width_law(measures_); }
+  /// @param s  arc length [m]
+  /// @return the section there, with the same width everywhere
+  [[nodiscard]] CrossSection at(double s) const;
+  /// @return the section where it is narrowest, with the same width everywhere; every corner lies on the line between
+  ///         its place there and that at the widest, as far along it as the width
+  [[nodiscard]] CrossSection at_narrowest() const;
+  [[nodiscard]] CrossSection at_widest() const;
 
   /// @return the outline, and after it the bore if there is one
   [[nodiscard]] const std::vector<section::Outline>& loops() const { return loops_; }
@@ -101,7 +118,8 @@ class CrossSection {
   [[nodiscard]] double highest() const { return highest_; }
   /// @return radius of the widest arc of the outline [m]; 0 where nothing is round
   [[nodiscard]] double widest_radius() const { return widest_radius_; }
-  /// @return the narrowest place: least distance between two sides that do not share a vertex [m]
+  /// @return the narrowest place: least distance between two sides that do not share a vertex [m]; square to walls
+  ///         that turn as the width changes
   [[nodiscard]] double narrowest() const { return narrowest_; }
 
   friend bool operator==(const CrossSection&, const CrossSection&) = default;
@@ -110,6 +128,8 @@ class CrossSection {
   [[nodiscard]] double half_step(double chord_tolerance) const;
   [[nodiscard]] Polygon polygon_of(const section::Outline& outline, double chord_tolerance) const;
 
+  section::Measures measures_;
+  bool varies_ = false;
   std::string_view kind_;
   std::vector<section::Outline> loops_;
   double narrowest_ = 0.0;

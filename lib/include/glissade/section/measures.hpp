@@ -4,6 +4,7 @@
 #include "glissade/core/vec.hpp"
 #include "glissade/core/width_law.hpp"
 
+#include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -180,6 +181,21 @@ using Measures = std::variant<Slab, UChannel, Trapezoid, HalfPipe, Pipe, VChanne
 [[nodiscard]] inline std::string_view top(const Measures& measures) {
   return std::visit([](const auto& measure) { return measure.kTop; }, measures);
 }
+
+/// What a visitor does with measures that are none of its business: one derives from it and hides the others.
+struct PassingVisitor {
+  void width(const char*, const WidthLaw&, const char*) const {}
+  void length(const char*, double, const char*) const {}
+  void optional_length(const char*, double) const {}
+  void angle(const char*, Angle, const char*) const {}
+  void corners(const char*, const std::vector<Vec2>&, const char*) const {}
+  void misnomer(const char*, const char*) const {}
+};
+
+/// @return the law of a width that may change along the track; none for kinds without one
+[[nodiscard]] std::optional<WidthLaw> width_law(const Measures& measures);
+/// @return the same measures at one width everywhere; as they are where the kind has none that may change
+[[nodiscard]] Measures with_width(Measures measures, double width);
 
 /// Shows every measure to a visitor.
 void visit_measures(auto& measures, auto&& visitor) {
