@@ -1,11 +1,20 @@
-// Files for workshops: time and size of a DXF of a side plate and of STEP of 40 parts.
+// Files for workshops: time and size of a DXF of a side plate, of STEP, the set of drawings and the nests of 40 parts.
 
+#include "glissade/drawing/nest.hpp"
+#include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/io/dxf_file.hpp"
+#include "glissade/io/sheet_file.hpp"
 #include "glissade/io/step_file.hpp"
 
 #include "support/shop_parts.hpp"
 
-#include <cstdint>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -37,6 +46,8 @@ Workshop forty_parts() {
     if (i % 4 == 3)
       workshop.parts.push_back(testing::shop_part(i, "gore", TubeGore{0.1, 0.003, 0.3, -0.1, 0.1}));
     workshop.parts.back().places = {place};
+    const Prism* const plate = std::get_if<Prism>(&workshop.parts.back().body);
+    if (plate != nullptr) workshop.parts.back().pattern = FlatPattern{plate->region, {}, {}, {}, {}, 0.0};
   }
   return workshop;
 }
@@ -56,6 +67,50 @@ void step_of_40_parts(benchmark::State& state) {
   state.counters["bytes"] = static_cast<double>(bytes);
 }
 BENCHMARK(step_of_40_parts)->Unit(benchmark::kMillisecond);
+
+/// Something that everybody knows: the 17 digits of as many numbers as the file has, by the C library.
+void printf_of_as_many_numbers(benchmark::State& state) {
+  const std::string text = step_text(forty_parts());
+  const auto numbers = std::count(text.begin(), text.end(), '.');
+  std::array<char, 40> digits{};
+  for (auto _ : state) {
+    for (std::ptrdiff_t i = 0; i < numbers; ++i) {
+      std::snprintf(digits.data(), digits.size(), "%.17g", 0.1 + 1.37 * static_cast<double>(i));
+    }
+    benchmark::DoNotOptimize(digits);
+  }
+  state.counters["numbers"] = static_cast<double>(numbers);
+}
+BENCHMARK(printf_of_as_many_numbers)->Unit(benchmark::kMillisecond);
+
+void drawings_of_40_parts(benchmark::State& state) {
+  const Workshop workshop = forty_parts();
+  std::size_t bytes = 0;
+  std::size_t sheets = 0;
+  for (auto _ : state) {
+    const std::vector<Sheet> set = drawing_set(workshop);
+    sheets = set.size();
+    bytes = pdf_text(set, workshop.name).size();
+  }
+  state.counters["bytes"] = static_cast<double>(bytes);
+  state.counters["sheets"] = static_cast<double>(sheets);
+}
+BENCHMARK(drawings_of_40_parts)->Unit(benchmark::kMillisecond);
+
+void nests_of_40_parts(benchmark::State& state) {
+  const Workshop workshop = forty_parts();
+  std::size_t sheets = 0;
+  double used = 0.0;
+  for (auto _ : state) {
+    const std::vector<NestedSheet> nests = nest(workshop);
+    sheets = nests.size();
+    used = 0.0;
+    for (const NestedSheet& sheet : nests) used += sheet.utilisation;
+  }
+  state.counters["sheets"] = static_cast<double>(sheets);
+  state.counters["utilisation"] = used / static_cast<double>(sheets);
+}
+BENCHMARK(nests_of_40_parts)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
