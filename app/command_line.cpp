@@ -56,6 +56,8 @@ ExitCode run(int argc, const char* const* argv) {
   add_init(program, action);
   add_gates(program, action);
   add_fit(program, action);
+  add_profile(program, action);
+  add_survey(program, action);
   add_rules(program, action);
   add_materials(program, action);
   add_sweep(program, action);

@@ -37,7 +37,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "trades", "design", "io"}},
     {"pipeline",
      {"core", "centerline", "motion", "clearance", "task", "referee", "optimize", "section", "solid", "parts",
-      "trades", "design", "io", "report"}},
+      "drawing", "trades", "design", "io", "report"}},
     {"study",
      {"core", "centerline", "motion", "task", "trades", "referee", "optimize", "section", "design", "io",
       "report", "pipeline"}},

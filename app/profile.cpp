@@ -1,0 +1,140 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/io/dxf_file.hpp"
+#include "glissade/io/sheet_file.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/profile_drawing.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/interrupt.hpp"
+#include "app/option_value.hpp"
+#include "app/progress_line.hpp"
+#include "app/table.hpp"
+#include "app/track_input.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Draw the longitudinal section: DXF at 1:1, PDF sheets with the section, the parameters in English, "
+    "German and\n"
+    "French, gates and coordinates, and the coordinate table as CSV.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade profile designs/hills/garmisch_hs142.yaml                  into out/garmisch_hs142/\n"
+    "  glissade profile designs/hills/garmisch_hs142.yaml --step 0.5m --row run\n"
+    "  glissade profile designs/hills/garmisch_hs142.yaml --offset beam=-350mm --offset tube=120mm";
+
+struct Options {
+  std::string design;
+  Overrides overrides;
+  std::string directory;
+  std::string step;
+  std::string row = "arc-length";
+  std::vector<std::string> offsets;
+  Verbosity verbosity;
+};
+
+CountedFrom row_named(const std::string& word) {
+  if (word == "arc-length") return CountedFrom::arc_length;
+  if (word == "to-edge") return CountedFrom::to_edge;
+  if (word == "run") return CountedFrom::run;
+  throw InputError({"--row", "'" + word + "' is no way to count stations", "", "arc-length, to-edge or run"});
+}
+
+ParallelLine parallel_of(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  const std::string name = text.substr(0, sign);
+  const bool named = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '_' || letter == '-';
+  });
+  if (sign == std::string::npos || !named) {
+    throw InputError({"--offset", "'" + text + "' is not of the form NAME=LENGTH",
+                      "A name has letters, digits, - and _; the length counts upwards, square to the track.",
+                      "--offset beam=-350mm"});
+  }
+  return {name, option_value(text.substr(sign + 1), Dimension::length, "--offset")};
+}
+
+ProfileOptions options_of(const Options& options) {
+  ProfileOptions profile;
+  if (!options.step.empty()) profile.step = option_value(options.step, Dimension::length, "--step");
+  profile.row = row_named(options.row);
+  for (const std::string& text : options.offsets) {
+    profile.parallels.push_back(parallel_of(text));
+    const std::string& name = profile.parallels.back().name;
+    const auto same = std::count_if(profile.parallels.begin(), profile.parallels.end(),
+                                    [&](const ParallelLine& line) { return line.name == name; });
+    if (same > 1) throw InputError({"--offset", "two lines are named " + name, "", "another name"});
+  }
+  return profile;
+}
+
+ExitCode draw_profile(const Options& options) {
+  const ProfileOptions wanted = options_of(options);
+  const Design design = read_design(options.design, options.overrides.values());
+  const Track track = [&] {
+    const Interrupt interrupt;
+    ProgressLine progress(options.verbosity);
+    return solve(design, {progress.callback(), interrupt.token()});
+  }();
+  const std::vector<ProfileStation> stations = coordinate_table(design, track, wanted);
+  const Drawing drawing = longitudinal_section(design, track, wanted);
+  const std::vector<Sheet> sheets = profile_sheets(design, track, wanted);
+  const std::string stem = design.file.stem().string();
+  const std::filesystem::path folder = options.directory.empty() ? std::filesystem::path("out") / stem
+                                                                 : std::filesystem::path(options.directory);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::filesystem::path dxf = folder / (stem + ".section.dxf");
+  const std::filesystem::path pdf = folder / (stem + ".section.pdf");
+  const std::filesystem::path csv = folder / (stem + ".coordinates.csv");
+  write_dxf(dxf, drawing);
+  write_pdf(pdf, sheets, design.name.empty() ? stem : design.name);
+  write_coordinates_csv(csv, stations, wanted);
+  print(labelled("Section", dxf.generic_string()) + labelled("Sheets", pdf.generic_string()) +
+        labelled("Coordinates", csv.generic_string() + ", " + std::to_string(stations.size()) + " stations"));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_profile(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("profile", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
+  options->overrides.add_to(command);
+  command.add_option("-d,--directory", options->directory, "Directory for the files [default: out/NAME]")
+      ->type_name("DIR");
+  command.add_option("--step", options->step, "Between stations of the coordinate table [default: 1 m]")
+      ->type_name("LENGTH");
+  command
+      .add_option(
+          "--row", options->row,
+          "Stations at round values of arc-length, to-edge (along the track) or run (horizontal, from the "
+          "edge) [default: arc-length]")
+      ->type_name("WORD");
+  command
+      .add_option("--offset", options->offsets,
+                  "A parallel line, square above the track or below it where negative; may be repeated")
+      ->type_name("NAME=LENGTH")
+      ->take_all()
+      ->allow_extra_args(false);
+  options->verbosity.add_to(command, "Show no progress");
+  command.callback([options, &action] { action = [options] { return draw_profile(*options); }; });
+}
+
+}  // namespace glissade::app

@@ -1,0 +1,132 @@
+#include "glissade/core/error.hpp"
+#include "glissade/io/dxf_file.hpp"
+#include "glissade/io/sheet_file.hpp"
+#include "glissade/pipeline/profile_drawing.hpp"
+
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Design garmisch() {
+  return read_design(designs_path("hills/garmisch_hs142.yaml"));
+}
+
+}  // namespace
+
+TEST_CASE("a coordinate table has every step and every letter, from the start to the edge") {
+  const Design design = garmisch();
+  const Track track = solve(design);
+  const std::vector<ProfileStation> stations = coordinate_table(design, track);
+  REQUIRE(stations.size() == 103 + 2);  // 0 to 102 m with A, B at 24 m and E2 at 96 m; E1 and T
+  std::string letters;
+  for (const ProfileStation& station : stations) letters += station.name;
+  CHECK(letters == "ABE1E2T");
+  CHECK(std::is_sorted(stations.begin(), stations.end(),
+                       [](const auto& a, const auto& b) { return a.arc_length < b.arc_length; }));
+  CHECK(stations.back().to_edge == 0.0);
+  CHECK(std::fabs(stations.back().position.x) < 1e-12);
+  CHECK(std::fabs(stations.back().position.z) < 1e-12);
+}
+
+TEST_CASE("stations of round metres of x have round metres of x") {
+  const Design design = garmisch();
+  const Track track = solve(design);
+  ProfileOptions options;
+  options.step = 0.5;
+  options.row = CountedFrom::run;
+  int round = 0;
+  for (const ProfileStation& station : coordinate_table(design, track, options)) {
+    if (!station.name.empty()) continue;
+    const double halves = station.position.x * 2.0;
+    CHECK(std::fabs(halves - std::round(halves)) < 1e-9);
+    ++round;
+  }
+  CHECK(round >= 180);
+}
+
+TEST_CASE("parallel lines lie square to the track at their distance") {
+  const Design design = garmisch();
+  const Track track = solve(design);
+  ProfileOptions options;
+  options.parallels = {{"tube", 0.12}, {"beam", -0.35}};
+  for (const ProfileStation& station : coordinate_table(design, track, options)) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vec3 away = station.parallels[i] - station.position;
+      const double along = away.x * std::cos(station.slope_angle) - away.z * std::sin(station.slope_angle);
+      const double up = away.x * std::sin(station.slope_angle) + away.z * std::cos(station.slope_angle);
+      CHECK(std::fabs(along) < 1e-12);
+      CHECK(std::fabs(up - options.parallels[i].height) < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("a parallel line beyond the centre of curvature and a step of nothing are refused") {
+  const Design design = garmisch();
+  const Track track = solve(design);
+  ProfileOptions high;
+  high.parallels = {{"sky", 120.0}};
+  CHECK_THROWS_WITH(coordinate_table(design, track, high),
+                    Contains("sky: 120 m turns back on itself") && Contains("centre of curvature"));
+  ProfileOptions none;
+  none.step = 0.0;
+  CHECK_THROWS_WITH(coordinate_table(design, track, none), Contains("a step of 0"));
+}
+
+TEST_CASE(
+    "the section is drawn at 1:1 with its letters, gates and measures, and read back as it was written") {
+  const Design design = garmisch();
+  const Track track = solve(design);
+  ProfileOptions options;
+  options.parallels = {{"beam", -0.35}};
+  const Drawing drawing = longitudinal_section(design, track, options);
+  const auto box = bounds(drawing);
+  REQUIRE(box.has_value());
+  const Endpoints end = track.centerline->endpoints();
+  CHECK(box->width() > 1e3 * end.run);
+  CHECK(box->width() < 1e3 * end.run + 3e3);
+  const auto has = [&](const std::string& text) {
+    return std::any_of(drawing.texts.begin(), drawing.texts.end(),
+                       [&](const DrawnText& one) { return one.text == text; });
+  };
+  for (const char* const letter : {"A", "B", "E1", "E2", "T", "1", "45", "49"}) {
+    INFO(letter);
+    CHECK(has(letter));
+  }
+  CHECK(drawing.dimensions.size() == 4);
+  const TempDir folder;
+  write_dxf(folder / "s.dxf", drawing);
+  CHECK_NOTHROW(require_same_dxf(folder / "s.dxf", drawing));
+}
+
+TEST_CASE("the sheets hold the section, the certificate in three languages, gates and coordinates") {
+  const Design design = garmisch();
+  const Track track = solve(design);
+  const std::vector<Sheet> sheets = profile_sheets(design, track);
+  REQUIRE(sheets.size() >= 4);
+  CHECK(sheets.front().views.size() == 1);
+  std::string words;
+  std::size_t rows = 0;
+  for (const Sheet& sheet : sheets) {
+    for (const SheetTable& table : sheet.tables) {
+      rows += table.rows.size();
+      for (const auto& row : table.rows) {
+        for (const std::string& cell : row) words += cell + "|";
+      }
+    }
+  }
+  CHECK_THAT(words, Contains("|slope of the straight|Neigung der Geraden|pente de la partie droite|35 deg|"));
+  CHECK_THAT(words, Contains("radius at the end of the transition") && Contains("103 m"));
+  CHECK(rows >= 106 + 49 + 10);
+  const std::string pdf = pdf_text(sheets, "Garmisch");
+  CHECK(pdf.starts_with("%PDF"));
+}

@@ -1,0 +1,183 @@
+#include "glissade/trades/survey.hpp"
+
+#include "glissade/centerline/in_run.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/surveys.hpp"
+
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+#include "support/random.hpp"
+#include "support/temp_dir.hpp"
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+using Catch::Matchers::Contains;
+
+namespace {
+
+CenterlinePtr in_run() {
+  return std::make_shared<const InRun>(InRunShape{Angle::from_degrees(35.0), Angle::from_degrees(11.0), 103.0,
+                                                  6.9, 102.9, InRunTransition::cubic, 0.0});
+}
+
+/// Points square above the track, with a deviation of their own.
+std::vector<SurveyPoint> points_on(const Centerline& track, double from, double to, int count, double height,
+                                   const std::function<double(double s)>& deviation) {
+  std::vector<SurveyPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const double s = from + (to - from) * i / (count - 1);
+    const CenterlinePoint at = track.at(s);
+    const double up = height + deviation(s);
+    points.push_back({"p" + std::to_string(i + 1), at.x + up * std::sin(at.slope_angle),
+                      at.drop - up * std::cos(at.slope_angle), 0.002});
+  }
+  return points;
+}
+
+std::string problem_of(const std::vector<SurveyPoint>& points, const SurveyOptions& options = {}) {
+  try {
+    static_cast<void>(survey_of(*in_run(), points, options));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Body skier() {
+  Body body;
+  body.friction = Friction::from_coefficient(0.03);
+  body.drag_per_metre = 0.0013;
+  return body;
+}
+
+}  // namespace
+
+TEST_CASE("points of the design itself deviate by nothing, in any order, whatever they are mounted on") {
+  const CenterlinePtr track = in_run();
+  for (const double height : {0.0, 0.12, -0.4}) {
+    CAPTURE(height);
+    std::vector<SurveyPoint> points =
+        points_on(*track, 0.0, track->length(), 60, height, [](double) { return 0.0; });
+    std::swap(points[3], points[40]);
+    SurveyOptions options;
+    options.height = height;
+    const Survey survey = survey_of(*track, points, options);
+    REQUIRE(survey.places.size() == 60);
+    for (const SurveyedPlace& place : survey.places) {
+      CHECK(std::fabs(place.deviation) < 1e-9);
+      CHECK(std::fabs(place.slope_deviation) < 1e-4);
+      CHECK(place.aside == 0.002);
+    }
+    CHECK(survey.sound());
+    const SurveyRides rides = ride_survey(track, survey, skier(), 9.81);
+    CHECK(rides.from == 0.0);
+    CHECK(rides.as_built.arrived());
+    CHECK(std::fabs(rides.as_built.exit_speed() - rides.designed.exit_speed()) < 1e-3);
+  }
+}
+
+TEST_CASE("a deviation that was built is found again, square to the profile, and its slope with it") {
+  const CenterlinePtr track = in_run();
+  testing::Random random = testing::seeded_random();
+  const double place = random.between(30.0, 70.0);
+  CAPTURE(place);
+  const auto bump = [&](double s) { return 0.03 * std::exp(-std::pow((s - place) / 8.0, 2.0)); };
+  const Survey survey = survey_of(*track, points_on(*track, 0.0, track->length(), 200, 0.0, bump));
+  for (const SurveyedPlace& one : survey.places)
+    CHECK(std::fabs(one.deviation - bump(one.arc_length)) < 1e-6);
+  CHECK_FALSE(survey.within_tolerance);
+  CHECK(std::fabs(survey.places[survey.worst].arc_length - place) < 0.6);
+  // uphill of the bump the track is flatter than designed, by the bump's own slope
+  const double steepest = 0.03 * std::sqrt(2.0) / 8.0 * std::exp(-0.5);
+  CHECK(std::fabs(survey.places[survey.worst_slope].slope_deviation) == Approx(steepest).epsilon(0.15));
+  SurveyOptions wide;
+  wide.tolerance = 0.031;
+  wide.slope_tolerance = 0.01;
+  CHECK(survey_of(*track, points_on(*track, 0.0, track->length(), 200, 0.0, bump), wide).sound());
+}
+
+TEST_CASE("stretches without points are told, those at the ends too") {
+  const CenterlinePtr track = in_run();
+  std::vector<SurveyPoint> points = points_on(*track, 8.0, 40.0, 33, 0.0, [](double) { return 0.0; });
+  for (const SurveyPoint& point : points_on(*track, 52.0, 102.9, 52, 0.0, [](double) { return 0.0; })) {
+    points.push_back(point);
+  }
+  const Survey survey = survey_of(*track, points);
+  REQUIRE(survey.gaps.size() == 2);
+  CHECK(survey.gaps[0].from == 0.0);
+  CHECK(survey.gaps[0].to == Approx(8.0).epsilon(1e-9));
+  CHECK(survey.gaps[1].from == Approx(40.0).epsilon(1e-9));
+  CHECK(survey.gaps[1].to == Approx(52.0).epsilon(1e-9));
+  CHECK_FALSE(survey.sound());
+  const SurveyRides rides = ride_survey(track, survey, skier(), 9.81);
+  CHECK(rides.from == Approx(8.0).epsilon(1e-9));
+  CHECK(std::fabs(rides.as_built.exit_speed() - rides.designed.at(rides.to).speed) < 5e-3);
+}
+
+TEST_CASE(
+    "points that do not belong to the profile are all told, each with its distance, the bound and a way "
+    "out") {
+  std::vector<SurveyPoint> points = points_on(*in_run(), 0.0, 102.0, 30, 0.0, [](double) { return 0.0; });
+  points[4].drop -= 3.0;
+  points[9].aside = 2.5;
+  points.push_back({"far", -4.0, -3.0, 0.0});
+  points.push_back({"beyond", 94.0, 48.0, 0.0});
+  const std::string text = problem_of(points);
+  CHECK_THAT(text, Contains("p5: the point lies 2.4") && Contains("above the profile"));
+  CHECK_THAT(text, Contains("p10: the point lies 2.5 m beside the profile"));
+  CHECK_THAT(text, Contains("far: the point lies") && Contains("before the start of the track"));
+  CHECK_THAT(text, Contains("beyond: the point lies") && Contains("beyond the end of the track"));
+  CHECK_THAT(text, Contains("Points within 1 m of the profile belong to it.") &&
+                       Contains("Try: points of this track"));
+  CHECK_THAT(problem_of({points[0], points[1]}), Contains("2 points make no survey"));
+  SurveyOptions none;
+  none.tolerance = 0.0;
+  CHECK_THAT(problem_of(points, none), Contains("--tolerance") && Contains("is not positive"));
+}
+
+TEST_CASE("a survey in site coordinates is turned into the plane of a track that leads anywhere") {
+  const std::string text =
+      "glissade: 1\ntrack: {edge: {x: 400 m, y: -30 m, z: 900 m}, azimuth: 130 deg}\n"
+      "body: {friction_coefficient: 0.03}\n"
+      "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m}\n";
+  const Design design = parse_design(text, "d.yaml");
+  CHECK(design.track.finish.x == 400.0);
+  const Track track = solve(design);
+  const TempDir folder;
+  std::string csv = "name,x,y,z\n";
+  for (int i = 0; i <= 40; ++i) {
+    const CenterlinePoint point = track.centerline->at(track.centerline->length() * i / 40);
+    const Vec3 at = track.placement.to_space(point.x, point.drop, 0.05);
+    csv += "q" + std::to_string(i) + "," + std::to_string(at.x) + "," + std::to_string(at.y) + "," +
+           std::to_string(at.z) + "\n";
+  }
+  put_bytes(folder / "s.csv", csv);
+  const Survey survey = survey_of(*track.centerline, read_survey(folder / "s.csv", track.placement));
+  CHECK(survey.sound());
+  for (const SurveyedPlace& place : survey.places) {
+    CHECK(std::fabs(place.deviation) < 2e-6);
+    CHECK(std::fabs(place.aside - 0.05) < 2e-6);
+  }
+  put_bytes(folder / "bad.csv", "x,y\n1,2\n");
+  CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement), Contains("there is no column \"z\""));
+}
+
+TEST_CASE("the shipped survey belongs to its hill") {
+  const Design design = read_design(designs_path("hills/garmisch_hs142.yaml"));
+  const Track track = solve(design);
+  SurveyOptions options;
+  options.height = 0.12;
+  const Survey survey = survey_of(
+      *track.centerline, read_survey(designs_path("hills/garmisch_survey.csv"), track.placement), options);
+  CHECK(survey.places.size() == 52);
+  CHECK(survey.within_tolerance);
+  CHECK(std::fabs(survey.places[survey.worst].deviation) > 0.003);
+  CHECK(survey.gaps.empty());
+}
