@@ -48,10 +48,10 @@ struct Options {
   Verbosity verbosity;
 };
 
-StationRow row_named(const std::string& word) {
-  if (word == "arc-length") return StationRow::arc_length;
-  if (word == "to-edge") return StationRow::to_edge;
-  if (word == "run") return StationRow::run;
+CountedFrom row_named(const std::string& word) {
+  if (word == "arc-length") return CountedFrom::arc_length;
+  if (word == "to-edge") return CountedFrom::to_edge;
+  if (word == "run") return CountedFrom::run;
   throw InputError({"--row", "'" + word + "' is no way to count stations", "", "arc-length, to-edge or run"});
 }
 

@@ -24,20 +24,18 @@ namespace glissade::app {
 namespace {
 
 constexpr const char* kDescription =
-    "Hold a track as it was surveyed against its design: deviation, slope angle and radius at every point, "
-    "gaps, and the\n"
-    "ride on the profile as built against the designed one.\n"
+    "Hold a track as it was surveyed against its design: deviation, slope angle and radius at every point,\n"
+    "gaps, and the ride on the profile as built against the designed one.\n"
     "\n"
     "The CSV file has the columns x, z and, if wanted, y and name: metres in the frame of the design. The "
-    "exit code is 1 if\n"
-    "a tolerance is broken or points are missing.";
+    "exit\n"
+    "code is 1 if a tolerance is broken or points are missing.";
 
 constexpr const char* kFooter =
     "Examples:\n"
     "  glissade survey designs/hills/garmisch_hs142.yaml designs/hills/garmisch_survey.csv --offset 120mm\n"
-    "  glissade survey designs/hills/garmisch_hs142.yaml designs/hills/garmisch_survey.csv --offset 120mm "
-    "\\\n"
-    "      --svg survey.svg --csv deviations.csv";
+    "  glissade survey designs/hills/garmisch_hs142.yaml designs/hills/garmisch_survey.csv \\\n"
+    "      --offset 120mm --svg survey.svg --csv deviations.csv";
 
 struct Options {
   std::string design;

@@ -43,7 +43,7 @@ TEST_CASE("stations of round metres of x have round metres of x") {
   const Track track = solve(design);
   ProfileOptions options;
   options.step = 0.5;
-  options.row = StationRow::run;
+  options.row = CountedFrom::run;
   int round = 0;
   for (const ProfileStation& station : coordinate_table(design, track, options)) {
     if (!station.name.empty()) continue;

@@ -62,13 +62,13 @@ void require_options(const Track& track, const ProfileOptions& options) {
 /// Arc lengths of the stations between the letters, ascending.
 std::vector<double> rows_of(const Centerline& centerline, const ProfileOptions& options) {
   const double length = centerline.length();
-  const double reach = options.row == StationRow::run ? centerline.endpoints().run : length;
+  const double reach = options.row == CountedFrom::run ? centerline.endpoints().run : length;
   std::vector<double> rows;
   for (int i = 0; i * options.step <= reach; ++i) {
     const double at = i * options.step;
-    if (options.row == StationRow::arc_length) rows.push_back(at);
-    if (options.row == StationRow::to_edge) rows.push_back(length - at);
-    if (options.row == StationRow::run) rows.push_back(centerline.arc_length_at_run(reach - at));
+    if (options.row == CountedFrom::arc_length) rows.push_back(at);
+    if (options.row == CountedFrom::to_edge) rows.push_back(length - at);
+    if (options.row == CountedFrom::run) rows.push_back(centerline.arc_length_at_run(reach - at));
   }
   return rows;
 }

@@ -17,7 +17,7 @@ struct ParallelLine {
 };
 
 /// From where stations of a coordinate table are counted.
-enum class StationRow {
+enum class CountedFrom {
   arc_length,  ///< along the track, from its start
   to_edge,     ///< along the track, back from its finish
   run          ///< horizontal, back from the finish: round metres of x where that is the origin
@@ -25,7 +25,7 @@ enum class StationRow {
 
 struct ProfileOptions {
   double step = 1.0;  ///< between stations [m]; > 0
-  StationRow row = StationRow::arc_length;
+  CountedFrom row = CountedFrom::arc_length;
   std::vector<ParallelLine> parallels;
 };
 
