@@ -628,20 +628,22 @@ std::vector<CrossSection> one_of_each_width(double wall) {
           CrossSection(section::TrackGroove{kWidths, 0.1, 0.02, 0.15, 0.05})};
 }
 
-/// Integral of a function of the track by Simpson's rule on pieces that no knot of the widths lies within.
-double integral(double length, auto&& function) {
-  std::vector<double> places{0.0};
+/// Integral of a function of the track by Gauss' rule on pieces that no knot of the widths and no break of the track lies
+/// within.
+double integral(const Centerline& track, auto&& function) {
+  std::vector<double> places = track.breaks();
   for (const WidthAt& knot : kWidths.knots()) {
-    if (knot.at < length) places.push_back(knot.at);
+    if (knot.at < track.length()) places.push_back(knot.at);
   }
-  places.push_back(length);
+  std::sort(places.begin(), places.end());
   double sum = 0.0;
-  constexpr int kPieces = 2000;
+  constexpr int kPieces = 100;
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const double step = (places[i + 1] - places[i]) / kPieces;
+    const double half = 0.5 * (places[i + 1] - places[i]) / kPieces;
     for (int k = 0; k < kPieces; ++k) {
-      const double s = places[i] + k * step;
-      sum += step / 6.0 * (function(s) + 4.0 * function(s + 0.5 * step) + function(s + step));
+      const double middle = places[i] + (2 * k + 1) * half;
+      const double away = half / std::sqrt(3.0);
+      sum += half * (function(middle - away) + function(middle + away));
     }
   }
   return sum;
@@ -657,7 +659,7 @@ TEST_CASE("sweep: a width that changes along a straight track gives the prisms b
     options.tolerance = 1e-3;
     const Solid solid = sweep(track, section, Placement({1.0, 2.0, 3.0}, Angle::from_degrees(40.0)), options);
     check_solid(solid, options);
-    const double exact = integral(track.length(), [&](double s) { return section.at(s).area(); });
+    const double exact = integral(track, [&](double s) { return section.at(s).area(); });
     CHECK(solid.exact_volume == Approx(exact).epsilon(1e-12));
     CHECK(measure(solid.mesh).volume == Approx(exact).epsilon(1e-11));
     CHECK(solid.max_deviation < 1e-9);
@@ -674,7 +676,7 @@ TEST_CASE("sweep: the volume of a solid whose width changes is the integral over
     check_solid(solid, options);
     CHECK_FALSE(solid.trimmed);
     // dV = (A - M kappa) ds of the section that stands there.
-    const double exact = integral(track.length(), [&](double s) {
+    const double exact = integral(track, [&](double s) {
       const CrossSection here = section.at(s);
       return here.area() - here.first_moment() * track.at(s).curvature;
     });

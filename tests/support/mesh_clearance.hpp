@@ -1,7 +1,7 @@
 #pragma once
 
 #include "glissade/core/vec.hpp"
-#include "glissade/solid/placement.hpp"
+#include "glissade/route/placement.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <algorithm>

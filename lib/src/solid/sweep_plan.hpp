@@ -1,8 +1,8 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/route/placement.hpp"
 #include "glissade/section/cross_section.hpp"
-#include "glissade/solid/placement.hpp"
 #include "glissade/solid/sweep.hpp"
 
 #include "solid/stations.hpp"

@@ -2,8 +2,8 @@
 
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/core/capacity.hpp"
+#include "glissade/route/placement.hpp"
 #include "glissade/section/cross_section.hpp"
-#include "glissade/solid/placement.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
 
 #include <cstddef>

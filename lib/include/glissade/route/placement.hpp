@@ -6,8 +6,12 @@
 
 namespace glissade {
 
-/// Puts the vertical plane of a centerline into space.
+/// Where a profile lies in space: a straight plan, upright and not banked.
 ///
+/// A centerline stays planar: it is the profile, run and drop. What leads it through space is this, and positions are had
+/// from it by run, drop and distance across alone; whoever asks so needs not know how the plan runs. A plan that bends
+/// and a section that banks are further routes of the same three coordinates (docs/development.md, layers).
+/// Identity: a value; parallel routes differ by a shift alone, lengths and angles are those of the profile.
 /// Frame: x, y level, z up. "Across" counts to the left of a body that looks towards the finish.
 class Placement {
  public:

@@ -1,4 +1,4 @@
-#include "glissade/solid/placement.hpp"
+#include "glissade/route/placement.hpp"
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
