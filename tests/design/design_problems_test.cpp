@@ -241,8 +241,8 @@ TEST_CASE("widths along the track are read by place, and their faults told") {
   const Design design = parse_design(sound_design_with("width: 400 mm", "width: " + sound), "d.yaml");
   CHECK(section::width_law(*design.cross_section) == WidthLaw({{0.0, 0.6}, {2.0, 0.4}}));
   CHECK_THAT(channel("[{at: 2 m, width: 600 mm}, {at: 1 m, width: 400 mm}]"),
-             StartsWith("d.yaml:9:42: width: the place at 1 m does not lie after the one at 2 m"));
-  CHECK_THAT(channel("[]"), StartsWith("d.yaml:9:42: width: no place is given"));
+             StartsWith("d.yaml:9:41: width: the place at 1 m does not lie after the one at 2 m"));
+  CHECK_THAT(channel("[]"), StartsWith("d.yaml:9:41: width: no place is given"));
   CHECK_THAT(channel("[{at: 0 m}]"), Contains("width is missing"));
   CHECK_THAT(channel("[{at: 0 m, width: 600 mm, height: 2 m}]"), Contains("unknown key height"));
   CHECK_THAT(channel("[{at: 0 m, width: 3 mm}, {at: 2 m, width: 400 mm}]"),
