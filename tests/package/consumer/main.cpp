@@ -1,9 +1,9 @@
 // What a program of somebody else's does with an installed Glissade: every header is read, every module called.
 
+#include "every_header.hpp"
+
 #include <filesystem>
 #include <iostream>
-
-#include "every_header.hpp"
 
 int main() {
   using namespace glissade;
@@ -21,7 +21,8 @@ int main() {
   for (const LimitCheck& check : built.track.limit_checks) {
     if (!check.kept()) return 1;
   }
-  write_png("consumer.png", figures_svg({ride_figure(RideQuantity::profile, {{"track", &built.track.motion}})}));
+  write_png("consumer.png",
+            figures_svg({ride_figure(RideQuantity::profile, {{"track", &built.track.motion}})}));
   const study::Plan plan({study::vary("body.friction_angle=10deg:20deg:11")});
   std::cout << "friction angle " << angle_text(design.body.friction.angle().radians()) << ", "
             << built.files.size() << " files, " << plan.count() << " points\n";
