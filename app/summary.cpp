@@ -11,6 +11,7 @@
 #include "app/gates_text.hpp"
 #include "app/law_text.hpp"
 #include "app/limits_text.hpp"
+#include "app/parts_text.hpp"
 #include "app/probes_text.hpp"
 #include "app/rides_text.hpp"
 #include "app/rules_text.hpp"
@@ -245,8 +246,9 @@ std::string build_summary(const Design& design, const Build& build) {
                               ": watertight, one piece, facing outward, no self-intersection,\n"
                               "no degenerate facet; measured at the precision of each file, each read back";
   return track_summary(design, build.track) + "\n" + labelled("Solid", solid_lines(design, build)) +
-         labelled("Mesh", verdict) + "\n" + labelled("Files", file_lines(build.files)) +
-         earlier_file_lines(build);
+         labelled("Mesh", verdict) + "\n" +
+         (build.fabrication ? parts_lines(*build.fabrication) + "\n" : "") +
+         labelled("Files", file_lines(build.files)) + earlier_file_lines(build);
 }
 
 }  // namespace glissade::app

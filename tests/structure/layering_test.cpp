@@ -29,7 +29,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"section", {"core"}},
     {"solid", {"core", "centerline", "section"}},
     {"parts", {"core", "centerline", "motion", "section", "solid"}},
-    {"design", {"core", "centerline", "clearance", "task", "trades", "section", "data", "io"}},
+    {"design", {"core", "centerline", "clearance", "task", "trades", "section", "parts", "data", "io"}},
     {"drawing", {"core", "centerline", "motion", "section", "solid", "parts"}},
     {"io", {"core", "centerline", "motion", "section", "solid", "parts", "trades", "drawing"}},
     {"report",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/parts/plates.hpp"
 #include "glissade/pipeline/solve.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -57,8 +59,10 @@ struct Assembly {
   CrossSection section;
   std::vector<Part> parts;         ///< the swept solid first
   std::vector<PendingFile> files;  ///< in the order in which they are written and told
-  double cost = 0.0;               ///< of what has been done, in units of PendingFile::cost
-  double total_cost = 1.0;         ///< of that and all files
+  std::shared_ptr<const PlateBuild>
+      fabrication;          ///< what a workshop makes; null where the design asks for none
+  double cost = 0.0;        ///< of what has been done, in units of PendingFile::cost
+  double total_cost = 1.0;  ///< of that and all files
 
   [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
 };
@@ -72,7 +76,9 @@ struct WrittenFile {
 struct Build {
   Track track;
   CrossSection section;
-  std::vector<Part> parts;         ///< the swept solid first
+  std::vector<Part> parts;  ///< the swept solid first
+  std::shared_ptr<const PlateBuild>
+      fabrication;                 ///< what a workshop makes; null where the design asks for none
   std::vector<WrittenFile> files;  ///< all of them, the report last
   /// Files of an earlier build of this design that this one does not make, unchanged since they were written.
   std::vector<std::filesystem::path> removed;

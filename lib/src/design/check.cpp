@@ -45,6 +45,7 @@ std::vector<Finding> check_values(const Design& design) {
   check_gates(design, findings);
   check_cross_section(design, findings);
   check_mesh(design, findings);
+  check_fabrication(design, findings);
   check_export(design, findings);
   check_limits(design, findings);
   return findings;

@@ -25,6 +25,8 @@ void check_hill(const Design& design, Collected& findings);
 void check_gates(const Design& design, Collected& findings);
 void check_cross_section(const Design& design, Collected& findings);
 void check_mesh(const Design& design, Collected& findings);
+/// What a workshop cannot make of it.
+void check_fabrication(const Design& design, Collected& findings);
 void check_export(const Design& design, Collected& findings);
 /// Every problem of the limits, and of them with the rest of the design.
 void check_limits(const Design& design, Collected& findings);

@@ -33,7 +33,7 @@ bool Design::asks_the_same(const Design& other) const {
          gravity == other.gravity && centerline == other.centerline && limits == other.limits &&
          objective == other.objective && probes == other.probes && rules == other.rules &&
          hill == other.hill && gates == other.gates && cross_section == other.cross_section &&
-         mesh == other.mesh && exports == other.exports;
+         fabrication == other.fabrication && mesh == other.mesh && exports == other.exports;
 }
 
 Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {

@@ -12,6 +12,7 @@
 #include "design/read_body.hpp"
 #include "design/read_cross_section.hpp"
 #include "design/read_ends.hpp"
+#include "design/read_fabrication.hpp"
 #include "design/read_gates.hpp"
 #include "design/read_in_run.hpp"
 #include "design/read_limits.hpp"
@@ -301,6 +302,8 @@ ExportDesign read_export(MapReader& top, Findings& findings) {
   ExportDesign exports;
   const std::optional<Value> value = top.find("export");
   if (!value) return exports;
+  // Of a workshop: the solid in the usual formats, beside what `fabrication` gives.
+  if (is_word(*value, "workshop", findings)) return exports;
   if (value->node->kind != Node::Kind::map) {
     read_formats(top, *value, exports, findings);
     return exports;
@@ -354,7 +357,8 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
   top.expect({"glissade", "name", "track", "body", "stream", "feed", "discharge", "materials", "gravity",
-              "centerline", "limits", "probes", "hill", "gates", "rules", "cross_section", "mesh", "export"});
+              "centerline", "limits", "probes", "hill", "gates", "rules", "cross_section", "fabrication",
+              "mesh", "export"});
   for (const std::string_view key : body_keys()) {
     top.add_stranger(key, "two spaces before it, below body:");
   }
@@ -377,6 +381,7 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.gates = read_gates(top, findings);
   read_rules(top, design, findings);
   design.cross_section = read_cross_section(top, findings);
+  design.fabrication = read_fabrication(top, findings);
   design.mesh = read_mesh(top, findings);
   design.exports = read_export(top, findings);
   top.refuse_unknown_keys();

@@ -6,6 +6,7 @@
 #include "glissade/pipeline.hpp"
 
 #include "pipeline/cross_section.hpp"
+#include "pipeline/fabricate.hpp"
 #include "pipeline/formats.hpp"
 #include "pipeline/located.hpp"
 #include "pipeline/stations.hpp"
@@ -28,6 +29,8 @@ namespace {
 constexpr double kSweepCost = 0.1;
 constexpr double kCheckCost = 5.0;  // of one rounding of the mesh
 constexpr double kReportCost = 1.0;
+constexpr double kPartsCost = 1.0;
+constexpr double kWorkshopFilesCost = 1.5;
 
 /// A mesh as one or more of the formats hold it, and what was measured on it.
 struct MeasuredMesh {
@@ -257,8 +260,9 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
   if (const auto problem = limits_problem(design, track)) throw InfeasibleError(*problem);
 
   const std::vector<ExportFormat>& formats = design.exports.formats;
-  const double cost = cost_of_assembly(formats);
-  const double total = cost + cost_of_files(formats, options);
+  const double cost = cost_of_assembly(formats) + (design.fabrication ? kPartsCost : 0.0);
+  const double total =
+      cost + cost_of_files(formats, options) + (design.fabrication ? kWorkshopFilesCost : 0.0);
   Steps steps(context, total);
   steps.enter("making the mesh", kSweepCost);
   const std::string place = design.where("cross_section");
@@ -280,8 +284,7 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
   const std::optional<Vec3> offset = offset_in_files(design, track);
   const auto for_files = material_for_files(design, track, solid, offset);
 
-  std::string stem = design.file.stem().string();
-  if (stem.empty()) stem = "track";
+  std::string stem = stem_of(design);
   std::vector<PendingFile> files = files_of(design, stem, for_files, meshes);
   Part part{.name = "track",
             .solid = ProvenSolid{std::move(solid), reference.facts, max_deviation, offset},
@@ -290,8 +293,20 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
   add_gates(track, stem, files);
   std::vector<Part> parts;
   parts.push_back(std::move(part));
-  return {
-      std::move(stem), std::move(track), std::move(section), std::move(parts), std::move(files), cost, total};
+  std::shared_ptr<const PlateBuild> fabrication;
+  if (design.fabrication) {
+    steps.enter("making parts", kPartsCost);
+    fabrication = fabricate(design, track, placement);
+    for (PendingFile& file : workshop_files(stem, fabrication)) files.push_back(std::move(file));
+  }
+  return {std::move(stem),
+          std::move(track),
+          std::move(section),
+          std::move(parts),
+          std::move(files),
+          std::move(fabrication),
+          cost,
+          total};
 }
 
 }  // namespace glissade

@@ -80,8 +80,13 @@ Build publish(const Design& design, Assembly assembly, const fs::path& directory
   Published published = staging.publish();
   std::vector<WrittenFile> files;
   for (const fs::path& path : published.files) files.push_back({path, fs::file_size(path)});
-  return {std::move(assembly.track), std::move(assembly.section),  std::move(assembly.parts),
-          std::move(files),          std::move(published.removed), std::move(published.set_aside)};
+  return {std::move(assembly.track),
+          std::move(assembly.section),
+          std::move(assembly.parts),
+          std::move(assembly.fabrication),
+          std::move(files),
+          std::move(published.removed),
+          std::move(published.set_aside)};
 }
 
 Build build(const Design& design, const fs::path& directory, const RunContext& given_context,

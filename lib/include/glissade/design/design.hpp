@@ -6,6 +6,7 @@
 #include "glissade/core/vec.hpp"
 #include "glissade/design/body_design.hpp"
 #include "glissade/design/ends_design.hpp"
+#include "glissade/design/fabrication_design.hpp"
 #include "glissade/design/gates_design.hpp"
 #include "glissade/design/in_run_design.hpp"
 #include "glissade/design/probe_design.hpp"
@@ -153,6 +154,7 @@ struct Design {
   std::optional<GatesDesign> gates;  ///< from which the track is ridden, too
   RulesDesign rules;                 ///< what a trade asks of the track; verdicts, no limits of a search
   std::optional<CrossSectionDesign> cross_section;
+  std::optional<FabricationDesign> fabrication;  ///< none: the solid alone is built
   MeshDesign mesh;
   ExportDesign exports;
 

@@ -1,0 +1,71 @@
+#include "app/parts_text.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include "app/console.hpp"
+#include "app/table.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace glissade::app {
+namespace {
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+std::string arcs_text(const MasterCurve& master) {
+  return counted(master.arcs, "arc") + "; no fewer than " + std::to_string(master.lower_bound) + " reach " +
+         length_text(master.tolerance) + " (found: " + length_text(master.max_deviation, 3) + ")";
+}
+
+std::string pieces_text(const Workshop& workshop) {
+  std::size_t pieces = 0;
+  double mass = 0.0;
+  for (const ShopPart& part : workshop.parts) {
+    pieces += part.quantity();
+    mass += part.mass * static_cast<double>(part.quantity());
+  }
+  return counted(workshop.parts.size(), "part") + ", " + counted(pieces, "piece") + ", " +
+         rounded_text(mass, 4) + " kg; they add up to the channel, none clash";
+}
+
+std::string ride_text(const AsBuiltRide& ride) {
+  if (!ride.arrives) return "the body does not arrive on the floor as it is built";
+  std::string text = rounded_text(ride.travel_time, 5) + " s, " + rounded_text(ride.exit_speed, 5) + " m/s";
+  if (!(ride.design_exit_speed > 0.0)) return text;
+  const double change = ride.exit_speed / ride.design_exit_speed - 1.0;
+  if (ride.bends > 0) {
+    text += ": " + counted(ride.bends, "bend") + " cost " + rounded_text(-100.0 * change, 2) +
+            " % of the exit speed";
+  } else if (std::fabs(change) > 1e-6) {
+    text += ": " + rounded_text(100.0 * change, 2) + " % of the exit speed";
+  }
+  return text;
+}
+
+std::string checks_text(const std::vector<ShopCheck>& checks) {
+  std::string text;
+  std::size_t passed = 0;
+  for (const ShopCheck& check : checks) {
+    if (check.verdict == ShopVerdict::pass) {
+      ++passed;
+      continue;
+    }
+    const bool failed = check.verdict == ShopVerdict::fail;
+    text += "\n" + emphasised(failed ? "fails" : "warns", failed ? Emphasis::bad : Emphasis::heading) + ": " +
+            check.rule + " " + check.value + ", " + check.bound + " (" + check.where + "; " + check.source +
+            ")";
+  }
+  return std::to_string(passed) + " of " + std::to_string(checks.size()) + " rules of the shop kept" + text;
+}
+
+}  // namespace
+
+std::string parts_lines(const PlateBuild& build) {
+  return labelled("Master curve", arcs_text(build.master)) + labelled("Parts", pieces_text(build.workshop)) +
+         labelled("As built", ride_text(build.ride)) + labelled("Shop", checks_text(build.workshop.checks));
+}
+
+}  // namespace glissade::app

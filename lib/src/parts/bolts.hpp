@@ -1,0 +1,28 @@
+#pragma once
+
+#include "glissade/core/arc_path.hpp"
+#include "glissade/parts/plates.hpp"
+
+#include <vector>
+
+namespace glissade::parts {
+
+/// A metric bolt with nut and two washers.
+struct Bolt {
+  int size = 0;       ///< nominal diameter [mm]
+  double fine = 0.0;  ///< clearance holes, ISO 273 [m]
+  double medium = 0.0;
+  double coarse = 0.0;
+  double nut_height = 0.0;     ///< ISO 4032 [m]
+  double washer_height = 0.0;  ///< ISO 7089 [m]
+};
+/// @throws InputError if the size is unknown
+[[nodiscard]] const Bolt& bolt_of(int size);
+
+/// @return the least length, in steps of 5 mm, that reaches through a grip, two washers, the nut and two threads [m]
+[[nodiscard]] double bolt_length(const Bolt& bolt, double grip);
+
+/// Centres along a line: one at each end, the others evenly between, no farther apart than the pitch.
+[[nodiscard]] std::vector<Vec2> evenly(Vec2 from, Vec2 to, double pitch);
+
+}  // namespace glissade::parts

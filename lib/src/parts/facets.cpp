@@ -1,0 +1,285 @@
+#include "parts/facets.hpp"
+
+#include "glissade/centerline/straight_line.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kSame = 1e-9;  // [m], [rad]
+
+/// A stretch that turns one way only, or not at all, with its share of the turning.
+struct Bow {
+  double from = 0.0;
+  double to = 0.0;
+  double turned = 0.0;  // towards the upper side [rad]
+};
+
+/// Neighbouring arcs that turn the same way, as one; straight pieces go with what is before them.
+std::vector<Bow> bows(const ArcSpline& track, const Span& span) {
+  std::vector<Bow> found;
+  for (const TrackArc& arc : track.arcs()) {
+    const double from = std::max(span.from, arc.start);
+    const double to = std::min(span.to, arc.start + arc.length);
+    if (!(to - from > kSame)) continue;
+    const double turned = arc.curvature * (to - from);
+    const bool same = !found.empty() && (turned * found.back().turned >= 0.0);
+    if (same) {
+      found.back().to = to;
+      found.back().turned += turned;
+    } else {
+      found.push_back({from, to, turned});
+    }
+  }
+  return found;
+}
+
+double slope_at(const ArcSpline& track, double s) {
+  return track.direction(std::min(s, track.length())).slope_angle;
+}
+
+/// The place within a bow where it has turned through a share of its angle.
+double place_at(const ArcSpline& track, const Bow& bow, double share) {
+  if (share <= 0.0) return bow.from;
+  if (share >= 1.0) return bow.to;
+  double left = share * bow.turned;
+  for (std::size_t i = track.arc_at(bow.from); i < track.arcs().size(); ++i) {
+    const TrackArc& arc = track.arcs()[i];
+    const double from = std::max(bow.from, arc.start);
+    const double turned = arc.curvature * (std::min(bow.to, arc.start + arc.length) - from);
+    if (std::fabs(left) <= std::fabs(turned) && turned != 0.0) return from + left / arc.curvature;
+    left -= turned;
+  }
+  return bow.to;
+}
+
+/// Where the tangents at two places meet.
+Vec2 corner_between(const ArcSpline& track, double a, double b) {
+  const TrackFrame first = frame_at(track, a);
+  const TrackFrame second = frame_at(track, b);
+  const double sine = cross(first.along, second.along);
+  const double along = cross(second.at - first.at, second.along) / sine;
+  return first.at + along * first.along;
+}
+
+/// How far a point lies from a stretch of track.
+double distance_from(const ArcSpline& track, double a, double b, Vec2 point) {
+  double least = 1e300;
+  constexpr int kSteps = 64;
+  double best = a;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double s = a + (b - a) * k / kSteps;
+    const double away = norm(frame_at(track, s).at - point);
+    if (away < least) {
+      least = away;
+      best = s;
+    }
+  }
+  for (int round = 0; round < 6; ++round) {
+    const TrackFrame frame = frame_at(track, best);
+    best = std::clamp(best + dot(point - frame.at, frame.along), a, b);
+  }
+  return norm(frame_at(track, best).at - point);
+}
+
+/// Corners of the flats that touch at given places.
+Facets facets_at(const ArcSpline& track, std::vector<double> touches) {
+  Facets facets;
+  facets.corners.push_back(frame_at(track, touches.front()).at);
+  for (std::size_t i = 0; i + 1 < touches.size(); ++i) {
+    const double kink = slope_at(track, touches[i]) - slope_at(track, touches[i + 1]);
+    if (std::fabs(kink) < kSame) continue;
+    const Vec2 corner = corner_between(track, touches[i], touches[i + 1]);
+    facets.corners.push_back(corner);
+    facets.kinks.push_back(kink);
+    facets.misses.push_back(distance_from(track, touches[i], touches[i + 1], corner));
+  }
+  facets.corners.push_back(frame_at(track, touches.back()).at);
+  facets.touches = std::move(touches);
+  return facets;
+}
+
+void append(std::vector<double>& places, double place) {
+  if (places.empty() || place > places.back() + kSame) places.push_back(place);
+}
+
+/// Leaves out places that follow another one too closely: flats that no press can hold become one, with a larger bend.
+std::vector<double> spaced(const std::vector<double>& places, double least) {
+  std::vector<double> kept = {places.front()};
+  for (std::size_t i = 1; i + 1 < places.size(); ++i) {
+    // A flat at an end is half as long as its neighbours.
+    const double before = kept.size() == 1 ? 2.0 * least : least;
+    const bool close = places[i] - kept.back() < before || places.back() - places[i] < 2.0 * least;
+    if (!close) kept.push_back(places[i]);
+  }
+  kept.push_back(places.back());
+  return kept;
+}
+
+std::string flat_text(std::size_t flat) {
+  return "flat " + std::to_string(flat + 1);
+}
+
+}  // namespace
+
+Facets facets_by_angle(const ArcSpline& track, const Span& span, double largest_kink, double least_flat) {
+  std::vector<double> touches = {span.from};
+  for (const Bow& bow : bows(track, span)) {
+    const double count = std::max(1.0, std::ceil(std::fabs(bow.turned) / largest_kink - kSame));
+    for (double k = 1.0; k <= count; k += 1.0) append(touches, place_at(track, bow, k / count));
+  }
+  touches.back() = span.to;
+  return facets_at(track, spaced(touches, least_flat));
+}
+
+Facets facets_by_length(const ArcSpline& track, const Span& span, double longest, double least_flat) {
+  std::vector<double> touches = {span.from};
+  for (const Bow& bow : bows(track, span)) {
+    const double count = std::max(1.0, std::ceil((bow.to - bow.from) / longest - kSame));
+    for (double k = 1.0; k <= count; k += 1.0) append(touches, bow.from + (bow.to - bow.from) * k / count);
+  }
+  touches.back() = span.to;
+  return facets_at(track, spaced(touches, least_flat));
+}
+
+Facets facets_by_chord(const ArcSpline& track, const Span& span, double tolerance, double least_flat) {
+  std::vector<double> touches = {span.from};
+  for (const Bow& bow : bows(track, span)) {
+    double from = bow.from;
+    const auto keeps = [&](double to) {
+      if (std::fabs(slope_at(track, from) - slope_at(track, to)) < kSame) return true;
+      return distance_from(track, from, to, corner_between(track, from, to)) <= tolerance;
+    };
+    while (from < bow.to - kSame) {
+      double low = from;
+      double high = bow.to;
+      for (int round = 0; round < 40 && !keeps(high); ++round) {
+        // The farthest place that keeps the tolerance, by bisection: the miss grows with the angle.
+        const double middle = 0.5 * (low + high);
+        if (keeps(middle)) {
+          low = middle;
+          if (high - low < 1e-6 * (bow.to - bow.from)) break;
+        } else {
+          high = middle;
+        }
+      }
+      from = keeps(high) ? high : std::max(low, from + 1e-6 * (bow.to - bow.from));
+      append(touches, std::min(from, bow.to));
+    }
+  }
+  touches.back() = span.to;
+  return facets_at(track, spaced(touches, least_flat));
+}
+
+ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness) {
+  const Vec2 origin = facets.corners.front();
+  const std::size_t flats = facets.corners.size() - 1;
+  std::vector<double> taken(facets.corners.size(), 0.0);  // of the flats beside a corner, by its bend [m]
+  for (std::size_t i = 0; i < facets.bends(); ++i) {
+    const double radius = facets.kinks[i] > 0.0 ? inner_radius : inner_radius + thickness;
+    taken[i + 1] = radius * math::tan(0.5 * std::fabs(facets.kinks[i]));
+  }
+  ArcPath path;
+  path.vertices.push_back({{}, 0.0});
+  for (std::size_t i = 0; i < flats; ++i) {
+    const Vec2 along = facets.corners[i + 1] - facets.corners[i];
+    const double length = norm(along);
+    if (!(length - taken[i] - taken[i + 1] > 1e-6)) {
+      throw InputError({"", flat_text(i) + " of the bent floor is " + length_text(length, 3) + " long",
+                        "Its bends of radius " + length_text(inner_radius) + " take " +
+                            length_text(taken[i] + taken[i + 1], 3) + " of it.",
+                        "fewer bends, a smaller inner_radius, or floor: rolled"});
+    }
+    const Vec2 end = facets.corners[i + 1] - origin;
+    if (i + 1 == flats) {
+      path.vertices.push_back({end, 0.0});
+      break;
+    }
+    const Vec2 next = facets.corners[i + 2] - facets.corners[i + 1];
+    const double kink = math::atan2(cross(along, next), dot(along, next));
+    path.vertices.push_back({end - (taken[i + 1] / length) * along, math::tan(0.25 * kink)});
+    path.vertices.push_back({end + (taken[i + 1] / norm(next)) * next, 0.0});
+  }
+  return ArcSpline(path);
+}
+
+namespace {
+
+/// A body from piece to piece of a floor.
+class Rider {
+ public:
+  Rider(const Body& body, double gravity) : body_(body), gravity_(gravity), speed_(body.entry_speed) {}
+
+  /// @return false if it does not come to the end of the piece
+  bool down(const CenterlinePtr& piece) {
+    Body body = body_;
+    body.entry_speed = speed_;
+    for (FrictionChange& change : body.friction_changes) change.from = std::max(0.0, change.from - passed_);
+    const Motion motion(piece, body, gravity_);
+    if (!motion.arrived()) return false;
+    ride_.time += motion.travel_time();
+    ride_.highest_load = std::max(ride_.highest_load, motion.highest_load().normal_load);
+    speed_ = motion.exit_speed();
+    passed_ += piece->length();
+    return true;
+  }
+  void over_kink(double kink) {
+    const auto [sine, cosine] = math::sine_cosine(std::fabs(kink));
+    speed_ *= kink > 0.0 ? std::max(0.0, cosine - friction() * sine) : cosine;
+  }
+  void down_step(double step) {
+    speed_ = std::max(0.0, speed_ - friction() * std::sqrt(2.0 * gravity_ * step));
+  }
+
+  [[nodiscard]] FacetRide arrived() {
+    ride_.arrives = true;
+    ride_.speed = speed_;
+    return ride_;
+  }
+  [[nodiscard]] FacetRide stopped() const { return ride_; }
+
+ private:
+  [[nodiscard]] double friction() const { return body_.friction.coefficient(); }
+
+  const Body& body_;
+  double gravity_;
+  double speed_;
+  double passed_ = 0.0;
+  FacetRide ride_;
+};
+
+}  // namespace
+
+FacetRide ride_facets(const std::vector<Facets>& units, const Body& body, double gravity, double joint_step) {
+  Rider rider(body, gravity);
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    const Facets& facets = units[u];
+    if (u > 0) rider.down_step(joint_step);
+    for (std::size_t i = 0; i + 1 < facets.corners.size(); ++i) {
+      const Vec2 along = facets.corners[i + 1] - facets.corners[i];
+      if (!rider.down(std::make_shared<StraightLine>(Endpoints{along.x, -along.y}))) return rider.stopped();
+      if (i < facets.bends()) rider.over_kink(facets.kinks[i]);
+    }
+  }
+  return rider.arrived();
+}
+
+FacetRide ride_lines(const std::vector<std::shared_ptr<const ArcSpline>>& units, const Body& body,
+                     double gravity, double joint_step) {
+  Rider rider(body, gravity);
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    if (u > 0) rider.down_step(joint_step);
+    if (!rider.down(units[u])) return rider.stopped();
+  }
+  return rider.arrived();
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "glissade/core/arc_path.hpp"
+#include "glissade/parts/arc_spline.hpp"
+
+#include <optional>
+
+namespace glissade::parts {
+
+/// A stretch of a track between two planes square to it.
+struct Span {
+  double from = 0.0;  ///< arc length [m]
+  double to = 0.0;
+};
+
+/// A point of the track with its directions, in the frame (x, height).
+struct TrackFrame {
+  Vec2 at;
+  Vec2 along;  ///< unit tangent
+  Vec2 up;     ///< unit normal, towards the side that a body slides on
+};
+[[nodiscard]] TrackFrame frame_at(const ArcSpline& track, double s);
+
+/// The line at a height above a stretch of track, between the planes of its ends: concentric arcs, those that would fold
+/// over cut away where the line meets an end plane or itself.
+/// @param height  [m]; negative below
+/// @return none where the height folds the line away altogether
+[[nodiscard]] std::optional<ArcPath> offset_line(const ArcSpline& track, const Span& span, double height);
+
+/// @return whether offset_line() cuts anything away there
+[[nodiscard]] bool folds(const ArcSpline& track, const Span& span, double height);
+
+/// What lies between two heights over a stretch of track.
+/// @param low,high  low < high [m]
+/// @return counter-clockwise, from the upstream end of the lower line; none where a line folds away
+[[nodiscard]] std::optional<ArcPath> band(const ArcSpline& track, const Span& span, double low, double high);
+
+}  // namespace glissade::parts

@@ -1,0 +1,266 @@
+// Rules of thumb and of standards, as data: who says so stands beside each.
+
+#include "parts/plate_checks.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/bolts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace parts {
+namespace {
+
+constexpr double kLeastEdge = 1.2;   // hole diameters from its centre to an edge
+constexpr double kLeastPitch = 2.4;  // hole diameters between centres, across the force
+constexpr double kEdgeAtTop = 1.5;   // hole diameters below the top of a frame, as frame_plate() has it
+
+/// One rule: a value must not be below (or above) a bound.
+struct Rule {
+  const char* name;
+  bool at_least;       // else: at most
+  ShopVerdict broken;  // what a breach is
+  const char* source;
+};
+
+constexpr Rule kHoleDiameter{"hole diameter", true, ShopVerdict::fail,
+                             "laser cutters' tables: 0.7 to 1.5 thicknesses, most 1"};
+constexpr Rule kHoleToEdge{"hole to edge", true, ShopVerdict::fail,
+                           "EN 1993-1-8 table 3.3: 1.2 hole diameters"};
+constexpr Rule kHolePitch{"distance of bolts, least", true, ShopVerdict::fail,
+                          "EN 1993-1-8 table 3.3: 2.4 hole diameters"};
+constexpr Rule kWidePitch{"distance of bolts, greatest", false, ShopVerdict::warn,
+                          "chute practice, uncertain: 100 to 150 mm"};
+constexpr Rule kSheet{"largest part", false, ShopVerdict::fail, "sheet of the design"};
+constexpr Rule kSmallest{"smallest part", true, ShopVerdict::warn, "laser cutters' tables: 25 mm"};
+constexpr Rule kRolling{"rolling radius", true, ShopVerdict::warn,
+                        "shop practice, uncertain: 20 to 50 thicknesses; pre-bend or press below"};
+constexpr Rule kPunch{"inner radius of bends", true, ShopVerdict::fail,
+                      "shop practice: 1 thickness of mild steel"};
+constexpr Rule kFlat{"flat between bends", true, ShopVerdict::warn,
+                     "half the opening of a die of 8 thicknesses"};
+constexpr Rule kMass{"mass of a part", false, ShopVerdict::fail, "heaviest of the design"};
+constexpr Rule kStep{"step up at a joint", false, ShopVerdict::fail,
+                     "downstream edge never higher than upstream edge"};
+
+/// The worst value that a rule met.
+class Worst {
+ public:
+  explicit Worst(const Rule& rule) : rule_(rule) {}
+
+  /// @param text  writes a value or bound with its unit
+  void see(double value, double bound, const std::string& where, std::string (*text)(double)) {
+    const double room = rule_.at_least ? value - bound : bound - value;
+    if (seen_ && room >= room_) return;
+    seen_ = true;
+    room_ = room;
+    const bool kept = room >= -1e-9 * std::fabs(bound);
+    check_ = {rule_.name,  kept ? ShopVerdict::pass : rule_.broken,
+              text(value), std::string(rule_.at_least ? "at least " : "at most ") + text(bound),
+              where,       rule_.source};
+  }
+  void add_to(std::vector<ShopCheck>& checks) const {
+    if (seen_) checks.push_back(check_);
+  }
+
+ private:
+  Rule rule_;
+  bool seen_ = false;
+  double room_ = 0.0;
+  ShopCheck check_;
+};
+
+std::string as_length(double metres) {
+  return length_text(metres, 4);
+}
+
+std::string as_mass(double kilograms) {
+  return rounded_text(kilograms, 4) + " kg";
+}
+
+double edge_distance(const ArcPath& outline, Vec2 point) {
+  const PathPiece here{point, point + Vec2{1e-9, 0.0}, 0.0};
+  double least = std::numeric_limits<double>::infinity();
+  for (const PathPiece& piece : pieces_of(outline)) least = std::min(least, distance(here, piece));
+  return least;
+}
+
+void check_holes(const Workshop& workshop, std::vector<ShopCheck>& checks) {
+  Worst diameter(kHoleDiameter);
+  Worst edge(kHoleToEdge);
+  Worst pitch(kHolePitch);
+  Worst wide(kWidePitch);
+  for (const ShopPart& part : workshop.parts) {
+    if (!part.pattern) continue;
+    const std::vector<Circle>& holes = part.pattern->region.holes;
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      const double hole = 2.0 * holes[i].radius;
+      diameter.see(hole, part.thickness, part.name, as_length);
+      edge.see(edge_distance(part.pattern->region.outline, holes[i].centre), kLeastEdge * hole, part.name,
+               as_length);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < holes.size(); ++k) {
+        if (k != i) nearest = std::min(nearest, norm(holes[k].centre - holes[i].centre));
+      }
+      if (holes.size() < 2) continue;
+      pitch.see(nearest, kLeastPitch * hole, part.name, as_length);
+      wide.see(nearest, 0.15, part.name, as_length);
+    }
+  }
+  for (const Worst* worst : {&diameter, &edge, &pitch, &wide}) worst->add_to(checks);
+}
+
+void check_sizes(const Job& job, const Workshop& workshop, std::vector<ShopCheck>& checks) {
+  const SplitOptions& split = job.options.split;
+  Worst largest(kSheet);
+  Worst smallest(kSmallest);
+  Worst mass(kMass);
+  constexpr double kLeastSide = 25e-3;
+  for (const ShopPart& part : workshop.parts) {
+    if (part.pattern) {
+      const PlaneBox box = bounds(part.pattern->region.outline);
+      largest.see(std::max(box.width(), box.height()), std::max(split.sheet.x, split.sheet.y), part.name,
+                  as_length);
+      smallest.see(std::min(box.width(), box.height()), kLeastSide, part.name, as_length);
+    }
+    if (split.heaviest) mass.see(part.mass, *split.heaviest, part.name, as_mass);
+  }
+  for (const Worst* worst : {&largest, &smallest, &mass}) worst->add_to(checks);
+}
+
+void check_floor(const Job& job, const std::vector<Unit>& units, std::vector<ShopCheck>& checks) {
+  const double thickness = job.channel.thickness;
+  Worst rolling(kRolling);
+  Worst punch(kPunch);
+  Worst flat(kFlat);
+  Worst step(kStep);
+  for (const Unit& unit : units) {
+    const bool bent = unit.face.facets.has_value();
+    for (const TrackArc& arc : unit.face.line.arcs()) {
+      const std::string where =
+          unit.floor.name + " at " + length_text(unit.span.from + arc.start, 3) + " along the track";
+      if (!bent && arc.curvature != 0.0) {
+        rolling.see(1.0 / std::fabs(arc.curvature), 20.0 * thickness, where, as_length);
+      }
+      if (bent && arc.curvature == 0.0) flat.see(arc.length, 4.0 * thickness, where, as_length);
+    }
+    if (bent && unit.face.facets->bends() > 0)
+      punch.see(bend_radius(job), thickness, unit.floor.name, as_length);
+  }
+  if (units.size() > 1) step.see(0.0 - job.options.joint_step, 0.0, "every joint", as_length);
+  for (const Worst* worst : {&rolling, &punch, &flat, &step}) worst->add_to(checks);
+}
+
+/// Collects what is wrong with the measures, all of it.
+class Objections {
+ public:
+  void positive(double value, const char* key) {
+    if (std::isfinite(value) && value > 0.0) return;
+    add(key, std::string(key) + ": " + length_text(value) + " is not positive", "", "a positive length");
+  }
+  void add(const char* where, std::string what, std::string why, std::string hint) {
+    issues_.push_back({where, std::move(what), std::move(why), std::move(hint)});
+  }
+  [[nodiscard]] std::vector<Issue> all() && { return std::move(issues_); }
+
+ private:
+  std::vector<Issue> issues_;
+};
+
+void object_to_flanges(const ChannelMeasures& channel, const FlangeOptions& flange, Objections& objections) {
+  if (!flange.wanted) return;
+  objections.positive(flange.width, "flanges.width");
+  objections.positive(flange.thickness, "flanges.thickness");
+  if (std::find(bolt_sizes().begin(), bolt_sizes().end(), flange.bolt) == bolt_sizes().end()) {
+    objections.add("flanges.bolt",
+                   "bolt: M" + std::to_string(flange.bolt) + " is no size whose holes are known", "",
+                   "M5, M6, M8, M10, M12, M16, M20 or M24");
+    return;
+  }
+  const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
+  const std::string bolt = "M" + std::to_string(flange.bolt);
+  if (flange.pitch < kLeastPitch * hole) {
+    objections.add("flanges.pitch", "pitch: " + length_text(flange.pitch) + " is too close for " + bolt,
+                   "Holes of " + length_text(hole) + " are at least " + length_text(kLeastPitch * hole) +
+                       " apart (EN 1993-1-8).",
+                   "a pitch of 150 mm, or a smaller bolt");
+  }
+  if (0.5 * flange.width < kLeastEdge * hole) {
+    objections.add("flanges.width",
+                   "width: " + length_text(flange.width) + " puts holes for " + bolt + " " +
+                       length_text(0.5 * flange.width) + " from the edge",
+                   "Their centres are at least " + length_text(kLeastEdge * hole) + " from it (EN 1993-1-8).",
+                   "a width of at least " + length_text(2.0 * kLeastEdge * hole) + ", or a smaller bolt");
+  }
+  if (channel.wall_height <= 0.0) return;
+  if (flange.width > channel.wall_height) {
+    objections.add("flanges.width",
+                   "width: " + length_text(flange.width) + " is more than the walls are high, " +
+                       length_text(channel.wall_height),
+                   "The frame would stand out farther than the channel is deep.", "a smaller width");
+    return;
+  }
+  const double column =
+      channel.wall_height - kEdgeAtTop * hole + channel.thickness + flange.gap + 0.5 * flange.width;
+  if (column < kLeastPitch * hole) {
+    objections.add("flanges.bolt",
+                   "bolt: " + bolt + " finds no place beside walls of " + length_text(channel.wall_height),
+                   "Two holes of " + length_text(hole) + " are " + length_text(column) + " apart there.",
+                   "a smaller bolt");
+  }
+}
+
+}  // namespace
+
+std::vector<ShopCheck> shop_checks(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
+  std::vector<ShopCheck> checks;
+  check_sizes(job, workshop, checks);
+  check_holes(workshop, checks);
+  check_floor(job, units, checks);
+  return checks;
+}
+
+}  // namespace parts
+
+std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOptions& options) {
+  using namespace parts;
+  Objections objections;
+  objections.positive(channel.width, "width");
+  objections.positive(channel.thickness, "thickness");
+  objections.positive(options.split.sheet.x, "split.sheet");
+  objections.positive(options.split.sheet.y, "split.sheet");
+  if (options.split.longest) objections.positive(*options.split.longest, "split.longest");
+  if (options.split.heaviest && !(*options.split.heaviest > 0.0)) {
+    objections.add("split.heaviest", "heaviest: " + as_mass(*options.split.heaviest) + " is not positive", "",
+                   "25 kg");
+  }
+  object_to_flanges(channel, options.flanges, objections);
+  if (options.floor == FloorMake::bent) {
+    const double radius = options.bend.inner_radius.value_or(channel.thickness);
+    if (radius < (1.0 - 1e-9) * channel.thickness) {
+      objections.add("bend.inner_radius",
+                     "inner_radius: " + length_text(radius) + " is less than the plate's thickness",
+                     "Mild steel cracks below " + length_text(channel.thickness) + " (1 thickness).",
+                     "inner_radius: " + length_text(channel.thickness));
+    }
+    if (options.walls == WallSeat::on_floor) {
+      objections.add("walls", "walls: on-floor does not go with a bent floor",
+                     "Between the bends the floor departs from the walls' lower edges.",
+                     "walls: beside-floor, or floor: rolled");
+    }
+  }
+  if (!(options.joint_step >= 0.0)) {
+    objections.add("joint_step", "joint_step: " + length_text(options.joint_step) + " is a step up",
+                   "The downstream edge is never higher than the upstream edge.", "joint_step: 0 mm");
+  }
+  return std::move(objections).all();
+}
+
+}  // namespace glissade

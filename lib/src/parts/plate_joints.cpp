@@ -1,0 +1,179 @@
+#include "parts/plate_joints.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr std::size_t kMostUnits = 400;
+constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where the track bends less
+constexpr double kPressFlat =
+    4.0;  // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
+constexpr double kSheetMargin = 5e-3;  // round a part on its sheet [m]
+
+double curvature_near(const ArcSpline& track, double s) {
+  return std::fabs(track.at(s).curvature);
+}
+
+/// The place near `about` where the track bends least, the nearest of equals.
+double calm_place(const ArcSpline& track, double about, double room) {
+  double best = about;
+  constexpr int kPlaces = 40;
+  for (int k = 1; k <= kPlaces; ++k) {
+    for (const double side : {-1.0, 1.0}) {
+      const double s = about + side * room * k / kPlaces;
+      if (curvature_near(track, s) < (1.0 - 1e-6) * curvature_near(track, best) - 1e-9) best = s;
+    }
+  }
+  // Where arcs of the floor join, so that no sliver of one is left beside the joint.
+  for (const TrackArc& arc : track.arcs()) {
+    if (std::fabs(arc.start - best) < 0.1 * room) return arc.start;
+  }
+  return best;
+}
+
+std::vector<double> joints_of(const Job& job, std::size_t count) {
+  const double length = job.track.length();
+  const double even = length / static_cast<double>(count);
+  double room = kRoom * even;
+  if (job.options.split.longest)
+    room = std::min(room, 0.5 * std::max(0.0, *job.options.split.longest - even));
+  std::vector<double> joints = {0.0};
+  for (std::size_t k = 1; k < count; ++k) {
+    joints.push_back(calm_place(job.track, even * static_cast<double>(k), room));
+  }
+  joints.push_back(length);
+  return joints;
+}
+
+/// Why a part cannot be had in one piece; empty: it can.
+struct Excess {
+  std::string what;
+  std::string bound;
+};
+
+std::optional<Excess> excess(const Job& job, const ShopPart& part) {
+  const SplitOptions& split = job.options.split;
+  const PlaneBox box = bounds(part.pattern->region.outline);
+  const double longer = std::max(box.width(), box.height()) + 2.0 * kSheetMargin;
+  const double shorter = std::min(box.width(), box.height()) + 2.0 * kSheetMargin;
+  const double sheet_longer = std::max(split.sheet.x, split.sheet.y);
+  const double sheet_shorter = std::min(split.sheet.x, split.sheet.y);
+  if (longer > sheet_longer || shorter > sheet_shorter) {
+    return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of 5 mm",
+                  "the sheet is " + length_text(sheet_longer) + " x " + length_text(sheet_shorter)};
+  }
+  if (split.heaviest && part.mass > *split.heaviest) {
+    return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
+                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg"};
+  }
+  return std::nullopt;
+}
+
+std::string fold_text(const Job& job) {
+  double height = job.channel.wall_height;
+  const Span whole{0.0, job.track.length()};
+  for (int k = 0; k < 60 && !offset_line(job.track, whole, height); ++k) height *= 0.95;
+  return "wall_height of at most " + length_text(height, 3);
+}
+
+Unit make_unit(const Job& job, const Span& span, double largest_kink) {
+  const bool bent = job.options.floor == FloorMake::bent;
+  Unit unit{span,
+            {},
+            {},
+            bent ? bent_floor_face(job, facets_of(job, span, largest_kink)) : rolled_face(job.track, span),
+            {}};
+  unit.floor = floor_plate(job, unit.face, unit.steps);
+  if (job.channel.wall_height == 0.0) return unit;
+  unit.wall = wall_plate(job, span);
+  if (unit.wall) return unit;
+  throw InputError({"",
+                    "walls of " + length_text(job.channel.wall_height) + " fold over between " +
+                        length_text(span.from) + " and " + length_text(span.to) + " along the track",
+                    "Their tops are nearer to each other than the radius of the track there.",
+                    fold_text(job)});
+}
+
+std::vector<Unit> units_between(const Job& job, const std::vector<double>& joints, double largest_kink) {
+  std::vector<Unit> units;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    units.push_back(make_unit(job, {joints[i], joints[i + 1]}, largest_kink));
+  }
+  return units;
+}
+
+}  // namespace
+
+Facets facets_of(const Job& job, const Span& span, double largest_kink) {
+  const BendOptions& bend = job.options.bend;
+  const double least = kPressFlat * job.channel.thickness;
+  switch (bend.rule) {
+    case FacetRule::chord_tolerance:
+      return facets_by_chord(job.track, span, bend.value, least);
+    case FacetRule::segment_length:
+      return facets_by_length(job.track, span, bend.value, least);
+    case FacetRule::bends:
+    case FacetRule::segment_angle:
+    case FacetRule::speed_loss:
+      break;
+  }
+  return facets_by_angle(job.track, span, largest_kink, least);
+}
+
+double kink_for_speed(const Job& job, const Body& body, double gravity, double design_speed) {
+  const BendOptions& bend = job.options.bend;
+  double turning = 0.0;
+  for (const TrackArc& arc : job.track.arcs()) turning += std::fabs(arc.curvature) * arc.length;
+  if (bend.rule == FacetRule::segment_angle) return bend.value;
+  if (bend.rule == FacetRule::bends) return std::max(turning, 1e-9) / bend.value;
+  if (bend.rule != FacetRule::speed_loss || !(turning > 0.0)) return 1.0;
+  const Span whole{0.0, job.track.length()};
+  const auto cost = [&](double kink) {
+    const FacetRide ride = ride_facets({facets_of(job, whole, kink)}, body, gravity, 0.0);
+    return ride.arrives ? 1.0 - ride.speed / design_speed : 1.0;
+  };
+  // (1 + mu^2) turning^2 / (2 n) of the speed: the count that this asks for, then as many as the ride takes.
+  const double mu = body.friction.coefficient();
+  double count = std::ceil((1.0 + mu * mu) * turning * turning / (2.0 * bend.value));
+  constexpr int kTries = 60;
+  for (int k = 0; k < kTries && cost(turning / count) > bend.value; ++k) count = std::ceil(1.05 * count);
+  for (int k = 0; k < kTries && count > 1.0 && cost(turning / (count - 1.0)) <= bend.value; ++k) count -= 1.0;
+  return turning / count;
+}
+
+std::vector<Unit> split_units(const Job& job, double largest_kink) {
+  const SplitOptions& split = job.options.split;
+  const double length = job.track.length();
+  std::size_t count = 1;
+  if (split.longest && split.allowed)
+    count = static_cast<std::size_t>(std::ceil(length / *split.longest - 1e-9));
+  std::string last;
+  for (; count <= kMostUnits; ++count) {
+    std::vector<Unit> units = units_between(job, joints_of(job, count), largest_kink);
+    std::optional<Excess> found;
+    for (std::size_t i = 0; i < units.size() && !found; ++i) {
+      const std::string number = " of unit " + std::to_string(i + 1);
+      if ((found = excess(job, units[i].floor))) found->what = "the floor" + number + " " + found->what;
+      if (found || !units[i].wall) continue;
+      if ((found = excess(job, *units[i].wall))) found->what = "a wall" + number + " " + found->what;
+    }
+    if (!found) return units;
+    if (!split.allowed) {
+      throw InputError({"split", found->what, "One piece is asked for, and " + found->bound + ".",
+                        "split without allowed: false, a larger sheet, or a larger heaviest"});
+    }
+    last = found->what + "; " + found->bound;
+  }
+  throw InputError({"split", "no " + std::to_string(kMostUnits) + " units are small enough: " + last, "",
+                    "a larger sheet or heaviest"});
+}
+
+}  // namespace glissade::parts

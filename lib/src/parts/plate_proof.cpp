@@ -1,0 +1,248 @@
+// The parts as they are, against what they should be, by routes of their own: the channel's volume by its section, points
+// of each part's edges against the insides of all others, developed lengths against the neutral fibre's.
+
+#include "parts/plate_proof.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kInset = 20e-6;  // from a part's edges to the points that are looked for in others [m]
+constexpr double kDeep = 10e-6;   // inside another part that counts as a clash [m]
+constexpr double kEdge = 1e-9;    // greatest difference of developed and finished edges [m]
+
+/// Area and first moment of the channel's section about the floor line.
+struct Section {
+  double area = 0.0;
+  double first = 0.0;
+};
+
+Section rectangle_section(double width, double low, double high) {
+  return {width * (high - low), 0.5 * width * (high * high - low * low)};
+}
+
+/// Volume of a section along a stretch: less where it stands in a hollow.
+double along_track(const Section& section, double length, double turned) {
+  return section.area * length - section.first * turned;
+}
+
+/// Where lines fold: the integral of their lengths over the height, between the radii at which arcs vanish.
+double folded_area(const ArcSpline& track, const Span& span, double low, double high) {
+  std::vector<double> places = {low, high};
+  for (const TrackArc& arc : track.arcs()) {
+    const double radius = arc.curvature > 0.0 ? 1.0 / arc.curvature : high;
+    if (radius > std::max(low, 0.0) && radius < high) places.push_back(radius);
+  }
+  if (low < 0.0) places.push_back(0.0);
+  std::sort(places.begin(), places.end());
+  constexpr std::array<double, 3> kNodes = {0.1127016653792583, 0.5,
+                                            0.8872983346207417};  // Gauss, three points
+  constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  constexpr int kPanels = 24;
+  double area = 0.0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double step = (places[i + 1] - places[i]) / kPanels;
+    if (!(step > 0.0)) continue;
+    for (int panel = 0; panel < kPanels; ++panel) {
+      for (std::size_t k = 0; k < kNodes.size(); ++k) {
+        const auto line = offset_line(track, span, places[i] + step * (panel + kNodes[k]));
+        if (line) area += kWeights[k] * step * length(*line);
+      }
+    }
+  }
+  return area;
+}
+
+double turned_along(const ArcSpline& track, const Span& span) {
+  return track.direction(span.from).slope_angle - track.direction(span.to).slope_angle;
+}
+
+double exact_volume(const Job& job, const std::vector<Unit>& units) {
+  const double thickness = job.channel.thickness;
+  const Span heights = wall_heights(job);
+  double volume = 0.0;
+  for (const Unit& unit : units) {
+    const ArcSpline& line = unit.face.line;
+    const double floor_turned = line.slope_angle(0.0) - line.slope_angle(line.length());
+    volume += along_track(rectangle_section(floor_width(job), -thickness, 0.0), line.length(), floor_turned);
+    if (!unit.wall) continue;
+    if (folds(job.track, unit.span, heights.to)) {
+      volume += 2.0 * thickness * folded_area(job.track, unit.span, heights.from, heights.to);
+    } else {
+      volume += along_track(rectangle_section(2.0 * thickness, heights.from, heights.to),
+                            unit.span.to - unit.span.from, turned_along(job.track, unit.span));
+    }
+  }
+  return volume;
+}
+
+/// One piece in space, for looking into.
+struct Piece {
+  const ShopPart* part = nullptr;
+  Frame place;
+  Vec3 low;
+  Vec3 high;
+};
+
+std::vector<Vec3> edge_points(const ShopPart& part, const Frame& place) {
+  const Prism& prism = std::get<Prism>(part.body);
+  std::vector<Vec3> points;
+  for (const PathPiece& piece : pieces_of(prism.region.outline)) {
+    constexpr int kPoints = 6;
+    for (int k = 0; k < kPoints; ++k) {
+      const double share = (k + 0.5) / kPoints;
+      const Vec2 at = point_on(piece, share);
+      const Vec2 ahead = point_on(piece, std::min(1.0, share + 1e-3)) - at;
+      const Vec2 inward = (kInset / norm(ahead)) * Vec2{-ahead.y, ahead.x};
+      for (const double z : {kInset, 0.5 * prism.depth, prism.depth - kInset}) {
+        points.push_back(place.to_space({at.x + inward.x, at.y + inward.y, z}));
+      }
+    }
+  }
+  return points;
+}
+
+double component(Vec3 a, Vec3 b) {
+  return dot(a, b);
+}
+
+/// How deep a point lies inside a piece; negative outside, no less than minus the distance.
+double depth_inside(const Piece& piece, Vec3 point) {
+  const Prism& prism = std::get<Prism>(piece.part->body);
+  const Vec3 away = point - piece.place.origin;
+  const double z = component(away, piece.place.z);
+  const double between = std::min(z, prism.depth - z);
+  if (between <= 0.0) return between;
+  const Vec2 flat{component(away, piece.place.x), component(away, piece.place.y)};
+  const PathPiece here{flat, flat + Vec2{1e-9, 0.0}, 0.0};
+  double edge = std::numeric_limits<double>::infinity();
+  for (const PathPiece& side : pieces_of(prism.region.outline)) edge = std::min(edge, distance(here, side));
+  return contains(prism.region.outline, flat) ? std::min(between, edge) : -edge;
+}
+
+std::vector<Piece> pieces_in_space(const Workshop& workshop) {
+  std::vector<Piece> pieces;
+  for (const ShopPart& part : workshop.parts) {
+    for (const Frame& place : part.places) {
+      constexpr double kFar = 1e300;
+      Piece piece{&part, place, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+      for (const Vec3 point : edge_points(part, place)) {
+        piece.low = {std::min(piece.low.x, point.x), std::min(piece.low.y, point.y),
+                     std::min(piece.low.z, point.z)};
+        piece.high = {std::max(piece.high.x, point.x), std::max(piece.high.y, point.y),
+                      std::max(piece.high.z, point.z)};
+      }
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
+bool apart(const Piece& a, const Piece& b) {
+  constexpr double kMargin = 1e-3;
+  return a.low.x > b.high.x + kMargin || b.low.x > a.high.x + kMargin || a.low.y > b.high.y + kMargin ||
+         b.low.y > a.high.y + kMargin || a.low.z > b.high.z + kMargin || b.low.z > a.high.z + kMargin;
+}
+
+/// Points of one piece inside another.
+void require_apart(const Piece& a, const Piece& b) {
+  for (const Vec3 point : edge_points(*a.part, a.place)) {
+    const double depth = depth_inside(b, point);
+    if (depth <= kInset + kDeep) continue;
+    throw InternalError(
+        {"", "parts clash: " + a.part->name + " reaches " + length_text(depth, 3) + " into " + b.part->name,
+         "", "another design, and a report of this one"});
+  }
+}
+
+/// The least distance between the channel's outside and the inside of a frame.
+double least_frame_gap(const Job& job, const std::vector<Unit>& units) {
+  const FlangeOptions& flange = job.options.flanges;
+  double least = flange.gap;
+  const auto see = [&](const Unit& unit, double at, double sense) {
+    const TrackFrame frame = frame_at(job.track, at == 0.0 ? unit.span.from : unit.span.to);
+    constexpr int kPlaces = 8;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const double s = at + sense * flange.thickness * k / kPlaces;
+      const TrackFrame floor = frame_at(unit.face.line, s);
+      const Vec2 under = floor.at + unit.face.origin - job.channel.thickness * floor.up;
+      const double drop = -job.channel.thickness - dot(under - frame.at, frame.up);
+      least = std::min(least, flange.gap - drop);
+    }
+  };
+  for (const Unit& unit : units) {
+    see(unit, 0.0, 1.0);
+    see(unit, unit.face.line.length(), -1.0);
+  }
+  return least;
+}
+
+double largest_edge_mismatch(const Job& job, const std::vector<Unit>& units) {
+  double most = 0.0;
+  for (const Unit& unit : units) {
+    // The neutral fibre as a line of its own, against the developed length.
+    double developed = 0.0;
+    double fibre = 0.0;
+    const double neutral = neutral_fibre(job);
+    const bool bent = unit.face.facets.has_value();
+    for (const TrackArc& arc : unit.face.line.arcs()) {
+      developed += flat_length(arc, job.channel.thickness, neutral, bent);
+      const double below = job.channel.thickness * (bent && arc.curvature < 0.0 ? 1.0 - neutral : neutral);
+      const auto line = offset_line(unit.face.line, {arc.start, arc.start + arc.length}, -below);
+      fibre += length(*line);
+    }
+    most = std::max(most, std::fabs(developed - fibre));
+    most = std::max(most, std::fabs(bounds(unit.floor.pattern->region.outline).width() - developed));
+    if (bent || !unit.wall || job.options.walls != WallSeat::beside_floor) continue;
+    // Lower edges of floor and wall.
+    const auto wall = offset_line(job.track, unit.span, -job.channel.thickness);
+    const auto floor = offset_line(unit.face.line, {0.0, unit.face.line.length()}, -job.channel.thickness);
+    most = std::max(most, std::fabs(length(*wall) - length(*floor)));
+  }
+  return most;
+}
+
+}  // namespace
+
+PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
+  PartsProof proof;
+  for (const Unit& unit : units) {
+    proof.volume += unit.floor.volume + (unit.wall ? 2.0 * unit.wall->volume : 0.0);
+  }
+  double listed = 0.0;
+  for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());
+  proof.added_volume = listed - proof.volume;
+  proof.exact_volume = exact_volume(job, units);
+  const bool folded = folds(job.track, {0.0, job.track.length()}, job.channel.wall_height);
+  const double allowed = folded ? 1e-6 : kPartsVolumeAccuracy;
+  if (!(std::fabs(proof.volume - proof.exact_volume) <= allowed * proof.exact_volume)) {
+    throw InternalError({"",
+                         "the plates hold " + rounded_text(proof.volume, 12) + " m^3, the channel " +
+                             rounded_text(proof.exact_volume, 12) + " m^3",
+                         "", ""});
+  }
+  const std::vector<Piece> pieces = pieces_in_space(workshop);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (k == i) continue;
+      proof.pairs += k > i ? 1 : 0;
+      if (!apart(pieces[i], pieces[k])) require_apart(pieces[i], pieces[k]);
+    }
+  }
+  if (job.options.flanges.wanted) proof.smallest_gap = least_frame_gap(job, units);
+  proof.edge_mismatch = largest_edge_mismatch(job, units);
+  if (!(proof.edge_mismatch <= kEdge)) {
+    throw InternalError({"", "edges differ by " + length_text(proof.edge_mismatch, 3), "", ""});
+  }
+  return proof;
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,257 @@
+#include "parts/plate_unit.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include "parts/bolts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kRolledFibre = 0.5;  // of the thickness: radii are large
+constexpr double kNumberHeight = 20e-3;
+
+/// The smallest upright rectangle round a region lies at the origin, its floor line level on the whole.
+struct OwnPlane {
+  Vec2 origin;
+  double angle = 0.0;
+};
+
+OwnPlane own_plane(const ArcPath& outline) {
+  // Along the chord of the lower line: from the first vertex to the one farthest from it.
+  const Vec2 first = outline.vertices.front().at;
+  Vec2 far = first;
+  for (const PathVertex& vertex : outline.vertices) {
+    if (norm(vertex.at - first) > norm(far - first)) far = vertex.at;
+  }
+  OwnPlane plane;
+  plane.angle = math::atan2(far.y - first.y, far.x - first.x);
+  const ArcPath turned = moved(outline, PlaneMotion::turn(-plane.angle));
+  const PlaneBox box = bounds(turned);
+  plane.origin = PlaneMotion::turn(plane.angle)(box.low);
+  return plane;
+}
+
+Vec3 across(const Placement& placement) {
+  return placement.to_space(0.0, 0.0, 1.0) - placement.to_space(0.0, 0.0, 0.0);
+}
+
+Vec3 along(const Placement& placement) {
+  return placement.to_space(1.0, 0.0, 0.0) - placement.to_space(0.0, 0.0, 0.0);
+}
+
+constexpr Vec3 kUp{0.0, 0.0, 1.0};
+
+Vec3 in_space(const Placement& placement, Vec2 point) {
+  return placement.to_space(point.x, -point.y, 0.0);
+}
+
+/// A level line across a flat pattern.
+struct Across {
+  Vec2 from;
+  Vec2 to;
+};
+Across across_at(double distance, double width) {
+  return {{distance, 0.0}, {distance, width}};
+}
+
+double radius_of(double curvature) {
+  return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
+}
+
+void set_number_place(FlatPattern& pattern, const PlaneBox& box) {
+  const double room = std::min(box.width(), box.height());
+  if (room < 2.0 * kNumberHeight) return;
+  pattern.number_height = kNumberHeight;
+  // Beside the outline's middle, where bands are widest.
+  const Vec2 middle = 0.5 * (box.low + box.high);
+  const Vec2 corner{middle.x - 1.5 * kNumberHeight, middle.y - 0.5 * kNumberHeight};
+  if (contains(pattern.region.outline, corner) &&
+      contains(pattern.region.outline, corner + Vec2{3.0 * kNumberHeight, kNumberHeight})) {
+    pattern.number_at = corner;
+  }
+}
+
+}  // namespace
+
+double bend_radius(const Job& job) {
+  return job.options.bend.inner_radius.value_or(job.channel.thickness);
+}
+
+double neutral_fibre(const Job& job) {
+  if (job.options.floor == FloorMake::rolled) return job.options.bend.k_factor.value_or(kRolledFibre);
+  return job.options.bend.k_factor.value_or(k_factor(bend_radius(job), job.channel.thickness));
+}
+
+Span wall_heights(const Job& job) {
+  const bool beside = job.options.walls == WallSeat::beside_floor;
+  return {beside ? -job.channel.thickness : 0.0, job.channel.wall_height};
+}
+
+double floor_width(const Job& job) {
+  const bool under = job.options.walls == WallSeat::on_floor && job.channel.wall_height > 0.0;
+  return job.channel.width + (under ? 2.0 * job.channel.thickness : 0.0);
+}
+
+Frame plane_of_track(const Placement& placement, Vec2 origin, double angle, double shift) {
+  const auto [sine, cosine] = math::sine_cosine(angle);
+  const Vec3 run = along(placement);
+  const Vec3 left = across(placement);
+  return {in_space(placement, origin) - shift * left, cosine * run + sine * kUp, cosine * kUp - sine * run,
+          -1.0 * left};
+}
+
+void weigh(ShopPart& part) {
+  const Prism& prism = std::get<Prism>(part.body);
+  const AreaMoments area = moments(prism.region);
+  part.volume = area.area * prism.depth;
+  part.mass = part.volume * part.density;
+  part.centre_of_gravity =
+      part.places.front().to_space({area.centroid.x, area.centroid.y, 0.5 * prism.depth});
+}
+
+ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
+                       const std::vector<double>& shifts) {
+  const OwnPlane plane = own_plane(region.outline);
+  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
+  ShopPart part;
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = job.channel.thickness;
+  part.body = Prism{moved(region, PlaneMotion::turn(-plane.angle, -1.0 * back)), depth};
+  for (const double shift : shifts) {
+    part.places.push_back(plane_of_track(job.placement, plane.origin, plane.angle, shift));
+  }
+  weigh(part);
+  return part;
+}
+
+FloorFace rolled_face(const ArcSpline& track, const Span& span) {
+  ArcPath line = *offset_line(track, span, 0.0);
+  const Vec2 origin = line.vertices.front().at;
+  for (PathVertex& vertex : line.vertices) vertex.at = vertex.at - origin;
+  return {ArcSpline(std::move(line)), origin, std::nullopt};
+}
+
+FloorFace bent_floor_face(const Job& job, Facets facets) {
+  const Vec2 origin = facets.corners.front();
+  return {bent_face(facets, bend_radius(job), job.channel.thickness), origin, std::move(facets)};
+}
+
+double flat_length(const TrackArc& arc, double thickness, double neutral, bool bent) {
+  const double turned = arc.curvature * arc.length;
+  if (!bent) return arc.length + neutral * thickness * turned;
+  // The inside of a bend is the upper face in a hollow, the lower one on a crest.
+  const double from_face = turned > 0.0 ? neutral : 1.0 - neutral;
+  return arc.length + from_face * thickness * turned;
+}
+
+ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep>& steps) {
+  const double thickness = job.channel.thickness;
+  const double width = floor_width(job);
+  const ArcSpline& line = face.line;
+  PlaneRegion side{*band(line, {0.0, line.length()}, -thickness, 0.0), {}, {}};
+  for (PathVertex& vertex : side.outline.vertices) vertex.at = vertex.at + face.origin;
+  ShopPart part = upright_plate(job, side, width, {-0.5 * width});
+  part.name = "floor";
+  FlatPattern pattern;
+  double reached = 0.0;
+  double sum = 0.0;
+  int hit = 0;
+  const bool bent = face.facets.has_value();
+  for (const TrackArc& arc : line.arcs()) {
+    const double length = flat_length(arc, thickness, neutral_fibre(job), bent);
+    const double turned = arc.curvature * arc.length;
+    if (bent && turned != 0.0) {
+      sum += turned;
+      const Across at = across_at(reached + 0.5 * length, width);
+      pattern.bends.push_back({at.from, at.to, std::fabs(turned), bend_radius(job), turned > 0.0});
+      const double miss = face.facets->misses[static_cast<std::size_t>(hit)];
+      ++hit;
+      steps.push_back({0, hit, reached + 0.5 * length, 0.0, turned, sum, bend_radius(job), miss});
+    } else if (!bent) {
+      sum += turned;
+      const Across at = across_at(reached, width);
+      pattern.rolls.push_back({at.from, at.to, radius_of(arc.curvature)});
+      ++hit;
+      steps.push_back({0, hit, reached, length, turned, sum, radius_of(arc.curvature), 0.0});
+    }
+    reached += length;
+  }
+  pattern.region.outline = rectangle({}, {reached, width});
+  set_number_place(pattern, bounds(pattern.region.outline));
+  part.pattern = std::move(pattern);
+  return part;
+}
+
+std::optional<ShopPart> wall_plate(const Job& job, const Span& span) {
+  const Span heights = wall_heights(job);
+  const auto outline = band(job.track, span, heights.from, heights.to);
+  if (!outline) return std::nullopt;
+  const double inner = 0.5 * job.channel.width;
+  ShopPart part =
+      upright_plate(job, {*outline, {}, {}}, job.channel.thickness, {-inner - job.channel.thickness, inner});
+  part.name = "wall";
+  FlatPattern pattern;
+  pattern.region = std::get<Prism>(part.body).region;
+  set_number_place(pattern, bounds(pattern.region.outline));
+  part.pattern = std::move(pattern);
+  return part;
+}
+
+Frame frame_place(const Job& job, double s, bool downstream) {
+  const TrackFrame at = frame_at(job.track, s);
+  const Vec3 run = along(job.placement);
+  const Vec3 tangent = at.along.x * run + at.along.y * kUp;
+  const Vec3 up = at.up.x * run + at.up.y * kUp;
+  const double shift = downstream ? 0.0 : -job.options.flanges.thickness;
+  return {in_space(job.placement, at.at) + shift * tangent, across(job.placement), up, tangent};
+}
+
+ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& places) {
+  const FlangeOptions& flange = job.options.flanges;
+  const double inner = 0.5 * job.channel.width + job.channel.thickness + flange.gap;
+  const double low = -job.channel.thickness - flange.gap;
+  const double outer = inner + flange.width;
+  const double bottom = low - flange.width;
+  const double top = job.channel.wall_height;
+  PlaneRegion region;
+  region.outline.closed = true;
+  const bool walls = top > 0.0;
+  const std::vector<Vec2> corners =
+      walls ? std::vector<Vec2>{{-outer, bottom}, {outer, bottom}, {outer, top},  {inner, top},
+                                {inner, low},     {-inner, low},   {-inner, top}, {-outer, top}}
+            : std::vector<Vec2>{{-outer, bottom}, {outer, bottom}, {outer, low}, {-outer, low}};
+  for (const Vec2 corner : corners) region.outline.vertices.push_back({corner, 0.0});
+
+  const double radius = 0.5 * clearance_hole(flange.bolt, fit);
+  const double side = inner + 0.5 * flange.width;
+  const double level = low - 0.5 * flange.width;
+  const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse);
+  for (const Vec2 at : evenly({-side, level}, {side, level}, flange.pitch))
+    region.holes.push_back({at, radius});
+  if (walls) {
+    for (const double x : {-side, side}) {
+      const std::vector<Vec2> column = evenly({x, level}, {x, top - edge}, flange.pitch);
+      for (std::size_t i = 1; i < column.size(); ++i) region.holes.push_back({column[i], radius});
+    }
+  }
+  ShopPart part;
+  part.name = fit == HoleFit::coarse ? "end_frame_loose" : "end_frame";
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = flange.thickness;
+  part.body = Prism{region, flange.thickness};
+  part.places = places;
+  weigh(part);
+  FlatPattern pattern;
+  pattern.region = region;
+  part.pattern = std::move(pattern);
+  return part;
+}
+
+}  // namespace glissade::parts

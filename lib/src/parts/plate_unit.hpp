@@ -1,0 +1,68 @@
+#pragma once
+
+#include "glissade/parts/plates.hpp"
+#include "glissade/parts/shop_part.hpp"
+
+#include "parts/facets.hpp"
+#include "parts/offset_line.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace glissade::parts {
+
+/// Everything that the parts of one channel are made from.
+struct Job {
+  const ArcSpline& track;
+  const ChannelMeasures& channel;
+  const PlateOptions& options;
+  const Placement& placement;
+};
+
+/// @return inner radius of the bends
+[[nodiscard]] double bend_radius(const Job& job);
+/// @return neutral fibre of the floor, from the inside of each bend
+[[nodiscard]] double neutral_fibre(const Job& job);
+/// @return heights between which the walls stand
+[[nodiscard]] Span wall_heights(const Job& job);
+[[nodiscard]] double floor_width(const Job& job);
+
+/// @return the plane (x, height) of the track, moved across: z of the frame counts to the right of the body
+/// @param shift  to the right [m]
+[[nodiscard]] Frame plane_of_track(const Placement& placement, Vec2 origin, double angle, double shift);
+
+/// A plate that stands in the plane of the track.
+/// @param region  in the frame (x, height)
+/// @param shifts  of the pieces, to the right [m]
+[[nodiscard]] ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
+                                     const std::vector<double>& shifts);
+
+/// Fills in volume, mass and centre of gravity of a part whose body is a prism.
+void weigh(ShopPart& part);
+
+/// The face of a unit's floor: of the track's arcs, or of flats and bends. From its own origin.
+struct FloorFace {
+  ArcSpline line;
+  Vec2 origin;
+  std::optional<Facets> facets;
+};
+[[nodiscard]] FloorFace rolled_face(const ArcSpline& track, const Span& span);
+[[nodiscard]] FloorFace bent_floor_face(const Job& job, Facets facets);
+
+/// The floor of a unit, its pattern and the steps that make it.
+[[nodiscard]] ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep>& steps);
+/// @return none where the wall folds away: its length at the top is nothing
+[[nodiscard]] std::optional<ShopPart> wall_plate(const Job& job, const Span& span);
+
+/// A frame round the end of a unit, of one plate.
+/// @param fit     of its holes
+/// @param places  arc lengths of its upstream faces, each with the sense in which it grows: +1 downstream
+[[nodiscard]] ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& places);
+/// @return where a frame stands: x to the left, y up, z downstream; its face towards the unit's end at s
+/// @param downstream  true: it lies downstream of the place
+[[nodiscard]] Frame frame_place(const Job& job, double s, bool downstream);
+
+/// @return length of a rolled or bent plate on the flat, of a stretch of its face
+[[nodiscard]] double flat_length(const TrackArc& arc, double thickness, double neutral, bool bent);
+
+}  // namespace glissade::parts

@@ -1,0 +1,89 @@
+#include "pipeline/parts_json.hpp"
+
+#include "pipeline/fabricate.hpp"
+
+#include <cmath>
+
+namespace glissade::pipeline {
+namespace {
+
+using report::Json;
+
+const char* word_of(ShopVerdict verdict) {
+  switch (verdict) {
+    case ShopVerdict::warn:
+      return "warn";
+    case ShopVerdict::fail:
+      return "fail";
+    case ShopVerdict::pass:
+      break;
+  }
+  return "pass";
+}
+
+Json master_json(const MasterCurve& master) {
+  return {{"arcs", master.arcs},
+          {"lower_bound", master.lower_bound},
+          {"tolerance_m", master.tolerance},
+          {"max_deviation_m", master.max_deviation},
+          {"straight", master.lines},
+          {"kept", master.kept}};
+}
+
+Json part_json(const ShopPart& part, const std::string& stem) {
+  const Vec3 centre = part.centre_of_gravity;
+  return {{"number", part.number},          {"name", part.name},
+          {"material", part.material},      {"thickness_m", part.thickness},
+          {"quantity", part.quantity()},    {"mass_kg", part.mass},
+          {"volume_m3", part.volume},       {"centre_of_gravity_m", {centre.x, centre.y, centre.z}},
+          {"files", part_files(stem, part)}};
+}
+
+Json ride_json(const AsBuiltRide& ride) {
+  Json json = {{"arrives", ride.arrives},         {"travel_time_s", nullptr}, {"exit_speed_m_per_s", nullptr},
+               {"exit_speed_change", nullptr},    {"bends", ride.bends},      {"joints", ride.joints},
+               {"highest_load_m_per_s2", nullptr}};
+  if (!ride.arrives) return json;
+  json["travel_time_s"] = ride.travel_time;
+  json["exit_speed_m_per_s"] = ride.exit_speed;
+  if (ride.design_exit_speed > 0.0)
+    json["exit_speed_change"] = ride.exit_speed / ride.design_exit_speed - 1.0;
+  if (std::isfinite(ride.highest_load)) json["highest_load_m_per_s2"] = ride.highest_load;
+  return json;
+}
+
+}  // namespace
+
+void add_parts(Json& json, const PlateBuild* build, const std::string& stem) {
+  for (const char* const key : {"master_curve", "parts", "items", "as_built", "shop_checks",
+                                "parts_volume_m3", "channel_volume_m3", "joints_m"}) {
+    json[key] = nullptr;
+  }
+  if (build == nullptr) return;
+  const Workshop& workshop = build->workshop;
+  json["master_curve"] = master_json(build->master);
+  json["parts"] = Json::array();
+  for (const ShopPart& part : workshop.parts) json["parts"].push_back(part_json(part, stem));
+  json["items"] = Json::array();
+  for (const BoughtInItem& item : workshop.items) {
+    json["items"].push_back({{"quantity", item.quantity},
+                             {"name", item.name},
+                             {"standard", item.standard},
+                             {"where", item.where}});
+  }
+  json["as_built"] = ride_json(build->ride);
+  json["shop_checks"] = Json::array();
+  for (const ShopCheck& check : workshop.checks) {
+    json["shop_checks"].push_back({{"rule", check.rule},
+                                   {"verdict", word_of(check.verdict)},
+                                   {"value", check.value},
+                                   {"bound", check.bound},
+                                   {"where", check.where},
+                                   {"source", check.source}});
+  }
+  json["parts_volume_m3"] = build->proof.volume + build->proof.added_volume;
+  json["channel_volume_m3"] = build->proof.volume;
+  json["joints_m"] = build->joints;
+}
+
+}  // namespace glissade::pipeline

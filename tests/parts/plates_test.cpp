@@ -1,0 +1,289 @@
+// Channels as plates: what is cut adds up to the channel, fits its sheet, and is ridden as it is built.
+
+#include "glissade/parts/plates.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+
+#include "parts/facets.hpp"
+#include "parts/offset_line.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
+
+CoulombBrachistochrone chute() {
+  return {{5.4, 5.1}, kFriction};
+}
+
+constexpr ChannelMeasures kChannel{0.4, 0.25, 4e-3};
+
+PlateBuild plates(const Centerline& track, const PlateOptions& options,
+                  const ChannelMeasures& channel = kChannel) {
+  return make_plates(track, channel, {1e-4}, options, Placement(), {.friction = kFriction});
+}
+
+std::string refusal(const PlateOptions& options, const ChannelMeasures& channel = kChannel) {
+  try {
+    (void)plates(chute(), options, channel);
+  } catch (const InputError& error) {
+    std::string text;
+    for (const Issue& issue : error.issues()) text += issue.where + "|" + issue.what + "|" + issue.why + "\n";
+    return text;
+  }
+  return "";
+}
+
+double sum_of_volumes(const Workshop& workshop) {
+  double sum = 0.0;
+  for (const ShopPart& part : workshop.parts) sum += part.volume * static_cast<double>(part.quantity());
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("plates: the grain chute's floor and walls add up to the volume of its channel, A S - M phi") {
+  PlateOptions options;
+  options.flanges.wanted = false;
+  const PlateBuild build = plates(chute(), options);
+  const double t = kChannel.thickness;
+  const double wall = kChannel.wall_height + t;
+  const double area = kChannel.width * t + 2.0 * t * wall;
+  const double first =
+      -0.5 * kChannel.width * t * t + t * (kChannel.wall_height * kChannel.wall_height - t * t);
+  const ArcSpline& line = *build.master.spline;
+  const double turned = line.slope_angle(0.0) - line.slope_angle(line.length());
+  const double exact = area * line.length() - first * turned;
+  CHECK(std::fabs(sum_of_volumes(build.workshop) / exact - 1.0) < kPartsVolumeAccuracy);
+  CHECK(std::fabs(build.proof.volume / exact - 1.0) < kPartsVolumeAccuracy);
+  CHECK(build.proof.added_volume == 0.0);
+  CHECK(build.proof.edge_mismatch < 1e-9);
+}
+
+TEST_CASE("plates: seats of the walls change parts, not the channel") {
+  PlateOptions beside;
+  beside.flanges.wanted = false;
+  PlateOptions on = beside;
+  on.walls = WallSeat::on_floor;
+  const PlateBuild a = plates(chute(), beside);
+  const PlateBuild b = plates(chute(), on);
+  CHECK(std::fabs(a.proof.volume / b.proof.volume - 1.0) < 1e-12);
+  CHECK(a.workshop.parts.front().pattern->region != b.workshop.parts.front().pattern->region);
+}
+
+TEST_CASE("plates: a flat floor develops to S + t phi / 2 where it is rolled") {
+  PlateOptions options;
+  const PlateBuild build = plates(chute(), options);
+  const ArcSpline& line = *build.master.spline;
+  double developed = 0.0;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.starts_with("floor")) developed += bounds(part.pattern->region.outline).width();
+  }
+  const double turned = line.slope_angle(0.0) - line.slope_angle(line.length());
+  CHECK(std::fabs(developed - (line.length() + 0.5 * kChannel.thickness * turned)) < 1e-9);
+}
+
+TEST_CASE("plates: frames at a joint share their bolts; holes of one of them are larger") {
+  const PlateBuild build = plates(chute(), {});
+  const ShopPart* frames[2] = {nullptr, nullptr};
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name == "end_frame") frames[0] = &part;
+    if (part.name == "end_frame_loose") frames[1] = &part;
+  }
+  REQUIRE(frames[0] != nullptr);
+  REQUIRE(frames[1] != nullptr);
+  const auto& tight = frames[0]->pattern->region.holes;
+  const auto& loose = frames[1]->pattern->region.holes;
+  REQUIRE(tight.size() == loose.size());
+  for (std::size_t i = 0; i < tight.size(); ++i) {
+    CHECK(tight[i].centre == loose[i].centre);
+    CHECK(std::fabs(2.0 * tight[i].radius - 11e-3) < 1e-15);
+    CHECK(std::fabs(2.0 * loose[i].radius - 12e-3) < 1e-15);
+  }
+  REQUIRE(build.joints.size() > 2);
+  const std::size_t bolts = tight.size() * (build.joints.size() - 2);
+  CHECK(build.workshop.items.front().quantity == bolts);
+  CHECK(build.workshop.items.front().name == "bolt M10 x 30");
+  CHECK(build.workshop.items.back().quantity == 2 * bolts);
+  // Two frames meet in the plane of the joint: the downstream face of the one is the upstream face of the other.
+  const Frame& before = frames[0]->places.front();
+  const Frame& after = frames[1]->places[1];
+  CHECK(norm(before.to_space({0.0, 0.0, frames[0]->thickness}) - after.origin) < 1e-12);
+}
+
+TEST_CASE("plates: no part exceeds its sheet, its transport length or its mass") {
+  for (const double longest : {1.0, 1.7, 2.9}) {
+    PlateOptions options;
+    options.split.longest = longest;
+    options.split.heaviest = 20.0;
+    const PlateBuild build = plates(chute(), options);
+    for (std::size_t i = 0; i + 1 < build.joints.size(); ++i) {
+      CHECK(build.joints[i + 1] - build.joints[i] <= longest + 1e-9);
+    }
+    for (const ShopPart& part : build.workshop.parts) {
+      const PlaneBox box = bounds(part.pattern->region.outline);
+      CHECK(part.mass <= 20.0);
+      CHECK(std::max(box.width(), box.height()) <= 3.0);
+      CHECK(std::min(box.width(), box.height()) <= 1.5);
+      CHECK(faults_of(part.pattern->region).empty());
+      CHECK(part.pattern->region.outline.closed);
+    }
+  }
+}
+
+TEST_CASE("plates: as many bends as cost one hundredth of the exit speed, and one fewer would cost more") {
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  options.split.sheet = {20.0, 2.0};
+  const PlateBuild build = plates(chute(), options);
+  const double cost = 1.0 - build.ride.exit_speed / build.ride.design_exit_speed;
+  CHECK(build.ride.arrives);
+  CHECK(cost <= 0.01);
+  CHECK(cost > 0.008);
+  PlateOptions fewer = options;
+  fewer.bend.rule = FacetRule::bends;
+  fewer.bend.value = static_cast<double>(build.ride.bends) / 2.0;
+  const PlateBuild coarse = plates(chute(), fewer);
+  CHECK(1.0 - coarse.ride.exit_speed / coarse.ride.design_exit_speed > 0.015);
+  CHECK(build.workshop.bends.size() == build.ride.bends);
+  // Each bend is one line of the pattern, up where the floor curls up; angles add up to what the track turns.
+  const double sum = build.workshop.bends.back().sum;
+  const ArcSpline& line = *build.master.spline;
+  CHECK(std::fabs(sum - (line.slope_angle(0.0) - line.slope_angle(line.length()))) < 1e-9);
+  CHECK(build.workshop.parts.front().pattern->bends.size() == build.ride.bends);
+}
+
+TEST_CASE("plates: a kink costs 1 - (cos phi - mu sin phi) of the speed, against a ride by hand") {
+  // Two flats of 1 m, 45 and 25 deg below the horizontal, from rest.
+  parts::Facets facets;
+  const double first = Angle::from_degrees(45.0).radians();
+  const double second = Angle::from_degrees(25.0).radians();
+  facets.corners = {{0.0, 0.0}, {math::cos(first), -math::sin(first)}};
+  facets.corners.push_back(facets.corners.back() + Vec2{math::cos(second), -math::sin(second)});
+  facets.kinks = {first - second};
+  const double mu = kFriction.coefficient();
+  const double g = 9.81;
+  const double before = std::sqrt(2.0 * g * (math::sin(first) - mu * math::cos(first)));
+  const double kink = first - second;
+  const double after = before * (math::cos(kink) - mu * math::sin(kink));
+  const double exit = std::sqrt(after * after + 2.0 * g * (math::sin(second) - mu * math::cos(second)));
+  const parts::FacetRide ride = parts::ride_facets({facets}, {.friction = kFriction}, g, 0.0);
+  REQUIRE(ride.arrives);
+  CHECK(std::fabs(ride.speed / exit - 1.0) < 1e-12);
+  const double time = 2.0 / before + 2.0 / (after + exit);
+  CHECK(std::fabs(ride.time / time - 1.0) < 1e-12);
+}
+
+TEST_CASE("offset line: where it folds at the start it begins in the plane of the start") {
+  // An eighth of a circle of radius 0.1 m from a vertical start, then 2 m straight: a wall of 0.25 m folds over the arc.
+  const double r = 0.1;
+  const double q = std::sqrt(0.5);
+  const Vec2 end{r * (1.0 - q), -r * q};
+  const ArcSpline track(
+      {{{{0.0, 0.0}, math::tan(std::numbers::pi / 16.0)}, {end, 0.0}, {end + 2.0 * Vec2{q, -q}, 0.0}},
+       false});
+  const parts::Span whole{0.0, track.length()};
+  CHECK(parts::folds(track, whole, 0.25));
+  const auto line = parts::offset_line(track, whole, 0.25);
+  REQUIRE(line);
+  CHECK(norm(line->vertices.front().at - Vec2{r + 0.15 / q, 0.0}) < 1e-14);
+  CHECK(std::fabs(length(*line) - 1.85) < 1e-14);
+  CHECK_FALSE(parts::folds(track, whole, 0.05));
+  const auto low = parts::offset_line(track, whole, 0.05);
+  REQUIRE(low);
+  CHECK(norm(low->vertices.front().at - Vec2{0.05, 0.0}) < 1e-15);
+  CHECK(std::fabs(length(*low) - (0.05 * std::numbers::pi / 4.0 + 2.0)) < 1e-14);
+}
+
+TEST_CASE("plates: random tracks and measures make plates that add up, with no clash, by either floor") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 16; ++run) {
+    const double size = random.between(1.0, 12.0);
+    std::vector<ClothoidSegment> segments;
+    for (int i = random.integer(1, 5); i > 0; --i) {
+      const double curvature = random.between(-0.8, 1.2) / size;
+      segments.push_back(
+          {random.between(0.1, 0.4) * size, curvature, random.integer(0, 1) == 0 ? curvature : 0.0});
+    }
+    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
+    const double t = random.between(2e-3, 8e-3);
+    const ChannelMeasures channel{random.between(0.2, 0.8), random.between(0.1, 0.3), t};
+    PlateOptions options;
+    options.floor = random.integer(0, 1) == 0 ? FloorMake::bent : FloorMake::rolled;
+    options.bend.rule = FacetRule::segment_angle;
+    options.bend.value = random.between(0.02, 0.2);
+    options.split.longest = random.between(0.8, 3.0);
+    options.flanges.pitch = random.between(0.08, 0.2);
+    const PlateBuild build = plates(track, options, channel);  // throws where parts clash or do not add up
+    CHECK(build.proof.pairs > 0);
+    CHECK(build.proof.smallest_gap > 0.0);
+    for (const ShopPart& part : build.workshop.parts) {
+      CHECK(part.mass > 0.0);
+      CHECK(faults_of(part.pattern->region).empty());
+    }
+    double pieces = 0.0;
+    for (const ShopPart& part : build.workshop.parts) {
+      if (part.name.starts_with("floor")) {
+        pieces += bounds(part.pattern->region.outline).width() * static_cast<double>(part.quantity());
+      }
+    }
+    CHECK(std::fabs(pieces / track.length() - 1.0) < 0.02);
+  }
+}
+
+TEST_CASE("plates: what cannot be made is refused with place, value and bound") {
+  PlateOptions whole;
+  whole.split.allowed = false;
+  CHECK(refusal(whole).find("split|the floor of unit 1 takes 7.7") != std::string::npos);
+  PlateOptions pitch;
+  pitch.flanges.pitch = 20e-3;
+  CHECK(refusal(pitch).find(
+            "flanges.pitch|pitch: 20 mm is too close for M10|Holes of 12 mm are at least 28.8 mm") !=
+        std::string::npos);
+  PlateOptions edge;
+  edge.flanges.width = 20e-3;
+  CHECK(refusal(edge).find("flanges.width|width: 20 mm puts holes for M10 10 mm from the edge") !=
+        std::string::npos);
+  PlateOptions wide;
+  wide.flanges.width = 0.3;
+  CHECK(refusal(wide).find("width: 300 mm is more than the walls are high, 250 mm") != std::string::npos);
+  PlateOptions punch;
+  punch.floor = FloorMake::bent;
+  punch.bend.inner_radius = 1e-3;
+  CHECK(refusal(punch).find("bend.inner_radius|inner_radius: 1 mm is less than the plate's thickness") !=
+        std::string::npos);
+  PlateOptions bolt;
+  bolt.flanges.bolt = 11;
+  CHECK(refusal(bolt).find("flanges.bolt|bolt: M11 is no size whose holes are known") != std::string::npos);
+  PlateOptions seat;
+  seat.floor = FloorMake::bent;
+  seat.walls = WallSeat::on_floor;
+  CHECK(refusal(seat).find("walls|walls: on-floor does not go with a bent floor") != std::string::npos);
+}
+
+TEST_CASE("k factor: DIN 6935 at 1, 3 and 10 thicknesses") {
+  CHECK(std::fabs(k_factor(4e-3, 4e-3) - 0.325) < 1e-12);
+  CHECK(std::fabs(k_factor(12e-3, 4e-3) - 0.4443) < 1e-4);
+  CHECK(k_factor(40e-3, 4e-3) == 0.5);
+}
+
+TEST_CASE("clearance holes are those of ISO 273") {
+  CHECK(clearance_hole(12, HoleFit::fine) == 13e-3);
+  CHECK(clearance_hole(12, HoleFit::medium) == 13.5e-3);
+  CHECK(clearance_hole(16, HoleFit::coarse) == 18.5e-3);
+  CHECK_THROWS_AS(clearance_hole(11, HoleFit::medium), InputError);
+}

@@ -1,0 +1,125 @@
+// From a design with `fabrication` to everything that a workshop gets.
+
+#include "glissade/core/error.hpp"
+#include "glissade/io/dxf_file.hpp"
+#include "glissade/io/step_file.hpp"
+#include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace glissade;
+
+/// A design with plates alone, and a mesh that is soon made.
+Design quick(const std::string& fabrication = "{process: plate}") {
+  return parse_design(
+      "glissade: 1\n"
+      "track: {start: {x: 2 m, z: 6.2 m}, finish: {x: 7.4 m, z: 1.1 m}}\n"
+      "body: {friction_angle: 17 deg}\n"
+      "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}\n"
+      "fabrication: " +
+          fabrication + "\nmesh: {tolerance: 2 mm}\nexport: [off]\n",
+      "chute.yaml");
+}
+
+std::string refusal(const std::string& fabrication) {
+  try {
+    const Design design = quick(fabrication);
+    (void)assemble(design, solve(design));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("fabrication: the process alone gives every file, each of its part, and JSON that tells of them") {
+  const TempDir place;
+  const Design design = quick();
+  const Build built = build(design, place / "out", {}, {.report = false});
+  REQUIRE(built.fabrication);
+  const nlohmann::json json = nlohmann::json::parse(build_json(design, built));
+  const Workshop& workshop = built.fabrication->workshop;
+  REQUIRE(json["parts"].size() == workshop.parts.size());
+  CHECK(json["master_curve"]["arcs"] == 12);
+  CHECK(json["master_curve"]["lower_bound"] == 11);
+  CHECK(json["master_curve"]["max_deviation_m"] <= json["master_curve"]["tolerance_m"]);
+  double volume = 0.0;
+  for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
+    const nlohmann::json& part = json["parts"][i];
+    CHECK(part["number"] == static_cast<int>(i) + 1);
+    CHECK(std::fabs(part["mass_kg"].get<double>() - 7850.0 * part["volume_m3"].get<double>()) < 1e-9);
+    volume += part["volume_m3"].get<double>() * part["quantity"].get<double>();
+    REQUIRE(part["files"].size() == 2);
+    const Drawing drawing = read_dxf(place / "out" / part["files"][0].get<std::string>());
+    CHECK(drawing.circles.size() == workshop.parts[i].pattern->region.holes.size());
+    const StepFacts step = read_step_facts(place / "out" / part["files"][1].get<std::string>());
+    REQUIRE(step.solids.size() == 1);
+    CHECK(step.solids.front().closed);
+  }
+  CHECK(std::fabs(json["parts_volume_m3"].get<double>() / volume - 1.0) < 1e-12);
+  CHECK(json["as_built"]["travel_time_s"].get<double>() ==
+        Approx(built.track.motion.travel_time()).epsilon(1e-3));
+  for (const nlohmann::json& check : json["shop_checks"]) {
+    CHECK(check["verdict"] == "pass");
+    CHECK_FALSE(check["source"].get<std::string>().empty());
+  }
+  const StepFacts assembly = read_step_facts(place / "out" / "chute.step");
+  CHECK(assembly.solids.size() == workshop.parts.size());
+  // The volume of the channel along the arcs is that of the solid along the track, to the tolerance of the arcs.
+  const double solid = json["mesh"]["volume_m3"];
+  CHECK(std::fabs(json["channel_volume_m3"].get<double>() / solid - 1.0) < 1e-3);
+}
+
+TEST_CASE("fabrication: what is set out lies in the frame of the site, parts in that of the mesh files") {
+  const Design design = quick("{process: plate, flanges: none}");
+  const Assembly assembly = assemble(design, solve(design), {}, {.report = false});
+  const Workshop& workshop = assembly.fabrication->workshop;
+  const SettingOutPoint& start = workshop.setting_out.front();
+  const SettingOutPoint& finish = workshop.setting_out.back();
+  CHECK(start.what == "start");
+  CHECK(norm(start.site - Vec3{2.0, 0.0, 6.2}) < 1e-12);
+  CHECK(norm(finish.site - Vec3{7.4, 0.0, 1.1}) < 1e-9);
+  CHECK(workshop.parts.front().centre_of_gravity.z < 0.0);
+  CHECK(workshop.items.empty());
+}
+
+TEST_CASE("fabrication: the same design gives the same bytes") {
+  const TempDir place;
+  const Design design = quick("{process: plate, floor: bent, split: {longest: 2 m}}");
+  const Build first = build(design, place / "a", {}, {.report = false});
+  const Build second = build(design, place / "b", {}, {.report = false});
+  REQUIRE(first.files.size() == second.files.size());
+  for (std::size_t i = 0; i < first.files.size(); ++i) {
+    CHECK(bytes_of(first.files[i].path) == bytes_of(second.files[i].path));
+  }
+  CHECK(first.fabrication->ride.bends > 20);
+  CHECK(1.0 - first.fabrication->ride.exit_speed / first.track.motion.exit_speed() <= 0.0105);
+}
+
+TEST_CASE("fabrication: what cannot be made is refused at its place in the file") {
+  CHECK(refusal("{process: plate, flanges: {pitch: 20 mm}}")
+            .find("chute.yaml:5:48: pitch: 20 mm is too close for M10") != std::string::npos);
+  CHECK(refusal("{process: plate, split: {allowed: false}}")
+            .find("chute.yaml:5:31: the floor of unit 1 takes 7.7") != std::string::npos);
+  CHECK(
+      refusal("{process: plate, flanges: {bolt: 10}}").find("chute.yaml:5:47: bolt: 10 is no metric bolt") !=
+      std::string::npos);
+  CHECK(refusal("{process: plate, bend: {bends: 10, segment_length: 1 m}}").find("more than one rule") !=
+        std::string::npos);
+  CHECK(refusal("{process: casting}").find("plate") != std::string::npos);
+  CHECK(refusal("{}").find("process") != std::string::npos);
+}
