@@ -133,6 +133,12 @@ TEST_CASE("the first design of the README builds, and has at most twenty lines")
   CHECK_THAT(outcome.output, Contains("proven"));
 }
 
+TEST_CASE("the program of the README is the example of that name") {
+  const std::string text = bytes_of(kProject + "/README.md");
+  const Block quoted = code_block(text, "## Using the library", "cpp");
+  CHECK(text.substr(quoted.from, quoted.length) == bytes_of(kProject + "/examples/fastest_track.cpp"));
+}
+
 TEST_CASE("every document that the README leads to is there") {
   const std::string text = bytes_of(kProject + "/README.md");
   std::size_t count = 0;

@@ -2,7 +2,7 @@
 
 #include "glissade/parts/arc_spline.hpp"
 #include "glissade/parts/shop_part.hpp"
-#include "glissade/solid/placement.hpp"
+#include "glissade/route/placement.hpp"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include "glissade/parts/master_curve.hpp"
 #include "glissade/parts/plate_options.hpp"
 #include "glissade/parts/shop_part.hpp"
-#include "glissade/solid/placement.hpp"
+#include "glissade/route/placement.hpp"
 
 #include <cstddef>
 #include <optional>
