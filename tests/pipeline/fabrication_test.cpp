@@ -97,6 +97,30 @@ TEST_CASE("fabrication: what is set out lies in the frame of the site, parts in 
   CHECK(workshop.items.empty());
 }
 
+TEST_CASE("fabrication: every piece that is cut lies on one sheet of its thickness, holes and all") {
+  const TempDir place;
+  const Build built = build(quick(), place / "out", {}, {.report = false});
+  std::size_t cut = 0;
+  std::size_t holes = 0;
+  for (const WrittenFile& file : built.files) {
+    if (file.path.parent_path().filename() != "chute.nests") continue;
+    CHECK(file.path.filename().string().find("nest_S235_") == 0);
+    const Drawing drawing = read_dxf(file.path);
+    holes += drawing.circles.size();
+    for (const DrawnPath& drawn : drawing.paths) {
+      cut += drawn.path.closed && drawing.layers[drawn.layer].name == "CUT" ? 1 : 0;
+    }
+  }
+  std::size_t contours = 0;
+  std::size_t circles = 0;
+  for (const ShopPart& part : built.fabrication->workshop.parts) {
+    contours += part.quantity() * (1 + part.pattern->region.cutouts.size());
+    circles += part.quantity() * part.pattern->region.holes.size();
+  }
+  CHECK(cut == contours);
+  CHECK(holes == circles);
+}
+
 TEST_CASE("fabrication: the same design gives the same bytes") {
   const TempDir place;
   const Design design = quick("{process: plate, floor: bent, split: {longest: 2 m}}");

@@ -225,8 +225,10 @@ Piece piece_of(const ShopPart& part, std::size_t index, double column) {
   piece.area = moments(part.pattern->region).area;
   const ArcPath& outline = part.pattern->region.outline;
   const double lying = lying_angle(flattened(outline, kSagitta));
-  for (const double turn : {0.0, 1.0, 0.5, 1.5})
-    piece.attitudes.push_back(attitude_of(outline, lying + turn * kPi, column));
+  // Along the sheet and across it, end for end; and as it was drawn, whose box is the one that a designer sees.
+  for (const double angle : {lying, lying + kPi, lying + 0.5 * kPi, lying + 1.5 * kPi, 0.0, 0.5 * kPi}) {
+    piece.attitudes.push_back(attitude_of(outline, angle, column));
+  }
   return piece;
 }
 

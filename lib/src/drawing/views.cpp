@@ -106,6 +106,19 @@ Vec3 level_direction(const Workshop& workshop) {
   return size > 0.0 ? Vec3{run.x / size, run.y / size, 0.0} : Vec3{1.0, 0.0, 0.0};
 }
 
+/// @return where the track starts in the frame of the parts: at its origin, or where the site has it; whichever lies closer
+///         to what is seen [m]
+Vec3 start_of(const Workshop& workshop, const PlaneBox& seen, const Eye& eye) {
+  if (workshop.setting_out.empty()) return {};
+  const Vec3 on_site = workshop.setting_out.front().site;
+  const auto away = [&](Vec3 place) {
+    const Vec2 at = kMillimetres * eye.see(place);
+    return math::hypot(std::max({seen.low.x - at.x, at.x - seen.high.x, 0.0}),
+                       std::max({seen.low.y - at.y, at.y - seen.high.y, 0.0}));
+  };
+  return away(on_site) < away({}) ? on_site : Vec3{};
+}
+
 Drawing whole_view(const Workshop& workshop, const Eye& eye, const std::string& name) {
   Projection projection(eye);
   for (const ShopPart& part : workshop.parts) {
@@ -213,8 +226,9 @@ Drawing side_view(const Workshop& workshop) {
   if (!box) return view;
   const std::size_t marks = view.layer({"JOINTS", LineStyle::chain, 0.18, 1});
   const double reach = 0.03 * std::max(box->width(), box->height());
+  const Vec2 start = kMillimetres * eye.see(start_of(workshop, *box, eye));
   for (const SettingOutPoint& point : workshop.setting_out) {
-    const Vec2 at = kMillimetres * eye.see(point.site);
+    const Vec2 at = start + kMillimetres * Vec2{point.x, point.z};
     const bool near = at.x >= box->low.x - reach && at.x <= box->high.x + reach &&
                       at.y >= box->low.y - reach && at.y <= box->high.y + reach;
     if (point.what == "station" || !near) continue;

@@ -16,7 +16,6 @@ constexpr std::size_t kMostUnits = 400;
 constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where the track bends less
 constexpr double kPressFlat =
     4.0;  // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
-constexpr double kSheetMargin = 5e-3;  // round a part on its sheet [m]
 
 double curvature_near(const ArcSpline& track, double s) {
   return std::fabs(track.at(s).curvature);

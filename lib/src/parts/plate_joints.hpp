@@ -8,6 +8,9 @@
 
 namespace glissade::parts {
 
+/// Round a part on its sheet [m].
+inline constexpr double kSheetMargin = 5e-3;
+
 /// A unit between two joints.
 struct Unit {
   Span span;

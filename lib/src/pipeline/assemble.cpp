@@ -297,7 +297,8 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
   if (design.fabrication) {
     steps.enter("making parts", kPartsCost);
     fabrication = fabricate(design, track, placement);
-    for (PendingFile& file : workshop_files(stem, fabrication)) files.push_back(std::move(file));
+    for (PendingFile& file : workshop_files(stem, design.fabrication->plate.split, fabrication))
+      files.push_back(std::move(file));
   }
   return {std::move(stem),
           std::move(track),

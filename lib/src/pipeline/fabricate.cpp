@@ -2,6 +2,7 @@
 
 #include "pipeline/fabricate.hpp"
 
+#include "glissade/drawing/nest.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/dxf_file.hpp"
@@ -9,8 +10,10 @@
 #include "glissade/io/step_file.hpp"
 #include "glissade/io/workshop_tables.hpp"
 
+#include "parts/plate_joints.hpp"
 #include "pipeline/located.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -51,8 +54,8 @@ PendingFile table(std::string name, std::string text) {
   return file;
 }
 
-PendingFile dxf_of(std::string name, const ShopPart& part) {
-  const auto drawing = std::make_shared<const Drawing>(cut_drawing(part));
+PendingFile dxf_file(std::string name, Drawing meant) {
+  const auto drawing = std::make_shared<const Drawing>(std::move(meant));
   PendingFile file;
   file.name = std::move(name);
   file.cost = kSmallFile;
@@ -98,6 +101,21 @@ auto at_keys(const Design& design, Make&& make) {
   }
 }
 
+/// Every piece that is cut from a sheet, laid out on the stock of the design.
+std::vector<PendingFile> nests_of(const std::string& stem, const Workshop& workshop,
+                                  const SplitOptions& split) {
+  constexpr double kSpacing = 10e-3;
+  std::vector<PendingFile> files;
+  const std::vector<NestedSheet> sheets =
+      nest(workshop, {std::max(split.sheet.x, split.sheet.y), std::min(split.sheet.x, split.sheet.y),
+                      parts::kSheetMargin, kSpacing});
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    files.push_back(
+        dxf_file(stem + ".nests/" + nest_stem(sheets, i) + ".dxf", nest_drawing(workshop, sheets[i])));
+  }
+  return files;
+}
+
 std::string part_stem(const std::string& stem, const ShopPart& part) {
   return stem + ".parts/" + file_stem(part);
 }
@@ -135,16 +153,17 @@ std::vector<std::string> part_files(const std::string& stem, const ShopPart& par
   return names;
 }
 
-std::vector<PendingFile> workshop_files(const std::string& stem,
+std::vector<PendingFile> workshop_files(const std::string& stem, const SplitOptions& split,
                                         const std::shared_ptr<const PlateBuild>& build) {
   const Workshop& workshop = build->workshop;
   std::vector<PendingFile> files;
   for (const ShopPart& part : workshop.parts) {
-    if (part.pattern) files.push_back(dxf_of(part_stem(stem, part) + ".dxf", part));
+    if (part.pattern) files.push_back(dxf_file(part_stem(stem, part) + ".dxf", cut_drawing(part)));
     files.push_back(step_of(part_stem(stem, part) + ".step", std::shared_ptr<const ShopPart>(build, &part)));
   }
   files.push_back(step_of(stem + ".step", std::shared_ptr<const Workshop>(build, &workshop)));
   files.push_back(drawings_of(stem + ".drawings.pdf", build));
+  for (PendingFile& file : nests_of(stem, workshop, split)) files.push_back(std::move(file));
   files.push_back(table(stem + ".cut_list.csv", cut_list_csv(workshop)));
   if (!workshop.items.empty()) files.push_back(table(stem + ".bought_in.csv", bought_in_csv(workshop)));
   if (!workshop.bends.empty())
