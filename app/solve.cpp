@@ -80,11 +80,9 @@ void add_solve(CLI::App& program, Action& action) {
   options->time_budget.add_to(command);
   command.add_option("--csv", options->csv, "Write the track and the ride by stations")->type_name("FILE");
   command
-      .add_option(
-          "--frozen", options->frozen,
-          "Write the track as a design in which nothing is searched for any more: to ride it at other "
-          "frictions, to change what is built round it, to build it again")
-      ->type_name("FILE.yaml");
+      .add_option("--frozen", options->frozen,
+                  "Write the track found as a design in which nothing is searched for")
+      ->type_name("FILE");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return solve_track(*options); }; });

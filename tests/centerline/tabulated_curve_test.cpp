@@ -4,7 +4,6 @@
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/centerline/cycloid.hpp"
-#include "glissade/centerline/flying_start_brachistochrone.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/motion/motion.hpp"
@@ -33,8 +32,6 @@ std::vector<Ridden> curves() {
   std::vector<Ridden> all = {
       {"brachistochrone", std::make_shared<CoulombBrachistochrone>(ends, friction)},
       {"flat brachistochrone", std::make_shared<CoulombBrachistochrone>(Endpoints{10.0, 2.6}, friction)},
-      {"brachistochrone with an entry speed",
-       std::make_shared<FlyingStartBrachistochrone>(ends, friction, 5.0, kDefaultGravity), 5.0},
       {"constant speed", std::make_shared<ConstantSpeedCurve>(
                              ConstantSpeedCurve::fastest(ends, friction, kDefaultGravity, 0.0))},
       {"straight", std::make_shared<StraightLine>(ends)},

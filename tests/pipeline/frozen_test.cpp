@@ -30,8 +30,6 @@ struct Case {
 std::vector<Case> cases() {
   return {
       {"fastest", kHead + kBody + "centerline: {kind: fastest}\n"},
-      {"fastest with an entry speed",
-       kHead + "body: {friction_coefficient: 0.2, entry_speed: 4 m/s}\ncenterline: {kind: fastest}\n"},
       {"constant speed", kHead + kBody + "centerline: {kind: constant-speed}\n"},
       {"cycloid", kHead + "body: {friction_coefficient: 0.05}\ncenterline: {kind: cycloid}\n"},
       {"no curvature load", kHead + kBody + "centerline: {kind: no-curvature-load}\n"},
@@ -41,8 +39,8 @@ std::vector<Case> cases() {
            "centerline: {kind: fastest}\nlimits: {smallest_radius: 2 m, slope_angle: {highest: 60 deg}}\n",
        false},
       {"a free finish",
-       "glissade: 1\ntrack: {start: {z: 4 m}, finish: {x: 6 m, z: {lowest: 0 m, highest: 2 m}}}\n" + kBody +
-           "centerline: {kind: fastest}\nlimits: {smallest_radius: 1 m}\n",
+       "glissade: 1\ntrack: {start: {x: 0 m, z: 4 m}, finish: {x: 6 m, z: {lowest: 0 m, highest: 2 m}}}\n" +
+           kBody + "centerline: {kind: fastest}\nlimits: {smallest_radius: 1 m}\n",
        false},
       {"an in-run with gates",
        "glissade: 1\ntrack: {edge: {x: 100 m, z: 20 m}}\n"
@@ -50,7 +48,7 @@ std::vector<Case> cases() {
        "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m}\n"
        "gates: {count: 5}\n"},
       {"segments",
-       "glissade: 1\ntrack: {start: {z: 4 m}}\n" + kBody +
+       "glissade: 1\ntrack: {start: {x: 0 m, z: 4 m}}\n" + kBody +
            "centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 3 m}, {length: 2 m, "
            "radius: 4 "
            "m}, {length: 1.3 m, entry_curvature: 0.1 1/m, exit_curvature: 0.3 1/m}]}\n",
@@ -105,10 +103,20 @@ TEST_CASE("a frozen design is no CSV file") {
   CHECK(directory.names().empty());
 }
 
+TEST_CASE("a track along which the body flies free is not frozen as a table") {
+  const TempDir directory;
+  const Design design = parse_design(
+      kHead + "body: {friction_coefficient: 0.2, entry_speed: 4 m/s}\ncenterline: {kind: fastest}\n",
+      directory / "design.yaml");
+  CHECK_THROWS_WITH(write_frozen_design(directory / "frozen.yaml", design, solve(design)),
+                    Contains("cannot be frozen as a table") && Contains("flies free"));
+  CHECK(directory.names().empty());
+}
+
 TEST_CASE("a kink is told, a bend is not") {
   const auto told = [](const std::string& radius) {
     const Design design = parse_design(
-        "glissade: 1\ntrack: {start: {z: 4 m}}\nbody: {friction_coefficient: 0.1}\n"
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 4 m}}\nbody: {friction_coefficient: 0.1}\n"
         "centerline: {kind: segments, entry_slope_angle: 60 deg, segments: "
         "[{length: 4 m}, {length: 1 mm, radius: " +
             radius + "}, {length: 2 m}]}\n",

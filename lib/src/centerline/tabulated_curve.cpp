@@ -213,36 +213,94 @@ CenterlinePoint TabulatedCurve::at(double s) const {
   return {s, stretch.x + way.x, stretch.drop + way.y, here.slope_angle, here.curvature};
 }
 
-std::vector<TabulatedPoint> table_of(const Centerline& curve) {
-  // Fourth order: on the sharpest bends that this library draws, 400 rows leave some 1e-11.
-  constexpr int kRows = 400;
-  const std::vector<double> breaks = curve.breaks();
-  const double length = curve.length();
-  const bool root = curve.unbounded_curvature_at_start();
-  std::vector<TabulatedPoint> rows;
-  const auto add = [&](double s, double curvature) {
-    const CenterlinePoint point = curve.at(s);
-    rows.push_back({point.x, point.drop, point.slope_angle, curvature});
-  };
-  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
-    const double from = root ? std::sqrt(breaks[k]) : breaks[k];
-    const double to = root ? std::sqrt(breaks[k + 1]) : breaks[k + 1];
-    const double whole = root ? std::sqrt(length) : length;
-    const int count = std::max(8, static_cast<int>(std::ceil(kRows * (to - from) / whole)));
-    for (int i = 0; i < count; ++i) {
-      const double p = from + (to - from) * i / count;
-      const double s = i == 0 ? breaks[k] : (root ? p * p : p);
-      add(s, s == 0.0 && root ? HUGE_VAL : curve.direction(s).curvature);
+namespace {
+
+/// Rows of a curve between two breaks, as dense as the cubic between them asks for.
+class TableRows {
+ public:
+  explicit TableRows(const Centerline& curve) : curve_(curve), root_(curve.unbounded_curvature_at_start()) {}
+
+  /// Adds the rows from one place up to, and without, another one.
+  void add(double from, double to) {
+    constexpr int kFewest = 8;
+    const double low = parameter(from);
+    const double high = parameter(to);
+    for (int i = 0; i < kFewest; ++i) {
+      const double width = (high - low) / kFewest;
+      refine(low + width * i, low + width * (i + 1), 0);
     }
+  }
+  void add_row(double s, double curvature) {
+    const CenterlinePoint point = curve_.at(s);
+    rows.push_back({point.x, point.drop, point.slope_angle, curvature});
+  }
+
+  std::vector<TabulatedPoint> rows;
+
+ private:
+  [[nodiscard]] double parameter(double s) const { return root_ ? std::sqrt(s) : s; }
+  [[nodiscard]] double place(double p) const { return std::min(root_ ? p * p : p, curve_.length()); }
+  /// d zeta/dp; none where curvature has no bound.
+  [[nodiscard]] double rise(double p) const {
+    return -curve_.direction(place(p)).curvature * (root_ ? 2.0 * p : 1.0);
+  }
+
+  void refine(double a, double b, int depth) {
+    constexpr int kDeepest = 14;
+    if (depth < kDeepest && !follows(a, b)) {
+      const double middle = 0.5 * (a + b);
+      refine(a, middle, depth + 1);
+      refine(middle, b, depth + 1);
+      return;
+    }
+    const double s = place(a);
+    add_row(s, s == 0.0 && root_ ? HUGE_VAL : curve_.direction(s).curvature);
+  }
+
+  /// Whether the cubic between two rows is the curve, in slope angle and in how it changes.
+  [[nodiscard]] bool follows(double a, double b) const {
+    constexpr double kSlope = 1e-12;
+    constexpr double kTurning = 1e-10;
+    const double width = b - a;
+    // What comes right before b counts: curvature may jump there.
+    const double near = std::nextafter(b, a);
+    const double from = curve_.slope_angle(place(a));
+    const double to = curve_.slope_angle(place(near));
+    const double rise_to = rise(near) * width;
+    const double rise_from = root_ && a == 0.0 ? 2.0 * (to - from) - rise_to : rise(a) * width;
+    double cubic[4];
+    set_cubic(cubic, from, rise_from, to, rise_to);
+    for (const double u : {0.25, 0.5, 0.75}) {
+      const double p = a + u * width;
+      const double turning = kTurning * (1.0 + std::fabs(rise_from) + std::fabs(rise_to));
+      if (std::fabs(value_of(cubic, u) - curve_.slope_angle(place(p))) > kSlope) return false;
+      if (std::fabs(rise_of(cubic, u) - rise(p) * width) > turning * width) return false;
+    }
+    return true;
+  }
+
+  const Centerline& curve_;
+  bool root_;
+};
+
+}  // namespace
+
+std::vector<TabulatedPoint> table_of(const Centerline& curve) {
+  const std::vector<double> breaks = curve.breaks();
+  TableRows table(curve);
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    table.add(breaks[k], breaks[k + 1]);
     // The curvature with which this stretch ends: at() gives the one with which the next begins.
     const double end = breaks[k + 1];
     const double before = curve.direction(std::nextafter(end, breaks[k])).curvature;
     const bool last = k + 2 == breaks.size();
     const double after = last ? before : curve.direction(end).curvature;
     constexpr double kJump = 1e-9;
-    if (last || std::fabs(after - before) > kJump * (std::fabs(after) + std::fabs(before))) add(end, before);
+    if (last || std::fabs(after - before) > kJump * (std::fabs(after) + std::fabs(before))) {
+      table.add_row(end, before);
+    }
   }
-  return rows;
+  return std::move(table.rows);
 }
 
 }  // namespace glissade

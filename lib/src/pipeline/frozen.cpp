@@ -9,8 +9,11 @@
 #include "glissade/design/write.hpp"
 #include "glissade/io/atomic_file.hpp"
 
+#include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace glissade {
 namespace {
@@ -32,7 +35,8 @@ Design emptied(const Design& design, const Track& track) {
   frozen.track.edge.reset();
   frozen.track.azimuth = {};
   // Gates fill the start area of an in-run's certificate, which goes.
-  if (frozen.gates && !frozen.gates->start_area) frozen.gates->start_area = design.centerline.in_run.start_area();
+  if (frozen.gates && !frozen.gates->start_area)
+    frozen.gates->start_area = design.centerline.in_run.start_area();
   frozen.centerline = {};
   return frozen;
 }
@@ -59,14 +63,31 @@ CenterlineDesign as_table(const std::filesystem::path& csv) {
 }
 
 /// Heights count from the start: what a site adds to them would cost digits.
-std::string table_text(const Centerline& curve) {
+std::string table_text(const std::vector<TabulatedPoint>& rows) {
   std::string text = "run_m,height_m,slope_angle_deg,curvature_per_m\n";
-  for (const TabulatedPoint& row : table_of(curve)) {
+  for (const TabulatedPoint& row : rows) {
     text += exact_text(row.x) + "," + exact_text(row.drop == 0.0 ? 0.0 : -row.drop) + "," +
             exact_text(Angle::from_radians(row.slope_angle).degrees()) + "," + exact_text(row.curvature) +
             "\n";
   }
   return text;
+}
+
+/// The table of a track on which the body rides as it did.
+/// @throws InputError if no table does that: where the body flies free along the track, N = 0, rounding decides
+///   whether it leaves it
+std::vector<TabulatedPoint> faithful_table(const Design& design, const Track& track) {
+  std::vector<TabulatedPoint> rows = table_of(*track.centerline);
+  const Motion& was = track.motion;
+  const Motion is(std::make_shared<TabulatedCurve>(rows), was.body(), was.gravity());
+  const bool same = is.arrived() == was.arrived() &&
+                    std::fabs(is.travel_time() - was.travel_time()) <= kTableAccuracy * was.travel_time();
+  if (same || !was.arrived()) return rows;
+  throw InputError(
+      {design.where("centerline"), "the track cannot be frozen as a table",
+       "Along a part of it the body flies free with no load on the track: the rounding of a table would "
+       "make it leave the track there.",
+       "limits: {normal_load: {lowest: 0.01 m/s^2}}, whose track is made of clothoids"});
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -89,7 +110,7 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
   Design frozen = emptied(design, track);
   frozen.file = file;
   const ClothoidSpline* const clothoids = clothoids_of(*track.centerline);
-  if (clothoids == nullptr) write(csv, table_text(*track.centerline));
+  if (clothoids == nullptr) write(csv, table_text(faithful_table(design, track)));
   frozen.centerline = clothoids != nullptr ? as_segments(*clothoids) : as_table(csv);
   const std::string origin = design.name.empty() ? std::string("a design") : design.name;
   std::string note = "# The track found for " + origin + ", as it is: nothing is searched for any more.\n";

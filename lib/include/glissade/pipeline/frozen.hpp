@@ -15,7 +15,8 @@ namespace glissade {
 /// Accuracy: solve() of the new design gives travel time, speeds and places as they were to kTableAccuracy, or to
 ///   rounding where the track becomes segments.
 /// @param file  to write, with an ending other than .csv
-/// @throws InputError if its ending is .csv; FileError as AtomicFile
+/// @throws InputError if its ending is .csv, or if the body flies free along a part of a track that needs a table
+///         (the fastest track with an entry speed and friction); FileError as AtomicFile
 void write_frozen_design(const std::filesystem::path& file, const Design& design, const Track& track);
 
 }  // namespace glissade
