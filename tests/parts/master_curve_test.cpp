@@ -22,7 +22,7 @@ namespace {
 using namespace glissade;
 
 Vec2 point_of(const Centerline& track, double s) {
-  const CenterlinePoint at = track.at(s);
+  const CenterlinePoint at = track.at(std::min(s, track.length()));  // which rounding may exceed
   return {at.x, -at.drop};
 }
 
@@ -64,8 +64,17 @@ void check_ends(const Centerline& track, const ArcSpline& spline) {
   CHECK(norm(spline.path().vertices.back().at - point_of(track, track.length())) < 1e-12 * track.length());
 }
 
-/// A track of lines, arcs and clothoids that turns by little at a time.
-ClothoidSpline random_segments(testing::Random& random) {
+/// Whether a run stands for one place: the track is nowhere steeper than 80 deg, so that it cannot overhang.
+bool has_no_overhang(const ClothoidSpline& track) {
+  const double steepest = Angle::from_degrees(80.0).radians();
+  for (int i = 0; i <= 200; ++i) {
+    if (std::fabs(track.slope_angle(track.length() * i / 200.0 * (1.0 - 1e-12))) > steepest) return false;
+  }
+  return true;
+}
+
+/// A track of lines, arcs and clothoids.
+ClothoidSpline drawn_segments(testing::Random& random) {
   std::vector<ClothoidSegment> segments;
   double curvature = 0.0;
   const int count = random.integer(1, 7);
@@ -76,6 +85,13 @@ ClothoidSpline random_segments(testing::Random& random) {
     curvature = next;
   }
   return {Angle::from_degrees(random.between(0.0, 60.0)), segments};
+}
+
+ClothoidSpline random_segments(testing::Random& random) {
+  while (true) {
+    ClothoidSpline track = drawn_segments(random);
+    if (has_no_overhang(track)) return track;
+  }
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ void check_bounds(const Design& design, Collected& findings) {
   for (LimitFault& fault : limit_faults(*design.limits)) {
     std::string key = fault.key;
     // Where one key stands for both radii it is the one to be named, once.
-    if (one_radius && key == "smallest_crest_radius") continue;
+    const bool of_both = !design.locations.contains("limits.smallest_crest_radius");
+    if (one_radius && of_both && key == "smallest_crest_radius") continue;
     if (one_radius && key == "smallest_valley_radius") {
       fault.issue.what.replace(0, key.size(), "smallest_radius");
       fault.issue.hint = "no smallest_radius, if it is not limited";

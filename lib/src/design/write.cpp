@@ -438,7 +438,8 @@ std::string profile(const Profile& profile) {
 }
 
 void add_number(const LimitEntry& entry, const Limits& limits, Group& group) {
-  if (entry.range != nullptr && (limits.*entry.range).limited()) {
+  const bool has_start = entry.id == LimitId::speed && limits.lowest_speed_from != 0.0;
+  if (entry.range != nullptr && ((limits.*entry.range).limited() || has_start)) {
     const Range& bounds = limits.*entry.range;
     Group ends;
     ends.add("lowest", bounds.lowest, entry.dimension);

@@ -146,13 +146,6 @@ std::shared_ptr<const PlateBuild> fabricate(const Design& design, const Track& t
   return std::make_shared<const PlateBuild>(std::move(build));
 }
 
-std::vector<std::string> part_files(const std::string& stem, const ShopPart& part) {
-  std::vector<std::string> names;
-  if (part.pattern) names.push_back(part_stem(stem, part) + ".dxf");
-  names.push_back(part_stem(stem, part) + ".step");
-  return names;
-}
-
 std::vector<PendingFile> workshop_files(const std::string& stem, const SplitOptions& split,
                                         const std::shared_ptr<const PlateBuild>& build) {
   const Workshop& workshop = build->workshop;

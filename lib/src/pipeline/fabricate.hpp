@@ -17,9 +17,6 @@ namespace glissade::pipeline {
 [[nodiscard]] std::shared_ptr<const PlateBuild> fabricate(const Design& design, const Track& track,
                                                           const Placement& frame);
 
-/// @return names of the files of one part, relative to the directory of the build
-[[nodiscard]] std::vector<std::string> part_files(const std::string& stem, const ShopPart& part);
-
 /// Every file that a workshop gets: a folder of parts, the assembly, drawings, a folder of nests, the tables.
 /// @param split  says the stock sheets
 [[nodiscard]] std::vector<PendingFile> workshop_files(const std::string& stem, const SplitOptions& split,

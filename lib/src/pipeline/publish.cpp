@@ -72,7 +72,7 @@ Build publish(const Design& design, Assembly assembly, const fs::path& directory
     named_as(page, directory / name, [&] {
       write_report(page, design,
                    {assembly.track, assembly.section, swept.solid, swept.facts, swept.max_deviation,
-                    std::move(made), std::move(read_back), context.stop});
+                    std::move(made), std::move(read_back), context.stop, assembly.fabrication.get()});
     });
   }
   require_going(context.stop);

@@ -4,6 +4,7 @@
 #include "glissade/trades/chute/stream.hpp"
 
 #include "report/ride_stations.hpp"
+#include "report/serial/parts.hpp"
 #include "report/serial/vocabulary.hpp"
 #include "report/view_mesh.hpp"
 
@@ -263,6 +264,16 @@ Json envelope_of(const ReportInput& input) {
           {"edges", std::move(edges)}};
 }
 
+/// As --json has it; null without plates.
+Json fabrication_of(const ReportInput& input) {
+  if (input.plates == nullptr) return nullptr;
+  Json json;
+  add_parts(json, input.plates, "");
+  for (Json& part : json["parts"]) part.erase("files");
+  json["design_exit_speed_m_per_s"] = input.plates->ride.design_exit_speed;
+  return json;
+}
+
 Json flights_of(const ReportInput& input) {
   Json list = Json::array();
   for (const ReportFlight& flight : input.flights) {
@@ -319,6 +330,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["rides"] = rides_of(input);
   document["probes"] = probes_json(input.probes);
   document["rules"] = rules_json(input.rules);
+  document["fabrication"] = fabrication_of(input);
   document["flights"] = flights_of(input);
   document["cases"] = cases_of(input);
   document["warnings"] = issues_json(input.warnings);

@@ -1,13 +1,9 @@
-#include "pipeline/parts_json.hpp"
-
-#include "pipeline/fabricate.hpp"
+#include "report/serial/parts.hpp"
 
 #include <cmath>
 
-namespace glissade::pipeline {
+namespace glissade::report {
 namespace {
-
-using report::Json;
 
 const char* word_of(ShopVerdict verdict) {
   switch (verdict) {
@@ -54,6 +50,12 @@ Json ride_json(const AsBuiltRide& ride) {
 
 }  // namespace
 
+std::vector<std::string> part_files(const std::string& stem, const ShopPart& part) {
+  const std::string name = stem + ".parts/" + file_stem(part);
+  if (!part.pattern) return {name + ".step"};
+  return {name + ".dxf", name + ".step"};
+}
+
 void add_parts(Json& json, const PlateBuild* build, const std::string& stem) {
   for (const char* const key : {"master_curve", "parts", "items", "as_built", "shop_checks",
                                 "parts_volume_m3", "channel_volume_m3", "joints_m"}) {
@@ -86,4 +88,4 @@ void add_parts(Json& json, const PlateBuild* build, const std::string& stem) {
   json["joints_m"] = build->joints;
 }
 
-}  // namespace glissade::pipeline
+}  // namespace glissade::report
