@@ -174,17 +174,18 @@ class Searcher {
   /// nobody should build.
   [[nodiscard]] Found priced(const ScaledProblem& problem, Found found) {
     constexpr int kRounds = 4;
+    MeshTrack finer{found.track->mesh(), found.z};
     for (int round = 0; round < kRounds; ++round) {
-      const std::vector<bool> beside = beside_jumps(found.track->mesh());
-      if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) break;
-      const MeshTrack finer = with_halved_pieces(*found.track, found.z, beside);
-      control_.tolerance = options_.tolerance;
-      control_.most_rounds = 3;
-      Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control_);
-      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
-        break;
-      found = std::move(next);
+      const std::vector<bool> beside = beside_jumps(finer.mesh);
+      if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) return found;
+      finer = with_halved_pieces(Transcription(finer.mesh), finer.z, beside);
     }
+    control_.tolerance = options_.tolerance;
+    control_.most_rounds = 0;
+    Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control_);
+    const bool use =
+        !next.stopped && next.residual <= options_.tolerance && next.feasible(options_.limit_tolerance);
+    if (use) return next;
     return found;
   }
 
@@ -361,7 +362,13 @@ class Searcher {
       mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.begin(), held.end());
       if (found.stopped) control_.most_rounds = kGraceEffort;
       const bool stopped = found.stopped;
-      found = minimise(problem, mesh, found.z, margins_, control_);
+      Found next = minimise(problem, mesh, found.z, margins_, control_);
+      // A descent that lost its way would go on from nowhere.
+      if (!next.stopped && !next.feasible(kNearlyFeasible) && found.feasible(kNearlyFeasible)) {
+        std::optional<Found> other = rescued(problem, mesh, found.z);
+        if (other) next = std::move(*other);
+      }
+      found = std::move(next);
       control_.stop = stop;
       found.stopped = found.stopped || stopped;
     }
@@ -376,7 +383,7 @@ class Searcher {
       const std::optional<Mesh> mesh = following_loads(problem, found);
       if (!mesh) break;
       control_.tolerance = options_.tolerance;
-      control_.most_rounds = 3;
+      control_.most_rounds = 0;
       Found next = minimise(problem, *mesh, found.z, margins_, control_);
       if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
         break;
@@ -399,7 +406,7 @@ class Searcher {
       if (found.track->mesh().knots.size() > kMostPieces) break;
       const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
       control_.tolerance = options_.tolerance;
-      control_.most_rounds = 3;
+      control_.most_rounds = 0;
       Found next = minimise(problem, finer.mesh, finer.z, margins_, control_);
       if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
         break;
