@@ -50,6 +50,8 @@ constexpr int kGraceRounds = 6;
 constexpr int kGraceEffort = 2;
 // In the first of them limits are held at the places that the referee names; later they are tightened.
 constexpr int kHoldingRounds = 4;
+// In so many a curvature that follows the load more closely is tried where a body lifts off.
+constexpr int kFollowingRounds = 8;
 // A track that then still breaks a limit at a station by more than kNearlyFeasible is given up: tighter
 // limits are no easier.
 constexpr int kPatientRounds = 3;
@@ -337,7 +339,7 @@ class Searcher {
         return (place / problem.chord - problem.lead_in) / core_length;
       };
       // A curvature that follows the load more closely, rather than a load that keeps its distance everywhere.
-      if (judgement.lift_off && round < kHoldingRounds && !found.stopped) {
+      if (judgement.lift_off && round < kFollowingRounds && !found.stopped) {
         const std::optional<Mesh> closer = following_loads(problem, found, {share_of(*judgement.lift_off)});
         if (closer && closer->fine.size() > found.track->mesh().fine.size()) {
           control_.tolerance = options_.tolerance;
