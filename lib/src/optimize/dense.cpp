@@ -24,11 +24,10 @@ double norm(const Vector& a) {
   return std::sqrt(dot(a.data(), a.data(), a.size()));
 }
 
-ShiftedCholesky::ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal) {
+ShiftedCholesky::ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal, double largest) {
   constexpr double kFirstShift = 1e-6;
   constexpr double kShiftGrowth = 8.0;
-  constexpr double kLastShift = 1e9;
-  while (!factor(symmetric, diagonal) && shift_ <= kLastShift) {
+  while (shift_ <= largest && !factor(symmetric, diagonal)) {
     shift_ = shift_ == 0.0 ? kFirstShift : shift_ * kShiftGrowth;
   }
 }

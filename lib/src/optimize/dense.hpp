@@ -35,8 +35,11 @@ void add_scaled(double* y, double k, const double* a, std::size_t n);
 /// from 0 that makes it positive definite.
 class ShiftedCholesky {
  public:
+  static constexpr double kLargestShift = 1e9;
+
   ShiftedCholesky() = default;
-  ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal);
+  /// @param largest  shifts beyond it are not tried: the factor is then of no use
+  ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal, double largest = kLargestShift);
 
   [[nodiscard]] double shift() const { return shift_; }
   /// x := L^-T x: from scaled to original variables

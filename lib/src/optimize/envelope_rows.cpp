@@ -26,9 +26,10 @@ Vec2 normal_of(const Shape& shape, std::size_t station) {
 }
 
 /// out += direction . (dx, dy) of a station
-void add_position(const Shape& shape, std::size_t station, Vec2 direction, std::size_t n, double* out) {
-  add_scaled(out, direction.x, shape.dx.row(station), n);
-  add_scaled(out, direction.y, shape.dy.row(station), n);
+void add_position(const Transcription& track, const Shape& shape, std::size_t station, Vec2 direction,
+                  double* out) {
+  track.add(shape.dx, station, direction.x, out);
+  track.add(shape.dy, station, direction.y, out);
 }
 
 }  // namespace
@@ -146,9 +147,8 @@ EnvelopeRows::FaceCorner EnvelopeRows::face_corner(const State& state, bool fini
 void EnvelopeRows::add_corner_gradient(const State& state, const Face& face, const FaceCorner& corner,
                                        double height, Vec2 direction, double* out) const {
   const std::size_t n = track_.layout().size();
-  const double* turned = track_.dzeta(face.station);
-  add_position(state.shape, face.station, direction, n, out);
-  add_scaled(out, corner.along * dot(direction, face.tangent), turned, n);
+  add_position(track_, state.shape, face.station, direction, out);
+  track_.add_dzeta(face.station, corner.along * dot(direction, face.tangent), out);
   if (!corner.is_cut) return;
   Vector dx;
   Vector dy;
@@ -162,8 +162,8 @@ void EnvelopeRows::add_corner_gradient(const State& state, const Face& face, con
   add_scaled(out, share * moved.x, dx.data(), n);
   add_scaled(out, share * moved.y, dy.data(), n);
   add_scaled(out, share * height * dot(tangent, moved), turned_there.data(), n);
-  add_position(state.shape, face.station, -share * moved, n, out);
-  add_scaled(out, share * slide * corner.along, turned, n);
+  add_position(track_, state.shape, face.station, -share * moved, out);
+  track_.add_dzeta(face.station, share * slide * corner.along, out);
 }
 
 EnvelopeRows::Distance EnvelopeRows::distance(const Obstacle& obstacle, Vec2 point) {
@@ -351,27 +351,24 @@ double EnvelopeRows::measure(const State& state, const Obstacle& obstacle, const
 void EnvelopeRows::station_gradient(const State& state, const Obstacle& obstacle, const Row& row,
                                     double* out) const {
   const Shape& shape = state.shape;
-  const std::size_t n = track_.layout().size();
   const Vec2 away = -1.0 * forbidden(obstacle, row.edge);
   const Cut here = cut(state, row.place, height(row.level));
   const Vec2 tangent = tangent_of(shape, row.place);
   const Vec2 normal = normal_of(shape, row.place);
-  const double* turned = track_.dzeta(row.place);
-  add_position(shape, row.place, away, n, out);
-  add_scaled(out, here.height * dot(away, tangent), turned, n);
+  add_position(track_, shape, row.place, away, out);
+  track_.add_dzeta(row.place, here.height * dot(away, tangent), out);
   if (!here.is_cut) return;
   // The height is ahead/approach: ahead = outward (face - point).t, approach = outward normal.t.
   const Face face = this->face(shape, !here.at_start);
-  const double* face_turned = track_.dzeta(face.station);
   const double approach = face.outward * dot(normal, face.tangent);
   const double share = dot(away, normal) / approach;
   const Vec2 forward = face.outward * face.tangent;
-  add_position(shape, face.station, share * forward, n, out);
-  add_position(shape, row.place, -share * forward, n, out);
-  add_scaled(out, -share * face.outward * dot(face.point - point_of(shape, row.place), face.normal),
-             face_turned, n);
-  add_scaled(out, -share * here.height * dot(tangent, forward), turned, n);
-  add_scaled(out, share * here.height * face.outward * dot(normal, face.normal), face_turned, n);
+  add_position(track_, shape, face.station, share * forward, out);
+  add_position(track_, shape, row.place, -share * forward, out);
+  const double over_face =
+      -dot(face.point - point_of(shape, row.place), face.normal) + here.height * dot(normal, face.normal);
+  track_.add_dzeta(face.station, share * face.outward * over_face, out);
+  track_.add_dzeta(row.place, -share * here.height * dot(tangent, forward), out);
 }
 
 void EnvelopeRows::corner_gradient(const State& state, const Obstacle& obstacle, const Row& row,
@@ -389,8 +386,8 @@ void EnvelopeRows::corner_gradient(const State& state, const Obstacle& obstacle,
   }
   const Face face = this->face(state.shape, seen.at_finish);
   if (seen.between) {
-    add_position(state.shape, face.station, -face.outward * face.tangent, n, out);
-    add_scaled(out, -face.outward * dot(corner - face.point, face.normal), track_.dzeta(face.station), n);
+    add_position(track_, state.shape, face.station, -face.outward * face.tangent, out);
+    track_.add_dzeta(face.station, -face.outward * dot(corner - face.point, face.normal), out);
     return;
   }
   const FaceCorner lower = face_corner(state, seen.at_finish, 0);
@@ -467,9 +464,10 @@ void EnvelopeRows::add_direct_terms(const State& state, const Obstacle& obstacle
   } else if (seen.between) {
     const Face face = this->face(state.shape, seen.at_finish);
     Vector across(n, 0.0);
-    add_position(state.shape, face.station, face.normal, n, across.data());
-    const double* turned = track_.dzeta(face.station);
-    add_symmetric(hessian, factor * face.outward, across, Vector(turned, turned + n));
+    add_position(track_, state.shape, face.station, face.normal, across.data());
+    Vector turned(n, 0.0);
+    track_.add_dzeta(face.station, 1.0, turned.data());
+    add_symmetric(hessian, factor * face.outward, across, turned);
   }
 }
 

@@ -133,27 +133,24 @@ Vector graded_knots(const GuessCurve& curve, std::size_t pieces, double entry_le
 Vector fit(const GuessCurve& curve, const Transcription& track) {
   const Layout& layout = track.layout();
   const std::size_t n = layout.length();  // the length itself is not fitted
-  Matrix normal(n, n);
-  Vector right(n, 0.0);
   const std::vector<Station>& stations = track.stations();
+  Vector weights(stations.size(), 0.0);
+  Vector right(layout.size(), 0.0);
   for (std::size_t i = 1; i < stations.size(); ++i) {
     if (stations[i].part != Part::core) continue;
     // Travel time weighs an error of the angle by 1/u ~ s^(-1/2), and r is s^(1/2).
-    const double weight = std::sqrt(stations[i].sigma) - std::sqrt(stations[i - 1].sigma);
-    const double* row = track.dzeta(i);
-    const double angle = curve.slope_angle(stations[i].sigma);
-    for (std::size_t j = 0; j < n; ++j) {
-      if (row[j] == 0.0) continue;
-      add_scaled(normal.row(j), weight * row[j], row, n);
-      right[j] += weight * row[j] * angle;
-    }
+    weights[i] = std::sqrt(stations[i].sigma) - std::sqrt(stations[i - 1].sigma);
+    track.add_dzeta(i, weights[i] * curve.slope_angle(stations[i].sigma), right.data());
   }
+  const Matrix gram = track.gram_of_dzeta(weights);
+  Matrix normal(n, n);
+  for (std::size_t j = 0; j < n; ++j) std::copy_n(gram.row(j), n, normal.row(j));
   Vector diagonal(n);
   for (std::size_t j = 0; j < n; ++j) diagonal[j] = normal(j, j);
   const ShiftedCholesky factor(normal, diagonal);
   factor.forward(right.data());
   factor.backward(right.data());
-  right.push_back(curve.length);
+  right[n] = curve.length;
   return right;
 }
 

@@ -187,118 +187,106 @@ Solved solve(const Ride& ride, const std::array<Place, kNodes>& places, const No
   return solved;
 }
 
-/// The unknowns that the curvature at a station depends on, and how.
-struct CurvatureRow {
-  std::array<std::size_t, 3> unknown{};
-  std::array<double, 3> value{};
-  std::size_t count = 0;
-};
-
-CurvatureRow curvature_row(const Layout& layout, const Station& station, double curvature, double length) {
+/// The derivatives of the curvature at a station.
+LocalRow dcurvature(const Station& station, double curvature, double length) {
   if (station.part != Part::core) return {};
-  return {{layout.turn(station.piece), layout.turn(station.piece + 1), layout.length()},
-          {(1.0 - station.share) / length, station.share / length, -curvature / length},
-          3};
+  return {0.0, 0.0, (1.0 - station.share) / length, station.share / length, -curvature / length};
+}
+
+constexpr LocalRow kOfLength = {0.0, 0.0, 0.0, 0.0, 1.0};
+
+void add_row(LocalRow& out, double factor, const LocalRow& a) {
+  for (std::size_t j = 0; j < a.size(); ++j) out[j] += factor * a[j];
+}
+
+/// Derivatives of v at a panel's nodes and its end: nodes dv = R (dv_start + A b), end dv_start + w (b + ds F_v dv).
+/// @param source  b, what each node's ds F changes by at fixed v
+/// @param dv      of the nodes and the end behind them
+void differentiate(const Solved& solved, const NodeValues& ds, const LocalRow& dv_start,
+                   const std::array<LocalRow, kNodes>& source, LocalRow* dv) {
+  const PanelRule& rule = panel_rule();
+  LocalRow& dv_end = dv[kNodes];
+  dv_end = dv_start;
+  std::array<LocalRow, kNodes> added;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    added[i] = dv_start;
+    for (std::size_t k = 0; k < kNodes; ++k) add_row(added[i], rule.to_node[i][k], source[k]);
+  }
+  for (std::size_t q = 0; q < kNodes; ++q) {
+    dv[q] = {};
+    for (std::size_t i = 0; i < kNodes; ++i) add_row(dv[q], solved.response[q][i], added[i]);
+    add_row(dv_end, rule.weight[q], source[q]);
+    add_row(dv_end, rule.weight[q] * ds[q] * solved.slopes[q].v, dv[q]);
+  }
 }
 
 }  // namespace
 
-void Transcription::law_flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
-                             bool derivatives) const {
-  const PanelRule& rule = panel_rule();
-  const std::size_t n = layout_.size();
-  const std::size_t at_length = layout_.length();
-  const double length = z[at_length];
-  out.v.assign(stations_.size(), 0.0);
+void Transcription::enter(const Shape& shape, const Ride& ride, Flow& out) const {
   const Term entry = entry_v(ride, shape.zeta[0]);
   out.v[0] = entry.value;
-  out.time = 0.0;
-  if (derivatives) {
-    out.dv = Matrix(stations_.size(), n);
-    out.dtime.assign(n, 0.0);
-    add_scaled(out.dv.row(0), entry.first, dzeta_.row(0), n);
+  if (out.dv.empty()) return;
+  add_dzeta(0, entry.first, out.dv.starts.row(0));
+  out.dv.local[0][kOwn] = 1.0;
+}
+
+void Transcription::law_flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t p,
+                                     Flow& out, LocalRow* by_time) const {
+  const PanelRule& rule = panel_rule();
+  const double length = z[layout_.length()];
+  const Panel& panel = panels_[p];
+  const std::size_t start = start_station(p);
+  const bool is_core = panel.part == Part::core;
+  const double scale = is_core ? length : 1.0;
+  std::array<Place, kNodes> places;
+  NodeValues ds{};
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const std::size_t at = panel.first + k;
+    places[k] = {shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
+    ds[k] = scale * panel.ds[k];
   }
-  std::vector<Vector> source(kNodes, Vector(n, 0.0));  // d(ds F) of each node at fixed v
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
-    const Panel& panel = panels_[p];
-    const std::size_t start = start_station(p);
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
-    std::array<Place, kNodes> places;
-    NodeValues ds{};
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      const std::size_t at = panel.first + k;
-      places[k] = {shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
-      ds[k] = scale * panel.ds[k];
-    }
-    const Solved solved = solve(ride, places, ds, out.v[start]);
-    const std::size_t end = panel.first + kNodes;
-    out.v[end] = out.v[start];
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      out.v[panel.first + k] = solved.v[k];
-      out.v[end] += rule.weight[k] * ds[k] * solved.slopes[k].value;
-    }
-    if (derivatives) {
-      for (std::size_t k = 0; k < kNodes; ++k) {
-        const std::size_t at = panel.first + k;
-        const Slope& slope = solved.slopes[k];
-        Vector& b = source[k];
-        std::fill(b.begin(), b.end(), 0.0);
-        add_scaled(b.data(), ds[k] * slope.zeta, dzeta_.row(at), std::min(panel.columns, at_length));
-        const CurvatureRow bend = curvature_row(layout_, stations_[at], places[k].curvature, length);
-        for (std::size_t i = 0; i < bend.count; ++i) {
-          b[bend.unknown[i]] += ds[k] * slope.curvature * bend.value[i];
-        }
-        b[at_length] += ds[k] * slope.s * stations_[at].sigma;
-        if (is_core) b[at_length] += panel.ds[k] * slope.value;
-      }
-      // Nodes: dv = R (dv_start + A b); end: dv_start + w (b + ds F_v dv).
-      double* dv_end = out.dv.row(end);
-      std::copy_n(out.dv.row(start), n, dv_end);
-      for (std::size_t q = 0; q < kNodes; ++q) {
-        double* dv = out.dv.row(panel.first + q);
-        double share_of_start = 0.0;
-        NodeValues share{};
-        for (std::size_t i = 0; i < kNodes; ++i) {
-          share_of_start += solved.response[q][i];
-          for (std::size_t k = 0; k < kNodes; ++k) share[k] += solved.response[q][i] * rule.to_node[i][k];
-        }
-        add_scaled(dv, share_of_start, out.dv.row(start), n);
-        for (std::size_t k = 0; k < kNodes; ++k) add_scaled(dv, share[k], source[k].data(), n);
-        add_scaled(dv_end, rule.weight[q], source[q].data(), n);
-        add_scaled(dv_end, rule.weight[q] * ds[q] * solved.slopes[q].v, dv, n);
-      }
-    }
-    for (std::size_t q = 0; q < kNodes; ++q) {
-      const std::size_t at = panel.first + q;
-      const Slowness slow = pace_of(ride, out.v[at], slowest(ride, at));
-      const double path = 1.0 - places[q].curvature * ride.height;
-      const double part = rule.weight[q] * ds[q];
-      out.time += part * path * slow.value;
-      if (!derivatives) continue;
-      add_scaled(out.dtime.data(), part * path * slow.first, out.dv.row(at), n);
-      if (is_core) out.dtime[at_length] += rule.weight[q] * panel.ds[q] * path * slow.value;
-      const CurvatureRow bend = curvature_row(layout_, stations_[at], places[q].curvature, length);
-      for (std::size_t i = 0; i < bend.count; ++i) {
-        out.dtime[bend.unknown[i]] -= part * ride.height * slow.value * bend.value[i];
-      }
-    }
+  const Solved solved = solve(ride, places, ds, out.v[start]);
+  const std::size_t end = panel.first + kNodes;
+  out.v[end] = out.v[start];
+  std::array<LocalRow, kNodes> bend;
+  std::array<LocalRow, kNodes> source{};
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const std::size_t at = panel.first + k;
+    const Slope& slope = solved.slopes[k];
+    out.v[at] = solved.v[k];
+    out.v[end] += rule.weight[k] * ds[k] * slope.value;
+    bend[k] = dcurvature(stations_[at], places[k].curvature, length);
+    add_row(source[k], ds[k] * slope.zeta, local_dzeta_[at]);
+    add_row(source[k], ds[k] * slope.curvature, bend[k]);
+    source[k][kLength] += ds[k] * slope.s * stations_[at].sigma + (is_core ? panel.ds[k] * slope.value : 0.0);
+  }
+  if (by_time != nullptr) {
+    differentiate(solved, ds, at_start(p, out.dv), source, &out.dv.local[panel.first]);
+  }
+  for (std::size_t q = 0; q < kNodes; ++q) {
+    const std::size_t at = panel.first + q;
+    const Slowness slow = pace_of(ride, out.v[at], slowest(ride, at));
+    const double path = 1.0 - places[q].curvature * ride.height;
+    const double part = rule.weight[q] * ds[q];
+    out.time += part * path * slow.value;
+    if (by_time == nullptr) continue;
+    add_row(*by_time, part * path * slow.first, out.dv.local[at]);
+    if (is_core) (*by_time)[kLength] += rule.weight[q] * panel.ds[q] * path * slow.value;
+    add_row(*by_time, -part * ride.height * slow.value, bend[q]);
   }
 }
 
+// L depends on the nodes' v directly and through the end of the panel. With theta_k = dL/d(ds F)_k, the multipliers
+// of the collocation, its second derivative is sum theta_k d2(ds F)_k and the direct terms.
 void Transcription::add_law_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
                                   const StationWeights& weights, std::size_t index,
-                                  HessianParts& parts) const {
-  // L depends on the nodes' v directly and through the end of the panel. With theta_k = dL/d(ds F)_k, the
-  // multipliers of the collocation, its second derivative is sum theta_k d2(ds F)_k and the direct terms.
+                                  std::vector<LocalMatrix>& parts) const {
   const PanelRule& rule = panel_rule();
-  const std::size_t n = layout_.size();
-  const std::size_t at_length = layout_.length();
-  const double length = z[at_length];
-  if (parts.curvature.rows() == 0) parts.curvature = Matrix(n, n);
+  const double length = z[layout_.length()];
   double by_end = 0.0;  // dL/dv at the end of the panel
   for (std::size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
+    LocalMatrix& part = parts[panel.section];
     const bool is_core = panel.part == Part::core;
     const double scale = is_core ? length : 1.0;
     by_end += weights.v[index][panel.first + kNodes];
@@ -325,45 +313,44 @@ void Transcription::add_law_parts(const Vector& z, const Shape& shape, const Rid
     for (std::size_t k = 0; k < kNodes; ++k) {
       const std::size_t at = panel.first + k;
       const Slope& slope = slopes[k];
-      const double* dv = flow.dv.row(at);
-      const double* dz = dzeta_.row(at);
-      const std::size_t columns = std::min(panel.columns, at_length);
+      const LocalRow& dv = flow.dv.local[at];
+      const LocalRow& dz = local_dzeta_[at];
       double theta = rule.weight[k] * by_end;
       for (std::size_t q = 0; q < kNodes; ++q) theta += rule.to_node[q][k] * multiplier[q];
       theta *= panel.ds[k];
       const double full = theta * scale;
       const double path = 1.0 - shape.curvature[at] * ride.height;
       const double timed = weights.time[index] * rule.weight[k] * panel.ds[k];
-      parts.zeta_zeta[at] += full * slope.zeta_zeta;
-      parts.zeta_v[index][at] += full * slope.zeta_v;
-      parts.v_v[index][at] += full * slope.v_v + scale * timed * path * slow[k].second;
+      add_square(part, full * slope.zeta_zeta, dz);
+      add_pair(part, full * slope.zeta_v, dz, dv);
+      add_square(part, full * slope.v_v + scale * timed * path * slow[k].second, dv);
 
       // Everything that meets the length: ds by it in the core, and s = sigma L.
       const double sigma = stations_[at].sigma;
       const double own = is_core ? theta : 0.0;
       const double own_time = is_core ? timed : 0.0;
       const double by_s = full * sigma;
-      const double with_curvature =
-          own * slope.curvature - own_time * ride.height * slow[k].value + by_s * slope.s_curvature;
-      add_scaled(parts.length.data(), own * slope.zeta + by_s * slope.s_zeta, dz, columns);
-      add_scaled(parts.length.data(), own * slope.v + own_time * path * slow[k].first + by_s * slope.s_v, dv,
-                 n);
-      parts.length[at_length] += own * slope.s * sigma + 0.5 * by_s * sigma * slope.s_s;
+      LocalRow with_length{};
+      add_row(with_length, own * slope.zeta + by_s * slope.s_zeta, dz);
+      add_row(with_length, own * slope.v + own_time * path * slow[k].first + by_s * slope.s_v, dv);
+      with_length[kLength] += own * slope.s * sigma + 0.5 * by_s * sigma * slope.s_s;
 
       // Curvature: with zeta and v, and c/L by itself.
-      const CurvatureRow bend = curvature_row(layout_, stations_[at], shape.curvature[at], length);
+      const LocalRow bend = dcurvature(stations_[at], shape.curvature[at], length);
       const double itself = full * slope.curvature - scale * timed * ride.height * slow[k].value;
       const double with_v = full * slope.curvature_v - scale * timed * ride.height * slow[k].first;
-      for (std::size_t i = 0; i < bend.count; ++i) {
-        double* row = parts.curvature.row(bend.unknown[i]);
-        add_scaled(row, bend.value[i] * full * slope.zeta_curvature, dz, columns);
-        add_scaled(row, bend.value[i] * with_v, dv, n);
-        parts.length[bend.unknown[i]] += bend.value[i] * (with_curvature - itself / length);
-      }
+      add_pair(part, full * slope.zeta_curvature, bend, dz);
+      add_pair(part, with_v, bend, dv);
+      add_row(with_length,
+              own * slope.curvature - own_time * ride.height * slow[k].value + by_s * slope.s_curvature -
+                  itself / length,
+              bend);
+      add_pair(part, 1.0, kOfLength, with_length);
     }
     for (const double value : multiplier) by_end += value;
   }
-  parts.zeta_zeta[0] += (by_end + weights.v[index][0]) * entry_v(ride, shape.zeta[0]).second;
+  const double by_entry = by_end + weights.v[index][0];
+  add_square(parts[stations_[0].section], by_entry * entry_v(ride, shape.zeta[0]).second, local_dzeta_[0]);
 }
 
 }  // namespace glissade::optimizer

@@ -92,14 +92,12 @@ class Search {
 
   /// Distances in the slope angle itself, and in the length: the least change of shape.
   [[nodiscard]] Matrix metric_of_shape() const {
-    Matrix gram(n_, n_);
-    for (std::size_t i = 1; i < track_->stations().size(); ++i) {
-      const double weight = track_->stations()[i].arc_length(1.0) - track_->stations()[i - 1].arc_length(1.0);
-      const double* row = track_->dzeta(i);
-      for (std::size_t j = 0; j < n_; ++j) {
-        if (row[j] != 0.0) add_scaled(gram.row(j), weight * row[j], row, n_);
-      }
+    const std::vector<Station>& stations = track_->stations();
+    Vector weights(stations.size(), 0.0);
+    for (std::size_t i = 1; i < stations.size(); ++i) {
+      weights[i] = stations[i].arc_length(1.0) - stations[i - 1].arc_length(1.0);
     }
+    Matrix gram = track_->gram_of_dzeta(weights);
     const std::size_t at_length = track_->layout().length();
     gram(at_length, at_length) = 1.0;
     constexpr double kStiffening = 1e-4;

@@ -50,6 +50,8 @@ constexpr int kGraceRounds = 6;
 constexpr int kGraceEffort = 2;
 // In the first of them limits are held at the places that the referee names; later they are tightened.
 constexpr int kHoldingRounds = 4;
+// In so many a curvature that follows the load more closely is tried where a body lifts off.
+constexpr int kFollowingRounds = 8;
 // A track that then still breaks a limit at a station by more than kNearlyFeasible is given up: tighter
 // limits are no easier.
 constexpr int kPatientRounds = 3;
@@ -174,17 +176,18 @@ class Searcher {
   /// nobody should build.
   [[nodiscard]] Found priced(const ScaledProblem& problem, Found found) {
     constexpr int kRounds = 4;
+    MeshTrack finer{found.track->mesh(), found.z};
     for (int round = 0; round < kRounds; ++round) {
-      const std::vector<bool> beside = beside_jumps(found.track->mesh());
-      if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) break;
-      const MeshTrack finer = with_halved_pieces(*found.track, found.z, beside);
-      control_.tolerance = options_.tolerance;
-      control_.most_rounds = 3;
-      Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control_);
-      if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
-        break;
-      found = std::move(next);
+      const std::vector<bool> beside = beside_jumps(finer.mesh);
+      if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) return found;
+      finer = with_halved_pieces(Transcription(finer.mesh), finer.z, beside);
     }
+    control_.tolerance = options_.tolerance;
+    control_.most_rounds = 0;
+    Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control_);
+    const bool use =
+        !next.stopped && next.residual <= options_.tolerance && next.feasible(options_.limit_tolerance);
+    if (use) return next;
     return found;
   }
 
@@ -336,7 +339,7 @@ class Searcher {
         return (place / problem.chord - problem.lead_in) / core_length;
       };
       // A curvature that follows the load more closely, rather than a load that keeps its distance everywhere.
-      if (judgement.lift_off && round < kHoldingRounds && !found.stopped) {
+      if (judgement.lift_off && round < kFollowingRounds && !found.stopped) {
         const std::optional<Mesh> closer = following_loads(problem, found, {share_of(*judgement.lift_off)});
         if (closer && closer->fine.size() > found.track->mesh().fine.size()) {
           control_.tolerance = options_.tolerance;
@@ -361,7 +364,13 @@ class Searcher {
       mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.begin(), held.end());
       if (found.stopped) control_.most_rounds = kGraceEffort;
       const bool stopped = found.stopped;
-      found = minimise(problem, mesh, found.z, margins_, control_);
+      Found next = minimise(problem, mesh, found.z, margins_, control_);
+      // A descent that lost its way would go on from nowhere.
+      if (!next.stopped && !next.feasible(kNearlyFeasible) && found.feasible(kNearlyFeasible)) {
+        std::optional<Found> other = rescued(problem, mesh, found.z);
+        if (other) next = std::move(*other);
+      }
+      found = std::move(next);
       control_.stop = stop;
       found.stopped = found.stopped || stopped;
     }
@@ -376,7 +385,7 @@ class Searcher {
       const std::optional<Mesh> mesh = following_loads(problem, found);
       if (!mesh) break;
       control_.tolerance = options_.tolerance;
-      control_.most_rounds = 3;
+      control_.most_rounds = 0;
       Found next = minimise(problem, *mesh, found.z, margins_, control_);
       if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
         break;
@@ -399,7 +408,7 @@ class Searcher {
       if (found.track->mesh().knots.size() > kMostPieces) break;
       const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
       control_.tolerance = options_.tolerance;
-      control_.most_rounds = 3;
+      control_.most_rounds = 0;
       Found next = minimise(problem, finer.mesh, finer.z, margins_, control_);
       if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
         break;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace glissade::optimizer {
 namespace {
@@ -207,24 +208,41 @@ class DualMethod {
     }
   }
 
+  /// Rows outside the active ones that a step breaks.
+  /// @param among  where to look
+  [[nodiscard]] std::vector<std::size_t> broken(const std::vector<std::size_t>& among, std::size_t& worst,
+                                                double& value) const {
+    const Vector d = step();
+    std::vector<std::size_t> rows;
+    value = program_.tolerance;
+    for (const std::size_t i : among) {
+      if (is_active_[i]) continue;
+      const double there = dot(program_.inequality.row(i), d.data(), d.size()) + program_.inequality_value[i];
+      if (!(there > program_.tolerance)) continue;
+      rows.push_back(i);
+      if (there <= value) continue;
+      value = there;
+      worst = i;
+    }
+    return rows;
+  }
+
+  /// The worst row enters, again and again. Most rows are never broken: all are looked at only where none is left of
+  /// those that were broken when all were looked at before.
   [[nodiscard]] QuadraticSolution::Status enter_broken_rows() {
     using Status = QuadraticSolution::Status;
-    const std::size_t n = gradient_.size();
+    std::vector<std::size_t> all(program_.inequality.rows());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::size_t worst = 0;
+    double value = 0.0;
     for (;;) {
-      const Vector d = step();
-      std::size_t row = 0;
-      double worst = program_.tolerance;
-      for (std::size_t i = 0; i < program_.inequality.rows(); ++i) {
-        if (is_active_[i]) continue;
-        const double value = dot(program_.inequality.row(i), d.data(), n) + program_.inequality_value[i];
-        if (value > worst) {
-          worst = value;
-          row = i;
-        }
+      const std::vector<std::size_t> known = broken(all, worst, value);
+      if (known.empty()) return Status::solved;
+      for (;;) {
+        const Status status = enter_row(worst, value);
+        if (status != Status::solved) return status;
+        if (broken(known, worst, value).empty()) break;
       }
-      if (!(worst > program_.tolerance)) return Status::solved;
-      const Status status = enter_row(row, worst);
-      if (status != Status::solved) return status;
     }
   }
 

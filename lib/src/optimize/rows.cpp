@@ -123,7 +123,7 @@ Vector Rows::objective_gradient(const State& state) const {
   if (problem_.speed_weight > 0.0) {
     const std::size_t last = flow.v.size() - 1;
     const double root = std::sqrt(std::max(std::fabs(flow.v[last]), 1e-12));
-    add_scaled(gradient.data(), -problem_.speed_weight * 0.5 / root, flow.dv.row(last), gradient.size());
+    track_.add(flow.dv, last, -problem_.speed_weight * 0.5 / root, gradient.data());
   }
   return gradient;
 }
@@ -192,10 +192,8 @@ void Rows::equalities(const State& state, Vector& value, Matrix& jacobian) const
   value = equality_values(state);
   jacobian = Matrix(equality_count(), n);
   std::size_t at = 0;
-  if (problem_.finish != FinishKind::level) std::copy_n(state.shape.dx.row(last), n, jacobian.row(at++));
-  if (problem_.finish != FinishKind::vertical_line) {
-    std::copy_n(state.shape.dy.row(last), n, jacobian.row(at++));
-  }
+  if (problem_.finish != FinishKind::level) track_.add(state.shape.dx, last, 1.0, jacobian.row(at++));
+  if (problem_.finish != FinishKind::vertical_line) track_.add(state.shape.dy, last, 1.0, jacobian.row(at++));
   if (problem_.lead_in > 0.0) jacobian(at++, layout.turn(0)) = 1.0;
   if (problem_.lead_out > 0.0) jacobian(at++, layout.turn(layout.knots - 1)) = 1.0;
   for (; at < equality_count(); ++at) {
@@ -301,8 +299,8 @@ void Rows::plain_gradient(const State& state, const LimitSpec& limit, const Row&
     const Flow& flow = state.flows[row.ride];
     const double curvature = shape.curvature[row.place];
     const Ride::CurvatureLoad load = curvature_load(state, row);
-    if (weight) add_scaled(out, -shape.sin[row.place], track_.dzeta(row.place), n);
-    add_scaled(out, load.by_v, flow.dv.row(row.place), n);
+    if (weight) track_.add_dzeta(row.place, -shape.sin[row.place], out);
+    track_.add(flow.dv, row.place, load.by_v, out);
     const Station& station = track_.stations()[row.place];
     if (station.part != Part::core) return;
     const double v = load.by_curvature;
@@ -314,7 +312,7 @@ void Rows::plain_gradient(const State& state, const LimitSpec& limit, const Row&
     case Measure::entry_slope_angle:
     case Measure::exit_slope_angle:
     case Measure::slope_angle:
-      std::copy_n(track_.dzeta(row.place), n, out);
+      track_.add_dzeta(row.place, 1.0, out);
       return;
     case Measure::curvature: {
       const Bend at = bend(state.z, row.place);
@@ -339,19 +337,19 @@ void Rows::plain_gradient(const State& state, const LimitSpec& limit, const Row&
       return;
     case Measure::speed:
     case Measure::exit_speed:
-      std::copy_n(state.flows[row.ride].dv.row(row.place), n, out);
+      track_.add(state.flows[row.ride].dv, row.place, 1.0, out);
       return;
     case Measure::exit_run_speed: {
       const RunSpeed run = exit_run_speed(state, row);
-      add_scaled(out, run.by_v, state.flows[row.ride].dv.row(row.place), n);
-      add_scaled(out, run.by_zeta, track_.dzeta(row.place), n);
+      track_.add(state.flows[row.ride].dv, row.place, run.by_v, out);
+      track_.add_dzeta(row.place, run.by_zeta, out);
       return;
     }
     case Measure::arc_length:
       out[layout.length()] = 1.0;
       return;
     case Measure::finish_coordinate:
-      std::copy_n(problem_.finish == FinishKind::level ? shape.dx.row(last) : shape.dy.row(last), n, out);
+      track_.add(problem_.finish == FinishKind::level ? shape.dx : shape.dy, last, 1.0, out);
       return;
     case Measure::distance: {
       const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
@@ -363,8 +361,8 @@ void Rows::plain_gradient(const State& state, const LimitSpec& limit, const Row&
         const Vec2 forbidden = obstacle.endless ? obstacle.forbidden
                                                 : edge_normal(obstacle.corners[row.edge],
                                                               obstacle.corners[row.edge + 1], obstacle.side);
-        add_scaled(out, -forbidden.x, shape.dx.row(row.place), n);
-        add_scaled(out, -forbidden.y, shape.dy.row(row.place), n);
+        track_.add(shape.dx, row.place, -forbidden.x, out);
+        track_.add(shape.dy, row.place, -forbidden.y, out);
         return;
       }
       break;
@@ -372,8 +370,8 @@ void Rows::plain_gradient(const State& state, const LimitSpec& limit, const Row&
     case Measure::waypoint:
       break;
     case Measure::arrival:
-      add_scaled(out, 1.0 / free_fall(track_, row.place, problem_.rides[row.ride].entry_speed2),
-                 state.flows[row.ride].dv.row(row.place), n);
+      track_.add(state.flows[row.ride].dv, row.place,
+                 1.0 / free_fall(track_, row.place, problem_.rides[row.ride].entry_speed2), out);
       return;
   }
   // At a foot the distance changes with the track's position alone: to first order sliding along costs
@@ -733,9 +731,10 @@ void Rows::add_plain_terms(const State& state, const LimitSpec& limit, const Row
       by_curvature[layout.turn(station.piece)] = (1.0 - station.share) / length;
       by_curvature[layout.turn(station.piece + 1)] = station.share / length;
       by_curvature[at_length] = -curvature / length;
-      const double* dv = flow.dv.row(row.place);
+      Vector dv(n, 0.0);
+      track_.add(flow.dv, row.place, 1.0, dv.data());
       const Ride::CurvatureLoad load = curvature_load(state, row);
-      add_symmetric(hessian, factor * load.by_curvature_v, by_curvature, Vector(dv, dv + n));
+      add_symmetric(hessian, factor * load.by_curvature_v, by_curvature, dv);
       if (load.by_curvature_curvature != 0.0) {
         add_symmetric(hessian, 0.5 * factor * load.by_curvature_curvature, by_curvature, by_curvature);
       }
@@ -779,10 +778,11 @@ void Rows::add_plain_terms(const State& state, const LimitSpec& limit, const Row
       return;
     }
     case Measure::exit_run_speed: {
-      const double* const dv = state.flows[row.ride].dv.row(row.place);
-      const double* const dz = track_.dzeta(row.place);
-      add_symmetric(hessian, factor * exit_run_speed(state, row).by_zeta_v, Vector(dv, dv + n),
-                    Vector(dz, dz + n));
+      Vector dv(n, 0.0);
+      Vector dz(n, 0.0);
+      track_.add(state.flows[row.ride].dv, row.place, 1.0, dv.data());
+      track_.add_dzeta(row.place, 1.0, dz.data());
+      add_symmetric(hessian, factor * exit_run_speed(state, row).by_zeta_v, dv, dz);
       return;
     }
     case Measure::entry_slope_angle:

@@ -78,11 +78,12 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
   }
   if (mesh.lead_out > 0.0) add_panels(0.0, mesh.lead_out, Part::lead_out, last_piece);
 
-  dzeta_ = Matrix(stations_.size(), layout_.size());
+  add_sections();
   station_turn_.resize(stations_.size());
   station_angle_.resize(stations_.size());
+  local_dzeta_.resize(stations_.size());
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    turning_row(stations_[i], dzeta_.row(i));
+    local_dzeta_[i] = local_dzeta(stations_[i]);
     station_turn_[i] = own_turn(stations_[i].sigma);
     station_angle_[i] = own_angle(stations_[i].sigma);
   }
@@ -133,16 +134,128 @@ double Transcription::fine_turn(const Vector& z, std::size_t fine_knot) const {
          fine.turn;
 }
 
+void Transcription::add_sections() {
+  if (mesh_.lead_in > 0.0) sections_.push_back({Part::lead_in, 0});
+  for (std::size_t piece = 0; piece + 1 < mesh_.knots.size(); ++piece)
+    sections_.push_back({Part::core, piece});
+  if (mesh_.lead_out > 0.0) sections_.push_back({Part::lead_out, mesh_.knots.size() - 2});
+  for (Station& station : stations_) station.section = section_of(station.part, station.piece);
+  for (Panel& panel : panels_) panel.section = stations_[panel.first].section;
+  dzeta_starts_ = Matrix(sections_.size(), layout_.size());
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    double* row = dzeta_starts_.row(s);
+    row[layout_.angle()] = 1.0;
+    // The straight behind the core begins where its last piece ends.
+    const std::size_t knots = sections_[s].piece + (sections_[s].part == Part::lead_out ? 1 : 0);
+    for (std::size_t p = 0; p < knots; ++p) {
+      const double width = mesh_.knots[p + 1] - mesh_.knots[p];
+      row[layout_.turn(p)] -= 0.5 * width;
+      row[layout_.turn(p + 1)] -= 0.5 * width;
+    }
+  }
+}
+
+std::size_t Transcription::section_of(Part part, std::size_t piece) const {
+  const std::size_t before = mesh_.lead_in > 0.0 ? 1 : 0;
+  switch (part) {
+    case Part::lead_in:
+      return 0;
+    case Part::core:
+      return before + piece;
+    case Part::lead_out:
+      return before + mesh_.knots.size() - 1;
+  }
+  return 0;
+}
+
+LocalRow Transcription::local_dzeta(const Station& station) const {
+  LocalRow row{};
+  row[kZeta] = 1.0;
+  if (station.part != Part::core) return row;
+  const double width = mesh_.knots[station.piece + 1] - mesh_.knots[station.piece];
+  row[kFirst] = -width * station.share * (1.0 - 0.5 * station.share);
+  row[kSecond] = -width * 0.5 * station.share * station.share;
+  return row;
+}
+
 void Transcription::turning_row(const Station& station, double* row) const {
   std::fill_n(row, layout_.size(), 0.0);
-  row[layout_.angle()] = 1.0;
-  if (station.part == Part::lead_in) return;
-  for (std::size_t p = 0; p <= station.piece; ++p) {
-    const double width = mesh_.knots[p + 1] - mesh_.knots[p];
-    const double share = p < station.piece ? 1.0 : station.share;
-    row[layout_.turn(p)] -= width * share * (1.0 - 0.5 * share);
-    row[layout_.turn(p + 1)] -= width * 0.5 * share * share;
+  expand(local_dzeta(station), section_of(station.part, station.piece), nullptr, row);
+}
+
+void Transcription::expand(const LocalRow& row, std::size_t section, const double* own, double* out) const {
+  const std::size_t n = layout_.size();
+  if (own != nullptr && row[kOwn] != 0.0) add_scaled(out, row[kOwn], own, n);
+  if (row[kZeta] != 0.0) add_scaled(out, row[kZeta], dzeta_starts_.row(section), n);
+  const std::size_t piece = sections_[section].piece;
+  out[layout_.turn(piece)] += row[kFirst];
+  out[layout_.turn(piece + 1)] += row[kSecond];
+  out[layout_.length()] += row[kLength];
+}
+
+void Transcription::add_dzeta(std::size_t station, double factor, double* out) const {
+  const LocalRow& row = local_dzeta_[station];
+  const std::size_t section = stations_[station].section;
+  const std::size_t piece = sections_[section].piece;
+  add_scaled(out, factor, dzeta_starts_.row(section), layout_.turn(piece + 2));
+  out[layout_.turn(piece)] += factor * row[kFirst];
+  out[layout_.turn(piece + 1)] += factor * row[kSecond];
+}
+
+void Transcription::add(const Derivatives& derivatives, std::size_t station, double factor,
+                        double* out) const {
+  LocalRow row = derivatives.local[station];
+  for (double& entry : row) entry *= factor;
+  const std::size_t section = stations_[station].section;
+  expand(row, section, derivatives.starts.row(section), out);
+}
+
+Derivatives Transcription::no_derivatives() const {
+  return {std::vector<LocalRow>(stations_.size(), LocalRow{}), Matrix(sections_.size(), layout_.size())};
+}
+
+bool Transcription::begins_section(std::size_t panel) const {
+  return panel == 0 || panels_[panel - 1].section != panels_[panel].section;
+}
+
+void Transcription::carry_over(std::size_t panel, Derivatives& derivatives) const {
+  if (panel == 0 || !begins_section(panel)) return;
+  add(derivatives, start_station(panel), 1.0, derivatives.starts.row(panels_[panel].section));
+}
+
+LocalRow Transcription::at_start(std::size_t panel, const Derivatives& derivatives) const {
+  if (!begins_section(panel)) return derivatives.local[start_station(panel)];
+  LocalRow row{};
+  row[kOwn] = 1.0;
+  return row;
+}
+
+LocalRow Transcription::dzeta_at_start(std::size_t panel) const {
+  if (!begins_section(panel)) return local_dzeta_[start_station(panel)];
+  LocalRow row{};
+  row[kZeta] = 1.0;
+  return row;
+}
+
+Vector Transcription::section_angles(const Vector& z) const {
+  Vector angles;
+  angles.reserve(sections_.size());
+  double angle = z[layout_.angle()];
+  for (const Section& section : sections_) {
+    angles.push_back(angle);
+    if (section.part != Part::core) continue;
+    const double width = mesh_.knots[section.piece + 1] - mesh_.knots[section.piece];
+    angle -= 0.5 * width * (z[layout_.turn(section.piece)] + z[layout_.turn(section.piece + 1)]);
   }
+  return angles;
+}
+
+double Transcription::angle_at(const Vector& z, const Vector& section_angles, std::size_t station) const {
+  const LocalRow& row = local_dzeta_[station];
+  const std::size_t section = stations_[station].section;
+  const std::size_t piece = sections_[section].piece;
+  return section_angles[section] + row[kFirst] * z[layout_.turn(piece)] +
+         row[kSecond] * z[layout_.turn(piece + 1)] + station_angle_[station];
 }
 
 void Transcription::add_station(double at, Part part, std::size_t piece) {
@@ -200,8 +313,6 @@ void Transcription::add_panels(double a, double b, Part part, std::size_t piece)
     Panel panel;
     panel.first = stations_.size();
     panel.part = part;
-    panel.columns = part == Part::core ? layout_.turn(piece + 2)
-                                       : (part == Part::lead_out ? layout_.length() : std::size_t{1});
     for (std::size_t k = 0; k < kNodes; ++k) {
       const double r = from + (to - from) * rule.node[k];
       panel.ds[k] = 2.0 * r * (to - from);
@@ -239,9 +350,9 @@ bool Transcription::is_track(const Vector& z) const {
   for (std::size_t i = 0; i < fine_.size(); ++i) {
     if (!(fine_turn(z, i) * mesh_.centre_height < kTightest * length)) return false;
   }
+  const Vector angles = section_angles(z);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const double zeta = dot(dzeta_.row(i), z.data(), layout_.size()) + station_angle_[i];
-    if (!(std::fabs(zeta) < kSteepest)) return false;
+    if (!(std::fabs(angle_at(z, angles, i)) < kSteepest)) return false;
   }
   return true;
 }
@@ -249,7 +360,6 @@ bool Transcription::is_track(const Vector& z) const {
 void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   const PanelRule& rule = panel_rule();
   const std::size_t count = stations_.size();
-  const std::size_t n = layout_.size();
   const double length = z[layout_.length()];
   out.zeta.resize(count);
   out.sin.resize(count);
@@ -257,22 +367,20 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   out.curvature.resize(count);
   out.x.assign(count, 0.0);
   out.y.assign(count, 0.0);
+  const Vector angles = section_angles(z);
   for (std::size_t i = 0; i < count; ++i) {
-    out.zeta[i] = dot(dzeta_.row(i), z.data(), n) + station_angle_[i];
+    out.zeta[i] = angle_at(z, angles, i);
     const auto [sine, cosine] = math::sine_cosine(out.zeta[i]);
     out.sin[i] = sine;
     out.cos[i] = cosine;
     out.curvature[i] = curvature(z, i);
   }
-  if (derivatives) {
-    out.dx = Matrix(count, n);
-    out.dy = Matrix(count, n);
-  }
+  out.dx = derivatives ? no_derivatives() : Derivatives{};
+  out.dy = out.dx;
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Panel& panel = panels_[p];
     const std::size_t start = start_station(p);
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
+    const double scale = panel.part == Part::core ? length : 1.0;
     for (std::size_t q = 0; q <= kNodes; ++q) {
       double sum_x = 0.0;
       double sum_y = 0.0;
@@ -281,25 +389,38 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
         sum_x += part * out.cos[panel.first + k];
         sum_y += part * out.sin[panel.first + k];
       }
-      const std::size_t at = panel.first + q;
-      out.x[at] = out.x[start] + scale * sum_x;
-      out.y[at] = out.y[start] + scale * sum_y;
-      if (!derivatives) continue;
-      double* dx = out.dx.row(at);
-      double* dy = out.dy.row(at);
-      std::copy_n(out.dx.row(start), n, dx);
-      std::copy_n(out.dy.row(start), n, dy);
-      for (std::size_t k = 0; k < kNodes; ++k) {
-        const double part = scale * (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
-        const double* dz = dzeta_.row(panel.first + k);
-        add_scaled(dx, -part * out.sin[panel.first + k], dz, panel.columns);
-        add_scaled(dy, part * out.cos[panel.first + k], dz, panel.columns);
-      }
-      if (is_core) {
-        dx[layout_.length()] += sum_x;
-        dy[layout_.length()] += sum_y;
+      out.x[panel.first + q] = out.x[start] + scale * sum_x;
+      out.y[panel.first + q] = out.y[start] + scale * sum_y;
+    }
+    if (derivatives) differentiate_shape(p, scale, out);
+  }
+}
+
+void Transcription::differentiate_shape(std::size_t p, double scale, Shape& out) const {
+  const PanelRule& rule = panel_rule();
+  const Panel& panel = panels_[p];
+  carry_over(p, out.dx);
+  carry_over(p, out.dy);
+  const LocalRow dx_start = at_start(p, out.dx);
+  const LocalRow dy_start = at_start(p, out.dy);
+  const std::size_t start = start_station(p);
+  for (std::size_t q = 0; q <= kNodes; ++q) {
+    const std::size_t at = panel.first + q;
+    LocalRow& dx = out.dx.local[at];
+    LocalRow& dy = out.dy.local[at];
+    dx = dx_start;
+    dy = dy_start;
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const double part = scale * (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
+      const LocalRow& dz = local_dzeta_[panel.first + k];
+      for (const std::size_t j : {kZeta, kFirst, kSecond}) {
+        dx[j] -= part * out.sin[panel.first + k] * dz[j];
+        dy[j] += part * out.cos[panel.first + k] * dz[j];
       }
     }
+    if (panel.part != Part::core) continue;
+    dx[kLength] += (out.x[at] - out.x[start]) / scale;
+    dy[kLength] += (out.y[at] - out.y[start]) / scale;
   }
 }
 
@@ -401,12 +522,18 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
   const std::size_t n = layout_.size();
   const double length = z[layout_.length()];
   const Station& from = stations_[foot.base];
-  dx.assign(shape.dx.row(foot.base), shape.dx.row(foot.base) + n);
-  dy.assign(shape.dy.row(foot.base), shape.dy.row(foot.base) + n);
+  dx.assign(n, 0.0);
+  dy.assign(n, 0.0);
+  add(shape.dx, foot.base, 1.0, dx.data());
+  add(shape.dy, foot.base, 1.0, dy.data());
   const double d_sigma = foot.at.sigma - from.sigma;
   const double ds = foot.at.arc_length(length) - from.arc_length(length);
   if (ds == 0.0) return;
-  Vector row(n);
+  const std::size_t section = section_of(foot.at.part, foot.at.piece);
+  const std::size_t piece = sections_[section].piece;
+  const double angle = section_angles(z)[section];
+  LocalRow local_dx{};
+  LocalRow local_dy{};
   for (std::size_t k = 0; k < kNodes; ++k) {
     Station node = foot.at;
     node.sigma = from.sigma + d_sigma * rule.node[k];
@@ -414,13 +541,19 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
       const double knot = mesh_.knots[node.piece];
       node.share = (node.sigma - knot) / (mesh_.knots[node.piece + 1] - knot);
     }
-    turning_row(node, row.data());
-    const auto [sine, cosine] = math::sine_cosine(dot(row.data(), z.data(), n) + own_angle(node.sigma));
-    add_scaled(dx.data(), -rule.weight[k] * ds * sine, row.data(), n);
-    add_scaled(dy.data(), rule.weight[k] * ds * cosine, row.data(), n);
-    dx[layout_.length()] += rule.weight[k] * d_sigma * cosine;
-    dy[layout_.length()] += rule.weight[k] * d_sigma * sine;
+    const LocalRow row = local_dzeta(node);
+    const double zeta = angle + row[kFirst] * z[layout_.turn(piece)] +
+                        row[kSecond] * z[layout_.turn(piece + 1)] + own_angle(node.sigma);
+    const auto [sine, cosine] = math::sine_cosine(zeta);
+    for (const std::size_t j : {kZeta, kFirst, kSecond}) {
+      local_dx[j] -= rule.weight[k] * ds * sine * row[j];
+      local_dy[j] += rule.weight[k] * ds * cosine * row[j];
+    }
+    local_dx[kLength] += rule.weight[k] * d_sigma * cosine;
+    local_dy[kLength] += rule.weight[k] * d_sigma * sine;
   }
+  expand(local_dx, section, nullptr, dx.data());
+  expand(local_dy, section, nullptr, dy.data());
 }
 
 double Transcription::slowest(const Ride& ride, std::size_t station) const {
@@ -429,243 +562,93 @@ double Transcription::slowest(const Ride& ride, std::size_t station) const {
 
 void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
                          bool derivatives) const {
-  if (!ride.sliding_point()) return law_flow(z, shape, ride, out, derivatives);
-  const PanelRule& rule = panel_rule();
-  const std::size_t count = stations_.size();
-  const std::size_t n = layout_.size();
-  const std::size_t at_length = layout_.length();
-  const double length = z[at_length];
-  const double mu = ride.friction;
-  out.v.assign(count, 0.0);
+  out.v.assign(stations_.size(), 0.0);
+  out.growth.assign(stations_.size(), 1.0);
   out.time = 0.0;
-  if (derivatives) {
-    out.dv = Matrix(count, n);
-    out.dtime.assign(n, 0.0);
+  out.dv = derivatives ? no_derivatives() : Derivatives{};
+  if (derivatives) out.dtime.assign(layout_.size(), 0.0);
+  if (ride.sliding_point()) {
+    out.v[0] = ride.entry_speed2;
+  } else {
+    out.growth.clear();
+    enter(shape, ride, out);
   }
-  // Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay
-  // small; v carries over from panel to panel.
-  Vector dw(n, 0.0);
-  std::vector<Vector> df(kNodes, Vector(n, 0.0));
-  double f[kNodes] = {};
+  LocalRow by_time{};  // of the section
   for (std::size_t p = 0; p < panels_.size(); ++p) {
-    const Panel& panel = panels_[p];
-    const std::size_t start = start_station(p);
-    const double zeta_start = shape.zeta[start];
-    const double s_start = stations_[start].arc_length(length);
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      const std::size_t at = panel.first + k;
-      const double s = stations_[at].arc_length(length) - s_start;
-      const double turned = shape.zeta[at] - zeta_start;
-      const double weight = math::exp(-2.0 * mu * turned + 2.0 * ride.drag * s);
-      const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
-      f[k] = drive * weight * panel.ds[k];
-      if (!derivatives) continue;
-      Vector& d = df[k];
-      const double by_zeta =
-          (2.0 * (shape.cos[at] + mu * shape.sin[at]) - 2.0 * mu * drive) * weight * panel.ds[k];
-      const double by_start = 2.0 * mu * f[k];
-      const double* dz = dzeta_.row(at);
-      const double* dz0 = dzeta_.row(start);
-      for (std::size_t j = 0; j < panel.columns; ++j) d[j] = scale * (by_zeta * dz[j] + by_start * dz0[j]);
-      for (std::size_t j = panel.columns; j < n; ++j) d[j] = 0.0;
-      const double ds_dlength = stations_[at].sigma - stations_[start].sigma;
-      d[at_length] = (is_core ? f[k] : 0.0) + scale * f[k] * 2.0 * ride.drag * ds_dlength;
-    }
-    const double v_start = p == 0 ? ride.entry_speed2 : out.v[start];
-    if (p == 0) out.v[start] = v_start;
-    for (std::size_t q = 0; q <= kNodes; ++q) {
-      const std::size_t at = panel.first + q;
-      const double* row = q < kNodes ? rule.to_node[q].data() : rule.weight.data();
-      double sum = 0.0;
-      for (std::size_t k = 0; k < kNodes; ++k) sum += row[k] * f[k];
-      const double s = stations_[at].arc_length(length) - s_start;
-      const double turned = shape.zeta[at] - zeta_start;
-      const double back = math::exp(2.0 * mu * turned - 2.0 * ride.drag * s);
-      const double w = v_start + scale * sum;
-      out.v[at] = w * back;
-      if (derivatives) {
-        double* dv = out.dv.row(at);
-        std::copy_n(out.dv.row(start), n, dv);
-        for (std::size_t k = 0; k < kNodes; ++k) {
-          add_scaled(dv, row[k], df[k].data(), panel.columns);
-          dv[at_length] += row[k] * df[k][at_length] * (panel.columns > at_length ? 0.0 : 1.0);
-        }
-        const double* dz = dzeta_.row(at);
-        const double* dz0 = dzeta_.row(start);
-        const double angle_part = 2.0 * mu * out.v[at];
-        for (std::size_t j = 0; j < n; ++j) dv[j] *= back;
-        for (std::size_t j = 0; j < panel.columns && j < at_length; ++j)
-          dv[j] += angle_part * (dz[j] - dz0[j]);
-        dv[at_length] -= 2.0 * ride.drag * out.v[at] * (stations_[at].sigma - stations_[start].sigma);
-      }
-      if (q == kNodes) continue;
-      const double floor = kSlowest * (stations_[at].arc_length(mesh_.core_length) + 0.5 * ride.entry_speed2);
-      const Slowness slow = slowness(out.v[at], floor);
-      const double part = rule.weight[q] * panel.ds[q];
-      out.time += scale * part * slow.value;
-      if (derivatives) {
-        add_scaled(out.dtime.data(), scale * part * slow.first, out.dv.row(at), n);
-        if (is_core) out.dtime[at_length] += part * slow.value;
-      }
-    }
-  }
-}
-
-void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
-                                    HessianParts& parts) const {
-  const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
-  double later_x = 0.0;
-  double later_y = 0.0;
-  for (std::size_t p = panels_.size(); p-- > 0;) {
-    const Panel& panel = panels_[p];
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
-    const std::size_t end = panel.first + kNodes;
-    later_x += weights.x[end];
-    later_y += weights.y[end];
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      const std::size_t at = panel.first + k;
-      double sum_x = rule.weight[k] * later_x;
-      double sum_y = rule.weight[k] * later_y;
-      for (std::size_t q = 0; q < kNodes; ++q) {
-        sum_x += rule.to_node[q][k] * weights.x[panel.first + q];
-        sum_y += rule.to_node[q][k] * weights.y[panel.first + q];
-      }
-      sum_x *= panel.ds[k];
-      sum_y *= panel.ds[k];
-      parts.zeta_zeta[at] -= scale * (shape.cos[at] * sum_x + shape.sin[at] * sum_y);
-      if (is_core) {
-        add_scaled(parts.length.data(), -shape.sin[at] * sum_x + shape.cos[at] * sum_y, dzeta_.row(at),
-                   panel.columns);
-      }
-    }
-    for (std::size_t q = 0; q < kNodes; ++q) {
-      later_x += weights.x[panel.first + q];
-      later_y += weights.y[panel.first + q];
-    }
-  }
-}
-
-void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
-                                   const StationWeights& weights, std::size_t index,
-                                   HessianParts& parts) const {
-  // v = e^phi w with phi = 2 mu zeta - 2 k s, w' = drive e^-phi. phi is linear in the unknowns:
-  // d2v = e^phi d2w + dv dphi + dphi dv - v dphi dphi, dphi = 2 mu dzeta - 2 k sigma e_L in the core.
-  const PanelRule& rule = panel_rule();
-  const std::size_t n = layout_.size();
-  const std::size_t at_length = layout_.length();
-  const double length = z[at_length];
-  const double mu = ride.friction;
-  const double drag = ride.drag;
-  const auto exponent = [&](std::size_t at) {
-    return 2.0 * mu * shape.zeta[at] - 2.0 * drag * stations_[at].arc_length(length);
-  };
-  double later = 0.0;  // dL/dw of everything after the panel
-  for (std::size_t p = panels_.size(); p-- > 0;) {
-    const Panel& panel = panels_[p];
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
-    double by_w[kNodes + 1] = {};
-    for (std::size_t q = 0; q <= kNodes; ++q) {
-      const std::size_t at = panel.first + q;
-      double by_v = weights.v[index][at];
-      const double* dv = flow.dv.row(at);
-      if (q < kNodes && weights.time[index] != 0.0) {
-        const double floor =
-            kSlowest * (stations_[at].arc_length(mesh_.core_length) + 0.5 * ride.entry_speed2);
-        const Slowness slow = slowness(flow.v[at], floor);
-        const double part = weights.time[index] * rule.weight[q] * panel.ds[q];
-        by_v += scale * part * slow.first;
-        parts.v_v[index][at] += scale * part * slow.second;
-        if (is_core) add_scaled(parts.length.data(), part * slow.first, dv, n);
-      }
-      if (by_v == 0.0) continue;
-      parts.zeta_v[index][at] += 2.0 * mu * by_v;
-      parts.zeta_zeta[at] -= 4.0 * mu * mu * by_v * flow.v[at];
-      if (drag > 0.0) {
-        const double reach = 2.0 * drag * stations_[at].sigma;
-        add_scaled(parts.length.data(), -reach * by_v, dv, n);
-        add_scaled(parts.length.data(), 2.0 * mu * reach * by_v * flow.v[at], dzeta_.row(at), at_length);
-        parts.length[at_length] -= 0.5 * reach * reach * by_v * flow.v[at];
-      }
-      by_w[q] = by_v * math::exp(exponent(at));
-    }
-    later += by_w[kNodes];
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      const std::size_t at = panel.first + k;
-      double sum = rule.weight[k] * later;
-      for (std::size_t q = 0; q < kNodes; ++q) sum += rule.to_node[q][k] * by_w[q];
-      if (sum == 0.0) continue;
-      sum *= panel.ds[k] * math::exp(-exponent(at));
-      const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
-      const double drive1 = 2.0 * (shape.cos[at] + mu * shape.sin[at]);
-      const double f1 = drive1 - 2.0 * mu * drive;
-      parts.zeta_zeta[at] += scale * sum * (-drive - 4.0 * mu * drive1 + 4.0 * mu * mu * drive);
-      const double reach = 2.0 * drag * stations_[at].sigma;
-      add_scaled(parts.length.data(), sum * f1 * ((is_core ? 1.0 : 0.0) + scale * reach), dzeta_.row(at),
-                 panel.columns);
-      parts.length[at_length] += sum * drive * reach * ((is_core ? 1.0 : 0.0) + 0.5 * scale * reach);
-    }
-    for (std::size_t q = 0; q < kNodes; ++q) later += by_w[q];
-  }
-  // What the body brings along: w = v_0 e^(-2 mu zeta_0).
-  parts.zeta_zeta[0] += later * 4.0 * mu * mu * ride.entry_speed2 * math::exp(-exponent(0));
-}
-
-Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
-                              const std::vector<Flow>& flows, const StationWeights& weights) const {
-  const std::size_t n = layout_.size();
-  const std::size_t at_length = layout_.length();
-  HessianParts parts;
-  parts.zeta_zeta = weights.zeta_zeta;
-  parts.zeta_v.assign(rides.size(), Vector(stations_.size(), 0.0));
-  parts.v_v = weights.v_v;
-  parts.length.assign(n, 0.0);
-  add_shape_parts(z, shape, weights, parts);
-  for (std::size_t r = 0; r < rides.size(); ++r) {
-    if (flows[r].dv.rows() == 0) continue;
-    if (rides[r].sliding_point()) {
-      add_flow_parts(z, shape, rides[r], flows[r], weights, r, parts);
+    if (derivatives) carry_over(p, out.dv);
+    if (ride.sliding_point()) {
+      flow_through(z, shape, ride, p, out, derivatives ? &by_time : nullptr);
     } else {
-      add_law_parts(z, shape, rides[r], flows[r], weights, r, parts);
+      law_flow_through(z, shape, ride, p, out, derivatives ? &by_time : nullptr);
     }
+    if (!derivatives || (p + 1 < panels_.size() && !begins_section(p + 1))) continue;
+    const std::size_t section = panels_[p].section;
+    expand(by_time, section, out.dv.starts.row(section), out.dtime.data());
+    by_time = {};
   }
+}
 
-  Matrix h(n, n);
-  const auto add_station = [&](std::size_t at, std::size_t columns) {
-    columns = std::min(columns, at_length);
-    const double* dz = dzeta_.row(at);
-    for (std::size_t i = 0; i < columns; ++i) add_scaled(h.row(i), parts.zeta_zeta[at] * dz[i], dz, i + 1);
-    for (std::size_t r = 0; r < rides.size(); ++r) {
-      const double zeta_v = parts.zeta_v[r][at];
-      const double v_v = parts.v_v[r][at];
-      if (zeta_v == 0.0 && v_v == 0.0) continue;
-      const double* dv = flows[r].dv.row(at);
-      for (std::size_t i = 0; i < columns; ++i) {
-        add_scaled(h.row(i), zeta_v * dv[i], dz, i + 1);
-        add_scaled(h.row(i), zeta_v * dz[i] + v_v * dv[i], dv, i + 1);
-      }
-      add_scaled(h.row(at_length), zeta_v * dv[at_length], dz, columns);
-      add_scaled(h.row(at_length), v_v * dv[at_length], dv, columns);
-      h(at_length, at_length) += v_v * dv[at_length] * dv[at_length];
+// Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay small; v
+// carries over from panel to panel.
+void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t p,
+                                 Flow& out, LocalRow* by_time) const {
+  const PanelRule& rule = panel_rule();
+  const Panel& panel = panels_[p];
+  const std::size_t start = start_station(p);
+  const double length = z[layout_.length()];
+  const double mu = ride.friction;
+  const bool is_core = panel.part == Part::core;
+  const double scale = is_core ? length : 1.0;
+  const LocalRow dz_start = dzeta_at_start(p);
+  double f[kNodes] = {};
+  std::array<LocalRow, kNodes> df{};
+  for (std::size_t q = 0; q <= kNodes; ++q) {
+    const std::size_t at = panel.first + q;
+    const double s = stations_[at].arc_length(length) - stations_[start].arc_length(length);
+    out.growth[at] = math::exp(2.0 * mu * (shape.zeta[at] - shape.zeta[start]) - 2.0 * ride.drag * s);
+    if (q == kNodes) break;
+    const double weight = panel.ds[q] / out.growth[at];
+    const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
+    f[q] = drive * weight;
+    if (by_time == nullptr) continue;
+    const double by_zeta = (2.0 * (shape.cos[at] + mu * shape.sin[at]) - 2.0 * mu * drive) * weight;
+    const double by_start = 2.0 * mu * f[q];
+    const LocalRow& dz = local_dzeta_[at];
+    for (const std::size_t j : {kZeta, kFirst, kSecond}) {
+      df[q][j] = scale * (by_zeta * dz[j] + by_start * dz_start[j]);
     }
-  };
-  add_station(0, 1);
-  for (const Panel& panel : panels_) {
-    for (std::size_t q = 0; q <= kNodes; ++q) add_station(panel.first + q, panel.columns);
+    const double ds_dlength = stations_[at].sigma - stations_[start].sigma;
+    df[q][kLength] = (is_core ? f[q] : 0.0) + scale * f[q] * 2.0 * ride.drag * ds_dlength;
   }
-  for (std::size_t j = 0; j < n; ++j) h(at_length, j) += parts.length[j];
-  h(at_length, at_length) += parts.length[at_length];
-  for (std::size_t i = 0; i < parts.curvature.rows(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) h(i, j) += parts.curvature(i, j) + parts.curvature(j, i);
+  const LocalRow dv_start = by_time != nullptr ? at_start(p, out.dv) : LocalRow{};
+  for (std::size_t q = 0; q <= kNodes; ++q) {
+    const std::size_t at = panel.first + q;
+    const double* row = q < kNodes ? rule.to_node[q].data() : rule.weight.data();
+    double w = out.v[start];
+    for (std::size_t k = 0; k < kNodes; ++k) w += scale * row[k] * f[k];
+    out.v[at] = w * out.growth[at];
+    if (by_time != nullptr) {
+      LocalRow& dv = out.dv.local[at];
+      dv = dv_start;
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        for (std::size_t j = kZeta; j <= kLength; ++j) dv[j] += row[k] * df[k][j];
+      }
+      for (double& entry : dv) entry *= out.growth[at];
+      const double turning = 2.0 * mu * out.v[at];
+      const LocalRow& dz = local_dzeta_[at];
+      for (const std::size_t j : {kZeta, kFirst, kSecond}) dv[j] += turning * (dz[j] - dz_start[j]);
+      dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].sigma - stations_[start].sigma);
+    }
+    if (q == kNodes) continue;
+    const Slowness slow = slowness(out.v[at], slowest(ride, at));
+    const double part = rule.weight[q] * panel.ds[q];
+    out.time += scale * part * slow.value;
+    if (by_time == nullptr) continue;
+    for (std::size_t j = 0; j < by_time->size(); ++j) {
+      (*by_time)[j] += scale * part * slow.first * out.dv.local[at][j];
+    }
+    if (is_core) (*by_time)[kLength] += part * slow.value;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < i; ++j) h(j, i) = h(i, j);
-  }
-  return h;
 }
 
 }  // namespace glissade::optimizer

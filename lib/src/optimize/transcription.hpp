@@ -5,6 +5,7 @@
 
 #include "optimize/dense.hpp"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -46,10 +47,11 @@ enum class Part { lead_in, core, lead_out };
 struct Station {
   double fixed_length = 0.0;
   double sigma = 0.0;
-  std::size_t piece = 0;   ///< between knots piece and piece + 1
-  double share = 0.0;      ///< of the way between these knots
-  Part part = Part::core;  ///< curvature is 0 outside the core
-  bool watched = true;     ///< limits are held here; enough of them that little happens in between
+  std::size_t piece = 0;    ///< between knots piece and piece + 1
+  double share = 0.0;       ///< of the way between these knots
+  Part part = Part::core;   ///< curvature is 0 outside the core
+  std::size_t section = 0;  ///< of the track: a straight end or one piece
+  bool watched = true;      ///< limits are held here; enough of them that little happens in between
   [[nodiscard]] double arc_length(double core_length) const { return fixed_length + sigma * core_length; }
 };
 
@@ -96,10 +98,28 @@ struct FineKnot {
   double turn = 0.0;   ///< turning rate beyond what lies between the knots of the piece [rad]
 };
 
+/// The derivatives of a quantity at a station by all unknowns, as multiples of five vectors that all stations of
+/// a section share: the quantity's own derivatives where the section begins, those of the slope angle there, and the
+/// unit vectors of the turning rates at the two knots of the piece and of the length. A section has many stations,
+/// and the unknowns are many.
+using LocalRow = std::array<double, 5>;
+inline constexpr std::size_t kOwn = 0;
+inline constexpr std::size_t kZeta = 1;
+inline constexpr std::size_t kFirst = 2;
+inline constexpr std::size_t kSecond = 3;
+inline constexpr std::size_t kLength = 4;
+
+/// The derivatives of a quantity at every station.
+struct Derivatives {
+  std::vector<LocalRow> local;  ///< one a station
+  Matrix starts;                ///< one row of all unknowns a section: where it begins
+  [[nodiscard]] bool empty() const { return local.empty(); }
+};
+
 /// Geometry at every station, with derivatives by the unknowns.
 struct Shape {
   Vector zeta, sin, cos, x, y, curvature;
-  Matrix dx, dy;
+  Derivatives dx, dy;
 };
 
 /// The point of a track that is closest to another point.
@@ -117,8 +137,9 @@ struct Foot {
 
 /// Motion at every station for one friction, with derivatives by the unknowns.
 struct Flow {
-  Vector v;  ///< squared speed
-  Matrix dv;
+  Vector v;       ///< squared speed
+  Vector growth;  ///< by the integrating factor since the start of the panel; of a sliding point
+  Derivatives dv;
   double time = 0.0;
   Vector dtime;
 };
@@ -144,8 +165,12 @@ class Transcription {
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
-  /// dzeta/d(unknown) of a station; constant
-  [[nodiscard]] const double* dzeta(std::size_t station) const { return dzeta_.row(station); }
+  /// out += factor dzeta/d(unknown) of a station; constant
+  void add_dzeta(std::size_t station, double factor, double* out) const;
+  /// out += factor d(.)/d(unknown) of a station
+  void add(const Derivatives& derivatives, std::size_t station, double factor, double* out) const;
+  /// sum of weight dzeta dzeta^T over the stations
+  [[nodiscard]] Matrix gram_of_dzeta(const Vector& weights) const;
   [[nodiscard]] double curvature(const Vector& z, std::size_t station) const;
   [[nodiscard]] const std::vector<FineKnot>& fine_knots() const { return fine_; }
   /// Turning rate at a fine knot, its own included.
@@ -178,39 +203,70 @@ class Transcription {
  private:
   struct Panel {
     std::size_t first = 0;    ///< station of its first node
-    std::size_t columns = 0;  ///< dzeta of its nodes is zero from this unknown up to the length
+    std::size_t section = 0;  ///< to which it belongs
     Part part = Part::core;
     double ds[8] = {};  ///< ds/dtau at the nodes, per core length or absolute
   };
-  /// What a Hessian is made of: at each station multiples of dzeta dzeta, of dzeta dv + dv dzeta and of dv dv, and
-  /// one row and column of the length.
-  struct HessianParts {
-    Vector zeta_zeta;
-    std::vector<Vector> zeta_v;  ///< for each ride
-    std::vector<Vector> v_v;
-    Vector length;  ///< enters as e_L a^T + a e_L^T
-    Matrix
-        curvature;  ///< its rows a of the unknowns that curvature depends on enter as e a^T + a e^T; of laws
+  /// A straight end of the track, or one piece.
+  struct Section {
+    Part part = Part::core;
+    std::size_t piece = 0;
   };
-  /// Flow of any law: collocation at the panels' nodes, exact derivatives through its equations (law_flow.cpp).
-  void law_flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out, bool derivatives) const;
+  /// What a Hessian is made of: products of the vectors behind LocalRows, for each section; lower triangle.
+  using LocalMatrix = std::array<LocalRow, 5>;
+  static void add_square(LocalMatrix& matrix, double factor, const LocalRow& a);
+  /// + factor (a b^T + b a^T)
+  static void add_pair(LocalMatrix& matrix, double factor, const LocalRow& a, const LocalRow& b);
+
+  void differentiate_shape(std::size_t panel, double scale, Shape& out) const;
+  /// One panel of a sliding point's flow.
+  /// @param by_time  its part of the time's derivatives is added; none: no derivatives
+  void flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t panel, Flow& out,
+                    LocalRow* by_time) const;
+  /// How a body of any law enters, ...
+  void enter(const Shape& shape, const Ride& ride, Flow& out) const;
+  /// ... and one panel of its flow: collocation at the panel's nodes, exact derivatives through its equations (law_flow.cpp).
+  void law_flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t panel, Flow& out,
+                        LocalRow* by_time) const;
   void add_law_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
-                     const StationWeights& weights, std::size_t index, HessianParts& parts) const;
+                     const StationWeights& weights, std::size_t index, std::vector<LocalMatrix>& parts) const;
   [[nodiscard]] double slowest(const Ride& ride, std::size_t station) const;
   void add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
-                       HessianParts& parts) const;
+                       std::vector<LocalMatrix>& parts) const;
   void add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
-                      const StationWeights& weights, std::size_t index, HessianParts& parts) const;
+                      const StationWeights& weights, std::size_t index,
+                      std::vector<LocalMatrix>& parts) const;
+  /// The lower triangle of what one section adds to a Hessian.
+  /// @param own  the vector behind kOwn; none where it has no part
+  void expand(const LocalMatrix& matrix, std::size_t section, const double* own, Matrix& hessian) const;
+  /// out += the vector behind a LocalRow
+  void expand(const LocalRow& row, std::size_t section, const double* own, double* out) const;
+
+  [[nodiscard]] Derivatives no_derivatives() const;
+  /// Whether a panel is the first of its section, ...
+  [[nodiscard]] bool begins_section(std::size_t panel) const;
+  /// ... where derivatives are carried over into it.
+  void carry_over(std::size_t panel, Derivatives& derivatives) const;
+  [[nodiscard]] LocalRow at_start(std::size_t panel, const Derivatives& derivatives) const;
+  [[nodiscard]] LocalRow dzeta_at_start(std::size_t panel) const;
+  [[nodiscard]] LocalRow local_dzeta(const Station& station) const;
+  [[nodiscard]] std::size_t section_of(Part part, std::size_t piece) const;
+  /// Slope angles at the beginnings of the sections, but for what fine knots add.
+  [[nodiscard]] Vector section_angles(const Vector& z) const;
+  [[nodiscard]] double angle_at(const Vector& z, const Vector& section_angles, std::size_t station) const;
   void add_panels(double a, double b, Part part, std::size_t piece);
   void add_station(double at, Part part, std::size_t piece);
   void add_fine_knots();
+  void add_sections();
   [[nodiscard]] std::size_t start_station(std::size_t panel) const;
 
   Mesh mesh_;
   Layout layout_;
   std::vector<Panel> panels_;
   std::vector<Station> stations_;
-  Matrix dzeta_;
+  std::vector<Section> sections_;
+  Matrix dzeta_starts_;                ///< dzeta where the sections begin
+  std::vector<LocalRow> local_dzeta_;  ///< of the stations
   std::vector<FineKnot> fine_;
   /// Knots of both kinds, with what the fine ones add there; empty where there are none of those.
   Vector own_sigma_, own_turn_, own_angle_;
