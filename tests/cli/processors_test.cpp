@@ -85,7 +85,7 @@ TEST_CASE("every shipped design gives the same bytes with and without fused mult
     CHECK(without_times(here.output) == without_times(older.output));
     const auto files = files_in(place / "here");
     const auto others = files_in(place / "older");
-    CHECK(files.size() == 7);  // the report counts, and the list of files
+    CHECK(files.size() >= 7);  // the report counts, and the list of files; parts have more
     REQUIRE(files.size() == others.size());
     for (const auto& [name, bytes] : files) {
       INFO(name);
