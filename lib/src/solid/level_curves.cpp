@@ -62,6 +62,7 @@ class CrowdAtTrims {
  public:
   CrowdAtTrims(const std::vector<LevelNode>& nodes, const NodeSpacing& limits)
       : nodes_(nodes), limits_(limits), drop_(nodes.size(), false) {
+    if (limits.keeps_beside_trims) return;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!nodes[i].trim) continue;
       clear(i, 1);

@@ -46,6 +46,8 @@ struct NodeSpacing {
   double shortest = 0.0;      ///< nodes closer together are left out where they are not needed
   double beside_trims = 0.0;  ///< so are those closer to a trim, where the curve without them
   double sagitta = 0.0;       ///<   passes them by no further than this
+  /// No node beside a trim is left out: a width begins or ends to change at any of them.
+  bool keeps_beside_trims = false;
 };
 
 /// One level curve from the start face to the finish face.

@@ -182,7 +182,7 @@ class Sweeper {
             std::max(std::min(kShortestShare * centerline.length(), 0.25 * fineness.chord_tolerance),
                      finest_length(centerline, section, placement)),
             planner.holds_kink() ? 0.0 : kRoomAtTrims * std::min(fineness.side_piece, fineness.longest_step),
-            kSagittaAtTrims * fineness.chord_tolerance} {}
+            kSagittaAtTrims * fineness.chord_tolerance, section.varies()} {}
 
   /// Lays out the mesh without making it.
   /// @return false if some level of the section does not lead from start to finish: see refuse()
