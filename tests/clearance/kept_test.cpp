@@ -6,6 +6,7 @@
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/solid/sweep.hpp"
 
+#include "clearance/random_section.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_clearance.hpp"
 #include "support/random.hpp"
@@ -33,35 +34,6 @@ struct RandomCase {
   CrossSection section = CrossSection::slab(1.0, 0.1);
   std::string words;
 };
-
-CrossSection random_section(testing::Random& random, std::ostream& words) {
-  const double width = random.between(0.2, 0.8);
-  const double wall = random.between(0.05, 0.9);
-  const double thickness = random.between(0.01, 0.15);
-  words << "width " << width << ", wall " << wall << ", thickness " << thickness;
-  switch (random.integer(0, 4)) {
-    case 0:
-      words << ", slab with curbs";
-      return CrossSection::slab(width, thickness, 0.3 * wall, 0.2 * width);
-    case 1:
-      words << ", half-pipe";
-      return CrossSection::half_pipe(width, thickness, 0.5 * wall);
-    case 2:
-      words << ", pipe";
-      return CrossSection::pipe(width, thickness);
-    case 3:
-      words << ", polygon";
-      return CrossSection::polygon({{0.0, 0.0},
-                                    {-0.5 * width, 0.3 * wall},
-                                    {-0.5 * width - thickness, 0.2 * wall},
-                                    {-0.3 * width, -thickness},
-                                    {0.4 * width, -2.0 * thickness},
-                                    {0.5 * width, wall}});
-    default:
-      words << ", u-channel";
-      return CrossSection::u_channel(width, wall, thickness);
-  }
-}
 
 /// Obstacles beside the fastest track of all: some in its way, some for its walls alone, some before its start and
 /// some past its finish.

@@ -10,6 +10,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/solid/sweep.hpp"
 
+#include "clearance/random_section.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_clearance.hpp"
 #include "support/random.hpp"
@@ -78,38 +79,6 @@ CenterlinePtr random_track(testing::Random& random, std::ostream& words) {
       words << ", fastest";
       return std::make_shared<CoulombBrachistochrone>(Endpoints{run, drop},
                                                       Friction::from_coefficient(friction));
-  }
-}
-
-CrossSection random_section(testing::Random& random, std::ostream& words) {
-  const double width = random.between(0.2, 1.0);
-  const double wall = random.between(0.05, 1.2);
-  const double thickness = random.between(0.02, 0.19);
-  words << "; width " << width << ", wall " << wall << ", thickness " << thickness;
-  switch (random.integer(0, 5)) {
-    case 0:
-      words << ", slab";
-      return CrossSection::slab(width, thickness);
-    case 1:
-      words << ", slab with curbs";
-      return CrossSection::slab(width, thickness, 0.3 * wall, 0.2 * width);
-    case 2:
-      words << ", half-pipe";
-      return CrossSection::half_pipe(width, thickness, 0.5 * wall);
-    case 3:
-      words << ", pipe";
-      return CrossSection::pipe(width, thickness);
-    case 4:
-      words << ", polygon";
-      return CrossSection::polygon({{0.0, 0.0},
-                                    {-0.5 * width, 0.3 * wall},
-                                    {-0.5 * width - thickness, 0.2 * wall},
-                                    {-0.3 * width, -thickness},
-                                    {0.4 * width, -2.0 * thickness},
-                                    {0.5 * width, wall}});
-    default:
-      words << ", u-channel";
-      return CrossSection::u_channel(width, wall, thickness);
   }
 }
 
