@@ -6,6 +6,7 @@
 #include "io/system_error.hpp"
 
 #include <cerrno>
+#include <string>
 #include <utility>
 
 #include <fcntl.h>
@@ -60,6 +61,17 @@ std::size_t FileSource::read(char* buffer, std::size_t count) {
     }
   }
   return done;
+}
+
+std::string whole_text(const std::filesystem::path& file, std::uint64_t most) {
+  FileSource source(file);
+  if (source.size() > most) {
+    throw FileError({file.string(), "has " + std::to_string(source.size()) + " bytes",
+                     "At most " + std::to_string(most) + " are read.", ""});
+  }
+  std::string text(source.size(), '\0');
+  text.resize(source.read(text.data(), text.size()));
+  return text;
 }
 
 }  // namespace glissade::io

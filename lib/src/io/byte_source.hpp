@@ -45,6 +45,11 @@ class FileSource final : public ByteSource {
   std::uint64_t size_ = 0;
 };
 
+/// @return everything in a file
+/// @param most  bytes that are read
+/// @throws FileError as FileSource, or if the file is larger than that
+[[nodiscard]] std::string whole_text(const std::filesystem::path& file, std::uint64_t most);
+
 class MemorySource final : public ByteSource {
  public:
   explicit MemorySource(std::string_view bytes) : rest_(bytes), size_(bytes.size()) {}

@@ -225,21 +225,10 @@ void read_header(Groups& groups) {
   }
 }
 
-std::string content_of(const std::filesystem::path& file) {
-  FileSource source(file);
-  if (source.size() > kLargestFile) {
-    throw FileError({file.string(), "has " + std::to_string(source.size()) + " bytes",
-                     "A drawing has at most " + std::to_string(kLargestFile) + ".", ""});
-  }
-  std::string text(source.size(), '\0');
-  text.resize(source.read(text.data(), text.size()));
-  return text;
-}
-
 }  // namespace
 
 Drawing read_dxf(const std::filesystem::path& file) {
-  const std::string text = content_of(file);
+  const std::string text = whole_text(file, kLargestFile);
   Groups groups(text, file.string());
   Drawing drawing;
   while (true) {

@@ -318,17 +318,6 @@ class SolidCheck {
   bool chains_ = true;
 };
 
-std::string content_of(const std::filesystem::path& file) {
-  FileSource source(file);
-  if (source.size() > kLargestFile) {
-    throw FileError({file.string(), "has " + std::to_string(source.size()) + " bytes",
-                     "At most " + std::to_string(kLargestFile) + " are read.", ""});
-  }
-  std::string text(source.size(), '\0');
-  text.resize(source.read(text.data(), text.size()));
-  return text;
-}
-
 bool same_solid(const StepSolid& found, const ShopPart& part) {
   const Brep meant = brep_of(part);
   std::size_t planes = 0;
@@ -350,7 +339,7 @@ void require(bool same, const std::filesystem::path& file) {
 }  // namespace
 
 StepFacts read_step_facts(const std::filesystem::path& file) {
-  const StepEntities step(content_of(file), file.string());
+  const StepEntities step(whole_text(file, kLargestFile), file.string());
   StepFacts facts;
   for (const Id solid : step.all("MANIFOLD_SOLID_BREP"))
     facts.solids.push_back(SolidCheck(step, solid).result());
