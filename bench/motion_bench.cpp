@@ -58,7 +58,7 @@ void ride_of_stream(benchmark::State& state, const CenterlinePtr& track) {
   StreamShape shape;
   shape.mass_flow = 650.0 / 3.6;
   shape.bulk_density = 1600.0;
-  shape.widths = {{0.0, 0.8}};
+  shape.width = 0.8;
   shape.wall_height = 0.5;
   Body body = kBody;
   body.law = std::make_shared<const BulkStream>(shape);

@@ -58,7 +58,7 @@ void stream(benchmark::State& state) {
   StreamShape shape;
   shape.mass_flow = 650.0 / 3.6;
   shape.bulk_density = 1600.0;
-  shape.widths = {{0.0, 0.8}};
+  shape.width = 0.8;
   shape.wall_height = 0.5;
   Problem problem;
   problem.endpoints = {4.3, 5.9};

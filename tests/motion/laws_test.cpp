@@ -40,8 +40,7 @@ LawPtr ball(double radius, double groove_half_angle_deg = 90.0, std::optional<do
 
 std::shared_ptr<const BulkStream> stream(double mass_flow, double density, double width,
                                          std::optional<double> wall_height = {}) {
-  return std::make_shared<const BulkStream>(
-      StreamShape{mass_flow, density, 0.5, {{0.0, width}}, wall_height});
+  return std::make_shared<const BulkStream>(StreamShape{mass_flow, density, 0.5, width, wall_height});
 }
 
 Body body(double mu, double entry_speed, LawPtr law, double drag = 0.0) {
@@ -134,8 +133,8 @@ Body random_body(testing::Random& random, double length) {
       StreamShape shape;
       shape.bulk_density = 1000.0;
       shape.mass_flow = random.between(0.01, 0.5) * width * width * body.entry_speed * shape.bulk_density;
-      shape.widths = {{0.0, width}};
-      if (random.integer(0, 1) == 0) shape.widths.push_back({0.7 * length, 0.8 * width});
+      shape.width = width;
+      if (random.integer(0, 1) == 0) shape.width = WidthLaw({{0.0, width}, {0.7 * length, 0.8 * width}});
       body.law = std::make_shared<const BulkStream>(shape);
       break;
     }
@@ -426,7 +425,7 @@ TEST_CASE("stream: Roberts' worked examples with friction that grows with the de
 
 TEST_CASE("stream: without lateral pressure it is the sliding point") {
   const auto valley = track(1.2, {{2.0, 0.0, 0.3}, {2.0, 0.3, 0.1}});
-  StreamShape shape{20.0, 770.0, 0.0, {{0.0, 0.3}}, {}};
+  StreamShape shape{20.0, 770.0, 0.0, 0.3, {}};
   const Motion flowing(valley, body(0.3, 1.0, std::make_shared<const BulkStream>(shape)));
   const Motion sliding(valley, body(0.3, 1.0, nullptr));
   CHECK(flowing.travel_time() == Approx(sliding.travel_time()).epsilon(1e-13));
@@ -453,7 +452,7 @@ TEST_CASE("stream: it chokes where it grows as deep as its wall or its chute is 
   CHECK(at_once.distance() == 0.0);
   CHECK(at_once.law_end()->value == Approx(20.0 / (770.0 * 0.3 * 0.2)));
   // A chute that narrows is deeper there.
-  StreamShape narrowing{40.0, 770.0, 0.5, {{0.0, 0.3}, {1.0, 0.3}, {2.0, 0.1}}, 0.09};
+  StreamShape narrowing{40.0, 770.0, 0.5, WidthLaw({{0.0, 0.3}, {1.0, 0.3}, {2.0, 0.1}}), 0.09};
   const Motion narrowed(track(40.0 * kDegree, {{3.0, 0.0, 0.0}}),
                         body(0.5, 2.0, std::make_shared<const BulkStream>(narrowing)));
   REQUIRE(narrowed.law_end());
@@ -502,10 +501,11 @@ TEST_CASE("laws: a body that no law can move is refused with its number") {
   CHECK_THROWS_WITH(stream(1.0, 0.0, 1.0), Catch::Matchers::Contains("bulk_density: 0 kg/m^3"));
   CHECK_THROWS_WITH(stream(1.0, 1000.0, 0.0), Catch::Matchers::Contains("width: 0 m"));
   CHECK_THROWS_WITH(stream(1.0, 1000.0, 1.0, 0.0), Catch::Matchers::Contains("wall_height: 0 m"));
-  CHECK_THROWS_WITH(BulkStream(StreamShape{1.0, 1000.0, -0.1, {{0.0, 1.0}}, {}}),
+  CHECK_THROWS_WITH(BulkStream(StreamShape{1.0, 1000.0, -0.1, 1.0, {}}),
                     Catch::Matchers::Contains("lateral_pressure_ratio: -0.1"));
-  CHECK_THROWS_WITH(BulkStream(StreamShape{1.0, 1000.0, 0.5, {{1.0, 1.0}, {1.0, 2.0}}, {}}),
-                    Catch::Matchers::Contains("The places of widths ascend"));
+  CHECK_THROWS_WITH(
+      BulkStream(StreamShape{1.0, 1000.0, 0.5, WidthLaw({{1.0, 1.0}, {1.0, 2.0}}), {}}),
+      Catch::Matchers::Contains("Widths are given in the order of the track; each place has one."));
   CHECK_THROWS_WITH(Motion(ramp, body(0.1, 0.0, stream(1.0, 1000.0, 1.0))),
                     Catch::Matchers::Contains("cannot start from rest"));
   CHECK_THROWS_WITH(

@@ -47,7 +47,7 @@ std::vector<Rider> riders() {
   StreamShape stream;
   stream.mass_flow = 500.0;
   stream.bulk_density = 1000.0;
-  stream.widths = {{0.0, 1.0}, {30.0, 0.7}};
+  stream.width = WidthLaw({{0.0, 1.0}, {30.0, 0.7}});
   return {{"point from rest", 0.0, nullptr},
           {"point", 2.5, nullptr},
           {"ball from rest", 0.0, std::make_shared<const RollingBall>(ball)},

@@ -30,7 +30,7 @@ LawPtr ball(double radius, std::optional<double> centre_height = {}) {
 }
 
 LawPtr stream(double mass_flow) {
-  return std::make_shared<const BulkStream>(StreamShape{mass_flow, 1000.0, 0.5, {{0.0, 0.5}}, {}});
+  return std::make_shared<const BulkStream>(StreamShape{mass_flow, 1000.0, 0.5, 0.5, {}});
 }
 
 Problem problem(double run, double drop, double mu, double entry_speed, LawPtr law) {

@@ -19,7 +19,7 @@ Problem ore(double run, double drop, double entry_speed) {
   StreamShape shape;
   shape.mass_flow = 650.0 / 3.6;
   shape.bulk_density = 1600.0;
-  shape.widths = {{0.0, 0.8}};
+  shape.width = 0.8;
   shape.wall_height = 0.5;
   Problem problem;
   problem.endpoints = {run, drop};

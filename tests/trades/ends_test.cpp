@@ -81,7 +81,7 @@ TEST_CASE("a stream that lands on its track rides on with what the impact leaves
   StreamShape shape;
   shape.mass_flow = 100.0;
   shape.bulk_density = 1600.0;
-  shape.widths = {{0.0, 0.8}};
+  shape.width = 0.8;
   shape.wall_height = 0.5;
   Body body;
   body.law = std::make_shared<const BulkStream>(shape);

@@ -211,7 +211,7 @@ Ride::CurvatureLoad Rows::curvature_load(const State& state, const Row& row) con
 
 Rows::WidthFactor Rows::width_factor(const State& state, const LimitSpec& limit, const Row& row) const {
   const auto* const stream = dynamic_cast<const BulkStream*>(problem_.rides[row.ride].law.get());
-  if (limit.width_power == 0 || stream == nullptr || stream->shape().widths.size() == 1) return {};
+  if (limit.width_power == 0 || stream == nullptr || stream->shape().width.is_constant()) return {};
   const Station& station = track_.stations()[row.place];
   const double s = station.arc_length(state.z[track_.layout().length()]);
   const double width = stream->width(s);

@@ -29,7 +29,7 @@ LawPtr stream_law(const StreamDesign& design, const CrossSectionDesign& section)
   shape.mass_flow = design.mass_flow;
   shape.bulk_density = design.bulk_density;
   shape.lateral_pressure_ratio = design.lateral_pressure_ratio;
-  shape.widths = channel->width.knots();
+  shape.width = channel->width;
   shape.wall_height = channel->wall_height;
   shape.slip_ratio = design.slip_ratio;
   return std::make_shared<const BulkStream>(shape);

@@ -185,9 +185,7 @@ void measure_speed(const Design& design, const std::vector<ChuteCase>& cases, Me
 
 void measure_channel(const Design& design, const Track& track, Measurements& measurements) {
   const BulkStream& stream = *stream_of(track.motion.body());
-  const std::vector<WidthAt>& widths = stream.shape().widths;
-  double narrowest = widths.front().width;
-  for (const WidthAt& width : widths) narrowest = std::min(narrowest, width.width);
+  const double narrowest = stream.shape().width.narrowest();
   measurements.set("narrowing", narrowest / stream.width(0.0));
   if (design.stream->lump_size) {
     measurements.set("width_over_lump", narrowest / *design.stream->lump_size);

@@ -4,43 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace glissade {
-namespace {
-
-/// B at a place and its slope along the track, that after the place where it changes there.
-struct Width {
-  double value = 0.0;
-  double by_s = 0.0;
-};
-
-Width width_at(const std::vector<WidthAt>& widths, double s) {
-  const auto after = std::upper_bound(widths.begin(), widths.end(), s,
-                                      [](double at, const WidthAt& w) { return at < w.at; });
-  if (after == widths.begin()) return {widths.front().width};
-  if (after == widths.end()) return {widths.back().width};
-  const auto before = std::prev(after);
-  const double by_s = (after->width - before->width) / (after->at - before->at);
-  return {before->width + (s - before->at) * by_s, by_s};
-}
-
-void require_widths(const std::vector<WidthAt>& widths) {
-  if (widths.empty()) throw InputError({"", "width: none is given", "A chute has a width.", ""});
-  for (std::size_t i = 0; i < widths.size(); ++i) {
-    motion::require_positive("width", widths[i].width, " m", "A chute has a width.");
-    if (i == 0 || widths[i - 1].at < widths[i].at) continue;
-    throw InputError({"", "width: " + length_text(widths[i].at) + " after " + length_text(widths[i - 1].at),
-                      "The places of widths ascend.", ""});
-  }
-}
-
-}  // namespace
 
 BulkStream::BulkStream(const StreamShape& shape)
     : shape_(shape), flow_(shape.mass_flow / shape.bulk_density) {
   motion::require_positive("mass_flow", shape.mass_flow, " kg/s", "A stream carries something.");
   motion::require_positive("bulk_density", shape.bulk_density, " kg/m^3", "A bulk solid weighs something.");
-  require_widths(shape.widths);
+  for (const WidthAt& width : shape.width.knots()) {
+    motion::require_positive("width", width.width, " m", "A chute has a width.");
+  }
   if (shape.wall_height) {
     motion::require_positive("wall_height", *shape.wall_height, " m",
                              "A wall that holds a stream has a height.");
@@ -58,11 +33,11 @@ BulkStream::BulkStream(const StreamShape& shape)
 }
 
 double BulkStream::width(double s) const {
-  return width_at(shape_.widths, s).value;
+  return shape_.width.at(s);
 }
 
 double BulkStream::width_slope(double s) const {
-  return width_at(shape_.widths, s).by_s;
+  return shape_.width.slope(s);
 }
 
 double BulkStream::depth(double s, double speed) const {
@@ -75,9 +50,9 @@ double BulkStream::floor_wear(double s, Friction friction, double normal_load) c
 
 Resistance BulkStream::resistance(double s, double v) const {
   // 1 + K_v H/B = 1 + C1/u, C1 = K_v Q/(rho B^2).
-  const Width width = width_at(shape_.widths, s);
-  const double excess = shape_.lateral_pressure_ratio * flow_ / (width.value * width.value * std::sqrt(v));
-  const double narrowing = -2.0 * width.by_s / width.value;
+  const double wide = width(s);
+  const double excess = shape_.lateral_pressure_ratio * flow_ / (wide * wide * std::sqrt(v));
+  const double narrowing = -2.0 * width_slope(s) / wide;
   Resistance resistance;
   resistance.factor = 1.0 + excess;
   resistance.by_v = -0.5 * excess / v;
@@ -90,7 +65,7 @@ Resistance BulkStream::resistance(double s, double v) const {
 
 std::vector<double> BulkStream::breaks() const {
   std::vector<double> places;
-  for (const WidthAt& width : shape_.widths) places.push_back(width.at);
+  for (const WidthAt& width : shape_.width.knots()) places.push_back(width.at);
   return places;
 }
 
@@ -118,10 +93,12 @@ LawPtr BulkStream::in_units(double length, double speed) const {
   // Depth is all that counts: Q/rho in units of length^2 speed.
   scaled.bulk_density = 1.0;
   scaled.mass_flow = flow_ / (length * length * speed);
-  for (WidthAt& width : scaled.widths) {
+  std::vector<WidthAt> widths = shape_.width.knots();
+  for (WidthAt& width : widths) {
     width.at /= length;
     width.width /= length;
   }
+  scaled.width = WidthLaw(std::move(widths));
   scaled.least_speed /= speed;
   if (scaled.wall_height) *scaled.wall_height /= length;
   return std::make_shared<const BulkStream>(scaled);

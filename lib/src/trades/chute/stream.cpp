@@ -18,7 +18,7 @@ double deepest_at(const BulkStream& stream, double s) {
 /// The fullest place: with one width it is the deepest, otherwise it is looked for between the stations of the
 /// motion and the places where the width changes.
 ValueAt fullest(const Motion& motion, const BulkStream& stream, const ValueAt& deepest) {
-  if (stream.shape().widths.size() == 1) {
+  if (stream.shape().width.is_constant()) {
     return {deepest.value / deepest_at(stream, deepest.arc_length), deepest.arc_length};
   }
   const auto filling = [&](double s) { return stream.depth(s, motion.at(s).speed) / deepest_at(stream, s); };
@@ -30,7 +30,7 @@ ValueAt fullest(const Motion& motion, const BulkStream& stream, const ValueAt& d
   constexpr int kPlaces = 400;
   const double end = motion.distance();
   for (int i = 1; i <= kPlaces; ++i) see(end * i / kPlaces);
-  for (const WidthAt& width : stream.shape().widths) {
+  for (const WidthAt& width : stream.shape().width.knots()) {
     if (width.at > 0.0 && width.at < end) see(width.at);
   }
   // Golden section about the best of them.

@@ -18,7 +18,7 @@ std::vector<double> places_of(const Motion& motion) {
   std::vector<double> places;
   for (int i = 0; i <= kPlaces; ++i) places.push_back(std::min(end, end * i / kPlaces));
   places.push_back(motion.highest_load().arc_length);
-  for (const WidthAt& width : stream_of(motion.body())->shape().widths) {
+  for (const WidthAt& width : stream_of(motion.body())->shape().width.knots()) {
     if (width.at > 0.0 && width.at < end) places.push_back(width.at);
   }
   std::sort(places.begin(), places.end());

@@ -11,11 +11,10 @@ namespace glissade {
 
 /// What flows, and in what channel.
 struct StreamShape {
-  double mass_flow = 0.0;               ///< Q [kg/s]; > 0
-  double bulk_density = 0.0;            ///< rho [kg/m^3]; > 0
-  double lateral_pressure_ratio = 0.5;  ///< K_v [-]; >= 0
-  /// Widths by ascending places, at least one; linear in between, constant before the first and after the last.
-  std::vector<WidthAt> widths;
+  double mass_flow = 0.0;                  ///< Q [kg/s]; > 0
+  double bulk_density = 0.0;               ///< rho [kg/m^3]; > 0
+  double lateral_pressure_ratio = 0.5;     ///< K_v [-]; >= 0
+  WidthLaw width;                          ///< B(s) [m]; > 0
   std::optional<double> wall_height = {};  ///< inside [m]; > 0; none: no wall to spill over
   /// K_c: speed at the floor over the mean speed; > 0, at most 1. It decides wear, not motion.
   double slip_ratio = 0.6;
