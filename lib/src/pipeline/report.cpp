@@ -120,7 +120,7 @@ ReportCheck read_back(const std::vector<fs::path>& files) {
   if (files.empty()) return check;
   // A difference would have ended the build: a faulty file is never published.
   check.verdict = Verdict::pass;
-  check.detail = "read back and compared facet by facet:";
+  check.detail = "read back and compared with what was meant:";
   for (const fs::path& file : files) check.detail += " " + file.filename().string() + ",";
   check.detail.pop_back();
   return check;
