@@ -311,12 +311,8 @@ Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
   }
   require_body(body, gravity);
   require_ride(*centerline, body);
-  ride_ = std::make_unique<const Ride>(std::move(centerline), body, gravity);
+  ride_ = std::make_shared<const Ride>(std::move(centerline), body, gravity);
 }
-
-Motion::~Motion() = default;
-Motion::Motion(Motion&&) noexcept = default;
-Motion& Motion::operator=(Motion&&) noexcept = default;
 
 const Centerline& Motion::centerline() const noexcept {
   return ride_->centerline();

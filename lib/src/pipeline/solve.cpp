@@ -141,12 +141,16 @@ CenterlinePtr make_points(const Design& design) {
   throw InputError(*std::move(missed));
 }
 
+FastestTrack fastest_of(const Design& design) {
+  return fastest_track(endpoints_of(design), design.body.friction, design.body.entry_speed, design.gravity);
+}
+
 CenterlinePtr make_of_kind(const Design& design) {
   const Endpoints endpoints = endpoints_of(design);
   const Friction friction = design.body.friction;
   switch (design.centerline.kind) {
     case CenterlineKind::fastest:
-      return fastest_track(endpoints, friction, design.body.entry_speed, design.gravity).centerline;
+      return fastest_of(design).centerline;
     case CenterlineKind::constant_speed:
       return make_constant_speed(design, endpoints);
     case CenterlineKind::straight:
@@ -206,21 +210,29 @@ CenterlinePtr make_centerline(const Design& design) {
   return at_place(design.where("centerline"), [&] { return make_of_kind(design); });
 }
 
-Track ride(const Design& design, CenterlinePtr centerline) {
+namespace {
+
+/// @param found  if the track is the fastest of all, limits aside, what is known of it: it is not made twice
+Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<FastestTrack> found) {
   const bool chosen = is_drawn(design.centerline.kind) || design.track.free_finish != FinishKind::point;
   const Endpoints endpoints = chosen ? endpoints_of(*centerline) : endpoints_of(design);
   const Body body = body_of(design);
 
+  const double radius = smallest_radius(*centerline);
+  const double steepest = steepest_slope_angle(*centerline);
+  Motion motion(centerline, body, design.gravity);
+
   std::optional<Motion> optimum;
   std::optional<double> optimum_travel_time;
-  if (has_closed_optimum(body) && can_arrive(endpoints, body.friction, body.entry_speed, design.gravity)) {
+  if (found) {
+    optimum_travel_time = found->travel_time;
+    optimum = motion;
+  } else if (has_closed_optimum(body) &&
+             can_arrive(endpoints, body.friction, body.entry_speed, design.gravity)) {
     FastestTrack fastest = fastest_track(endpoints, body.friction, body.entry_speed, design.gravity);
     optimum_travel_time = fastest.travel_time;
     optimum.emplace(std::move(fastest.centerline), body, design.gravity);
   }
-  const double radius = smallest_radius(*centerline);
-  const double steepest = steepest_slope_angle(*centerline);
-  Motion motion(centerline, body, design.gravity);
   std::vector<LimitCheck> limit_checks = checked_limits(design, endpoints, centerline);
   std::vector<RangeRide> range = rides_of_range(design, centerline);
   const Placement placement = Placement::through(design.track.start, design.track.finish);
@@ -239,6 +251,19 @@ Track ride(const Design& design, CenterlinePtr centerline) {
           std::move(limit_checks),
           std::move(range),
           std::move(gates)};
+}
+
+/// The curve of the closed form, which knows neither limits nor a finish that it may choose.
+Track ride_fastest(const Design& design) {
+  FastestTrack fastest = at_place(design.where("centerline"), [&] { return fastest_of(design); });
+  CenterlinePtr centerline = fastest.centerline;
+  return ride_on(design, std::move(centerline), std::move(fastest));
+}
+
+}  // namespace
+
+Track ride(const Design& design, CenterlinePtr centerline) {
+  return ride_on(design, std::move(centerline), {});
 }
 
 namespace {
@@ -269,9 +294,8 @@ Track solve(const Design& design, const RunContext& context) {
   // point.
   const bool searched =
       design.limits || design.track.free_finish != FinishKind::point || !has_closed_optimum(body_of(design));
-  if (!searched || design.centerline.kind != CenterlineKind::fastest) {
-    return ride(design, make_centerline(design));
-  }
+  if (design.centerline.kind != CenterlineKind::fastest) return ride(design, make_centerline(design));
+  if (!searched) return ride_fastest(design);
   Optimum optimum = search_within_limits(design, context);
   Track track = ride(design, std::move(optimum.centerline));
   track.search = std::move(optimum.report);

@@ -109,6 +109,7 @@ struct QuantityPeak {
 /// Identity: f u^2/2 + friction_loss + drag_loss = g drop + f entry_speed^2/2 at every station, f = 1 and the
 ///   drop that of the track where there is no law, that of the centre of mass where there is one. The losses
 ///   are integrals of N and v, the speed is not computed from them.
+/// Regular value: never changes, and copies share what was computed.
 /// Cost: the constructor evaluates direction() at 17 places for each of some 4 to 100 panels, and at least
 ///   one panel for each smooth stretch; at() is O(log panels).
 class Motion {
@@ -120,12 +121,6 @@ class Motion {
   ///         law that depends on speed is to start from rest or where curvature is unbounded
   /// @throws ConvergenceError if the centerline is so rough between its breaks that no panels resolve it
   Motion(CenterlinePtr centerline, Body body, double gravity = kDefaultGravity);
-  ~Motion();
-  Motion(const Motion&) = delete;
-  Motion& operator=(const Motion&) = delete;
-  Motion(Motion&&) noexcept;
-  Motion& operator=(Motion&&) noexcept;
-
   [[nodiscard]] const Centerline& centerline() const noexcept;
   [[nodiscard]] const Body& body() const noexcept;
   [[nodiscard]] double gravity() const noexcept;
@@ -169,7 +164,7 @@ class Motion {
 
  private:
   class Ride;
-  std::unique_ptr<const Ride> ride_;
+  std::shared_ptr<const Ride> ride_;
 };
 
 /// Stated bound of the relative error of Motion's speeds and times, measured in docs/accuracy.md.
