@@ -7,10 +7,10 @@
 #include "optimize/random_limits.hpp"
 #include "referee/judgement.hpp"
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -95,7 +95,7 @@ TEST_CASE("an independent search finds no track where limits are said to contrad
   int infeasible = 0;
   // The whole of it takes minutes: continuous integration does that.
   const int most = testing_problems::problem_count();
-  const int problems = std::getenv("CI") != nullptr ? most : std::min(most, 150);
+  const int problems = testing::thorough() ? most : std::min(most, 150);
   for (int i = 0; i < problems; ++i) {
     const Problem problem = random_limited(random);
     const Optimum optimum = optimize(problem);
