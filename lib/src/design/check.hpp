@@ -13,7 +13,7 @@ namespace glissade::design_file {
 [[nodiscard]] std::vector<Finding> check_values(const Design& design);
 [[nodiscard]] std::optional<Finding> find_unreachable(const Design& design);
 
-/// Where `segments` lead: run towards the finish, and height (negative below the start) [m].
-[[nodiscard]] Vec2 end_of_segments(const CenterlineDesign& centerline);
+/// Where `segments`, which can be drawn, lead.
+[[nodiscard]] Endpoints end_of_segments(const Design& design);
 
 }  // namespace glissade::design_file

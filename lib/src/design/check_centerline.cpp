@@ -1,11 +1,8 @@
-#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "design/check.hpp"
 #include "design/checks.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -18,67 +15,35 @@ namespace {
 constexpr double kQuarterTurn = std::numbers::pi / 2.0;
 
 void check_segment(const SegmentDesign& segment, const std::string& key_path, Collected& findings) {
-  if (!(segment.length > 0.0 && segment.length <= kLongestTrack)) {
+  if (segment.length && !(*segment.length > 0.0 && *segment.length <= kLongestTrack)) {
     report(findings, {key_path + ".length"},
-           {"", "length: " + length_text(segment.length) + " is out of range",
+           {"", "length: " + length_text(*segment.length) + " is out of range",
             "A segment is longer than 0 and at most 1000 km.", ""});
   }
   if (!std::isfinite(segment.entry_curvature) || !std::isfinite(segment.exit_curvature)) {
     report(findings, {key_path}, {"", "the curvature is not finite", "", ""});
   }
-}
-
-double slope_change(const SegmentDesign& segment) {
-  return -0.5 * (segment.entry_curvature + segment.exit_curvature) * segment.length;
-}
-
-double slope_at(const SegmentDesign& segment, double entry_slope, double s) {
-  const double rate = (segment.exit_curvature - segment.entry_curvature) / segment.length;
-  return entry_slope - s * (segment.entry_curvature + 0.5 * rate * s);
-}
-
-/// Greatest departure from the level within the segment, with its sign: at an end, or where curvature is 0.
-double steepest_slope(const SegmentDesign& segment, double entry_slope) {
-  double steepest = entry_slope;
-  const auto compare = [&](double slope) {
-    if (std::fabs(slope) > std::fabs(steepest)) steepest = slope;
-  };
-  compare(entry_slope + slope_change(segment));
-  const double turn = segment.entry_curvature - segment.exit_curvature;
-  const double fraction = turn == 0.0 ? 0.0 : segment.entry_curvature / turn;
-  if (fraction > 0.0 && fraction < 1.0) compare(slope_at(segment, entry_slope, fraction * segment.length));
-  return steepest;
-}
-
-void check_overhang(const CenterlineDesign& centerline, Collected& findings) {
-  constexpr double kRounding = 1e-12;
-  double slope = centerline.entry_slope_angle.radians();
-  if (std::fabs(slope) > kQuarterTurn + kRounding) {
-    report(findings, {"centerline.entry_slope_angle"},
-           {"", "entry_slope_angle: " + angle_text(slope) + " overhangs",
+  const double leads_to = segment.to_slope_angle.value_or(Angle()).radians();
+  if (!(std::fabs(leads_to) <= kQuarterTurn)) {
+    report(findings, {key_path + ".to_slope_angle"},
+           {"", "to_slope_angle: " + angle_text(leads_to) + " overhangs",
             "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
-    return;
   }
-  for (std::size_t index = 0; index < centerline.segments.size(); ++index) {
-    const SegmentDesign& segment = centerline.segments[index];
-    const double steepest = steepest_slope(segment, slope);
-    if (!(std::fabs(steepest) <= kQuarterTurn + kRounding)) {
-      report(findings, {"centerline.segments." + std::to_string(index), "centerline"},
-             {"",
-              "segments[" + std::to_string(index) + "] overhangs: its slope angle reaches " +
-                  angle_text(steepest),
-              "A slope angle lies between -90 deg (straight up) and 90 deg (straight down); a positive "
-              "curvature or radius turns the track upwards.",
-              "a shorter segment, a larger radius, or the other sign"});
-      return;
-    }
-    slope += slope_change(segment);
-  }
+}
+
+bool check_entry(const CenterlineDesign& centerline, Collected& findings) {
+  const double slope = centerline.entry_slope_angle.radians();
+  constexpr double kRounding = 1e-12;
+  if (std::fabs(slope) <= kQuarterTurn + kRounding) return true;
+  report(findings, {"centerline.entry_slope_angle"},
+         {"", "entry_slope_angle: " + angle_text(slope) + " overhangs",
+          "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
+  return false;
 }
 
 void check_segments_finish(const Design& design, Collected& findings) {
-  const Vec2 end = end_of_segments(design.centerline);
-  const auto issue = missed_finish(design.track, "the segments", {end.x, -end.y});
+  const Endpoints end = end_of_segments(design);
+  const auto issue = missed_finish(design.track, "the segments", {end.run, end.drop});
   if (issue) report(findings, {"track.finish", "track.start", "centerline"}, *issue);
 }
 
@@ -93,9 +58,16 @@ void check_segments(const Design& design, Collected& findings) {
   for (std::size_t index = 0; index < centerline.segments.size(); ++index) {
     check_segment(centerline.segments[index], "centerline.segments." + std::to_string(index), findings);
   }
-  if (findings.size() != before) return;
-  check_overhang(centerline, findings);
-  if (findings.size() == before && design.track.finish_given) check_segments_finish(design, findings);
+  if (findings.size() != before || !check_entry(centerline, findings)) return;
+  DrawnSegments drawn = drawn_segments(design.track, centerline);
+  if (drawn.fault) {
+    const std::string path = "centerline.segments." + std::to_string(drawn.segments.size());
+    const std::string& key = drawn.fault->key;
+    report(findings, {key.empty() ? path : path + "." + key, "track.start", "centerline"},
+           std::move(drawn.fault->issue));
+  } else if (design.track.finish_given) {
+    check_segments_finish(design, findings);
+  }
 }
 
 }  // namespace
@@ -128,31 +100,9 @@ void check_centerline(const Design& design, Collected& findings) {
   }
 }
 
-Vec2 end_of_segments(const CenterlineDesign& centerline) {
-  // Gauss-Legendre, 4 points, on pieces that turn by at most 0.1 rad: exact to rounding.
-  constexpr std::array<std::pair<double, double>, 4> kRule = {
-      {{-0.86113631159405257522, 0.34785484513745385737},
-       {-0.33998104358485626480, 0.65214515486254614263},
-       {0.33998104358485626480, 0.65214515486254614263},
-       {0.86113631159405257522, 0.34785484513745385737}}};
-  constexpr double kLargestTurn = 0.1;
-  constexpr double kMostPieces = 1000.0;
-  Vec2 end;
-  double slope = centerline.entry_slope_angle.radians();
-  for (const SegmentDesign& segment : centerline.segments) {
-    const double turn =
-        std::max(std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)) * segment.length;
-    const int pieces = static_cast<int>(std::clamp(std::ceil(turn / kLargestTurn), 1.0, kMostPieces));
-    const double half = 0.5 * segment.length / pieces;
-    for (int piece = 0; piece < pieces; ++piece) {
-      for (const auto& [node, weight] : kRule) {
-        const double zeta = slope_at(segment, slope, half * (2.0 * piece + 1.0 + node));
-        end = end + (weight * half) * Vec2{math::cos(zeta), -math::sin(zeta)};
-      }
-    }
-    slope += slope_change(segment);
-  }
-  return end;
+Endpoints end_of_segments(const Design& design) {
+  const DrawnSegments drawn = drawn_segments(design.track, design.centerline);
+  return joined(design.centerline.entry_slope_angle, drawn.segments)->endpoints();
 }
 
 }  // namespace glissade::design_file

@@ -19,6 +19,7 @@
 #include "design/read_materials.hpp"
 #include "design/read_probes.hpp"
 #include "design/read_rules.hpp"
+#include "design/read_segments.hpp"
 #include "design/read_stream.hpp"
 #include "design/read_text.hpp"
 #include "design/read_tree.hpp"
@@ -174,49 +175,6 @@ TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) 
   return track;
 }
 
-SegmentDesign read_segment(const Value& value, Findings& findings) {
-  MapReader map(value, "A segment", "{length: 2 m, radius: 5 m}", findings);
-  SegmentDesign segment;
-  segment.length = map.needed_quantity("length", Dimension::length, "length: 2 m").value_or(0.0);
-  const bool by_radius = map.has("radius");
-  const bool by_curvature = map.has("curvature");
-  const bool by_ends = map.has("entry_curvature") || map.has("exit_curvature");
-  const auto curvature = map.quantity("curvature", Dimension::per_length);
-  const auto radius = map.quantity("radius", Dimension::length);
-  const auto entry = map.quantity("entry_curvature", Dimension::per_length);
-  const auto exit = map.quantity("exit_curvature", Dimension::per_length);
-  if (static_cast<int>(by_radius) + static_cast<int>(by_curvature) + static_cast<int>(by_ends) > 1) {
-    findings.add(findings.position(value.key_path), value.key_path,
-                 {"", value.key + " is bent in more than one way",
-                  "A segment is straight, has a curvature, has a radius, or has an entry_curvature and an "
-                  "exit_curvature.",
-                  "one of them"});
-  }
-  if (radius && *radius == 0.0) {
-    findings.add(findings.position(map.path_of("radius")), map.path_of("radius"),
-                 {"", "radius: 0 m bends without bound", "",
-                  "a positive radius for a valley, a negative one for a crest"});
-  } else if (radius) {
-    segment.entry_curvature = segment.exit_curvature = 1.0 / *radius;
-  }
-  if (curvature) segment.entry_curvature = segment.exit_curvature = *curvature;
-  segment.entry_curvature = entry.value_or(segment.entry_curvature);
-  segment.exit_curvature = exit.value_or(segment.exit_curvature);
-  map.refuse_unknown_keys();
-  return segment;
-}
-
-void read_segments(MapReader& map, CenterlineDesign& centerline, Findings& findings) {
-  centerline.entry_slope_angle = Angle::from_radians(
-      map.needed_quantity("entry_slope_angle", Dimension::angle, "entry_slope_angle: 35 deg").value_or(0.0));
-  constexpr std::string_view kExample = "[{length: 2 m}, {length: 1.5 m, radius: 3 m}]";
-  const auto list = map.need("segments", kExample);
-  if (!list) return;
-  for (const Value& item : as_list(*list, kExample, findings)) {
-    centerline.segments.push_back(read_segment(item, findings));
-  }
-}
-
 void read_point_columns(MapReader& map, CenterlineDesign& centerline, Findings& findings) {
   const auto value = map.find("columns");
   if (!value) return;
@@ -349,8 +307,8 @@ void complete_finish(Design& design, Findings& findings) {
   }
   const bool follows = design.centerline.kind == CenterlineKind::segments && !design.track.finish_given;
   if (!follows || !findings.empty()) return;
-  const Vec2 end = end_of_segments(design.centerline);
-  design.track.finish = design.track.start + Vec3{end.x, 0.0, end.y};
+  const Endpoints end = end_of_segments(design);
+  design.track.finish = design.track.start + Vec3{end.run, 0.0, -end.drop};
   for (Finding& finding : check_values(design)) findings.add_unless_spoiled(std::move(finding));
 }
 

@@ -322,19 +322,32 @@ std::string stream(const StreamDesign& design) {
   return group.lines();
 }
 
+/// A curvature by its radius where that reads as the very same.
+void add_bend(Group& group, const std::string& end, double curvature) {
+  const double radius = 1.0 / curvature;
+  if (std::isfinite(radius) && 1.0 / radius == curvature) {
+    group.add(end + "radius", radius, Dimension::length);
+  } else {
+    group.add(end + "curvature", curvature, Dimension::per_length);
+  }
+}
+
 std::string segment(const SegmentDesign& design) {
   Group group;
   group.add("length", design.length, Dimension::length);
-  if (design.entry_curvature != design.exit_curvature) {
+  if (design.to_point) group.add("to_point", point(*design.to_point));
+  if (design.to_slope_angle) {
+    group.add("to_slope_angle", design.to_slope_angle->radians(), Dimension::angle);
+  }
+  if (design.bend == SegmentBend::cubic) {
+    group.add("bend", "cubic");
+    if (design.entry_curvature != 0.0) add_bend(group, "entry_", design.entry_curvature);
+    if (design.exit_curvature != 0.0) add_bend(group, "exit_", design.exit_curvature);
+  } else if (design.entry_curvature != design.exit_curvature) {
     group.add("entry_curvature", design.entry_curvature, Dimension::per_length);
     group.add("exit_curvature", design.exit_curvature, Dimension::per_length);
   } else if (design.entry_curvature != 0.0) {
-    const double radius = 1.0 / design.entry_curvature;
-    if (std::isfinite(radius) && 1.0 / radius == design.entry_curvature) {
-      group.add("radius", radius, Dimension::length);
-    } else {
-      group.add("curvature", design.entry_curvature, Dimension::per_length);
-    }
+    add_bend(group, "", design.entry_curvature);
   }
   return group.inlined();
 }

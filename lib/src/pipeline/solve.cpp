@@ -1,8 +1,8 @@
 #include "glissade/pipeline/solve.hpp"
 
-#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/centerline/cycloid.hpp"
+#include "glissade/centerline/drawn_track.hpp"
 #include "glissade/centerline/fastest_track.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/centerline/in_run.hpp"
@@ -80,13 +80,10 @@ CenterlinePtr make_constant_speed(const Design& design, const Endpoints& endpoin
       ConstantSpeedCurve::fastest(endpoints, friction, design.gravity, design.body.entry_speed));
 }
 
-CenterlinePtr make_segments(const CenterlineDesign& design) {
-  std::vector<ClothoidSegment> segments;
-  segments.reserve(design.segments.size());
-  for (const SegmentDesign& segment : design.segments) {
-    segments.push_back({segment.length, segment.entry_curvature, segment.exit_curvature});
-  }
-  return std::make_shared<ClothoidSpline>(design.entry_slope_angle, std::move(segments));
+CenterlinePtr make_segments(const Design& design) {
+  DrawnSegments drawn = drawn_segments(design.track, design.centerline);
+  if (drawn.fault) throw InputError(std::move(drawn.fault->issue));
+  return joined(design.centerline.entry_slope_angle, drawn.segments);
 }
 
 /// A fault of a file's points, at their line.
@@ -160,7 +157,7 @@ CenterlinePtr make_of_kind(const Design& design) {
     case CenterlineKind::no_curvature_load:
       return std::make_shared<NoCurvatureLoadCurve>(endpoints, friction);
     case CenterlineKind::segments:
-      return make_segments(design.centerline);
+      return make_segments(design);
     case CenterlineKind::points:
       return make_points(design);
     case CenterlineKind::in_run:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/centerline/drawn_track.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/file_format.hpp"
 #include "glissade/core/units.hpp"
@@ -11,6 +12,7 @@
 #include "glissade/design/in_run_design.hpp"
 #include "glissade/design/probe_design.hpp"
 #include "glissade/design/rules_design.hpp"
+#include "glissade/design/segment_design.hpp"
 #include "glissade/design/stream_design.hpp"
 #include "glissade/section/measures.hpp"
 #include "glissade/task/finish.hpp"
@@ -82,15 +84,6 @@ enum class CenterlineKind {
 /// @return every kind, in the order of the enumeration
 [[nodiscard]] const std::vector<CenterlineKind>& centerline_kinds();
 
-/// One piece of a `segments` centerline; curvature is linear in between.
-struct SegmentDesign {
-  double length = 0.0;           ///< [m]; > 0
-  double entry_curvature = 0.0;  ///< [1/m]
-  double exit_curvature = 0.0;   ///< [1/m]
-
-  friend bool operator==(const SegmentDesign&, const SegmentDesign&) = default;
-};
-
 struct CenterlineDesign {
   CenterlineKind kind = CenterlineKind::fastest;
   std::optional<double> constant_speed_p;  ///< P of the constant-speed track [m^2/s^2]; none: the fastest P
@@ -111,6 +104,20 @@ struct CenterlineDesign {
 
   friend bool operator==(const CenterlineDesign&, const CenterlineDesign&) = default;
 };
+
+/// What the segments of a centerline become on their track, one by one, as far as they can be drawn.
+struct DrawnSegments {
+  std::vector<TrackSegment> segments;
+  /// What keeps the segment after these from being drawn; `key` is the key of it to point at, empty for all of it.
+  struct Fault {
+    std::string key;
+    Issue issue;
+  };
+  std::optional<Fault> fault;
+};
+
+/// @param track  where the segments begin and which way they lead; their points are points of its plane
+[[nodiscard]] DrawnSegments drawn_segments(const TrackDesign& track, const CenterlineDesign& centerline);
 
 /// A cross-section by its kind and measures: one struct a kind, see section/measures.hpp.
 using CrossSectionDesign = section::Measures;
