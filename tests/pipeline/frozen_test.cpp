@@ -33,6 +33,12 @@ std::vector<Case> cases() {
       {"constant speed", kHead + kBody + "centerline: {kind: constant-speed}\n"},
       {"cycloid", kHead + "body: {friction_coefficient: 0.05}\ncenterline: {kind: cycloid}\n"},
       {"no curvature load", kHead + kBody + "centerline: {kind: no-curvature-load}\n"},
+      {"fastest with an entry speed, free flight first",
+       kHead + "body: {friction_coefficient: {low: 0.18, nominal: 0.2, high: 0.22}, entry_speed: 4 m/s}\n"
+               "centerline: {kind: fastest}\n"},
+      {"free flight all along",
+       "glissade: 1\ntrack: {start: {x: 3 m, z: 6 m}, finish: {x: 2 m, z: 5.9 m}}\n"
+       "body: {friction_coefficient: 0.3, entry_speed: 40 m/s}\ncenterline: {kind: fastest}\n"},
       {"straight", kHead + kBody + "centerline: {kind: straight}\n"},
       {"searched",
        kHead + kBody +
@@ -47,6 +53,12 @@ std::vector<Case> cases() {
        "body: {friction_coefficient: 0.03, drag: 0.0013 1/m}\n"
        "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m}\n"
        "gates: {count: 5}\n"},
+      {"segments to a slope angle, to a point, and a cubic bend",
+       "glissade: 1\ntrack: {start: {x: 7 m, z: 4 m}}\n" + kBody +
+           "centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 1 m}, "
+           "{to_slope_angle: 30 deg, "
+           "bend: cubic, exit_radius: 3 m}, {to_point: [11 m, 1 m], to_slope_angle: 5 deg}]}\n",
+       false},
       {"segments",
        "glissade: 1\ntrack: {start: {x: 0 m, z: 4 m}}\n" + kBody +
            "centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 3 m}, {length: 2 m, "
@@ -100,16 +112,6 @@ TEST_CASE("a frozen design is no CSV file") {
   const Design design = parse_design(cases().front().text, directory / "design.yaml");
   CHECK_THROWS_WITH(write_frozen_design(directory / "frozen.csv", design, solve(design)),
                     Contains("a design is no CSV file") && Contains("frozen.yaml"));
-  CHECK(directory.names().empty());
-}
-
-TEST_CASE("a track along which the body flies free is not frozen as a table") {
-  const TempDir directory;
-  const Design design = parse_design(
-      kHead + "body: {friction_coefficient: 0.2, entry_speed: 4 m/s}\ncenterline: {kind: fastest}\n",
-      directory / "design.yaml");
-  CHECK_THROWS_WITH(write_frozen_design(directory / "frozen.yaml", design, solve(design)),
-                    Contains("cannot be frozen as a table") && Contains("flies free"));
   CHECK(directory.names().empty());
 }
 

@@ -5,7 +5,9 @@
 #include "glissade/core/vec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -84,6 +86,34 @@ bool agrees(const TabulatedPoint& a, const TabulatedPoint& b, double reach) {
   return ahead && off <= (kShareOfChord + 0.3 * turn) * length + kShareOfReach * reach;
 }
 
+/// Slope per run of the parabola with an upright axis that touches a curve there; positive on a crest.
+double parabola_rate(double slope_angle, double curvature) {
+  const double cosine = math::cos(slope_angle);
+  return -curvature / (cosine * cosine * cosine);
+}
+
+/// Whether a rate is that of one and the same crest.
+bool same_crest(double rate, double other) {
+  constexpr double kRounding = 1e-11;
+  return rate > 0.0 && std::isfinite(rate) && std::fabs(rate - other) <= kRounding * rate;
+}
+
+/// Whether two rows lie on one crest of a parabola, as a body that flies by them goes.
+bool on_one_flight(const TabulatedPoint& left, const TabulatedPoint& right) {
+  constexpr double kRounding = 1e-9;
+  constexpr double kPlaceRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double rate = parabola_rate(left.slope_angle, left.curvature);
+  if (!same_crest(rate, parabola_rate(right.slope_angle, right.curvature))) return false;
+  const double rise = math::tan(right.slope_angle) - math::tan(left.slope_angle);
+  const double rounding = kRounding * rise + kPlaceRounding * rate * (std::fabs(left.x) + std::fabs(right.x));
+  return rise > 0.0 && std::fabs(rise - rate * (right.x - left.x)) <= rounding;
+}
+
+/// Arc length of the parabola of rate 1 from its top to slope t.
+double parabola_length(double t) {
+  return 0.5 * (t * std::sqrt(1.0 + t * t) + math::asinh(t));
+}
+
 }  // namespace
 
 std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
@@ -144,7 +174,12 @@ TabulatedCurve::TabulatedCurve(std::vector<TabulatedPoint> rows) {
   }
   unbounded_ = !std::isfinite(start.curvature);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (!same_place(rows[i - 1], rows[i])) append(rows[i - 1], rows[i]);
+    if (same_place(rows[i - 1], rows[i])) continue;
+    if (on_one_flight(rows[i - 1], rows[i])) {
+      append_flight(rows[i - 1], rows[i]);
+    } else {
+      append(rows[i - 1], rows[i]);
+    }
   }
 }
 
@@ -182,6 +217,37 @@ void TabulatedCurve::append(const TabulatedPoint& left, const TabulatedPoint& ri
   breaks_.push_back(start + length);
 }
 
+void TabulatedCurve::append_flight(const TabulatedPoint& left, const TabulatedPoint& right) {
+  const double begin = breaks_.back();
+  const double rate = parabola_rate(left.slope_angle, left.curvature);
+  const double slope = math::tan(left.slope_angle);
+  const double end_slope = math::tan(right.slope_angle);
+  const double end = begin + (parabola_length(end_slope) - parabola_length(slope)) / rate;
+  Stretch stretch;
+  stretch.from = parameter(begin);
+  stretch.width = parameter(end) - stretch.from;
+  stretch.x = x_;
+  stretch.drop = drop_;
+  stretch.flight = Flight{begin, rate, slope};
+  x_ += (end_slope - slope) / rate;
+  drop_ += 0.5 * (end_slope - slope) * (end_slope + slope) / rate;
+  stretches_.push_back(stretch);
+  breaks_.push_back(end);
+}
+
+/// By Newton's method: the length is a steady function of the slope whose derivative is at least 1.
+double TabulatedCurve::Flight::slope_at(double s) const {
+  constexpr int kMostSteps = 50;
+  const double length = parabola_length(slope) + rate * (s - begin);
+  double t = slope;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double step = (length - parabola_length(t)) / std::sqrt(1.0 + t * t);
+    t += step;
+    if (std::fabs(step) <= 1e-16 * (1.0 + std::fabs(t))) break;
+  }
+  return t;
+}
+
 double TabulatedCurve::parameter(double s) const {
   return unbounded_ ? std::sqrt(s) : s;
 }
@@ -194,6 +260,11 @@ const TabulatedCurve::Stretch& TabulatedCurve::stretch_at(double s) const {
 
 Direction TabulatedCurve::direction(double s) const {
   const Stretch& stretch = stretch_at(s);
+  if (stretch.flight) {
+    const double t = stretch.flight->slope_at(s);
+    const double stretched = 1.0 + t * t;
+    return {math::atan(t), -stretch.flight->rate / (stretched * std::sqrt(stretched))};
+  }
   const double p = parameter(s);
   const double u = (p - stretch.from) / stretch.width;
   const double per_length = unbounded_ ? 1.0 / (2.0 * p) : 1.0;
@@ -202,11 +273,19 @@ Direction TabulatedCurve::direction(double s) const {
 
 double TabulatedCurve::slope_angle(double s) const {
   const Stretch& stretch = stretch_at(s);
+  if (stretch.flight) return math::atan(stretch.flight->slope_at(s));
   return value_of(stretch.slope, (parameter(s) - stretch.from) / stretch.width);
 }
 
 CenterlinePoint TabulatedCurve::at(double s) const {
   const Stretch& stretch = stretch_at(s);
+  if (stretch.flight) {
+    const auto& [begin, rate, before] = *stretch.flight;
+    const double t = stretch.flight->slope_at(s);
+    const Direction here = direction(s);
+    return {s, stretch.x + (t - before) / rate, stretch.drop + 0.5 * (t - before) * (t + before) / rate,
+            here.slope_angle, here.curvature};
+  }
   const auto slope = [&](double p) { return value_of(stretch.slope, (p - stretch.from) / stretch.width); };
   const Vec2 way = displacement(slope, stretch.from, parameter(s), unbounded_, turning_of(stretch.slope));
   const Direction here = direction(s);
@@ -258,7 +337,22 @@ class TableRows {
   }
 
   /// Whether the cubic between two rows is the curve, in slope angle and in how it changes.
-  [[nodiscard]] bool follows(double a, double b) const {
+  [[nodiscard]] bool follows(double a, double b) const { return flies(a, b) || follows_cubic(a, b); }
+
+  /// Whether the curve between two rows is a crest that TabulatedCurve knows for a flight.
+  [[nodiscard]] bool flies(double a, double b) const {
+    const auto rate = [&](double p) {
+      const Direction there = curve_.direction(place(p));
+      return parabola_rate(there.slope_angle, there.curvature);
+    };
+    const double first = rate(a);
+    constexpr std::array<double, 4> kShares = {0.25, 0.5, 0.75, 1.0};
+    return std::all_of(kShares.begin(), kShares.end(), [&](double share) {
+      return same_crest(first, rate(share < 1.0 ? a + share * (b - a) : std::nextafter(b, a)));
+    });
+  }
+
+  [[nodiscard]] bool follows_cubic(double a, double b) const {
     constexpr double kSlope = 1e-12;
     constexpr double kTurning = 1e-10;
     const double width = b - a;

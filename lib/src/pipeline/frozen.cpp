@@ -46,7 +46,8 @@ CenterlineDesign as_segments(const ClothoidSpline& spline) {
   centerline.kind = CenterlineKind::segments;
   centerline.entry_slope_angle = spline.entry_slope_angle();
   for (const ClothoidSegment& segment : spline.segments()) {
-    centerline.segments.push_back({segment.length, segment.entry_curvature, segment.exit_curvature});
+    centerline.segments.push_back(
+        {segment.length, segment.entry_curvature, segment.exit_curvature, {}, {}, SegmentBend::clothoid});
   }
   return centerline;
 }
@@ -73,21 +74,18 @@ std::string table_text(const std::vector<TabulatedPoint>& rows) {
   return text;
 }
 
-/// The table of a track on which the body rides as it did.
-/// @throws InputError if no table does that: where the body flies free along the track, N = 0, rounding decides
-///   whether it leaves it
-std::vector<TabulatedPoint> faithful_table(const Design& design, const Track& track) {
+/// The table of a track, on which the body rides as it did.
+std::vector<TabulatedPoint> faithful_table(const Track& track) {
   std::vector<TabulatedPoint> rows = table_of(*track.centerline);
   const Motion& was = track.motion;
   const Motion is(std::make_shared<TabulatedCurve>(rows), was.body(), was.gravity());
   const bool same = is.arrived() == was.arrived() &&
                     std::fabs(is.travel_time() - was.travel_time()) <= kTableAccuracy * was.travel_time();
   if (same || !was.arrived()) return rows;
-  throw InputError(
-      {design.where("centerline"), "the track cannot be frozen as a table",
-       "Along a part of it the body flies free with no load on the track: the rounding of a table would "
-       "make it leave the track there.",
-       "limits: {normal_load: {lowest: 0.01 m/s^2}}, whose track is made of clothoids"});
+  throw InternalError({"centerline",
+                       "the track of kind " + std::string(track.centerline->kind()) +
+                           " does not ride the same from its table",
+                       "", ""});
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -109,9 +107,14 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
   }
   Design frozen = emptied(design, track);
   frozen.file = file;
-  const ClothoidSpline* const clothoids = clothoids_of(*track.centerline);
-  if (clothoids == nullptr) write(csv, table_text(faithful_table(design, track)));
-  frozen.centerline = clothoids != nullptr ? as_segments(*clothoids) : as_table(csv);
+  if (design.centerline.kind == CenterlineKind::segments) {
+    frozen.centerline = design.centerline;
+  } else if (const ClothoidSpline* const clothoids = clothoids_of(*track.centerline)) {
+    frozen.centerline = as_segments(*clothoids);
+  } else {
+    write(csv, table_text(faithful_table(track)));
+    frozen.centerline = as_table(csv);
+  }
   const std::string origin = design.name.empty() ? std::string("a design") : design.name;
   std::string note = "# The track found for " + origin + ", as it is: nothing is searched for any more.\n";
   for (char& letter : note) {

@@ -34,7 +34,8 @@ struct TableFault {
 ///
 /// Between rows the slope angle is the cubic that has the angle and curvature of both; in arc length, or in its square
 /// root where curvature has no bound at the start. Arc lengths follow from the chords between rows, places from the
-/// slope angle. Two rows at one place are a jump of curvature.
+/// slope angle. Two rows at one place are a jump of curvature. Between two rows that lie on one crest of a parabola with an
+/// upright axis, to rounding, the curve is that parabola: a body that flies along it (N = 0) does so from the table, too.
 /// Frame: the first row is the start. Where the last row lies to the left of the first, the table is mirrored.
 /// Curve: slope angle and curvature continuous but at jumps; smooth between breaks(), which are the rows.
 /// Accuracy: fourth order in the distance of the rows; table_of() keeps travel times to kTableAccuracy.
@@ -53,6 +54,14 @@ class TabulatedCurve final : public Centerline {
   [[nodiscard]] bool unbounded_curvature_at_start() const noexcept override { return unbounded_; }
 
  private:
+  /// The path of a body in free flight: its slope t = tan(zeta) grows by `rate` per run.
+  struct Flight {
+    double begin = 0.0;  // arc length
+    double rate = 0.0;   // [1/m]
+    double slope = 0.0;  // t where it begins
+
+    [[nodiscard]] double slope_at(double s) const;
+  };
   /// A stretch between rows. Its parameter p is arc length, or the square root of it where curvature has no bound.
   struct Stretch {
     double from = 0.0;  // p
@@ -60,10 +69,12 @@ class TabulatedCurve final : public Centerline {
     double slope[4] = {};  // coefficients of the slope angle in (p - from) / width, lowest first
     double x = 0.0;        // where it begins
     double drop = 0.0;
+    std::optional<Flight> flight = {};  // in place of the cubic
   };
   [[nodiscard]] double parameter(double s) const;
   [[nodiscard]] const Stretch& stretch_at(double s) const;
   void append(const TabulatedPoint& left, const TabulatedPoint& right);
+  void append_flight(const TabulatedPoint& left, const TabulatedPoint& right);
 
   std::vector<double> breaks_ = {0.0};
   std::vector<Stretch> stretches_;

@@ -9,14 +9,14 @@ namespace glissade {
 /// Writes a track that was found as a design of its own, in which nothing is searched for or fitted any more: to be
 /// judged at other frictions, changed in other respects, built again.
 ///
-/// A track of straights, arcs and clothoids (searched, drawn, fitted) becomes the kind `segments`. Any other becomes
-/// the kind `points` with a table of its slope angles and curvatures, FILE with the ending .csv beside it. All else of
+/// A track of straights, arcs and clothoids (searched, fitted) becomes the kind `segments`; segments stay as they were
+/// told. Any other becomes the kind `points` with a table of its slope angles and curvatures, FILE with the ending .csv
+/// beside it, from which a body flies free where it did. All else of
 /// the design is kept; the finish is the place where the track ends.
 /// Accuracy: solve() of the new design gives travel time, speeds and places as they were to kTableAccuracy, or to
 ///   rounding where the track becomes segments.
 /// @param file  to write, with an ending other than .csv
-/// @throws InputError if its ending is .csv, or if the body flies free along a part of a track that needs a table
-///         (the fastest track with an entry speed and friction); FileError as AtomicFile
+/// @throws InputError if its ending is .csv; FileError as AtomicFile
 void write_frozen_design(const std::filesystem::path& file, const Design& design, const Track& track);
 
 }  // namespace glissade
