@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -101,21 +102,28 @@ Facets flats_of(const PipeJob& job, double largest_kink) {
            ", a smaller pipe, or round: staves"});
 }
 
-/// A tube of a flat between two distances along it; ends that are no mitres are square.
-Gore gore_of(const PipeJob& job, const Facets& facets, std::size_t flat, double from, double to) {
+/// A stretch of a flat; an end that is none of the flat is square, and so are those of the track.
+struct Stretch {
+  std::size_t flat = 0;
+  std::optional<double> from;  ///< along the flat; none: its mitre [m]
+  std::optional<double> to;
+};
+
+Gore gore_of(const PipeJob& job, const Facets& facets, const Stretch& stretch) {
+  const std::size_t flat = stretch.flat;
   const Vec2 along = facets.corners[flat + 1] - facets.corners[flat];
   const double whole = norm(along);
   const Vec2 unit = (1.0 / whole) * along;
   const double radius = job.radius();
-  const double before = from <= 0.0 ? tilt_before(facets, flat) : 0.0;
-  const double after = to >= whole ? tilt_after(facets, flat) : 0.0;
-  const double start = std::max(0.0, from) + radius * math::tan(before);
-  const double end = std::min(whole, to) - radius * math::tan(after);
+  const double before = stretch.from ? 0.0 : tilt_before(facets, flat);
+  const double after = stretch.to ? 0.0 : tilt_after(facets, flat);
+  const double start = stretch.from.value_or(0.0) + radius * math::tan(before);
+  const double end = stretch.to.value_or(whole) - radius * math::tan(after);
   Gore gore;
   gore.from = facets.corners[flat] + start * unit + radius * up_of(unit);
   gore.along = unit;
   gore.body = {radius, job.pipe.thickness, end - start, before, -after};
-  gore.floor_length = std::min(whole, to) - std::max(0.0, from);
+  gore.floor_length = stretch.to.value_or(whole) - stretch.from.value_or(0.0);
   return gore;
 }
 
@@ -163,10 +171,10 @@ std::vector<GoreUnit> units_between(const PipeJob& job, const Facets& facets,
       const double from = std::max(joints[j], corners[i]);
       const double to = std::min(joints[j + 1], corners[i + 1]);
       if (!(to - from > 1e-9)) continue;
-      const double whole = corners[i + 1] - corners[i];
-      const double start = joints[j] > corners[i] ? joints[j] - corners[i] : 0.0;
-      const double end = joints[j + 1] < corners[i + 1] ? joints[j + 1] - corners[i] : whole;
-      unit.gores.push_back(gore_of(job, facets, i, start, end));
+      Stretch stretch{i, {}, {}};
+      if (joints[j] > corners[i]) stretch.from = joints[j] - corners[i];
+      if (joints[j + 1] < corners[i + 1]) stretch.to = joints[j + 1] - corners[i];
+      unit.gores.push_back(gore_of(job, facets, stretch));
       unit.gores.back().odd = odd;
       odd = !odd;
     }

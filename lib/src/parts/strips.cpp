@@ -207,12 +207,13 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   ArcPath path = *offset_line(job.track, span, 0.0);
   const Vec2 origin = path.vertices.front().at;
   for (PathVertex& vertex : path.vertices) vertex.at = vertex.at - origin;
+  const double middle_across = 0.5 * (plate.face_from.x + plate.face_to.x);
   // Of the body x counts upwards from the track, z to the right.
   std::vector<Vec2> corners;
   for (const Vec2 corner : {plate.face_from, plate.face_to, plate.back_to, plate.back_from})
-    corners.push_back({corner.y, -corner.x});
+    corners.push_back({corner.y, middle_across - corner.x});
   part.body = SweptBody{std::move(path), std::move(corners)};
-  part.places = {plane_of_track(job.placement, origin, 0.0, 0.0)};
+  part.places = {plane_of_track(job.placement, origin, 0.0, -middle_across)};
   weigh(part);
   part.pattern = pattern_of(flat, radii);
   return strip;
@@ -279,8 +280,7 @@ ShopPart frame_of(const StripJob& job, HoleFit fit) {
   // Rims are level: of a wall that leans, holes keep their distance from the rim, not along the wall.
   const Vec2 first = section.outside[1] - section.outside[0];
   const double upright = section.closed ? 1.0 : std::fabs(first.y) / norm(first);
-  const double edge =
-      1.5 * clearance_hole(flange.bolt, HoleFit::coarse) / (upright > 0.0 ? upright : 1.0);
+  const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse) / (upright > 0.0 ? upright : 1.0);
   const double radius = 0.5 * clearance_hole(flange.bolt, fit);
   for (const Vec2 centre :
        along_chain(at(flange.gap + 0.5 * flange.width), section.closed, flange.pitch, edge))

@@ -5,13 +5,23 @@
 #include "parts/bolts.hpp"
 
 #include <utility>
+#include <variant>
 
 namespace glissade::parts {
 namespace {
 
+/// Sections along a path say where they lie: only the very same body has the same place.
+bool same_body(const PartBody& a, const PartBody& b) {
+  const auto* const one = std::get_if<SweptBody>(&a);
+  const auto* const other = std::get_if<SweptBody>(&b);
+  if (one == nullptr || other == nullptr) return a.index() == b.index();
+  return one->path == other->path && one->section == other->section;
+}
+
 /// The same on the flat and of the same volume when finished; what is bought, the same by name.
 bool same_part(const ShopPart& a, const ShopPart& b) {
   if (a.thickness != b.thickness || a.material != b.material || a.volume != b.volume) return false;
+  if (!same_body(a.body, b.body)) return false;
   if (a.pattern.has_value() != b.pattern.has_value()) return false;
   return a.pattern ? a.pattern->region == b.pattern->region : a.name == b.name;
 }
