@@ -63,7 +63,7 @@ std::string checks_text(const std::vector<ShopCheck>& checks) {
 
 }  // namespace
 
-std::string parts_lines(const PlateBuild& build) {
+std::string parts_lines(const WorkshopBuild& build) {
   return labelled("Master curve", arcs_text(build.master)) + labelled("Parts", pieces_text(build.workshop)) +
          labelled("As built", ride_text(build.ride)) + labelled("Shop", checks_text(build.workshop.checks));
 }

@@ -31,8 +31,8 @@ CoulombBrachistochrone chute() {
 
 constexpr ChannelMeasures kChannel{0.4, 0.25, 4e-3};
 
-PlateBuild plates(const Centerline& track, const PlateOptions& options,
-                  const ChannelMeasures& channel = kChannel) {
+WorkshopBuild plates(const Centerline& track, const PlateOptions& options,
+                     const ChannelMeasures& channel = kChannel) {
   return make_plates(track, channel, {1e-4}, options, Placement(), {.friction = kFriction});
 }
 
@@ -58,7 +58,7 @@ double sum_of_volumes(const Workshop& workshop) {
 TEST_CASE("plates: the grain chute's floor and walls add up to the volume of its channel, A S - M phi") {
   PlateOptions options;
   options.flanges.wanted = false;
-  const PlateBuild build = plates(chute(), options);
+  const WorkshopBuild build = plates(chute(), options);
   const double t = kChannel.thickness;
   const double wall = kChannel.wall_height + t;
   const double area = kChannel.width * t + 2.0 * t * wall;
@@ -78,15 +78,15 @@ TEST_CASE("plates: seats of the walls change parts, not the channel") {
   beside.flanges.wanted = false;
   PlateOptions on = beside;
   on.walls = WallSeat::on_floor;
-  const PlateBuild a = plates(chute(), beside);
-  const PlateBuild b = plates(chute(), on);
+  const WorkshopBuild a = plates(chute(), beside);
+  const WorkshopBuild b = plates(chute(), on);
   CHECK(std::fabs(a.proof.volume / b.proof.volume - 1.0) < 1e-12);
   CHECK(a.workshop.parts.front().pattern->region != b.workshop.parts.front().pattern->region);
 }
 
 TEST_CASE("plates: a flat floor develops to S + t phi / 2 where it is rolled") {
   PlateOptions options;
-  const PlateBuild build = plates(chute(), options);
+  const WorkshopBuild build = plates(chute(), options);
   const ArcSpline& line = *build.master.spline;
   double developed = 0.0;
   for (const ShopPart& part : build.workshop.parts) {
@@ -97,7 +97,7 @@ TEST_CASE("plates: a flat floor develops to S + t phi / 2 where it is rolled") {
 }
 
 TEST_CASE("plates: frames at a joint share their bolts; holes of one of them are larger") {
-  const PlateBuild build = plates(chute(), {});
+  const WorkshopBuild build = plates(chute(), {});
   const ShopPart* frames[2] = {nullptr, nullptr};
   for (const ShopPart& part : build.workshop.parts) {
     if (part.name == "end_frame") frames[0] = &part;
@@ -129,7 +129,7 @@ TEST_CASE("plates: no part exceeds its sheet, its transport length or its mass")
     PlateOptions options;
     options.split.longest = longest;
     options.split.heaviest = 20.0;
-    const PlateBuild build = plates(chute(), options);
+    const WorkshopBuild build = plates(chute(), options);
     for (std::size_t i = 0; i + 1 < build.joints.size(); ++i) {
       CHECK(build.joints[i + 1] - build.joints[i] <= longest + 1e-9);
     }
@@ -148,7 +148,7 @@ TEST_CASE("plates: as many bends as cost one hundredth of the exit speed, and on
   PlateOptions options;
   options.floor = FloorMake::bent;
   options.split.sheet = {20.0, 2.0};
-  const PlateBuild build = plates(chute(), options);
+  const WorkshopBuild build = plates(chute(), options);
   const double cost = 1.0 - build.ride.exit_speed / build.ride.design_exit_speed;
   CHECK(build.ride.arrives);
   CHECK(cost <= 0.01);
@@ -156,7 +156,7 @@ TEST_CASE("plates: as many bends as cost one hundredth of the exit speed, and on
   PlateOptions fewer = options;
   fewer.bend.rule = FacetRule::bends;
   fewer.bend.value = static_cast<double>(build.ride.bends) / 2.0;
-  const PlateBuild coarse = plates(chute(), fewer);
+  const WorkshopBuild coarse = plates(chute(), fewer);
   CHECK(1.0 - coarse.ride.exit_speed / coarse.ride.design_exit_speed > 0.015);
   CHECK(build.workshop.bends.size() == build.ride.bends);
   // Each bend is one line of the pattern, up where the floor curls up; angles add up to what the track turns.
@@ -228,7 +228,7 @@ TEST_CASE("plates: random tracks and measures make plates that add up, with no c
     options.bend.value = random.between(0.02, 0.2);
     options.split.longest = random.between(0.8, 3.0);
     options.flanges.pitch = random.between(0.08, 0.2);
-    const PlateBuild build = plates(track, options, channel);  // throws where parts clash or do not add up
+    const WorkshopBuild build = plates(track, options, channel);  // throws where parts clash or do not add up
     CHECK(build.proof.pairs > 0);
     CHECK(build.proof.smallest_gap > 0.0);
     for (const ShopPart& part : build.workshop.parts) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/parts/plates.hpp"
+#include "glissade/parts/workshop_build.hpp"
 #include "glissade/pipeline/solve.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
@@ -59,7 +59,7 @@ struct Assembly {
   CrossSection section;
   std::vector<Part> parts;         ///< the swept solid first
   std::vector<PendingFile> files;  ///< in the order in which they are written and told
-  std::shared_ptr<const PlateBuild>
+  std::shared_ptr<const WorkshopBuild>
       fabrication;          ///< what a workshop makes; null where the design asks for none
   double cost = 0.0;        ///< of what has been done, in units of PendingFile::cost
   double total_cost = 1.0;  ///< of that and all files
@@ -77,7 +77,7 @@ struct Build {
   Track track;
   CrossSection section;
   std::vector<Part> parts;  ///< the swept solid first
-  std::shared_ptr<const PlateBuild>
+  std::shared_ptr<const WorkshopBuild>
       fabrication;                 ///< what a workshop makes; null where the design asks for none
   std::vector<WrittenFile> files;  ///< all of them, the report last
   /// Files of an earlier build of this design that this one does not make, unchanged since they were written.

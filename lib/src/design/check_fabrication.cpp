@@ -1,7 +1,9 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/parts/plates.hpp"
 
 #include "design/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -9,32 +11,31 @@
 
 namespace glissade {
 
-std::optional<ChannelMeasures> channel_of(const section::Measures& measures) {
-  if (const auto* const channel = std::get_if<section::UChannel>(&measures)) {
-    if (!channel->width.is_constant()) return std::nullopt;
-    return ChannelMeasures{channel->width.narrowest(), channel->wall_height, channel->thickness};
-  }
-  if (const auto* const slab = std::get_if<section::Slab>(&measures)) {
-    if (!slab->width.is_constant() || slab->curb_height != 0.0) return std::nullopt;
-    return ChannelMeasures{slab->width.narrowest(), 0.0, slab->thickness};
-  }
-  return std::nullopt;
+std::string_view process_word(const FabricationDesign& design) {
+  return std::visit([](const auto& process) { return process.kProcess; }, design.process);
+}
+
+bool fits(WorkshopFormat format, const FabricationDesign& design) {
+  const bool meshes = format == WorkshopFormat::three_mf || format == WorkshopFormat::stl_parts;
+  return !meshes || !std::holds_alternative<PlateOptions>(design.process);
+}
+
+bool ExportDesign::asks_for(WorkshopFormat format) const {
+  if (whole_workshop || workshop.empty()) return true;
+  return std::find(workshop.begin(), workshop.end(), format) != workshop.end();
 }
 
 namespace design_file {
 namespace {
 
-void check_numbers(const FabricationDesign& fabrication, Collected& findings) {
-  const auto positive = [&](double value, const std::string& key, const std::string& text, const char* hint) {
-    if (value > 0.0) return;
-    report(findings, {"fabrication." + key},
-           {"", key.substr(key.rfind('.') + 1) + ": " + text + " is not positive", "", hint});
-  };
-  positive(fabrication.arc_tolerance, "arc_tolerance", length_text(fabrication.arc_tolerance),
-           "0.1 mm, which suits plates");
-  const double density = fabrication.plate.material.density;
-  positive(density, "material.density", rounded_text(density, 6) + " kg/m^3", "7850 kg/m^3, which is steel");
-  const BendOptions& bend = fabrication.plate.bend;
+void positive(double value, const std::string& key, const std::string& text, const char* hint,
+              Collected& findings) {
+  if (value > 0.0) return;
+  report(findings, {"fabrication." + key},
+         {"", key.substr(key.rfind('.') + 1) + ": " + text + " is not positive", "", hint});
+}
+
+void check_bend(const BendOptions& bend, Collected& findings) {
   if (!(bend.value > 0.0)) {
     report(findings, {"fabrication.bend"},
            {"", "bend: " + rounded_text(bend.value, 6) + " is not positive",
@@ -47,35 +48,34 @@ void check_numbers(const FabricationDesign& fabrication, Collected& findings) {
   }
 }
 
+void check_process(const Design& design, const PlateOptions& plate, Collected& findings) {
+  check_bend(plate.bend, findings);
+  for (Issue& issue : plate_problems(*design.cross_section, plate)) {
+    const std::string key = (issue.where.starts_with("cross_section.") ? "" : "fabrication.") + issue.where;
+    issue.where.clear();
+    report(findings, {key}, std::move(issue));
+  }
+}
+
 }  // namespace
 
 void check_fabrication(const Design& design, Collected& findings) {
   if (!design.fabrication) return;
-  check_numbers(*design.fabrication, findings);
-  if (!design.cross_section) {
-    report(findings, {"fabrication"},
-           {"", "fabrication: there is no cross_section to make", "",
-            "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}"});
-    return;
-  }
-  const auto channel = channel_of(*design.cross_section);
-  if (!channel) {
-    const std::string kind(std::visit(
-        [](const auto& measures) { return std::decay_t<decltype(measures)>::kKind; }, *design.cross_section));
-    report(findings, {"cross_section.kind", "fabrication"},
-           {"", "fabrication: this " + kind + " cannot be made of plates yet",
-            "Plates are made of a flat floor of one width and upright walls.",
-            "kind: u-channel with one width, or a slab without curbs"});
-    return;
-  }
-  for (Issue& issue : plate_problems(*channel, design.fabrication->plate)) {
-    const std::string key =
-        (issue.where == "width" || issue.where == "thickness" ? "cross_section." : "fabrication.") +
-        issue.where;
-    issue.where.clear();
-    // Of a cross-section that is no good itself, its own check tells.
-    if (!key.starts_with("cross_section.")) report(findings, {key}, std::move(issue));
-  }
+  const FabricationDesign& fabrication = *design.fabrication;
+  positive(fabrication.arc_tolerance, "arc_tolerance", length_text(fabrication.arc_tolerance),
+           "0.1 mm, which suits plates", findings);
+  std::visit(
+      [&](const auto& process) {
+        const double density = process.material.density;
+        positive(density, "material.density", rounded_text(density, 6) + " kg/m^3",
+                 "7850 kg/m^3, which is steel", findings);
+        if (design.cross_section) check_process(design, process, findings);
+      },
+      fabrication.process);
+  if (design.cross_section) return;
+  report(findings, {"fabrication"},
+         {"", "fabrication: there is no cross_section to make", "",
+          "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}"});
 }
 
 }  // namespace design_file

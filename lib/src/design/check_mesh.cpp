@@ -90,19 +90,49 @@ void check_mesh(const Design& design, Collected& findings) {
   check_mesh_size(design, findings);
 }
 
-void check_export(const Design& design, Collected& findings) {
-  const std::vector<ExportFormat>& formats = design.exports.formats;
-  const bool listed = !formats.empty();
-  if (!listed) {
-    report(findings, {"export"},
-           {"", "export: no format is named", "A build writes at least one file.", "[stl, off, scad]"});
-  }
-  for (std::size_t index = 1; index < formats.size(); ++index) {
-    const auto here = formats.begin() + static_cast<std::ptrdiff_t>(index);
+namespace {
+
+template <typename Format>
+void refuse_repeated(const std::vector<Format>& formats, Collected& findings) {
+  for (auto here = formats.begin(); here != formats.end(); ++here) {
     if (std::find(formats.begin(), here, *here) == here) continue;
     report(findings, {"export"},
            {"", "export: " + std::string(word(*here)) + " is named twice", "", "each format once"});
   }
+}
+
+void check_workshop_files(const Design& design, Collected& findings) {
+  const ExportDesign& exports = design.exports;
+  if (!design.fabrication) {
+    if (!exports.whole_workshop && exports.workshop.empty()) return;
+    const std::string_view asked = exports.whole_workshop ? "workshop" : word(exports.workshop.front());
+    report(findings, {"export"},
+           {"", "export: " + std::string(asked) + " is of parts, and nothing makes any",
+            "Parts are made where the design has a fabrication.", "fabrication: {process: plate}"});
+    return;
+  }
+  for (const WorkshopFormat format : exports.workshop) {
+    if (fits(format, *design.fabrication)) continue;
+    report(findings, {"export"},
+           {"",
+            "export: " + std::string(word(format)) +
+                " does not fit process: " + std::string(process_word(*design.fabrication)),
+            "It holds " + std::string(kWorkshopFiles[static_cast<std::size_t>(format)].holds) + ".",
+            "export: workshop, which is all that fits"});
+  }
+}
+
+}  // namespace
+
+void check_export(const Design& design, Collected& findings) {
+  const ExportDesign& exports = design.exports;
+  if (exports.formats.empty() && exports.workshop.empty() && !exports.whole_workshop) {
+    report(findings, {"export"},
+           {"", "export: no format is named", "A build writes at least one file.", "[stl, off, scad]"});
+  }
+  refuse_repeated(exports.formats, findings);
+  refuse_repeated(exports.workshop, findings);
+  check_workshop_files(design, findings);
 }
 
 }  // namespace glissade::design_file

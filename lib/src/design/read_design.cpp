@@ -18,6 +18,7 @@
 #include "design/read_limits.hpp"
 #include "design/read_materials.hpp"
 #include "design/read_probes.hpp"
+#include "design/read_process.hpp"
 #include "design/read_rules.hpp"
 #include "design/read_segments.hpp"
 #include "design/read_stream.hpp"
@@ -258,7 +259,15 @@ MeshDesign read_mesh(MapReader& top, Findings& findings) {
 void read_formats(MapReader& top, const Value& list, ExportDesign& exports, Findings& findings) {
   exports.formats.clear();
   for (const Value& item : as_list(list, "[stl, off, scad]", findings)) {
-    if (const auto format = top.choice(item, export_words())) exports.formats.push_back(*format);
+    const auto asked = top.choice(item, export_words());
+    if (!asked) continue;
+    if (asked->solid) {
+      exports.formats.push_back(*asked->solid);
+    } else if (asked->parts) {
+      exports.workshop.push_back(*asked->parts);
+    } else {
+      exports.whole_workshop = true;
+    }
   }
 }
 
@@ -266,8 +275,11 @@ ExportDesign read_export(MapReader& top, Findings& findings) {
   ExportDesign exports;
   const std::optional<Value> value = top.find("export");
   if (!value) return exports;
-  // Of a workshop: the solid in the usual formats, beside what `fabrication` gives.
-  if (is_word(*value, "workshop", findings)) return exports;
+  // The solid in the usual formats, beside all files of the parts.
+  if (is_word(*value, "workshop", findings)) {
+    exports.whole_workshop = true;
+    return exports;
+  }
   if (value->node->kind != Node::Kind::map) {
     read_formats(top, *value, exports, findings);
     return exports;
@@ -280,6 +292,9 @@ ExportDesign read_export(MapReader& top, Findings& findings) {
   if (const auto frame = map.find("frame")) {
     exports.frame = map.choice(*frame, mesh_frame_words()).value_or(exports.frame);
   }
+  exports.dxf_version = chosen(map, "dxf_version", exports.dxf_version, dxf_version_words());
+  exports.layers = chosen(map, "layers", exports.layers, layer_words());
+  exports.paper = chosen(map, "paper", exports.paper, paper_words());
   map.refuse_unknown_keys();
   return exports;
 }

@@ -37,10 +37,12 @@ const Words<CrossSectionDesign>& cross_section_words() {
   return words;
 }
 
-const Words<ExportFormat>& export_words() {
-  static const Words<ExportFormat> words = [] {
-    Words<ExportFormat> all;
-    for (const FileFormat& row : kFileFormats) all.emplace_back(row.word, row.format);
+const Words<ExportWord>& export_words() {
+  static const Words<ExportWord> words = [] {
+    Words<ExportWord> all;
+    for (const FileFormat& row : kFileFormats) all.emplace_back(row.word, ExportWord{row.format, {}});
+    all.emplace_back("workshop", ExportWord{});
+    for (const WorkshopFile& row : kWorkshopFiles) all.emplace_back(row.word, ExportWord{{}, row.format});
     return all;
   }();
   return words;
@@ -56,17 +58,25 @@ const Words<MeshFrame>& mesh_frame_words() {
   return words;
 }
 
-namespace {
-
-template <typename Meaning>
-std::string_view word_of(Meaning meaning, const Words<Meaning>& words) {
-  for (const auto& [text, value] : words) {
-    if (value == meaning) return text;
-  }
-  throw InternalError({"", "a value of the design schema without a word", "", ""});
+const Words<DxfVersion>& dxf_version_words() {
+  static const Words<DxfVersion> words = {{"r2000", DxfVersion::r2000}, {"r12", DxfVersion::r12}};
+  return words;
 }
 
-}  // namespace
+const Words<LayerPreset>& layer_words() {
+  static const Words<LayerPreset> words = {{"own", LayerPreset::own},
+                                           {"plain", LayerPreset::plain},
+                                           {"inventor", LayerPreset::inventor},
+                                           {"sendcutsend", LayerPreset::sendcutsend}};
+  return words;
+}
+
+const Words<TemplatePaper>& paper_words() {
+  static const Words<TemplatePaper> words = {
+      {"a4", TemplatePaper::a4}, {"a3", TemplatePaper::a3}, {"roll", TemplatePaper::roll}};
+  return words;
+}
+
 }  // namespace design_file
 
 std::string_view word(CenterlineKind kind) {

@@ -5,6 +5,8 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "design/read_in_run.hpp"
+#include "design/write_fabrication.hpp"
+#include "design/written_text.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -13,70 +15,10 @@
 #include <variant>
 
 namespace glissade {
+
+using namespace design_file;
+
 namespace {
-
-/// A group of keys on one line or on several, as it is put together.
-class Group {
- public:
-  void add(std::string_view key, std::string value) { entries_.emplace_back(key, std::move(value)); }
-  void add(std::string_view key, double value, Dimension dimension) {
-    add(key, written_quantity(value, dimension));
-  }
-  void add(std::string_view key, const std::optional<double>& value, Dimension dimension) {
-    if (value) add(key, *value, dimension);
-  }
-  /// Leaves out what reads the same without it.
-  void add_unless(double left_out, std::string_view key, double value, Dimension dimension) {
-    if (value != left_out) add(key, value, dimension);
-  }
-
-  [[nodiscard]] std::string inlined() const {
-    std::string text;
-    for (const auto& [key, value] : entries_) text += (text.empty() ? "" : ", ") + key + ": " + value;
-    return "{" + text + "}";
-  }
-  [[nodiscard]] std::string lines() const {
-    if (entries_.empty()) return " {}\n";
-    std::string text = "\n";
-    for (const auto& [key, value] : entries_) text += "  " + key + ": " + value + "\n";
-    return text;
-  }
-
- private:
-  std::vector<std::pair<std::string, std::string>> entries_;
-};
-
-/// A text that YAML reads back byte for byte.
-std::string in_quotes(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string result = "\"";
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (letter == '"' || letter == '\\') {
-      result += {'\\', letter};
-    } else if (byte < 0x20U || byte == 0x7FU) {
-      result += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 15U]};
-    } else {
-      result += letter;
-    }
-  }
-  return result + "\"";
-}
-
-template <typename Things, typename Text>
-std::string list_of(const Things& things, Text text_of) {
-  std::string text;
-  for (const auto& thing : things) text += (text.empty() ? "" : ", ") + std::string(text_of(thing));
-  return "[" + text + "]";
-}
-
-std::string length(double value) {
-  return written_quantity(value, Dimension::length);
-}
-
-std::string point(Vec2 at) {
-  return "[" + length(at.x) + ", " + length(at.y) + "]";
-}
 
 std::string points(const std::vector<Vec2>& at) {
   return list_of(at, point);
@@ -605,82 +547,10 @@ std::string rules(const RulesDesign& design) {
   return group.lines();
 }
 
-std::string bend(const BendOptions& options) {
-  Group group;
-  switch (options.rule) {
-    case FacetRule::speed_loss:
-      group.add("speed_loss", options.value, Dimension::number);
-      break;
-    case FacetRule::chord_tolerance:
-      group.add("chord_tolerance", options.value, Dimension::length);
-      break;
-    case FacetRule::bends:
-      group.add("bends", options.value, Dimension::number);
-      break;
-    case FacetRule::segment_length:
-      group.add("segment_length", options.value, Dimension::length);
-      break;
-    case FacetRule::segment_angle:
-      group.add("segment_angle", options.value, Dimension::angle);
-      break;
-  }
-  group.add("inner_radius", options.inner_radius, Dimension::length);
-  group.add("k_factor", options.k_factor, Dimension::number);
-  return group.inlined();
-}
-
-std::string split(const SplitOptions& options) {
-  Group group;
-  group.add("longest", options.longest, Dimension::length);
-  group.add("sheet", point(options.sheet));
-  group.add("heaviest", options.heaviest, Dimension::mass);
-  if (!options.allowed) group.add("allowed", "false");
-  return group.inlined();
-}
-
-std::string flanges(const FlangeOptions& options) {
-  if (!options.wanted) return "none";
-  Group group;
-  group.add("width", options.width, Dimension::length);
-  group.add("thickness", options.thickness, Dimension::length);
-  group.add("bolt", "M" + std::to_string(options.bolt));
-  group.add("pitch", options.pitch, Dimension::length);
-  group.add("gap", options.gap, Dimension::length);
-  return group.inlined();
-}
-
-std::string fabrication(const FabricationDesign& design) {
-  const PlateOptions& plate = design.plate;
-  Group material;
-  material.add("name", in_quotes(plate.material.name));
-  material.add("density", plate.material.density, Dimension::density);
-  Group group;
-  group.add("process", "plate");
-  group.add("material", material.inlined());
-  group.add("arc_tolerance", design.arc_tolerance, Dimension::length);
-  group.add("floor", plate.floor == FloorMake::bent ? "bent" : "rolled");
-  group.add("bend", bend(plate.bend));
-  group.add("walls", plate.walls == WallSeat::on_floor ? "on-floor" : "beside-floor");
-  group.add("split", split(plate.split));
-  group.add("flanges", flanges(plate.flanges));
-  group.add("joint_step", plate.joint_step, Dimension::length);
-  return group.lines();
-}
-
 std::string mesh(const MeshDesign& design) {
   Group group;
   group.add("tolerance", design.tolerance, Dimension::length);
   if (design.largest_kink) group.add("largest_kink", design.largest_kink->radians(), Dimension::angle);
-  return group.lines();
-}
-
-std::string exports(const ExportDesign& design) {
-  Group group;
-  group.add("formats", list_of(design.formats, [](ExportFormat format) { return word(format); }));
-  group.add("unit", std::string(unit_symbol(design.unit)));
-  if (design.frame != ExportDesign{}.frame) {
-    group.add("frame", design.frame == MeshFrame::local ? "local" : "site");
-  }
   return group.lines();
 }
 
@@ -707,9 +577,9 @@ std::string design_text(const Design& design) {
     text += "rules:" + rules(design.rules);
   }
   if (design.cross_section) text += "cross_section:" + cross_section(*design.cross_section);
-  if (design.fabrication) text += "fabrication:" + fabrication(*design.fabrication);
+  if (design.fabrication) text += "fabrication:" + written_fabrication(*design.fabrication);
   text += "mesh:" + mesh(design.mesh);
-  return text + "export:" + exports(design.exports);
+  return text + "export:" + written_exports(design.exports);
 }
 
 }  // namespace glissade

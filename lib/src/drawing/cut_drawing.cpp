@@ -116,13 +116,14 @@ Drawing cut_drawing(const ShopPart& part, LayerPreset preset) {
   return CutDrawing(part, preset).whole();
 }
 
-std::vector<Sheet> part_template(const Workshop& workshop, const ShopPart& part, PaperSize size) {
+std::vector<Sheet> part_template(const Workshop& workshop, const ShopPart& part, TemplatePaper paper) {
   if (!part.pattern) return {};
   TitleBlock title;
   title.owner = workshop.name;
   title.number = std::to_string(part.number);
   title.title = part.name;
-  return tiled_template(cut_drawing(part), title, size);
+  if (paper == TemplatePaper::roll) return {roll_template(cut_drawing(part), title)};
+  return tiled_template(cut_drawing(part), title, paper == TemplatePaper::a4 ? PaperSize::a4 : PaperSize::a3);
 }
 
 }  // namespace glissade

@@ -117,8 +117,7 @@ void check_holes(const Workshop& workshop, std::vector<ShopCheck>& checks) {
   for (const Worst* worst : {&diameter, &edge, &pitch, &wide}) worst->add_to(checks);
 }
 
-void check_sizes(const Job& job, const Workshop& workshop, std::vector<ShopCheck>& checks) {
-  const SplitOptions& split = job.options.split;
+void check_sizes(const SplitOptions& split, const Workshop& workshop, std::vector<ShopCheck>& checks) {
   Worst largest(kSheet);
   Worst smallest(kSmallest);
   Worst mass(kMass);
@@ -174,7 +173,8 @@ class Objections {
   std::vector<Issue> issues_;
 };
 
-void object_to_flanges(const ChannelMeasures& channel, const FlangeOptions& flange, Objections& objections) {
+/// Of frames round any section.
+void object_to_bolts(const FlangeOptions& flange, Objections& objections) {
   if (!flange.wanted) return;
   objections.positive(flange.width, "flanges.width");
   objections.positive(flange.thickness, "flanges.thickness");
@@ -199,6 +199,14 @@ void object_to_flanges(const ChannelMeasures& channel, const FlangeOptions& flan
                    "Their centres are at least " + length_text(kLeastEdge * hole) + " from it (EN 1993-1-8).",
                    "a width of at least " + length_text(2.0 * kLeastEdge * hole) + ", or a smaller bolt");
   }
+}
+
+void object_to_flanges(const ChannelMeasures& channel, const FlangeOptions& flange, Objections& objections) {
+  object_to_bolts(flange, objections);
+  const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), flange.bolt) != bolt_sizes().end();
+  if (!flange.wanted || !known) return;
+  const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
+  const std::string bolt = "M" + std::to_string(flange.bolt);
   if (channel.wall_height <= 0.0) return;
   if (flange.width > channel.wall_height) {
     objections.add("flanges.width",
@@ -217,14 +225,51 @@ void object_to_flanges(const ChannelMeasures& channel, const FlangeOptions& flan
   }
 }
 
+void object_to_split(const SplitOptions& split, Objections& objections) {
+  objections.positive(split.sheet.x, "split.sheet");
+  objections.positive(split.sheet.y, "split.sheet");
+  if (split.longest) objections.positive(*split.longest, "split.longest");
+  if (split.heaviest && !(*split.heaviest > 0.0)) {
+    objections.add("split.heaviest", "heaviest: " + as_mass(*split.heaviest) + " is not positive", "",
+                   "25 kg");
+  }
+}
+
+void object_to_step(double step, Objections& objections) {
+  if (step >= 0.0) return;
+  objections.add("joint_step", "joint_step: " + length_text(step) + " is a step up",
+                 "The downstream edge is never higher than the upstream edge.", "joint_step: 0 mm");
+}
+
 }  // namespace
 
-std::vector<ShopCheck> shop_checks(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
+std::vector<ShopCheck> part_checks(const PlateOptions& options, const Workshop& workshop) {
   std::vector<ShopCheck> checks;
-  check_sizes(job, workshop, checks);
+  check_sizes(options.split, workshop, checks);
   check_holes(workshop, checks);
+  return checks;
+}
+
+ShopCheck rolling_check(double radius, double thickness, const std::string& where) {
+  Worst rolling(kRolling);
+  rolling.see(radius, 20.0 * thickness, where, as_length);
+  std::vector<ShopCheck> checks;
+  rolling.add_to(checks);
+  return checks.front();
+}
+
+std::vector<ShopCheck> shop_checks(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
+  std::vector<ShopCheck> checks = part_checks(job.options, workshop);
   check_floor(job, units, checks);
   return checks;
+}
+
+std::vector<Issue> common_problems(const PlateOptions& options) {
+  Objections objections;
+  object_to_split(options.split, objections);
+  object_to_bolts(options.flanges, objections);
+  object_to_step(options.joint_step, objections);
+  return std::move(objections).all();
 }
 
 }  // namespace parts
@@ -234,13 +279,7 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
   Objections objections;
   objections.positive(channel.width, "width");
   objections.positive(channel.thickness, "thickness");
-  objections.positive(options.split.sheet.x, "split.sheet");
-  objections.positive(options.split.sheet.y, "split.sheet");
-  if (options.split.longest) objections.positive(*options.split.longest, "split.longest");
-  if (options.split.heaviest && !(*options.split.heaviest > 0.0)) {
-    objections.add("split.heaviest", "heaviest: " + as_mass(*options.split.heaviest) + " is not positive", "",
-                   "25 kg");
-  }
+  object_to_split(options.split, objections);
   object_to_flanges(channel, options.flanges, objections);
   if (options.floor == FloorMake::bent) {
     const double radius = options.bend.inner_radius.value_or(channel.thickness);
@@ -256,10 +295,7 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
                      "walls: beside-floor, or floor: rolled");
     }
   }
-  if (!(options.joint_step >= 0.0)) {
-    objections.add("joint_step", "joint_step: " + length_text(options.joint_step) + " is a step up",
-                   "The downstream edge is never higher than the upstream edge.", "joint_step: 0 mm");
-  }
+  object_to_step(options.joint_step, objections);
   return std::move(objections).all();
 }
 

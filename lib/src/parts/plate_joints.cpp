@@ -12,7 +12,6 @@
 namespace glissade::parts {
 namespace {
 
-constexpr std::size_t kMostUnits = 400;
 constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where the track bends less
 constexpr double kPressFlat =
     4.0;  // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
@@ -36,44 +35,6 @@ double calm_place(const ArcSpline& track, double about, double room) {
     if (std::fabs(arc.start - best) < 0.1 * room) return arc.start;
   }
   return best;
-}
-
-std::vector<double> joints_of(const Job& job, std::size_t count) {
-  const double length = job.track.length();
-  const double even = length / static_cast<double>(count);
-  double room = kRoom * even;
-  if (job.options.split.longest)
-    room = std::min(room, 0.5 * std::max(0.0, *job.options.split.longest - even));
-  std::vector<double> joints = {0.0};
-  for (std::size_t k = 1; k < count; ++k) {
-    joints.push_back(calm_place(job.track, even * static_cast<double>(k), room));
-  }
-  joints.push_back(length);
-  return joints;
-}
-
-/// Why a part cannot be had in one piece; empty: it can.
-struct Excess {
-  std::string what;
-  std::string bound;
-};
-
-std::optional<Excess> excess(const Job& job, const ShopPart& part) {
-  const SplitOptions& split = job.options.split;
-  const PlaneBox box = bounds(part.pattern->region.outline);
-  const double longer = std::max(box.width(), box.height()) + 2.0 * kSheetMargin;
-  const double shorter = std::min(box.width(), box.height()) + 2.0 * kSheetMargin;
-  const double sheet_longer = std::max(split.sheet.x, split.sheet.y);
-  const double sheet_shorter = std::min(split.sheet.x, split.sheet.y);
-  if (longer > sheet_longer || shorter > sheet_shorter) {
-    return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of 5 mm",
-                  "the sheet is " + length_text(sheet_longer) + " x " + length_text(sheet_shorter)};
-  }
-  if (split.heaviest && part.mass > *split.heaviest) {
-    return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
-                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg"};
-  }
-  return std::nullopt;
 }
 
 std::string fold_text(const Job& job) {
@@ -111,32 +72,35 @@ std::vector<Unit> units_between(const Job& job, const std::vector<double>& joint
 
 }  // namespace
 
-Facets facets_of(const Job& job, const Span& span, double largest_kink) {
-  const BendOptions& bend = job.options.bend;
-  const double least = kPressFlat * job.channel.thickness;
+Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOptions& bend, double largest_kink,
+                      double least) {
   switch (bend.rule) {
     case FacetRule::chord_tolerance:
-      return facets_by_chord(job.track, span, bend.value, least);
+      return facets_by_chord(track, span, bend.value, least);
     case FacetRule::segment_length:
-      return facets_by_length(job.track, span, bend.value, least);
+      return facets_by_length(track, span, bend.value, least);
     case FacetRule::bends:
     case FacetRule::segment_angle:
     case FacetRule::speed_loss:
       break;
   }
-  return facets_by_angle(job.track, span, largest_kink, least);
+  return facets_by_angle(track, span, largest_kink, least);
 }
 
-double kink_for_speed(const Job& job, const Body& body, double gravity, double design_speed) {
-  const BendOptions& bend = job.options.bend;
+Facets facets_of(const Job& job, const Span& span, double largest_kink) {
+  return facets_by_rule(job.track, span, job.options.bend, largest_kink, kPressFlat * job.channel.thickness);
+}
+
+double kink_for_speed(const ArcSpline& track, const BendOptions& bend,
+                      const std::function<Facets(double)>& facets, const Body& body, double gravity,
+                      double design_speed) {
   double turning = 0.0;
-  for (const TrackArc& arc : job.track.arcs()) turning += std::fabs(arc.curvature) * arc.length;
+  for (const TrackArc& arc : track.arcs()) turning += std::fabs(arc.curvature) * arc.length;
   if (bend.rule == FacetRule::segment_angle) return bend.value;
   if (bend.rule == FacetRule::bends) return std::max(turning, 1e-9) / bend.value;
   if (bend.rule != FacetRule::speed_loss || !(turning > 0.0)) return 1.0;
-  const Span whole{0.0, job.track.length()};
   const auto cost = [&](double kink) {
-    const FacetRide ride = ride_facets({facets_of(job, whole, kink)}, body, gravity, 0.0);
+    const FacetRide ride = ride_facets({facets(kink)}, body, gravity, 0.0);
     return ride.arrives ? 1.0 - ride.speed / design_speed : 1.0;
   };
   // (1 + mu^2) turning^2 / (2 n) of the speed: the count that this asks for, then as many as the ride takes.
@@ -148,23 +112,45 @@ double kink_for_speed(const Job& job, const Body& body, double gravity, double d
   return turning / count;
 }
 
-std::vector<Unit> split_units(const Job& job, double largest_kink) {
-  const SplitOptions& split = job.options.split;
-  const double length = job.track.length();
+std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split, std::size_t count) {
+  const double length = track.length();
+  const double even = length / static_cast<double>(count);
+  double room = kRoom * even;
+  if (split.longest) room = std::min(room, 0.5 * std::max(0.0, *split.longest - even));
+  std::vector<double> joints = {0.0};
+  for (std::size_t k = 1; k < count; ++k) {
+    joints.push_back(calm_place(track, even * static_cast<double>(k), room));
+  }
+  joints.push_back(length);
+  return joints;
+}
+
+std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
+  const PlaneBox box = bounds(part.pattern->region.outline);
+  const double longer = std::max(box.width(), box.height()) + 2.0 * kSheetMargin;
+  const double shorter = std::min(box.width(), box.height()) + 2.0 * kSheetMargin;
+  const double sheet_longer = std::max(split.sheet.x, split.sheet.y);
+  const double sheet_shorter = std::min(split.sheet.x, split.sheet.y);
+  if (longer > sheet_longer || shorter > sheet_shorter) {
+    return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of 5 mm",
+                  "the sheet is " + length_text(sheet_longer) + " x " + length_text(sheet_shorter)};
+  }
+  if (split.heaviest && part.mass > *split.heaviest) {
+    return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
+                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg"};
+  }
+  return std::nullopt;
+}
+
+void split_until_it_fits(const SplitOptions& split, double length,
+                         const std::function<std::optional<Excess>(std::size_t)>& make) {
   std::size_t count = 1;
   if (split.longest && split.allowed)
     count = static_cast<std::size_t>(std::ceil(length / *split.longest - 1e-9));
   std::string last;
   for (; count <= kMostUnits; ++count) {
-    std::vector<Unit> units = units_between(job, joints_of(job, count), largest_kink);
-    std::optional<Excess> found;
-    for (std::size_t i = 0; i < units.size() && !found; ++i) {
-      const std::string number = " of unit " + std::to_string(i + 1);
-      if ((found = excess(job, units[i].floor))) found->what = "the floor" + number + " " + found->what;
-      if (found || !units[i].wall) continue;
-      if ((found = excess(job, *units[i].wall))) found->what = "a wall" + number + " " + found->what;
-    }
-    if (!found) return units;
+    const std::optional<Excess> found = make(count);
+    if (!found) return;
     if (!split.allowed) {
       throw InputError({"split", found->what, "One piece is asked for, and " + found->bound + ".",
                         "split without allowed: false, a larger sheet, or a larger heaviest"});
@@ -173,6 +159,24 @@ std::vector<Unit> split_units(const Job& job, double largest_kink) {
   }
   throw InputError({"split", "no " + std::to_string(kMostUnits) + " units are small enough: " + last, "",
                     "a larger sheet or heaviest"});
+}
+
+std::vector<Unit> split_units(const Job& job, double largest_kink) {
+  std::vector<Unit> units;
+  split_until_it_fits(job.options.split, job.track.length(), [&](std::size_t count) {
+    units = units_between(job, joints_of(job.track, job.options.split, count), largest_kink);
+    std::optional<Excess> found;
+    for (std::size_t i = 0; i < units.size() && !found; ++i) {
+      const std::string number = " of unit " + std::to_string(i + 1);
+      if ((found = excess(job.options.split, units[i].floor)))
+        found->what = "the floor" + number + " " + found->what;
+      if (found || !units[i].wall) continue;
+      if ((found = excess(job.options.split, *units[i].wall)))
+        found->what = "a wall" + number + " " + found->what;
+    }
+    return found;
+  });
+  return units;
 }
 
 }  // namespace glissade::parts

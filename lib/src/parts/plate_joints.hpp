@@ -2,6 +2,8 @@
 
 #include "parts/plate_unit.hpp"
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,20 @@ namespace glissade::parts {
 
 /// Round a part on its sheet [m].
 inline constexpr double kSheetMargin = 5e-3;
+inline constexpr std::size_t kMostUnits = 400;
+
+/// Why a part cannot be had in one piece.
+struct Excess {
+  std::string what;
+  std::string bound;
+};
+[[nodiscard]] std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part);
+
+/// Calls `make` with growing counts of units until no part exceeds what is allowed.
+/// @param make  units of a count: returns what exceeds, none if nothing does
+/// @throws InputError naming the part and what it exceeds, where that is not to be had
+void split_until_it_fits(const SplitOptions& split, double length,
+                         const std::function<std::optional<Excess>(std::size_t)>& make);
 
 /// A unit between two joints.
 struct Unit {
@@ -25,9 +41,20 @@ struct Unit {
 /// @throws InputError naming the part and what it exceeds, where that is not to be had
 [[nodiscard]] std::vector<Unit> split_units(const Job& job, double largest_kink);
 
-/// The least turning of one bend at which the bends cost no more than their share of the exit speed; that of the rule
+/// The largest turning of one bend at which the bends cost no more than their share of the exit speed; that of the rule
 /// where it is another one.
-[[nodiscard]] double kink_for_speed(const Job& job, const Body& body, double gravity, double design_speed);
+/// @param facets  of the whole track, by their largest turning
+[[nodiscard]] double kink_for_speed(const ArcSpline& track, const BendOptions& bend,
+                                    const std::function<Facets(double)>& facets, const Body& body,
+                                    double gravity, double design_speed);
+
+/// @return flats of a stretch by a rule
+[[nodiscard]] Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOptions& bend,
+                                    double largest_kink, double least);
+
+/// Places of joints of about even distance, where the track bends least nearby.
+[[nodiscard]] std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split,
+                                            std::size_t count);
 
 /// @return the flats of a unit by the rule of the job
 [[nodiscard]] Facets facets_of(const Job& job, const Span& span, double largest_kink);

@@ -7,6 +7,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/body_geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,9 +17,7 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kInset = 20e-6;  // from a part's edges to the points that are looked for in others [m]
-constexpr double kDeep = 10e-6;   // inside another part that counts as a clash [m]
-constexpr double kEdge = 1e-9;    // greatest difference of developed and finished edges [m]
+constexpr double kEdge = 1e-9;  // greatest difference of developed and finished edges [m]
 
 /// Area and first moment of the channel's section about the floor line.
 struct Section {
@@ -75,92 +75,13 @@ double exact_volume(const Job& job, const std::vector<Unit>& units) {
     volume += along_track(rectangle_section(floor_width(job), -thickness, 0.0), line.length(), floor_turned);
     if (!unit.wall) continue;
     if (folds(job.track, unit.span, heights.to)) {
-      volume += 2.0 * thickness * folded_area(job.track, unit.span, heights.from, heights.to);
+      volume += 2.0 * job.channel.wall() * folded_area(job.track, unit.span, heights.from, heights.to);
     } else {
-      volume += along_track(rectangle_section(2.0 * thickness, heights.from, heights.to),
+      volume += along_track(rectangle_section(2.0 * job.channel.wall(), heights.from, heights.to),
                             unit.span.to - unit.span.from, turned_along(job.track, unit.span));
     }
   }
   return volume;
-}
-
-/// One piece in space, for looking into.
-struct Piece {
-  const ShopPart* part = nullptr;
-  Frame place;
-  Vec3 low;
-  Vec3 high;
-};
-
-std::vector<Vec3> edge_points(const ShopPart& part, const Frame& place) {
-  const Prism& prism = std::get<Prism>(part.body);
-  std::vector<Vec3> points;
-  for (const PathPiece& piece : pieces_of(prism.region.outline)) {
-    constexpr int kPoints = 6;
-    for (int k = 0; k < kPoints; ++k) {
-      const double share = (k + 0.5) / kPoints;
-      const Vec2 at = point_on(piece, share);
-      const Vec2 ahead = point_on(piece, std::min(1.0, share + 1e-3)) - at;
-      const Vec2 inward = (kInset / norm(ahead)) * Vec2{-ahead.y, ahead.x};
-      for (const double z : {kInset, 0.5 * prism.depth, prism.depth - kInset}) {
-        points.push_back(place.to_space({at.x + inward.x, at.y + inward.y, z}));
-      }
-    }
-  }
-  return points;
-}
-
-double component(Vec3 a, Vec3 b) {
-  return dot(a, b);
-}
-
-/// How deep a point lies inside a piece; negative outside, no less than minus the distance.
-double depth_inside(const Piece& piece, Vec3 point) {
-  const Prism& prism = std::get<Prism>(piece.part->body);
-  const Vec3 away = point - piece.place.origin;
-  const double z = component(away, piece.place.z);
-  const double between = std::min(z, prism.depth - z);
-  if (between <= 0.0) return between;
-  const Vec2 flat{component(away, piece.place.x), component(away, piece.place.y)};
-  const PathPiece here{flat, flat + Vec2{1e-9, 0.0}, 0.0};
-  double edge = std::numeric_limits<double>::infinity();
-  for (const PathPiece& side : pieces_of(prism.region.outline)) edge = std::min(edge, distance(here, side));
-  return contains(prism.region.outline, flat) ? std::min(between, edge) : -edge;
-}
-
-std::vector<Piece> pieces_in_space(const Workshop& workshop) {
-  std::vector<Piece> pieces;
-  for (const ShopPart& part : workshop.parts) {
-    for (const Frame& place : part.places) {
-      constexpr double kFar = 1e300;
-      Piece piece{&part, place, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-      for (const Vec3 point : edge_points(part, place)) {
-        piece.low = {std::min(piece.low.x, point.x), std::min(piece.low.y, point.y),
-                     std::min(piece.low.z, point.z)};
-        piece.high = {std::max(piece.high.x, point.x), std::max(piece.high.y, point.y),
-                      std::max(piece.high.z, point.z)};
-      }
-      pieces.push_back(piece);
-    }
-  }
-  return pieces;
-}
-
-bool apart(const Piece& a, const Piece& b) {
-  constexpr double kMargin = 1e-3;
-  return a.low.x > b.high.x + kMargin || b.low.x > a.high.x + kMargin || a.low.y > b.high.y + kMargin ||
-         b.low.y > a.high.y + kMargin || a.low.z > b.high.z + kMargin || b.low.z > a.high.z + kMargin;
-}
-
-/// Points of one piece inside another.
-void require_apart(const Piece& a, const Piece& b) {
-  for (const Vec3 point : edge_points(*a.part, a.place)) {
-    const double depth = depth_inside(b, point);
-    if (depth <= kInset + kDeep) continue;
-    throw InternalError(
-        {"", "parts clash: " + a.part->name + " reaches " + length_text(depth, 3) + " into " + b.part->name,
-         "", "another design, and a report of this one"});
-  }
 }
 
 /// The least distance between the channel's outside and the inside of a frame.
@@ -229,14 +150,7 @@ PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop&
                              rounded_text(proof.exact_volume, 12) + " m^3",
                          "", ""});
   }
-  const std::vector<Piece> pieces = pieces_in_space(workshop);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-      if (k == i) continue;
-      proof.pairs += k > i ? 1 : 0;
-      if (!apart(pieces[i], pieces[k])) require_apart(pieces[i], pieces[k]);
-    }
-  }
+  proof.pairs = require_no_clash(workshop);
   if (job.options.flanges.wanted) proof.smallest_gap = least_frame_gap(job, units);
   proof.edge_mismatch = largest_edge_mismatch(job, units);
   if (!(proof.edge_mismatch <= kEdge)) {

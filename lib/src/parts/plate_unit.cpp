@@ -12,43 +12,10 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kRolledFibre = 0.5;  // of the thickness: radii are large
-constexpr double kNumberHeight = 20e-3;
-
-/// The smallest upright rectangle round a region lies at the origin, its floor line level on the whole.
-struct OwnPlane {
-  Vec2 origin;
-  double angle = 0.0;
-};
-
-OwnPlane own_plane(const ArcPath& outline) {
-  // Along the chord of the lower line: from the first vertex to the one farthest from it.
-  const Vec2 first = outline.vertices.front().at;
-  Vec2 far = first;
-  for (const PathVertex& vertex : outline.vertices) {
-    if (norm(vertex.at - first) > norm(far - first)) far = vertex.at;
-  }
-  OwnPlane plane;
-  plane.angle = math::atan2(far.y - first.y, far.x - first.x);
-  const ArcPath turned = moved(outline, PlaneMotion::turn(-plane.angle));
-  const PlaneBox box = bounds(turned);
-  plane.origin = PlaneMotion::turn(plane.angle)(box.low);
-  return plane;
-}
-
-Vec3 across(const Placement& placement) {
-  return placement.to_space(0.0, 0.0, 1.0) - placement.to_space(0.0, 0.0, 0.0);
-}
-
-Vec3 along(const Placement& placement) {
-  return placement.to_space(1.0, 0.0, 0.0) - placement.to_space(0.0, 0.0, 0.0);
-}
-
 constexpr Vec3 kUp{0.0, 0.0, 1.0};
 
-Vec3 in_space(const Placement& placement, Vec2 point) {
-  return placement.to_space(point.x, -point.y, 0.0);
-}
+constexpr double kRolledFibre = 0.5;  // of the thickness: radii are large
+constexpr double kNumberHeight = 20e-3;
 
 /// A level line across a flat pattern.
 struct Across {
@@ -61,6 +28,24 @@ Across across_at(double distance, double width) {
 
 double radius_of(double curvature) {
   return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
+}
+
+}  // namespace
+
+Vec3 across(const Placement& placement) {
+  return placement.to_space(0.0, 0.0, 1.0) - placement.to_space(0.0, 0.0, 0.0);
+}
+
+Vec3 along(const Placement& placement) {
+  return placement.to_space(1.0, 0.0, 0.0) - placement.to_space(0.0, 0.0, 0.0);
+}
+
+Vec3 in_space(const Placement& placement, Vec2 point) {
+  return placement.to_space(point.x, -point.y, 0.0);
+}
+
+Vec3 direction_in_space(const Placement& placement, Vec2 direction) {
+  return direction.x * along(placement) + direction.y * kUp;
 }
 
 void set_number_place(FlatPattern& pattern, const PlaneBox& box) {
@@ -76,7 +61,20 @@ void set_number_place(FlatPattern& pattern, const PlaneBox& box) {
   }
 }
 
-}  // namespace
+OwnPlane own_plane(const ArcPath& outline) {
+  // Along the chord of the lower line: from the first vertex to the one farthest from it.
+  const Vec2 first = outline.vertices.front().at;
+  Vec2 far = first;
+  for (const PathVertex& vertex : outline.vertices) {
+    if (norm(vertex.at - first) > norm(far - first)) far = vertex.at;
+  }
+  OwnPlane plane;
+  plane.angle = math::atan2(far.y - first.y, far.x - first.x);
+  const ArcPath turned = moved(outline, PlaneMotion::turn(-plane.angle));
+  const PlaneBox box = bounds(turned);
+  plane.origin = PlaneMotion::turn(plane.angle)(box.low);
+  return plane;
+}
 
 double bend_radius(const Job& job) {
   return job.options.bend.inner_radius.value_or(job.channel.thickness);
@@ -94,7 +92,7 @@ Span wall_heights(const Job& job) {
 
 double floor_width(const Job& job) {
   const bool under = job.options.walls == WallSeat::on_floor && job.channel.wall_height > 0.0;
-  return job.channel.width + (under ? 2.0 * job.channel.thickness : 0.0);
+  return job.channel.width + (under ? 2.0 * job.channel.wall() : 0.0);
 }
 
 Frame plane_of_track(const Placement& placement, Vec2 origin, double angle, double shift) {
@@ -105,15 +103,6 @@ Frame plane_of_track(const Placement& placement, Vec2 origin, double angle, doub
           -1.0 * left};
 }
 
-void weigh(ShopPart& part) {
-  const Prism& prism = std::get<Prism>(part.body);
-  const AreaMoments area = moments(prism.region);
-  part.volume = area.area * prism.depth;
-  part.mass = part.volume * part.density;
-  part.centre_of_gravity =
-      part.places.front().to_space({area.centroid.x, area.centroid.y, 0.5 * prism.depth});
-}
-
 ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
                        const std::vector<double>& shifts) {
   const OwnPlane plane = own_plane(region.outline);
@@ -121,7 +110,7 @@ ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
   ShopPart part;
   part.material = job.options.material.name;
   part.density = job.options.material.density;
-  part.thickness = job.channel.thickness;
+  part.thickness = depth;
   part.body = Prism{moved(region, PlaneMotion::turn(-plane.angle, -1.0 * back)), depth};
   for (const double shift : shifts) {
     part.places.push_back(plane_of_track(job.placement, plane.origin, plane.angle, shift));
@@ -157,6 +146,7 @@ ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep
   PlaneRegion side{*band(line, {0.0, line.length()}, -thickness, 0.0), {}, {}};
   for (PathVertex& vertex : side.outline.vertices) vertex.at = vertex.at + face.origin;
   ShopPart part = upright_plate(job, side, width, {-0.5 * width});
+  part.thickness = thickness;
   part.name = "floor";
   FlatPattern pattern;
   double reached = 0.0;
@@ -194,7 +184,7 @@ std::optional<ShopPart> wall_plate(const Job& job, const Span& span) {
   if (!outline) return std::nullopt;
   const double inner = 0.5 * job.channel.width;
   ShopPart part =
-      upright_plate(job, {*outline, {}, {}}, job.channel.thickness, {-inner - job.channel.thickness, inner});
+      upright_plate(job, {*outline, {}, {}}, job.channel.wall(), {-inner - job.channel.wall(), inner});
   part.name = "wall";
   FlatPattern pattern;
   pattern.region = std::get<Prism>(part.body).region;
@@ -214,7 +204,7 @@ Frame frame_place(const Job& job, double s, bool downstream) {
 
 ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& places) {
   const FlangeOptions& flange = job.options.flanges;
-  const double inner = 0.5 * job.channel.width + job.channel.thickness + flange.gap;
+  const double inner = 0.5 * job.channel.width + job.channel.wall() + flange.gap;
   const double low = -job.channel.thickness - flange.gap;
   const double outer = inner + flange.width;
   const double bottom = low - flange.width;

@@ -3,6 +3,7 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/parts/shop_part.hpp"
 
+#include "parts/body_geometry.hpp"
 #include "parts/facets.hpp"
 #include "parts/offset_line.hpp"
 
@@ -18,6 +19,13 @@ struct Job {
   const PlateOptions& options;
   const Placement& placement;
 };
+
+/// @return level directions of a placement: to the left of the run, along it
+[[nodiscard]] Vec3 across(const Placement& placement);
+[[nodiscard]] Vec3 along(const Placement& placement);
+/// @return points and directions of the plane (x, height) in space
+[[nodiscard]] Vec3 in_space(const Placement& placement, Vec2 point);
+[[nodiscard]] Vec3 direction_in_space(const Placement& placement, Vec2 direction);
 
 /// @return inner radius of the bends
 [[nodiscard]] double bend_radius(const Job& job);
@@ -37,8 +45,15 @@ struct Job {
 [[nodiscard]] ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
                                      const std::vector<double>& shifts);
 
-/// Fills in volume, mass and centre of gravity of a part whose body is a prism.
-void weigh(ShopPart& part);
+/// The smallest upright rectangle round a region lies at the origin, the chord of its lower line level.
+struct OwnPlane {
+  Vec2 origin;
+  double angle = 0.0;
+};
+[[nodiscard]] OwnPlane own_plane(const ArcPath& outline);
+
+/// Says where the part's number may stand, if there is room for it.
+void set_number_place(FlatPattern& pattern, const PlaneBox& box);
 
 /// The face of a unit's floor: of the track's arcs, or of flats and bends. From its own origin.
 struct FloorFace {

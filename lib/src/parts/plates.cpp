@@ -8,10 +8,13 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/mitred_pipe.hpp"
 #include "parts/plate_checks.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_proof.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/strips.hpp"
+#include "parts/workshop_list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -27,28 +30,6 @@ namespace glissade {
 using namespace parts;
 
 namespace {
-
-constexpr std::array<double, 3> kFloorColour{0.62, 0.66, 0.70};
-constexpr std::array<double, 3> kWallColour{0.45, 0.56, 0.68};
-constexpr std::array<double, 3> kFrameColour{0.80, 0.55, 0.30};
-
-bool same_pattern(const ShopPart& a, const ShopPart& b) {
-  return a.thickness == b.thickness && a.material == b.material && a.pattern && b.pattern &&
-         a.pattern->region == b.pattern->region;
-}
-
-/// Adds a part to the list; under the number of its equal where there is one.
-int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& colour) {
-  for (ShopPart& other : workshop.parts) {
-    if (!same_pattern(other, part)) continue;
-    other.places.insert(other.places.end(), part.places.begin(), part.places.end());
-    return other.number;
-  }
-  part.number = static_cast<int>(workshop.parts.size()) + 1;
-  part.colour = colour;
-  workshop.parts.push_back(std::move(part));
-  return workshop.parts.back().number;
-}
 
 void add_units(Workshop& workshop, const std::vector<Unit>& units) {
   for (std::size_t i = 0; i < units.size(); ++i) {
@@ -82,18 +63,8 @@ void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& j
   // Holes of one of two frames that meet are larger, so that they fit as they come.
   add_part(workshop, frame_plate(job, HoleFit::medium, downstream), kFrameColour);
   add_part(workshop, frame_plate(job, HoleFit::coarse, upstream), kFrameColour);
-  const std::size_t inner = joints.size() - 2;
-  if (inner == 0) return;
   const std::size_t holes = workshop.parts.back().pattern->region.holes.size();
-  const Bolt& bolt = bolt_of(job.options.flanges.bolt);
-  const double length = bolt_length(bolt, 2.0 * job.options.flanges.thickness);
-  const std::string size = "M" + std::to_string(bolt.size);
-  const std::string where = inner == 1 ? "at the joint" : "at the " + std::to_string(inner) + " joints";
-  const std::size_t count = holes * inner;
-  workshop.items.push_back(
-      {"bolt " + size + " x " + rounded_text(1e3 * length, 4), "ISO 4017 8.8", count, where});
-  workshop.items.push_back({"nut " + size, "ISO 4032 8", count, where});
-  workshop.items.push_back({"washer " + size, "ISO 7089 200 HV", 2 * count, where});
+  add_joint_bolts(workshop, job.options.flanges, holes, joints.size() - 2);
 }
 
 AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const Motion& design,
@@ -130,18 +101,24 @@ double k_factor(double inner_radius, double thickness) {
   return std::clamp(factor, 0.0, 0.5);
 }
 
-PlateBuild make_plates(const Centerline& track, const ChannelMeasures& channel, const MasterCurveOptions& fit,
-                       const PlateOptions& options, const Placement& placement, const Body& body,
-                       double gravity) {
+WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channel,
+                          const MasterCurveOptions& fit, const PlateOptions& options,
+                          const Placement& placement, const Body& body, double gravity) {
   std::vector<Issue> problems = plate_problems(channel, options);
   if (!problems.empty()) throw InputError(std::move(problems));
-  PlateBuild build;
+  WorkshopBuild build;
   build.master = fit_arcs(track, fit);
   const Job job{*build.master.spline, channel, options, placement};
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body,
                       gravity);  // of the design, which outlives it
-  const double kink =
-      options.floor == FloorMake::bent ? kink_for_speed(job, body, gravity, smooth.exit_speed()) : 1.0;
+  const double kink = options.floor == FloorMake::bent
+                          ? kink_for_speed(
+                                job.track, options.bend,
+                                [&](double largest) {
+                                  return facets_of(job, {0.0, job.track.length()}, largest);
+                                },
+                                body, gravity, smooth.exit_speed())
+                          : 1.0;
   const std::vector<Unit> units = split_units(job, kink);
   build.joints.push_back(0.0);
   for (const Unit& unit : units) build.joints.push_back(unit.span.to);
@@ -152,6 +129,66 @@ PlateBuild make_plates(const Centerline& track, const ChannelMeasures& channel, 
   build.ride = ride_as_built(job, units, smooth, body, gravity);
   workshop.checks = shop_checks(job, units, workshop);
   build.proof = prove(job, units, workshop);
+  return build;
+}
+
+std::optional<ChannelMeasures> channel_of(const section::Measures& measures) {
+  if (const auto* const channel = std::get_if<section::UChannel>(&measures)) {
+    if (!channel->width.is_constant()) return std::nullopt;
+    return ChannelMeasures{channel->width.narrowest(), channel->wall_height, channel->thickness};
+  }
+  if (const auto* const slab = std::get_if<section::Slab>(&measures)) {
+    if (!slab->width.is_constant()) return std::nullopt;
+    return ChannelMeasures{slab->width.narrowest(), slab->curb_height, slab->thickness, slab->curb_width};
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+bool is_mitred(const section::Measures& measures, const PlateOptions& options) {
+  return std::holds_alternative<section::Pipe>(measures) && options.round == RoundMake::mitred;
+}
+
+std::vector<Issue> width_changes() {
+  return {{"cross_section.width", "fabrication: plates of a width that changes along the track are not made",
+           "Floor and walls of such a channel are no strips of one width.",
+           "one width, or a design for each part of the track"}};
+}
+
+}  // namespace
+
+std::vector<Issue> plate_problems(const section::Measures& measures, const PlateOptions& options) {
+  if (const auto channel = channel_of(measures)) {
+    std::vector<Issue> issues = plate_problems(*channel, options);
+    // Of a cross-section that is no good itself, its own check tells.
+    std::erase_if(issues,
+                  [](const Issue& issue) { return issue.where == "width" || issue.where == "thickness"; });
+    return issues;
+  }
+  std::vector<Issue> issues = common_problems(options);
+  if (is_mitred(measures, options)) return issues;
+  const auto section = plate_section(measures, options);
+  for (Issue& issue : section ? strip_problems(*section, options) : width_changes())
+    issues.push_back(std::move(issue));
+  return issues;
+}
+
+WorkshopBuild make_plates(const Centerline& track, const section::Measures& measures,
+                          const MasterCurveOptions& fit, const PlateOptions& options,
+                          const Placement& placement, const Body& body, double gravity) {
+  std::vector<Issue> problems = plate_problems(measures, options);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  if (const auto channel = channel_of(measures))
+    return make_plates(track, *channel, fit, options, placement, body, gravity);
+  MasterCurve master = fit_arcs(track, fit);
+  const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
+  WorkshopBuild build = is_mitred(measures, options)
+                            ? make_mitred_pipe(*master.spline, std::get<section::Pipe>(measures), options,
+                                               placement, body, gravity, smooth)
+                            : make_strips(*master.spline, *plate_section(measures, options), options,
+                                          placement, body, gravity, smooth);
+  build.master = std::move(master);
   return build;
 }
 

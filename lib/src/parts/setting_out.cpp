@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace glissade::parts {
 namespace {
@@ -21,25 +22,36 @@ double round_step(double length) {
 
 }  // namespace
 
+SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord_span, const Placement& placement,
+                                  std::string what, double s) {
+  const CenterlinePoint at = track.at(s);
+  const CenterlinePoint from = track.at(chord_span.from);
+  const CenterlinePoint to = track.at(chord_span.to);
+  const Vec2 chord{to.x - from.x, from.drop - to.drop};
+  const Vec2 away{at.x - from.x, from.drop - at.drop};
+  SettingOutPoint row;
+  row.what = std::move(what);
+  row.arc_length = s;
+  row.x = at.x;
+  row.z = 0.0 - at.drop;
+  row.site = placement.to_space(at.x, at.drop, 0.0);
+  row.slope_angle = at.slope_angle;
+  row.radius = at.curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / at.curvature;
+  row.ordinate = cross(chord, away) / norm(chord);
+  return row;
+}
+
+void in_order(std::vector<SettingOutPoint>& rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](const SettingOutPoint& a, const SettingOutPoint& b) {
+    return a.arc_length < b.arc_length;
+  });
+}
+
 std::vector<SettingOutPoint> setting_out(const ArcSpline& track, const std::vector<double>& joints,
                                          const Placement& placement) {
-  const auto point = [&](const std::string& what, double s) {
-    const CenterlinePoint at = track.at(s);
+  const auto point = [&](std::string what, double s) {
     const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, s);
-    const CenterlinePoint from = track.at(*(next - 1));
-    const CenterlinePoint to = track.at(*next);
-    const Vec2 chord{to.x - from.x, from.drop - to.drop};
-    const Vec2 away{at.x - from.x, from.drop - at.drop};
-    SettingOutPoint row;
-    row.what = what;
-    row.arc_length = s;
-    row.x = at.x;
-    row.z = 0.0 - at.drop;
-    row.site = placement.to_space(at.x, at.drop, 0.0);
-    row.slope_angle = at.slope_angle;
-    row.radius = at.curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / at.curvature;
-    row.ordinate = cross(chord, away) / norm(chord);
-    return row;
+    return setting_out_point(track, {*(next - 1), *next}, placement, std::move(what), s);
   };
   std::vector<SettingOutPoint> rows;
   const double step = round_step(track.length());
@@ -49,9 +61,7 @@ std::vector<SettingOutPoint> setting_out(const ArcSpline& track, const std::vect
   }
   rows.push_back(point("start", 0.0));
   rows.push_back(point("finish", track.length()));
-  std::stable_sort(rows.begin(), rows.end(), [](const SettingOutPoint& a, const SettingOutPoint& b) {
-    return a.arc_length < b.arc_length;
-  });
+  in_order(rows);
   return rows;
 }
 

@@ -4,6 +4,9 @@
 #include "glissade/parts/shop_part.hpp"
 #include "glissade/route/placement.hpp"
 
+#include "parts/offset_line.hpp"
+
+#include <string>
 #include <vector>
 
 namespace glissade::parts {
@@ -13,5 +16,13 @@ namespace glissade::parts {
 [[nodiscard]] std::vector<SettingOutPoint> setting_out(const ArcSpline& track,
                                                        const std::vector<double>& joints,
                                                        const Placement& placement);
+
+/// One more place.
+/// @param chord  whose ordinate is told
+[[nodiscard]] SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord,
+                                                const Placement& placement, std::string what, double s);
+
+/// Puts rows in the order of their arc lengths.
+void in_order(std::vector<SettingOutPoint>& rows);
 
 }  // namespace glissade::parts

@@ -11,6 +11,7 @@
 #include "pipeline/located.hpp"
 #include "pipeline/stations.hpp"
 #include "pipeline/steps.hpp"
+#include "pipeline/workshop_files.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -293,12 +294,11 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
   add_gates(track, stem, files);
   std::vector<Part> parts;
   parts.push_back(std::move(part));
-  std::shared_ptr<const PlateBuild> fabrication;
+  std::shared_ptr<const WorkshopBuild> fabrication;
   if (design.fabrication) {
     steps.enter("making parts", kPartsCost);
     fabrication = fabricate(design, track, placement);
-    for (PendingFile& file : workshop_files(stem, design.fabrication->plate.split, fabrication))
-      files.push_back(std::move(file));
+    for (PendingFile& file : workshop_files(design, fabrication)) files.push_back(std::move(file));
   }
   return {std::move(stem),
           std::move(track),

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace glissade::pipeline {
 
@@ -14,12 +13,7 @@ namespace glissade::pipeline {
 /// The parts of a design's track, made and proven.
 /// @param frame  of the assembly: that of the mesh files
 /// @throws InputError with the place in the design
-[[nodiscard]] std::shared_ptr<const PlateBuild> fabricate(const Design& design, const Track& track,
-                                                          const Placement& frame);
-
-/// Every file that a workshop gets: a folder of parts, the assembly, drawings, a folder of nests, the tables.
-/// @param split  says the stock sheets
-[[nodiscard]] std::vector<PendingFile> workshop_files(const std::string& stem, const SplitOptions& split,
-                                                      const std::shared_ptr<const PlateBuild>& build);
+[[nodiscard]] std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track& track,
+                                                             const Placement& frame);
 
 }  // namespace glissade::pipeline

@@ -243,7 +243,7 @@ std::string build_json(const Design& design, const Build& build) {
   const Vec3 offset = build.swept().offset.value_or(Vec3{});
   json["mesh"]["offset_m"] = {offset.x, offset.y, offset.z};
   json["mesh"]["trimmed"] = build.swept().solid.trimmed;
-  report::add_parts(json, build.fabrication.get(), pipeline::stem_of(design));
+  report::add_parts(json, build.fabrication.get());
   json["files"] = Json::array();
   for (const WrittenFile& file : build.files) {
     json["files"].push_back({{"path", file.path.generic_string()}, {"bytes", file.bytes}});

@@ -201,7 +201,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.probes = probe_readings(design, track);
   input.warnings = warnings(design, track);
   input.rules = judge_rules(design, track);
-  input.plates = build.plates;
+  input.workshop = build.workshop;
   input.flights = flights_of(design, track);
   input.keep_outs = report_keep_outs(design);
   if (design.limits) input.envelope = envelope_of(design);

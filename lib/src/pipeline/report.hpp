@@ -18,7 +18,7 @@ struct BuildForReport {
   std::vector<std::filesystem::path> files;            ///< as they stand, in the order of the build
   std::vector<std::filesystem::path> read_back_files;  ///< those that were read again and compared
   std::stop_token stop = {};
-  const PlateBuild* plates = nullptr;  ///< what a workshop makes; null: nothing
+  const WorkshopBuild* workshop = nullptr;  ///< what a workshop makes; null: nothing
 };
 
 /// @return what the report page of a build is made from; a verdict is a pass only where this build compared

@@ -266,11 +266,11 @@ Json envelope_of(const ReportInput& input) {
 
 /// As --json has it; null without plates.
 Json fabrication_of(const ReportInput& input) {
-  if (input.plates == nullptr) return nullptr;
+  if (input.workshop == nullptr) return nullptr;
   Json json;
-  add_parts(json, input.plates, "");
+  add_parts(json, input.workshop);
   for (Json& part : json["parts"]) part.erase("files");
-  json["design_exit_speed_m_per_s"] = input.plates->ride.design_exit_speed;
+  json["design_exit_speed_m_per_s"] = input.workshop->ride.design_exit_speed;
   return json;
 }
 

@@ -141,6 +141,17 @@ struct ExportDesign {
   LengthUnit unit = LengthUnit::millimetre;
   MeshFrame frame = MeshFrame::local;
 
+  /// Files of the parts, where there is a `fabrication`: all that fit its process where `whole_workshop` says so or none is
+  /// named.
+  bool whole_workshop = false;
+  std::vector<WorkshopFormat> workshop;
+  DxfVersion dxf_version = DxfVersion::r2000;
+  LayerPreset layers = LayerPreset::own;      ///< of patterns
+  TemplatePaper paper = TemplatePaper::roll;  ///< of templates
+
+  /// @return whether these files of the parts are written, if they fit the process
+  [[nodiscard]] bool asks_for(WorkshopFormat format) const;
+
   friend bool operator==(const ExportDesign&, const ExportDesign&) = default;
 };
 

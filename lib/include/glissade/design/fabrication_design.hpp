@@ -1,21 +1,27 @@
 #pragma once
 
+#include "glissade/core/workshop_format.hpp"
 #include "glissade/parts/plate_options.hpp"
-#include "glissade/section/measures.hpp"
 
-#include <optional>
+#include <string_view>
+#include <variant>
 
 namespace glissade {
 
-/// How a workshop makes the track: `fabrication` of a design file.
+/// How a workshop makes the track: `fabrication` of a design file. Each process names itself (`kProcess`) and the arc
+/// tolerance that suits it (`kArcTolerance` [m]).
 struct FabricationDesign {
-  double arc_tolerance = 1e-4;  ///< greatest distance between the track and its arcs [m]; > 0
-  PlateOptions plate;
+  double arc_tolerance =
+      PlateOptions::kArcTolerance;  ///< greatest distance between the track and its arcs [m]; > 0
+  std::variant<PlateOptions> process;
 
   friend bool operator==(const FabricationDesign&, const FabricationDesign&) = default;
 };
 
-/// @return what a cross-section is as a channel of flat plates; none where it is no such channel
-[[nodiscard]] std::optional<ChannelMeasures> channel_of(const section::Measures& measures);
+/// @return the word of its process: "plate"
+[[nodiscard]] std::string_view process_word(const FabricationDesign& design);
+
+/// @return whether a process has such files at all: patterns are of plates, meshes of prints
+[[nodiscard]] bool fits(WorkshopFormat format, const FabricationDesign& design);
 
 }  // namespace glissade

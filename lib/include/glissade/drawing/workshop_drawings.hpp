@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/workshop_format.hpp"
 #include "glissade/drawing/sheet.hpp"
 #include "glissade/parts/shop_part.hpp"
 
@@ -8,11 +9,6 @@
 namespace glissade {
 
 /// Drawings of what a workshop makes: cutting patterns, views, the set of sheets.
-
-/// How the layers of a cutting file are named. `own`: CUT, MARK, BEND_UP, BEND_DOWN, ROLL. `plain`: all on layer 0, told apart
-/// by colour. `inventor`: IV_OUTER_PROFILE and its like. `sendcutsend`: one contour, bends dashed, nothing else, all on
-/// layer 0.
-enum class LayerPreset { own, plain, inventor, sendcutsend };
 
 /// What is cut from a sheet, 1:1 in millimetres, its lower left corner at (10, 10): closed contour, cutouts, holes; bends
 /// dashed, colours by their direction; roll lines; marks and the part's number in single strokes.
@@ -28,8 +24,8 @@ enum class LayerPreset { own, plain, inventor, sendcutsend };
 /// views with dimensions, holes, bends), bend schedule, setting-out table, checks; numbered.
 [[nodiscard]] std::vector<Sheet> drawing_set(const Workshop& workshop);
 
-/// 1:1 templates of a part's pattern, tiled over sheets; none for a part without one.
+/// 1:1 templates of a part's pattern, tiled over sheets or on one length of a roll; none for a part without one.
 [[nodiscard]] std::vector<Sheet> part_template(const Workshop& workshop, const ShopPart& part,
-                                               PaperSize size);
+                                               TemplatePaper paper);
 
 }  // namespace glissade

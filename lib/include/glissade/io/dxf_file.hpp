@@ -1,15 +1,12 @@
 #pragma once
 
+#include "glissade/core/workshop_format.hpp"
 #include "glissade/drawing/drawing.hpp"
 
 #include <filesystem>
 #include <string>
 
 namespace glissade {
-
-/// Which DXF: AutoCAD 2000 (AC1015), its paths closed LWPOLYLINEs with bulges; or release 12 (AC1009) for old cutters,
-/// its paths LINE and ARC.
-enum class DxfVersion { r2000, r12 };
 
 struct DxfOptions {
   DxfVersion version = DxfVersion::r2000;

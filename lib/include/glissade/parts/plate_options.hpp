@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace glissade {
@@ -63,13 +64,119 @@ struct FlangeOptions {
   friend bool operator==(const FlangeOptions&, const FlangeOptions&) = default;
 };
 
+/// How round sections are made of plates: rolled tubes between mitred planes, or flat strips along the track.
+enum class RoundMake { mitred, staves };
+
+/// A flat bar along the outside of each wall's top.
+struct RimOptions {
+  double width = 40e-3;     ///< outwards [m]
+  double thickness = 5e-3;  ///< its upper face is level with the wall's top [m]
+
+  friend bool operator==(const RimOptions&, const RimOptions&) = default;
+};
+
+/// Plates round the channel between its ends, against bulging.
+struct StiffenerOptions {
+  double spacing = 0.8;     ///< greatest distance along the track [m]
+  double width = 40e-3;     ///< from the channel outwards [m]
+  double thickness = 6e-3;  ///< [m]
+
+  friend bool operator==(const StiffenerOptions&, const StiffenerOptions&) = default;
+};
+
+/// Plates that wear in place of the floor. Their upper faces are the track's floor; the floor plate lies below them.
+struct LinerOptions {
+  StockMaterial material{"400 HB", 7850.0};
+  double thickness = 6e-3;   ///< [m]
+  double tile_length = 0.6;  ///< greatest, along the track [m]
+  double tile_width = 0.2;   ///< greatest, across [m]
+  double gap = 2e-3;         ///< between tiles, and beside the walls [m]
+  double heaviest = 25.0;    ///< mass of a tile [kg]
+  int bolt = 10;             ///< countersunk [mm]
+
+  friend bool operator==(const LinerOptions&, const LinerOptions&) = default;
+};
+
+/// Lids over the walls, bolted to the rim.
+struct CoverOptions {
+  double thickness = 2e-3;  ///< [m]
+  int bolt = 8;             ///< [mm]
+  double pitch = 300e-3;    ///< [m]
+
+  friend bool operator==(const CoverOptions&, const CoverOptions&) = default;
+};
+
+/// An opening in the left wall with a lid that is bolted over it.
+struct InspectionOptions {
+  double at = 0.0;  ///< its middle, along the track [m]
+  double length = 0.2;
+  double height = 0.15;
+  int bolt = 8;
+
+  friend bool operator==(const InspectionOptions&, const InspectionOptions&) = default;
+};
+
+/// Lugs beside the centre of gravity of each unit, one on each side.
+struct LiftingOptions {
+  double thickness = 10e-3;  ///< [m]
+  double hole = 22e-3;       ///< for a shackle [m]
+
+  friend bool operator==(const LiftingOptions&, const LiftingOptions&) = default;
+};
+
+/// Trestles from the ground to the underside: saddles, a cross beam, two legs with base plates and braces.
+struct SupportOptions {
+  std::vector<Vec2> ground;  ///< (x, height above the start), from left to right; one point: level [m]
+  double spacing = 2.0;      ///< greatest distance along the track [m]
+  double tube = 60e-3;       ///< outside of the square tubes [m]
+  double wall = 4e-3;        ///< of the tubes [m]
+  double steepest = 1.0471975511965976;  ///< slope angle of the track beyond which none stands [rad]
+  double braced_from = 1.5;  ///< length of a leg from which a trestle is braced [m]
+  double grout = 25e-3;      ///< below the base plates [m]
+  int anchor = 12;           ///< [mm]
+
+  friend bool operator==(const SupportOptions&, const SupportOptions&) = default;
+};
+
+/// How walls and floor are joined.
+enum class CornerJoint {
+  butt,         ///< edge to face, to be welded
+  lap,          ///< the floor goes on outside the walls, which stand on it
+  tab_and_slot  ///< tabs of the floor through slots of the walls
+};
+
+struct CornerOptions {
+  CornerJoint joint = CornerJoint::butt;
+  double lap = 15e-3;        ///< by which the floor stands out [m]
+  double tab = 40e-3;        ///< length of a tab along the track [m]
+  double spacing = 0.3;      ///< greatest distance of tabs [m]
+  double clearance = 0.1e-3; ///< of a tab in its slot, each side [m]
+  double below = 10e-3;      ///< by which walls with slots reach below the floor [m]
+
+  friend bool operator==(const CornerOptions&, const CornerOptions&) = default;
+};
+
 struct PlateOptions {
+  static constexpr std::string_view kProcess = "plate";
+  static constexpr double kArcTolerance = 0.1e-3;
+
   StockMaterial material;
   FloorMake floor = FloorMake::rolled;
   BendOptions bend;
   WallSeat walls = WallSeat::beside_floor;
   SplitOptions split;
   FlangeOptions flanges;
+  CornerOptions corners;
+  RoundMake round = RoundMake::mitred;
+  double stave_tolerance = 2e-3;  ///< greatest distance of staves from a round section [m]; > 0
+  double polygon_thickness = 4e-3;  ///< of the plates round a section that has none itself [m]; > 0
+  std::optional<RimOptions> rim;
+  std::optional<StiffenerOptions> stiffeners;
+  std::optional<LinerOptions> liner;
+  std::optional<CoverOptions> cover;
+  std::vector<InspectionOptions> inspection;
+  std::optional<LiftingOptions> lifting;
+  std::optional<SupportOptions> supports;
   double joint_step = 0.0;  ///< by which the floor may drop at a joint, downstream [m]; >= 0
 
   friend bool operator==(const PlateOptions&, const PlateOptions&) = default;
@@ -80,6 +187,9 @@ struct ChannelMeasures {
   double width = 0.0;
   double wall_height = 0.0;  ///< 0: a slab without walls
   double thickness = 0.0;
+  double wall_thickness = 0.0;  ///< of curbs; 0: as the floor
+
+  [[nodiscard]] double wall() const { return wall_thickness > 0.0 ? wall_thickness : thickness; }
 
   friend bool operator==(const ChannelMeasures&, const ChannelMeasures&) = default;
 };

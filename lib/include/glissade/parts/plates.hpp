@@ -4,46 +4,14 @@
 #include "glissade/motion/motion.hpp"
 #include "glissade/parts/master_curve.hpp"
 #include "glissade/parts/plate_options.hpp"
-#include "glissade/parts/shop_part.hpp"
+#include "glissade/parts/workshop_build.hpp"
 #include "glissade/route/placement.hpp"
+#include "glissade/section/measures.hpp"
 
-#include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace glissade {
-
-/// The body that rides what has been built.
-struct AsBuiltRide {
-  bool arrives = false;
-  double travel_time = 0.0;  ///< [s]
-  double exit_speed = 0.0;   ///< [m/s]
-  double design_travel_time = 0.0;
-  double design_exit_speed = 0.0;
-  std::size_t bends = 0;   ///< kinks of the floor
-  std::size_t joints = 0;  ///< between units
-  /// The highest load on the floor, between kinks [m/s^2].
-  double highest_load = 0.0;
-};
-
-/// How the parts stand to the solid that they make.
-struct PartsProof {
-  double volume = 0.0;         ///< of all floor and wall plates [m^3]
-  double exact_volume = 0.0;   ///< of the channel along the arcs, by another route [m^3]
-  double added_volume = 0.0;   ///< of flanges and what else is not of the channel, holes taken off [m^3]
-  double smallest_gap = 0.0;   ///< between parts that do not touch by design [m]
-  std::size_t pairs = 0;       ///< of parts that were held against each other
-  double edge_mismatch = 0.0;  ///< greatest difference of lengths between flat and finished edges [m]
-};
-
-struct PlateBuild {
-  MasterCurve master;
-  Workshop workshop;
-  std::vector<double> joints;  ///< arc lengths of the units' ends, first 0, last the length [m]
-  AsBuiltRide ride;
-  PartsProof proof;
-};
 
 /// A channel of flat floor and upright walls as plates: developed, split, flanged, listed, proven.
 ///
@@ -53,10 +21,25 @@ struct PlateBuild {
 /// Identity: mating edges are the same numbers; plates add up to the channel (PartsProof).
 /// @param body,gravity  what rides the parts as they are built
 /// @throws InputError with everything that cannot be made: where, value, bound, way out; ConvergenceError as fit_arcs()
-[[nodiscard]] PlateBuild make_plates(const Centerline& track, const ChannelMeasures& channel,
-                                     const MasterCurveOptions& fit, const PlateOptions& options,
-                                     const Placement& placement, const Body& body,
-                                     double gravity = kDefaultGravity);
+[[nodiscard]] WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channel,
+                                        const MasterCurveOptions& fit, const PlateOptions& options,
+                                        const Placement& placement, const Body& body,
+                                        double gravity = kDefaultGravity);
+
+/// @return what a cross-section is as a channel of a flat floor and upright walls; none where it is no such channel
+[[nodiscard]] std::optional<ChannelMeasures> channel_of(const section::Measures& measures);
+
+/// Any cross-section of one width as plates: channels as above; leaning, round and free ones as strips along the track that
+/// meet in mitres, each developed along a curve of curvature kappa cos b; pipes as mitred tubes, too.
+/// @throws as above
+[[nodiscard]] WorkshopBuild make_plates(const Centerline& track, const section::Measures& measures,
+                                        const MasterCurveOptions& fit, const PlateOptions& options,
+                                        const Placement& placement, const Body& body,
+                                        double gravity = kDefaultGravity);
+
+/// As plate_problems() of a channel, of any cross-section.
+[[nodiscard]] std::vector<Issue> plate_problems(const section::Measures& measures,
+                                                const PlateOptions& options);
 
 /// Stated bound of |volume - exact_volume| / exact_volume of a channel whose floor is rolled and whose walls fold
 /// nowhere.

@@ -95,6 +95,7 @@ struct ShopPart {
   PartBody body;                                ///< finished, in the part's own frame
   std::vector<Frame> places;                    ///< one a piece, in the frame of the assembly
   bool bought_in = false;                       ///< a bar or fitting that nobody cuts from a sheet
+  std::vector<std::string> files;               ///< of this part alone, below the folder of the build
 
   [[nodiscard]] std::size_t quantity() const { return places.size(); }
 };

@@ -6,7 +6,7 @@
 #include "glissade/motion/motion.hpp"
 #include "glissade/motion/probe.hpp"
 #include "glissade/optimize/optimize.hpp"
-#include "glissade/parts/plates.hpp"
+#include "glissade/parts/workshop_build.hpp"
 #include "glissade/route/placement.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
@@ -101,11 +101,11 @@ struct ReportInput {
   std::vector<ReportRide> rides;
   std::optional<Angle> stall_angle;  ///< friction angle from which on the body stalls on this track
   std::vector<ProbeReading> probes;
-  std::vector<Judgement> rules;        ///< the rules of the design, judged
-  const PlateBuild* plates = nullptr;  ///< what a workshop makes; null: nothing
-  std::vector<ReportFlight> flights;   ///< of a stream
-  std::vector<ReportCase> cases;       ///< of a stream: every friction with every flow
-  std::vector<Issue> warnings;         ///< what to hear of beside the answer
+  std::vector<Judgement> rules;             ///< the rules of the design, judged
+  const WorkshopBuild* workshop = nullptr;  ///< what a workshop makes; null: nothing
+  std::vector<ReportFlight> flights;        ///< of a stream
+  std::vector<ReportCase> cases;            ///< of a stream: every friction with every flow
+  std::vector<Issue> warnings;              ///< what to hear of beside the answer
   std::vector<ReportKeepOut> keep_outs;
   Envelope envelope;  ///< what the keep-outs are kept clear of; all 0: the centerline
   std::vector<ReportFile> files;

@@ -26,13 +26,13 @@ Json master_json(const MasterCurve& master) {
           {"kept", master.kept}};
 }
 
-Json part_json(const ShopPart& part, const std::string& stem) {
+Json part_json(const ShopPart& part) {
   const Vec3 centre = part.centre_of_gravity;
-  return {{"number", part.number},          {"name", part.name},
-          {"material", part.material},      {"thickness_m", part.thickness},
-          {"quantity", part.quantity()},    {"mass_kg", part.mass},
-          {"volume_m3", part.volume},       {"centre_of_gravity_m", {centre.x, centre.y, centre.z}},
-          {"files", part_files(stem, part)}};
+  return {{"number", part.number},       {"name", part.name},
+          {"material", part.material},   {"thickness_m", part.thickness},
+          {"quantity", part.quantity()}, {"mass_kg", part.mass},
+          {"volume_m3", part.volume},    {"centre_of_gravity_m", {centre.x, centre.y, centre.z}},
+          {"files", part.files}};
 }
 
 Json ride_json(const AsBuiltRide& ride) {
@@ -50,13 +50,7 @@ Json ride_json(const AsBuiltRide& ride) {
 
 }  // namespace
 
-std::vector<std::string> part_files(const std::string& stem, const ShopPart& part) {
-  const std::string name = stem + ".parts/" + file_stem(part);
-  if (!part.pattern) return {name + ".step"};
-  return {name + ".dxf", name + ".step"};
-}
-
-void add_parts(Json& json, const PlateBuild* build, const std::string& stem) {
+void add_parts(Json& json, const WorkshopBuild* build) {
   for (const char* const key : {"master_curve", "parts", "items", "as_built", "shop_checks",
                                 "parts_volume_m3", "channel_volume_m3", "joints_m"}) {
     json[key] = nullptr;
@@ -65,7 +59,7 @@ void add_parts(Json& json, const PlateBuild* build, const std::string& stem) {
   const Workshop& workshop = build->workshop;
   json["master_curve"] = master_json(build->master);
   json["parts"] = Json::array();
-  for (const ShopPart& part : workshop.parts) json["parts"].push_back(part_json(part, stem));
+  for (const ShopPart& part : workshop.parts) json["parts"].push_back(part_json(part));
   json["items"] = Json::array();
   for (const BoughtInItem& item : workshop.items) {
     json["items"].push_back({{"quantity", item.quantity},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/parts/plates.hpp"
+#include "glissade/parts/workshop_build.hpp"
 
 #include "report/serial/vocabulary.hpp"
 
@@ -10,10 +10,8 @@
 namespace glissade::report {
 
 /// @return names of the files of one part, relative to the directory of the build
-[[nodiscard]] std::vector<std::string> part_files(const std::string& stem, const ShopPart& part);
 
 /// Adds master_curve, parts, as_built, shop_checks and parts_volume_m3; null each where nothing is fabricated.
-/// @param stem  of the files' names
-void add_parts(Json& json, const PlateBuild* build, const std::string& stem);
+void add_parts(Json& json, const WorkshopBuild* build);
 
 }  // namespace glissade::report

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "glissade/parts/master_curve.hpp"
+#include "glissade/parts/shop_part.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace glissade {
+
+/// The body that rides what has been built.
+struct AsBuiltRide {
+  bool arrives = false;
+  double travel_time = 0.0;  ///< [s]
+  double exit_speed = 0.0;   ///< [m/s]
+  double design_travel_time = 0.0;
+  double design_exit_speed = 0.0;
+  std::size_t bends = 0;   ///< kinks of the floor
+  std::size_t joints = 0;  ///< between units
+  /// The highest load on the floor, between kinks [m/s^2].
+  double highest_load = 0.0;
+};
+
+/// How the parts stand to the solid that they make.
+struct PartsProof {
+  double volume = 0.0;         ///< of all parts that make up the solid [m^3]
+  double exact_volume = 0.0;   ///< of the solid along the arcs, by another route [m^3]
+  double added_volume = 0.0;   ///< of flanges and what else is not of the channel, holes taken off [m^3]
+  double smallest_gap = 0.0;   ///< between parts that do not touch by design [m]
+  std::size_t pairs = 0;       ///< of parts that were held against each other
+  double edge_mismatch = 0.0;  ///< greatest difference of lengths between flat and finished edges [m]
+};
+
+/// Everything that a process of fabrication makes of a track, proven.
+struct WorkshopBuild {
+  MasterCurve master;
+  Workshop workshop;
+  std::vector<double> joints;  ///< arc lengths of the units' ends, first 0, last the length [m]
+  AsBuiltRide ride;
+  PartsProof proof;
+};
+
+}  // namespace glissade

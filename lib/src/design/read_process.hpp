@@ -1,0 +1,27 @@
+#pragma once
+
+#include "glissade/design/fabrication_design.hpp"
+
+#include "design/map_reader.hpp"
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace glissade::design_file {
+
+/// Reads the keys of a process of `fabrication`, those that every process has excepted: material, arc_tolerance.
+[[nodiscard]] PlateOptions read_plate(MapReader& map, Findings& findings);
+
+/// @param material  what stands where a key is missing
+[[nodiscard]] StockMaterial read_material(const Value& value, StockMaterial material, Findings& findings);
+
+/// @return the meaning of a key's word; `otherwise` where the key is missing or no such word
+template <typename Meaning>
+Meaning chosen(MapReader& map, std::string_view key, Meaning otherwise,
+               const std::vector<std::pair<std::string_view, Meaning>>& words) {
+  const auto value = map.find(key);
+  return value ? map.choice(*value, words).value_or(otherwise) : otherwise;
+}
+
+}  // namespace glissade::design_file

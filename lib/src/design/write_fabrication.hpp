@@ -1,0 +1,21 @@
+#pragma once
+
+#include "glissade/design/design.hpp"
+
+#include "design/written_text.hpp"
+
+#include <string>
+
+namespace glissade::design_file {
+
+/// @return what follows `fabrication:` and `export:` in a design file
+[[nodiscard]] std::string written_fabrication(const FabricationDesign& design);
+[[nodiscard]] std::string written_exports(const ExportDesign& design);
+
+/// Adds the keys of one process, those that every process has excepted.
+void add_process(Group& group, const PlateOptions& plate);
+
+/// Of what several processes have.
+[[nodiscard]] std::string written_material(const StockMaterial& material);
+
+}  // namespace glissade::design_file

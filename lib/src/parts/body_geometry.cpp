@@ -1,0 +1,326 @@
+#include "parts/body_geometry.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kInset = 20e-6;  // from a part's edges to the points that are looked for in others [m]
+constexpr double kDeep = 10e-6;   // inside another part that counts as a clash [m]
+constexpr double kFar = 1e300;
+
+/// A plane section: x towards the upper side of its path, y across.
+struct SectionMoments {
+  double area = 0.0;
+  double x = 0.0;  // first moments
+  double y = 0.0;
+  double xx = 0.0;  // second ones
+  double xy = 0.0;
+};
+
+SectionMoments moments_of(const std::vector<Vec2>& corners) {
+  SectionMoments all;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 a = corners[i];
+    const Vec2 b = corners[(i + 1) % corners.size()];
+    const double twice = cross(a, b);
+    all.area += twice / 2.0;
+    all.x += twice * (a.x + b.x) / 6.0;
+    all.y += twice * (a.y + b.y) / 6.0;
+    all.xx += twice * (a.x * a.x + a.x * b.x + b.x * b.x) / 12.0;
+    all.xy += twice * (a.x * b.y + 2.0 * a.x * a.y + 2.0 * b.x * b.y + b.x * a.y) / 24.0;
+  }
+  if (all.area > 0.0) return all;
+  return {-all.area, -all.x, -all.y, -all.xx, -all.xy};
+}
+
+/// The unit tangent of a piece at a share of its length.
+Vec2 tangent_at(const PathPiece& piece, double share) {
+  const Vec2 chord = piece.to - piece.from;
+  const double angle = 4.0 * math::atan(piece.bulge) * (share - 0.5);
+  const auto [sine, cosine] = math::sine_cosine(angle);
+  return (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
+}
+
+double curvature_of(const PathPiece& piece) {
+  return 4.0 * math::atan(piece.bulge) / length(piece);
+}
+
+BodyMoments moments_of(const Prism& prism) {
+  const AreaMoments area = glissade::moments(prism.region);
+  return {area.area * prism.depth, {area.centroid.x, area.centroid.y, 0.5 * prism.depth}};
+}
+
+BodyMoments moments_of(const SweptBody& body) {
+  const SectionMoments section = moments_of(body.section);
+  // Gauss, four points on each of four panels a piece.
+  constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                            0.9305681557970263};
+  constexpr std::array<double, 4> kWeights = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                              0.1739274225687269};
+  constexpr int kPanels = 4;
+  BodyMoments all;
+  Vec3 first;
+  for (const PathPiece& piece : pieces_of(body.path)) {
+    const double whole = length(piece);
+    const double curvature = curvature_of(piece);
+    const double volume = whole * (section.area - curvature * section.x);
+    all.volume += volume;
+    first.z += whole * (section.y - curvature * section.xy);
+    for (int panel = 0; panel < kPanels; ++panel) {
+      for (std::size_t k = 0; k < kNodes.size(); ++k) {
+        const double share = (panel + kNodes[k]) / kPanels;
+        const Vec2 along = tangent_at(piece, share);
+        const double weight = kWeights[k] * whole / kPanels;
+        const Vec2 at = point_on(piece, share);
+        const double up = section.x - curvature * section.xx;
+        first.x += weight * (at.x * (section.area - curvature * section.x) - along.y * up);
+        first.y += weight * (at.y * (section.area - curvature * section.x) + along.x * up);
+      }
+    }
+  }
+  all.centroid = (1.0 / all.volume) * first;
+  return all;
+}
+
+BodyMoments moments_of(const TubeGore& gore) {
+  const double inner = gore.inner_radius;
+  const double outer = inner + gore.thickness;
+  const double area = std::numbers::pi * (outer * outer - inner * inner);
+  const double second =
+      0.25 * std::numbers::pi * (outer * outer * outer * outer - inner * inner * inner * inner);  // of x^2
+  const double start = math::tan(gore.start_tilt);
+  const double end = math::tan(gore.end_tilt);
+  // The planes' x terms average out of the volume, not of its moments.
+  const double x = second * (end - start);
+  const double z = 0.5 * (area * gore.length * gore.length + second * (end * end - start * start));
+  const double volume = area * gore.length;
+  return {volume, {x / volume, 0.0, z / volume}};
+}
+
+std::vector<Vec3> points_of(const Prism& prism, double inset) {
+  std::vector<Vec3> points;
+  const auto along_path = [&](const ArcPath& path, bool outline) {
+    const bool left = (signed_area(path) > 0.0) == outline;  // the material's side
+    for (const PathPiece& piece : pieces_of(path)) {
+      constexpr int kPoints = 6;
+      for (int k = 0; k < kPoints; ++k) {
+        const double share = (k + 0.5) / kPoints;
+        const Vec2 at = point_on(piece, share);
+        const Vec2 along = tangent_at(piece, share);
+        const Vec2 inward = (left ? inset : -inset) * Vec2{-along.y, along.x};
+        for (const double z : {inset, 0.5 * prism.depth, prism.depth - inset}) {
+          points.push_back({at.x + inward.x, at.y + inward.y, z});
+        }
+      }
+    }
+  };
+  along_path(prism.region.outline, true);
+  for (const ArcPath& cutout : prism.region.cutouts) along_path(cutout, false);
+  return points;
+}
+
+std::vector<Vec3> points_of(const SweptBody& body, double inset) {
+  const SectionMoments section = moments_of(body.section);
+  const Vec2 middle{section.x / section.area, section.y / section.area};
+  std::vector<Vec2> places = {middle};
+  for (const Vec2 corner : body.section) {
+    const Vec2 inward = middle - corner;
+    // Inside both faces of a sharp corner.
+    places.push_back(corner + std::min(1.0, 4.0 * inset / norm(inward)) * inward);
+  }
+  std::vector<Vec3> points;
+  const std::vector<PathPiece> pieces = pieces_of(body.path);
+  for (const PathPiece& piece : pieces) {
+    const double edge = inset / length(piece);
+    for (const double share : {edge, 0.25, 0.5, 0.75, 1.0 - edge}) {
+      const Vec2 at = point_on(piece, share);
+      const Vec2 along = tangent_at(piece, share);
+      const Vec2 up{-along.y, along.x};
+      for (const Vec2 place : places) {
+        const Vec2 here = at + place.x * up;
+        points.push_back({here.x, here.y, place.y});
+      }
+    }
+  }
+  return points;
+}
+
+std::vector<Vec3> points_of(const TubeGore& gore, double inset) {
+  std::vector<Vec3> points;
+  constexpr int kPoints = 24;
+  for (int k = 0; k < kPoints; ++k) {
+    const auto [sine, cosine] = math::sine_cosine(2.0 * std::numbers::pi * k / kPoints);
+    for (const double radius : {gore.inner_radius + inset, gore.inner_radius + gore.thickness - inset}) {
+      const double x = radius * cosine;
+      const double low = x * math::tan(gore.start_tilt) + 2.0 * inset;
+      const double high = gore.length + x * math::tan(gore.end_tilt) - 2.0 * inset;
+      for (const double z : {low, 0.5 * (low + high), high}) points.push_back({x, radius * sine, z});
+    }
+  }
+  return points;
+}
+
+double distance_to(const ArcPath& path, Vec2 point) {
+  const PathPiece here{point, point + Vec2{1e-9, 0.0}, 0.0};
+  double least = std::numeric_limits<double>::infinity();
+  for (const PathPiece& piece : pieces_of(path)) least = std::min(least, distance(here, piece));
+  return least;
+}
+
+double depth_in(const PlaneRegion& region, Vec2 point) {
+  double edge = distance_to(region.outline, point);
+  bool inside = contains(region.outline, point);
+  for (const ArcPath& cutout : region.cutouts) {
+    edge = std::min(edge, distance_to(cutout, point));
+    inside = inside && !contains(cutout, point);
+  }
+  return inside ? edge : -edge;
+}
+
+double depth_in(const Prism& prism, Vec3 point) {
+  const double between = std::min(point.z, prism.depth - point.z);
+  if (between <= 0.0) return between;
+  const double flat = depth_in(prism.region, Vec2{point.x, point.y});
+  return flat > 0.0 ? std::min(flat, between) : flat;
+}
+
+double depth_in(const SweptBody& body, Vec3 point) {
+  const ArcPath section{[&] {
+                          std::vector<PathVertex> corners;
+                          for (const Vec2 corner : body.section) corners.push_back({corner, 0.0});
+                          return corners;
+                        }(),
+                        true};
+  const Vec2 flat{point.x, point.y};
+  const std::vector<PathPiece> pieces = pieces_of(body.path);
+  double deepest = -kFar;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const PathPiece& piece = pieces[i];
+    // Along the piece from its start, and above it; ends of the body alone count as faces.
+    double along = 0.0;
+    double above = 0.0;
+    if (piece.straight()) {
+      const Vec2 tangent = tangent_at(piece, 0.0);
+      along = dot(flat - piece.from, tangent);
+      above = cross(tangent, flat - piece.from);
+    } else {
+      const CircularArc arc = arc_of(piece);
+      const Vec2 spoke = flat - arc.centre;
+      const Vec2 start = piece.from - arc.centre;
+      const double sense = arc.sweep > 0.0 ? 1.0 : -1.0;
+      along = sense * arc.radius * math::atan2(cross(start, spoke), dot(start, spoke));
+      above = sense * (arc.radius - norm(spoke));
+    }
+    const double whole = length(piece);
+    const double from_start = i == 0 ? along : along + kInset;
+    const double from_end = (i + 1 == pieces.size() ? 0.0 : kInset) + whole - along;
+    const double lengthwise = std::min(i == 0 ? from_start : kFar, i + 1 == pieces.size() ? from_end : kFar);
+    if (from_start < 0.0 || from_end < 0.0) {
+      deepest = std::max(deepest, std::min(from_start, from_end));
+      continue;
+    }
+    const double flat_depth = depth_in(PlaneRegion{section, {}, {}}, Vec2{above, point.z});
+    deepest = std::max(deepest, flat_depth > 0.0 ? std::min(flat_depth, lengthwise) : flat_depth);
+  }
+  return deepest;
+}
+
+double depth_in(const TubeGore& gore, Vec3 point) {
+  const double radius = math::hypot(point.x, point.y);
+  const double start = (point.z - point.x * math::tan(gore.start_tilt)) * math::cos(gore.start_tilt);
+  const double end = (gore.length + point.x * math::tan(gore.end_tilt) - point.z) * math::cos(gore.end_tilt);
+  return std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end});
+}
+
+/// One piece in space, for looking into.
+struct Piece {
+  const ShopPart* part = nullptr;
+  Frame place;
+  std::vector<Vec3> points;
+  Vec3 low{kFar, kFar, kFar};
+  Vec3 high{-kFar, -kFar, -kFar};
+};
+
+std::vector<Piece> pieces_in_space(const Workshop& workshop) {
+  std::vector<Piece> pieces;
+  for (const ShopPart& part : workshop.parts) {
+    const std::vector<Vec3> own = edge_points(part.body, kInset);
+    for (const Frame& place : part.places) {
+      Piece piece{&part, place, {}, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+      for (const Vec3 local : own) {
+        const Vec3 point = place.to_space(local);
+        piece.points.push_back(point);
+        piece.low = {std::min(piece.low.x, point.x), std::min(piece.low.y, point.y),
+                     std::min(piece.low.z, point.z)};
+        piece.high = {std::max(piece.high.x, point.x), std::max(piece.high.y, point.y),
+                      std::max(piece.high.z, point.z)};
+      }
+      pieces.push_back(std::move(piece));
+    }
+  }
+  return pieces;
+}
+
+constexpr double kMargin = 1e-3;  // of boxes round points that lie just inside
+
+bool within(const Piece& box, Vec3 low, Vec3 high) {
+  return low.x <= box.high.x + kMargin && box.low.x <= high.x + kMargin && low.y <= box.high.y + kMargin &&
+         box.low.y <= high.y + kMargin && low.z <= box.high.z + kMargin && box.low.z <= high.z + kMargin;
+}
+
+/// Points of one piece inside another.
+void require_apart(const Piece& a, const Piece& b) {
+  for (const Vec3 point : a.points) {
+    if (!within(b, point, point)) continue;
+    const Vec3 away = point - b.place.origin;
+    const double depth =
+        depth_inside(b.part->body, {dot(away, b.place.x), dot(away, b.place.y), dot(away, b.place.z)});
+    if (depth <= kInset + kDeep) continue;
+    throw InternalError(
+        {"", "parts clash: " + a.part->name + " reaches " + length_text(depth, 3) + " into " + b.part->name,
+         "", "another design, and a report of this one"});
+  }
+}
+
+}  // namespace
+
+BodyMoments moments(const PartBody& body) {
+  return std::visit([](const auto& one) { return moments_of(one); }, body);
+}
+
+void weigh(ShopPart& part) {
+  const BodyMoments all = moments(part.body);
+  part.volume = all.volume;
+  part.mass = part.volume * part.density;
+  part.centre_of_gravity = part.places.front().to_space(all.centroid);
+}
+
+std::vector<Vec3> edge_points(const PartBody& body, double inset) {
+  return std::visit([&](const auto& one) { return points_of(one, inset); }, body);
+}
+
+double depth_inside(const PartBody& body, Vec3 point) {
+  return std::visit([&](const auto& one) { return depth_in(one, point); }, body);
+}
+
+std::size_t require_no_clash(const Workshop& workshop) {
+  const std::vector<Piece> pieces = pieces_in_space(workshop);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (k != i && within(pieces[k], pieces[i].low, pieces[i].high)) require_apart(pieces[i], pieces[k]);
+    }
+  }
+  return pieces.size() * (pieces.size() - 1) / 2;
+}
+
+}  // namespace glissade::parts

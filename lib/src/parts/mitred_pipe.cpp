@@ -1,0 +1,456 @@
+#include "parts/mitred_pipe.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/bolts.hpp"
+#include "parts/plate_checks.hpp"
+#include "parts/plate_joints.hpp"
+#include "parts/plate_unit.hpp"
+#include "parts/setting_out.hpp"
+#include "parts/workshop_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kLeastCrown = 15e-3;       // length of a tube where it is shortest: room for two welds [m]
+constexpr double kSeam = 20.0 * kPi / 180;  // of a seam from the crown, to either side in turn
+
+/// One tube, in the plane of the track.
+struct Gore {
+  Vec2 from;  ///< of its axis
+  Vec2 along;
+  TubeGore body;
+  double floor_length = 0.0;  ///< of its lowest line [m]
+  bool odd = false;           ///< its seam lies on the other side
+};
+
+/// Tubes of a transport unit.
+struct GoreUnit {
+  std::vector<Gore> gores;
+};
+
+Vec2 up_of(Vec2 along) {
+  return {-along.y, along.x};
+}
+
+/// Everything that the tubes of one pipe are made from.
+struct PipeJob {
+  const ArcSpline& track;
+  const section::Pipe& pipe;
+  const PlateOptions& options;
+  const Placement& placement;
+
+  [[nodiscard]] double radius() const { return 0.5 * pipe.inner_diameter; }
+  [[nodiscard]] double mean_radius() const { return radius() + 0.5 * pipe.thickness; }
+  [[nodiscard]] double least_crown() const {
+    return std::max(kLeastCrown, options.flanges.wanted ? options.flanges.thickness + 9e-3 : 0.0);
+  }
+};
+
+double tilt_before(const Facets& facets, std::size_t flat) {
+  return flat == 0 ? 0.0 : 0.5 * facets.kinks[flat - 1];
+}
+
+double tilt_after(const Facets& facets, std::size_t flat) {
+  return flat + 1 == facets.corners.size() - 1 ? 0.0 : 0.5 * facets.kinks[flat];
+}
+
+/// Length of a tube's line at a height above the floor line.
+double length_at(const Facets& facets, std::size_t flat, double height) {
+  const double whole = norm(facets.corners[flat + 1] - facets.corners[flat]);
+  return whole - height * (math::tan(tilt_before(facets, flat)) + math::tan(tilt_after(facets, flat)));
+}
+
+double shortest_line(const PipeJob& job, const Facets& facets, std::size_t flat) {
+  const double top = job.pipe.inner_diameter + job.pipe.thickness;
+  return std::min(length_at(facets, flat, top), length_at(facets, flat, -job.pipe.thickness));
+}
+
+/// Flats whose tubes are nowhere shorter than they may be: those of the rule, fewer where the track turns too fast for them.
+Facets flats_of(const PipeJob& job, double largest_kink) {
+  const Span whole{0.0, job.track.length()};
+  double least = 0.0;
+  for (int round = 0; round < 80; ++round) {
+    Facets facets = facets_by_rule(job.track, whole, job.options.bend, largest_kink, least);
+    const auto is_short = [&](std::size_t flat) {
+      return shortest_line(job, facets, flat) < job.least_crown();
+    };
+    std::size_t flat = 0;
+    while (flat + 1 < facets.corners.size() && !is_short(flat)) ++flat;
+    if (flat + 1 == facets.corners.size()) return facets;
+    if (facets.bends() == 0) break;
+    least = std::max(1.15 * least, 0.5 * job.least_crown());
+  }
+  throw InputError(
+      {"cross_section.inner_diameter",
+       "inner_diameter: " + length_text(job.pipe.inner_diameter) + " is too large for mitred tubes",
+       "Where this track turns fastest, tubes would be shorter than " + length_text(job.least_crown()) +
+           " at the crown.",
+       "a smaller_radius limit of the track above " + length_text(2.0 * job.pipe.inner_diameter, 2) +
+           ", a smaller pipe, or round: staves"});
+}
+
+/// A stretch of a flat; an end that is none of the flat is square, and so are those of the track.
+struct Stretch {
+  std::size_t flat = 0;
+  std::optional<double> from;  ///< along the flat; none: its mitre [m]
+  std::optional<double> to;
+};
+
+Gore gore_of(const PipeJob& job, const Facets& facets, const Stretch& stretch) {
+  const std::size_t flat = stretch.flat;
+  const Vec2 along = facets.corners[flat + 1] - facets.corners[flat];
+  const double whole = norm(along);
+  const Vec2 unit = (1.0 / whole) * along;
+  const double radius = job.radius();
+  const double before = stretch.from ? 0.0 : tilt_before(facets, flat);
+  const double after = stretch.to ? 0.0 : tilt_after(facets, flat);
+  const double start = stretch.from.value_or(0.0) + radius * math::tan(before);
+  const double end = stretch.to.value_or(whole) - radius * math::tan(after);
+  Gore gore;
+  gore.from = facets.corners[flat] + start * unit + radius * up_of(unit);
+  gore.along = unit;
+  gore.body = {radius, job.pipe.thickness, end - start, before, -after};
+  gore.floor_length = stretch.to.value_or(whole) - stretch.from.value_or(0.0);
+  return gore;
+}
+
+/// Distance along the flats to each corner.
+std::vector<double> reached(const Facets& facets) {
+  std::vector<double> sums = {0.0};
+  for (std::size_t i = 0; i + 1 < facets.corners.size(); ++i) {
+    sums.push_back(sums.back() + norm(facets.corners[i + 1] - facets.corners[i]));
+  }
+  return sums;
+}
+
+/// Joints stand square in a tube, far enough from its mitres for the flange: the nearest such places to even ones.
+std::vector<double> joints_along(const PipeJob& job, const Facets& facets, std::size_t count) {
+  const std::vector<double> corners = reached(facets);
+  const double high = job.pipe.inner_diameter + job.pipe.thickness;
+  std::vector<double> joints = {0.0};
+  for (std::size_t k = 1; k < count; ++k) {
+    const double about = corners.back() * static_cast<double>(k) / static_cast<double>(count);
+    double best = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      const auto room = [&](double tilt) {
+        return std::max(high * math::tan(tilt), -job.pipe.thickness * math::tan(tilt)) + job.least_crown();
+      };
+      const double low = corners[i] + room(tilt_before(facets, i));
+      const double top = corners[i + 1] - room(tilt_after(facets, i));
+      if (!(top > low)) continue;
+      const double place = std::clamp(about, low, top);
+      if (!(std::fabs(place - about) >= std::fabs(best - about))) best = place;
+    }
+    if (best > joints.back()) joints.push_back(best);
+  }
+  joints.push_back(corners.back());
+  return joints;
+}
+
+std::vector<GoreUnit> units_between(const PipeJob& job, const Facets& facets,
+                                    const std::vector<double>& joints) {
+  const std::vector<double> corners = reached(facets);
+  std::vector<GoreUnit> units;
+  bool odd = false;
+  for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
+    GoreUnit unit;
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      const double from = std::max(joints[j], corners[i]);
+      const double to = std::min(joints[j + 1], corners[i + 1]);
+      if (!(to - from > 1e-9)) continue;
+      Stretch stretch{i, {}, {}};
+      if (joints[j] > corners[i]) stretch.from = joints[j] - corners[i];
+      if (joints[j + 1] < corners[i + 1]) stretch.to = joints[j + 1] - corners[i];
+      unit.gores.push_back(gore_of(job, facets, stretch));
+      unit.gores.back().odd = odd;
+      odd = !odd;
+    }
+    units.push_back(std::move(unit));
+  }
+  return units;
+}
+
+// --- patterns
+
+/// A sine line over the unrolled circumference.
+struct SineLine {
+  double amplitude = 0.0;  ///< [m]
+  double radius = 0.0;     ///< mean of the tube [m]
+  double phase = 0.0;      ///< angle from the crown where it begins [rad]
+  double level = 0.0;      ///< [m]
+
+  [[nodiscard]] Vec2 at(double angle) const {
+    return {radius * angle, level + amplitude * math::cos(phase - angle)};
+  }
+  /// Unit tangent.
+  [[nodiscard]] Vec2 along(double angle) const {
+    const double slope = amplitude / radius * math::sin(phase - angle);
+    const double stretch = math::hypot(1.0, slope);
+    return {1.0 / stretch, slope / stretch};
+  }
+};
+
+/// Two arcs with a common tangent between two places, of equal tangent lengths.
+void add_biarc(std::vector<PathVertex>& vertices, Vec2 from, Vec2 from_along, Vec2 to, Vec2 to_along) {
+  const Vec2 chord = to - from;
+  const Vec2 sum = from_along + to_along;
+  const double a = 2.0 * (1.0 - dot(from_along, to_along));
+  const double b = 2.0 * dot(chord, sum);
+  const double c = -dot(chord, chord);
+  // a d^2 + b d + c = 0, its positive root without cancellation.
+  const double reach = -2.0 * c / (b + std::sqrt(b * b - 4.0 * a * c));
+  const Vec2 middle = 0.5 * (from + to + reach * (from_along - to_along));
+  const auto bulge = [](Vec2 along, Vec2 way) {
+    return math::tan(0.5 * math::atan2(cross(along, way), dot(along, way)));
+  };
+  const double first = bulge(from_along, middle - from);
+  const double second = -bulge(-1.0 * to_along, middle - to);
+  vertices.push_back({from, std::fabs(first) < 1e-9 ? 0.0 : first});
+  vertices.push_back({middle, std::fabs(second) < 1e-9 ? 0.0 : second});
+}
+
+/// @return arcs within kSineTolerance of a whole turn of the line, from left to right, its last point included
+ArcPath arcs_of(const SineLine& line) {
+  ArcPath path;
+  if (line.amplitude == 0.0) {
+    path.vertices = {{line.at(0.0), 0.0}, {line.at(2.0 * kPi), 0.0}};
+    return path;
+  }
+  // Places every 20 deg or a part of it: seams lie at one, and edges that meet are the same arcs in another order.
+  for (int pieces = 18; pieces <= 360; pieces += 18) {
+    path.vertices.clear();
+    for (int k = 0; k < pieces; ++k) {
+      const double a = 2.0 * kPi * k / pieces;
+      const double b = 2.0 * kPi * (k + 1) / pieces;
+      add_biarc(path.vertices, line.at(a), line.along(a), line.at(b), line.along(b));
+    }
+    path.vertices.push_back({line.at(2.0 * kPi), 0.0});
+    double worst = 0.0;
+    for (const PathPiece& piece : pieces_of(path)) {
+      for (const double share : {0.25, 0.5, 0.75}) {
+        const Vec2 point = point_on(piece, share);
+        const Vec2 there = line.at(point.x / line.radius);
+        worst = std::max(worst, std::fabs(there.y - point.y));
+      }
+    }
+    if (worst <= kSineTolerance) return path;
+  }
+  throw InternalError({"", "the edge of a tube does not become arcs", "", ""});
+}
+
+/// Seen from inside, the seam at the left and right edges.
+FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
+  const double mean = job.mean_radius();
+  const double phase = gore.odd ? -kSeam : kSeam;
+  const ArcPath low = arcs_of({mean * math::tan(gore.body.start_tilt), mean, phase, 0.0});
+  const ArcPath high = arcs_of({mean * math::tan(gore.body.end_tilt), mean, phase, gore.body.length});
+  FlatPattern pattern;
+  pattern.region.outline = low;
+  for (const PathVertex& vertex : reversed(high).vertices) pattern.region.outline.vertices.push_back(vertex);
+  pattern.region.outline.closed = true;
+  pattern.region.outline.vertices.back().bulge = 0.0;
+  pattern.region.outline.vertices[low.vertices.size() - 1].bulge = 0.0;
+  const PlaneBox box = bounds(pattern.region.outline);
+  for (PathVertex& vertex : pattern.region.outline.vertices) vertex.at = vertex.at - box.low;
+  set_number_place(pattern, bounds(pattern.region.outline));
+  return pattern;
+}
+
+ShopPart part_of(const PipeJob& job, const Gore& gore) {
+  ShopPart part;
+  part.name = "tube";
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = job.pipe.thickness;
+  part.body = gore.body;
+  const Vec3 up = direction_in_space(job.placement, up_of(gore.along));
+  const Vec3 axis = direction_in_space(job.placement, gore.along);
+  part.places = {{in_space(job.placement, gore.from), up, -1.0 * across(job.placement), axis}};
+  weigh(part);
+  part.pattern = pattern_of(job, gore);
+  return part;
+}
+
+/// A ring round the end of a unit.
+ShopPart ring_of(const PipeJob& job, HoleFit fit) {
+  const FlangeOptions& flange = job.options.flanges;
+  const double inner = job.radius() + job.pipe.thickness + flange.gap;
+  const double pitch_radius = inner + 0.5 * flange.width;
+  ShopPart part;
+  part.name = fit == HoleFit::coarse ? "pipe_flange_loose" : "pipe_flange";
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = flange.thickness;
+  FlatPattern pattern;
+  pattern.region.outline = path_of(Circle{{}, inner + flange.width});
+  pattern.region.cutouts = {path_of(Circle{{}, inner})};
+  // An even number, none in the plane of the track.
+  const double count = 2.0 * std::max(2.0, std::ceil(kPi * pitch_radius / flange.pitch - 1e-9));
+  for (double k = 0.5; k < count; k += 1.0) {
+    const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * k / count);
+    pattern.region.holes.push_back(
+        {{pitch_radius * sine, pitch_radius * cosine}, 0.5 * clearance_hole(flange.bolt, fit)});
+  }
+  part.body = Prism{pattern.region, flange.thickness};
+  part.pattern = std::move(pattern);
+  return part;
+}
+
+/// @param shift  of the ring's first face along the axis [m]
+Frame ring_place(const PipeJob& job, const Gore& gore, double at, double shift) {
+  const Vec2 middle = gore.from + (at + shift) * gore.along;
+  return {in_space(job.placement, middle), across(job.placement),
+          direction_in_space(job.placement, up_of(gore.along)),
+          direction_in_space(job.placement, gore.along)};
+}
+
+void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
+  if (!job.options.flanges.wanted) return;
+  ShopPart tight = ring_of(job, HoleFit::medium);
+  ShopPart loose = ring_of(job, HoleFit::coarse);
+  for (const GoreUnit& unit : units) {
+    const Gore& last = unit.gores.back();
+    loose.places.push_back(ring_place(job, unit.gores.front(), 0.0, 0.0));
+    tight.places.push_back(ring_place(job, last, last.body.length, -job.options.flanges.thickness));
+  }
+  const std::size_t holes = tight.pattern->region.holes.size();
+  for (ShopPart* part : {&tight, &loose}) {
+    weigh(*part);
+    add_part(workshop, *part, kFrameColour);
+  }
+  add_joint_bolts(workshop, job.options.flanges, holes, units.size() - 1);
+}
+
+// --- proof
+
+PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const Workshop& workshop) {
+  PartsProof proof;
+  const double outer = job.radius() + job.pipe.thickness;
+  const double area = kPi * (outer * outer - job.radius() * job.radius());
+  const Gore* before = nullptr;
+  for (const GoreUnit& unit : units) {
+    for (const Gore& gore : unit.gores) {
+      proof.volume += moments(PartBody(gore.body)).volume;
+      // By the lowest line and the mitres.
+      proof.exact_volume += area * (gore.floor_length - job.radius() * (math::tan(gore.body.start_tilt) -
+                                                                        math::tan(gore.body.end_tilt)));
+      const double mean = job.mean_radius();
+      if (before != nullptr) {
+        const double one = length(arcs_of({mean * math::tan(before->body.end_tilt), mean, kSeam, 0.0}));
+        const double other = length(arcs_of({mean * math::tan(gore.body.start_tilt), mean, -kSeam, 0.0}));
+        const Vec2 gap = before->from + before->body.length * before->along - gore.from;
+        proof.edge_mismatch = std::max({proof.edge_mismatch, std::fabs(one - other), norm(gap)});
+      }
+      before = &gore;
+    }
+  }
+  double listed = 0.0;
+  for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());
+  proof.added_volume = listed - proof.volume;
+  if (!(std::fabs(proof.volume - proof.exact_volume) <= kPartsVolumeAccuracy * proof.exact_volume)) {
+    throw InternalError({"",
+                         "the tubes hold " + rounded_text(proof.volume, 12) + " m^3, the pipe " +
+                             rounded_text(proof.exact_volume, 12) + " m^3",
+                         "", ""});
+  }
+  constexpr double kSameEdge = 1e-9;  // [m]
+  if (!(proof.edge_mismatch <= kSameEdge)) {
+    throw InternalError({"", "edges of tubes differ by " + length_text(proof.edge_mismatch, 3), "", ""});
+  }
+  proof.pairs = require_no_clash(workshop);
+  if (job.options.flanges.wanted) proof.smallest_gap = job.options.flanges.gap;
+  return proof;
+}
+
+std::vector<SettingOutPoint> mitres(const PipeJob& job, const Facets& facets) {
+  std::vector<SettingOutPoint> rows;
+  for (std::size_t i = 0; i < facets.bends(); ++i) {
+    const double s = 0.5 * (facets.touches[i] + facets.touches[i + 1]);
+    rows.push_back(setting_out_point(
+        job.track, {0.0, job.track.length()}, job.placement,
+        "mitre " + std::to_string(i + 1) + ", " + angle_text(std::fabs(facets.kinks[i]), 4), s));
+  }
+  return rows;
+}
+
+void list_tubes(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
+  int count = 0;
+  for (const GoreUnit& unit : units) {
+    for (const Gore& gore : unit.gores) {
+      ShopPart part = part_of(job, gore);
+      part.name += "_" + std::to_string(++count);
+      const std::size_t before = workshop.parts.size();
+      const int number = add_part(workshop, std::move(part), kWallColour);
+      if (workshop.parts.size() == before) continue;
+      workshop.bends.push_back(
+          {number, 1, 0.0, 2.0 * kPi * job.mean_radius(), 2.0 * kPi, 2.0 * kPi, job.radius(), 0.0});
+    }
+  }
+}
+
+/// Track places of distances along the flats.
+std::vector<double> on_track(const Facets& facets, const std::vector<double>& joints, double length) {
+  const double all = reached(facets).back();
+  std::vector<double> places;
+  for (const double joint : joints) places.push_back(length * (joint / all));
+  return places;
+}
+
+}  // namespace
+
+WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe, const PlateOptions& options,
+                               const Placement& placement, const Body& body, double gravity,
+                               const Motion& design) {
+  const PipeJob job{track, pipe, options, placement};
+  const double kink = kink_for_speed(
+      track, options.bend, [&](double largest) { return flats_of(job, largest); }, body, gravity,
+      design.exit_speed());
+  const Facets facets = flats_of(job, kink);
+  std::vector<GoreUnit> units;
+  std::vector<double> joints;
+  WorkshopBuild build;
+  split_until_it_fits(options.split, track.length(), [&](std::size_t count) -> std::optional<Excess> {
+    joints = joints_along(job, facets, count);
+    units = units_between(job, facets, joints);
+    for (const GoreUnit& unit : units) {
+      for (const Gore& gore : unit.gores) {
+        std::optional<Excess> found = excess(options.split, part_of(job, gore));
+        if (found) found->what = "a tube " + found->what;
+        if (found) return found;
+      }
+    }
+    return std::nullopt;
+  });
+  Workshop& workshop = build.workshop;
+  list_tubes(job, units, workshop);
+  add_rings(job, units, workshop);
+  build.joints = on_track(facets, joints, track.length());
+  workshop.setting_out = setting_out(track, build.joints, placement);
+  for (SettingOutPoint& row : mitres(job, facets)) workshop.setting_out.push_back(std::move(row));
+  in_order(workshop.setting_out);
+  const FacetRide ride = ride_facets({facets}, body, gravity, options.joint_step);
+  build.ride = {ride.arrives,        ride.time,      ride.speed,       design.travel_time(),
+                design.exit_speed(), facets.bends(), units.size() - 1, ride.highest_load};
+  workshop.checks = part_checks(options, workshop);
+  workshop.checks.push_back(rolling_check(job.radius(), pipe.thickness, "every tube"));
+  workshop.notes = {
+      "Tubes are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
+      " and welded along their seams, which lie 20 deg from the crown, to either side in turn."};
+  build.proof = prove(job, units, workshop);
+  return build;
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "glissade/parts/plates.hpp"
+#include "glissade/section/measures.hpp"
+
+namespace glissade::parts {
+
+/// A pipe as rolled tubes between mitred planes, with flanges round the ends of transport units.
+///
+/// The lowest line of each tube is a flat that touches the track; its axis lies a radius above. Planes halve the angles
+/// between tubes, so both ends of a mitre are the same ellipse. A tube develops to a rectangle of the mean circumference
+/// between two sine lines, which are written as arcs within kSineTolerance; seams are turned by 20 deg to either side of the crown.
+/// @throws InputError as make_plates()
+[[nodiscard]] WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe,
+                                             const PlateOptions& options, const Placement& placement,
+                                             const Body& body, double gravity, const Motion& design);
+
+/// Greatest distance of the cut edge of a developed tube from its sine line [m].
+inline constexpr double kSineTolerance = 0.02e-3;
+
+}  // namespace glissade::parts

@@ -1,0 +1,247 @@
+// Sections as flat plates. Straight sides stay as they are; round ones become staves that touch the round from outside, one
+// of them at its lowest line, so that the floor line is the track.
+
+#include "parts/plate_section.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/section/cross_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Vec2 left_of(Vec2 along) {
+  return (1.0 / norm(along)) * Vec2{-along.y, along.x};
+}
+
+/// Where two lines, both moved to the left, meet.
+Vec2 mitre(Vec2 before, Vec2 corner, Vec2 after, double thickness) {
+  const Vec2 a = left_of(corner - before);
+  const Vec2 b = left_of(after - corner);
+  return corner + (thickness / (1.0 + dot(a, b))) * (a + b);
+}
+
+/// The end of a line that is moved to the left: at the height of its corner, so that rims are level.
+Vec2 level_end(Vec2 corner, Vec2 along, double thickness) {
+  const Vec2 aside = thickness * left_of(along);
+  if (std::fabs(along.y) < 1e-12 * norm(along)) return corner + aside;
+  return corner + aside - (aside.y / along.y) * along;
+}
+
+}  // namespace
+
+std::vector<Vec2> moved_to_left(const std::vector<Vec2>& chain, bool closed, double by) {
+  const std::size_t count = chain.size();
+  std::vector<Vec2> moved;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 before = chain[(i + count - 1) % count];
+    const Vec2 after = chain[(i + 1) % count];
+    if (!closed && i == 0) {
+      moved.push_back(level_end(chain[i], after - chain[i], by));
+    } else if (!closed && i + 1 == count) {
+      moved.push_back(level_end(chain[i], chain[i] - before, by));
+    } else {
+      moved.push_back(mitre(before, chain[i], after, by));
+    }
+  }
+  return moved;
+}
+
+namespace {
+
+/// Whether a chain turns everywhere to the right, or everywhere to the left.
+bool turns_one_way(const std::vector<Vec2>& chain, bool closed) {
+  const std::size_t count = chain.size();
+  bool left = false;
+  bool right = false;
+  for (std::size_t i = closed ? 0 : 1; i + (closed ? 0 : 1) < count; ++i) {
+    const double turn = cross(chain[i] - chain[(i + count - 1) % count], chain[(i + 1) % count] - chain[i]);
+    left = left || turn > 0.0;
+    right = right || turn < 0.0;
+  }
+  return left != right || !(left || right);
+}
+
+PlateSection of_chain(const std::vector<Vec2>& chain, double thickness, bool closed) {
+  PlateSection section;
+  section.thickness = thickness;
+  section.closed = closed;
+  section.convex = turns_one_way(chain, closed);
+  const std::size_t count = chain.size();
+  const std::vector<Vec2> back = moved_to_left(chain, closed, thickness);
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    section.plates.push_back({"", chain[i], chain[next], back[i], back[next]});
+  }
+  section.outside = back;
+  return section;
+}
+
+void name_by_place(PlateSection& section, const std::string& word) {
+  for (std::size_t i = 0; i < section.plates.size(); ++i) {
+    SectionPlate& plate = section.plates[i];
+    const bool carries = plate.face_from.x > 0.0 && plate.face_to.x < 0.0 &&
+                         std::fabs(plate.face_from.y) + std::fabs(plate.face_to.y) < 1e-9;
+    plate.name = carries ? "floor" : word + "_" + std::to_string(i + 1);
+  }
+}
+
+/// Corners of lines that touch a circle above the floor line at angles from its lowest point, from left to right.
+std::vector<Vec2> round_corners(double radius, const std::vector<double>& touches) {
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i + 1 < touches.size(); ++i) {
+    const double middle = 0.5 * (touches[i] + touches[i + 1]);
+    const double reach = radius / math::cos(0.5 * (touches[i] - touches[i + 1]));
+    const auto [sine, cosine] = math::sine_cosine(middle);
+    corners.push_back({reach * sine, radius - reach * cosine});
+  }
+  return corners;
+}
+
+double miss_of(double radius, double turn) {
+  return radius * (1.0 / math::cos(0.5 * turn) - 1.0);
+}
+
+/// Turns between staves of a round, an even number on the whole, so that one touches at the lowest line.
+int turns_of(double radius, double whole, double tolerance) {
+  int turns = 2;
+  while (turns < 360 && miss_of(radius, whole / turns) > tolerance) turns += 2;
+  return turns;
+}
+
+std::vector<double> touches_of(double high, int turns) {
+  std::vector<double> touches;
+  for (int k = 0; k <= turns; ++k) touches.push_back(high * (1.0 - 2.0 * k / turns));
+  return touches;
+}
+
+// --- the kinds
+
+std::optional<PlateSection> section_of(const section::Trapezoid& channel, const PlateOptions&) {
+  if (!channel.width.is_constant()) return std::nullopt;
+  const double half = 0.5 * channel.width.narrowest();
+  const double top = half + channel.wall_height * math::tan(channel.wall_angle.radians());
+  PlateSection section =
+      of_chain({{top, channel.wall_height}, {half, 0.0}, {-half, 0.0}, {-top, channel.wall_height}},
+               channel.thickness, false);
+  section.plates[0].name = "left_wall";
+  section.plates[1].name = "floor";
+  section.plates[2].name = "right_wall";
+  return section;
+}
+
+std::optional<PlateSection> section_of(const section::UChannel& channel, const PlateOptions& options) {
+  return section_of(section::Trapezoid{channel.width, channel.wall_height, Angle(), channel.thickness},
+                    options);
+}
+
+std::optional<PlateSection> section_of(const section::HalfPipe& trough, const PlateOptions& options) {
+  const double radius = 0.5 * trough.width;
+  const int turns = turns_of(radius, kPi, options.stave_tolerance);
+  std::vector<Vec2> chain = {{radius, radius + trough.wall_height}};
+  for (const Vec2 corner : round_corners(radius, touches_of(0.5 * kPi, turns))) chain.push_back(corner);
+  chain.push_back({-radius, radius + trough.wall_height});
+  PlateSection section = of_chain(chain, trough.thickness, false);
+  section.departure = miss_of(radius, kPi / turns);
+  name_by_place(section, "stave");
+  return section;
+}
+
+std::optional<PlateSection> section_of(const section::Pipe& pipe, const PlateOptions& options) {
+  const double radius = 0.5 * pipe.inner_diameter;
+  int count = 4;
+  while (count < 360 && miss_of(radius, 2.0 * kPi / count) > options.stave_tolerance) ++count;
+  std::vector<double> touches;
+  for (int k = 0; k <= count; ++k) touches.push_back(-2.0 * kPi * k / count);
+  PlateSection section = of_chain(round_corners(radius, touches), pipe.thickness, true);
+  section.departure = miss_of(radius, 2.0 * kPi / count);
+  // Corners begin to the right of the lowest line: the last plate is the floor.
+  name_by_place(section, "stave");
+  return section;
+}
+
+std::optional<PlateSection> section_of(const section::VChannel& channel, const PlateOptions& options) {
+  const double rise = 0.5 * kPi - 0.5 * channel.angle.radians();
+  const int turns = turns_of(channel.bottom_radius, 2.0 * rise, options.stave_tolerance);
+  const std::vector<Vec2> corners = round_corners(channel.bottom_radius, touches_of(rise, turns));
+  const double half_sine = math::sin(0.5 * rise);
+  const double foot = 2.0 * channel.bottom_radius * half_sine * half_sine;
+  const double top = channel.bottom_radius * math::sin(rise) +
+                     (channel.wall_height - foot) * math::cos(rise) / math::sin(rise);
+  std::vector<Vec2> chain = {{top, channel.wall_height}};
+  chain.insert(chain.end(), corners.begin(), corners.end());
+  chain.push_back({-top, channel.wall_height});
+  PlateSection section = of_chain(chain, channel.thickness, false);
+  section.departure = miss_of(channel.bottom_radius, 2.0 * rise / turns);
+  name_by_place(section, "stave");
+  section.plates.front().name = "left_wall";
+  section.plates.back().name = "right_wall";
+  return section;
+}
+
+/// Plates inside the outline of a solid, one a side.
+std::optional<PlateSection> round_outline(const section::Measures& measures, const PlateOptions& options) {
+  const CrossSection whole(measures);
+  const CrossSection::Polygon corners = whole.outline(1e-3);
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    area += cross(corners[i], corners[(i + 1) % corners.size()]);
+  }
+  std::vector<Vec2> chain(corners.begin(), corners.end());
+  if (area < 0.0) std::reverse(chain.begin(), chain.end());
+  // Corners in the middle of a side, such as the floor line, are none of a plate.
+  std::vector<Vec2> kept;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const Vec2 in = chain[i] - chain[(i + chain.size() - 1) % chain.size()];
+    const Vec2 out = chain[(i + 1) % chain.size()] - chain[i];
+    if (std::fabs(cross(in, out)) > 1e-9 * norm(in) * norm(out)) kept.push_back(chain[i]);
+  }
+  PlateSection section = of_chain(kept, options.polygon_thickness, true);
+  section.outside = kept;
+  section.outside_on_left = false;
+  name_by_place(section, "side");
+  return section;
+}
+
+std::optional<PlateSection> section_of(const section::Polygon& polygon, const PlateOptions& options) {
+  return round_outline(polygon, options);
+}
+
+std::optional<PlateSection> section_of(const section::TrackGroove& track, const PlateOptions& options) {
+  if (!track.width.is_constant()) return std::nullopt;
+  return round_outline(track, options);
+}
+
+std::optional<PlateSection> section_of(const section::Slab& slab, const PlateOptions&) {
+  if (!slab.width.is_constant()) return std::nullopt;
+  const double half = 0.5 * slab.width.narrowest() + slab.curb_width;
+  PlateSection section = of_chain({{half, 0.0}, {-half, 0.0}}, slab.thickness, false);
+  section.plates[0].name = "floor";
+  return section;
+}
+
+}  // namespace
+
+std::optional<PlateSection> plate_section(const section::Measures& measures, const PlateOptions& options) {
+  auto section = std::visit([&](const auto& one) { return section_of(one, options); }, measures);
+  if (!section) return section;
+  section->lowest = std::numeric_limits<double>::infinity();
+  section->highest = -section->lowest;
+  for (const SectionPlate& plate : section->plates) {
+    for (const Vec2 corner : {plate.face_from, plate.face_to, plate.back_from, plate.back_to}) {
+      section->lowest = std::min(section->lowest, corner.y);
+      section->highest = std::max(section->highest, corner.y);
+    }
+  }
+  return section;
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "glissade/core/vec.hpp"
+#include "glissade/parts/plate_options.hpp"
+#include "glissade/section/measures.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glissade::parts {
+
+/// One flat plate of a section. Points are (across to the left, height above the floor line) [m].
+struct SectionPlate {
+  std::string name;  ///< "left_wall", "floor", "strip_3"
+  Vec2 face_from;    ///< along the face that is seen from inside, or from outside of a closed outline
+  Vec2 face_to;
+  Vec2 back_from;  ///< on the other side
+  Vec2 back_to;
+
+  /// Ends of its middle line.
+  [[nodiscard]] Vec2 middle_from() const { return 0.5 * (face_from + back_from); }
+  [[nodiscard]] Vec2 middle_to() const { return 0.5 * (face_to + back_to); }
+};
+
+/// A section as flat plates that meet in mitres: from the left rim round to the right one.
+struct PlateSection {
+  std::vector<SectionPlate> plates;
+  double thickness = 0.0;
+  bool closed = false;
+  bool convex = false;  ///< a frame fits round it
+  double lowest = 0.0;
+  double highest = 0.0;
+  double departure = 0.0;       ///< of the plates from a round section [m]
+  std::vector<Vec2> outside;    ///< corners that a frame goes round
+  bool outside_on_left = true;  ///< seen along `outside`, the frame lies to its left
+};
+
+/// @return any section but those whose width changes along the track as plates; none of those
+/// @param options  staves of round sections, thickness of plates round free ones
+[[nodiscard]] std::optional<PlateSection> plate_section(const section::Measures& measures,
+                                                        const PlateOptions& options);
+
+/// @return a chain of lines moved to its left, corners mitred, ends of an open one at the heights that they had
+[[nodiscard]] std::vector<Vec2> moved_to_left(const std::vector<Vec2>& chain, bool closed, double by);
+
+}  // namespace glissade::parts

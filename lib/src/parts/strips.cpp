@@ -1,0 +1,518 @@
+#include "parts/strips.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "core/plane_geometry.hpp"
+#include "parts/body_geometry.hpp"
+#include "parts/bolts.hpp"
+#include "parts/offset_line.hpp"
+#include "parts/plate_checks.hpp"
+#include "parts/plate_joints.hpp"
+#include "parts/plate_unit.hpp"
+#include "parts/setting_out.hpp"
+#include "parts/workshop_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kRoomAtFold = 1.02;  // radius over height, from which a strip is not folded
+constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
+constexpr double kSameEdge = 1e-9;    // lengths of edges that meet [m]
+
+struct StripJob {
+  const ArcSpline& track;
+  const PlateSection& section;
+  const PlateOptions& options;
+  const Placement& placement;
+};
+
+/// A strip of a unit with the lengths of its developed edges.
+struct Strip {
+  std::size_t plate = 0;
+  Span span;
+  ShopPart part;
+  std::vector<BendStep> steps;
+  double edge_from = 0.0;  ///< at the side of `face_from` [m]
+  double edge_to = 0.0;
+};
+
+/// Arcs of the track within a span.
+std::vector<TrackArc> arcs_in(const ArcSpline& track, const Span& span) {
+  std::vector<TrackArc> found;
+  for (TrackArc arc : track.arcs()) {
+    const double from = std::max(span.from, arc.start);
+    const double to = std::min(span.to, arc.start + arc.length);
+    if (!(to - from > 1e-9)) continue;
+    arc.start = from;
+    arc.length = to - from;
+    found.push_back(arc);
+  }
+  return found;
+}
+
+double highest_of(const SectionPlate& plate) {
+  return std::max({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
+}
+
+double lowest_of(const SectionPlate& plate) {
+  return std::min({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
+}
+
+bool folds_over(const TrackArc& arc, const SectionPlate& plate) {
+  return arc.curvature * highest_of(plate) * kRoomAtFold > 1.0 ||
+         -arc.curvature * -lowest_of(plate) * kRoomAtFold > 1.0;
+}
+
+/// The stretch of track over which a plate stands unfolded.
+Span unfolded(const StripJob& job, const SectionPlate& plate) {
+  const std::vector<TrackArc>& arcs = job.track.arcs();
+  Span span{0.0, job.track.length()};
+  for (const TrackArc& arc : arcs) {
+    if (!folds_over(arc, plate)) continue;
+    const double end = arc.start + arc.length;
+    if (end <= kMostCutOff * job.track.length()) {
+      span.from = std::max(span.from, end);
+      continue;
+    }
+    if (arc.start >= (1.0 - kMostCutOff) * job.track.length()) {
+      span.to = std::min(span.to, arc.start);
+      continue;
+    }
+    const double radius = 1.0 / std::fabs(arc.curvature);
+    throw InputError(
+        {"cross_section",
+         "the " + plate.name + " folds over at " + length_text(arc.start, 3) + " along the track",
+         "It is " + length_text(std::max(highest_of(plate), -lowest_of(plate)), 3) +
+             " high above the floor line, the radius there " + length_text(radius, 3) + ".",
+         "a section of at most " + length_text(radius / kRoomAtFold, 3) +
+             ", or a limit smallest_valley_radius above it"});
+  }
+  return span;
+}
+
+/// The developed strip: chords and turnings of its arcs, from the middle of the upstream edge at `face_to`.
+struct Development {
+  std::vector<Vec2> base;  ///< at the side of `face_to`
+  std::vector<Vec2> upper;
+  std::vector<double> turns;
+};
+
+Development developed(const StripJob& job, const SectionPlate& plate, const Span& span) {
+  const Vec2 across = plate.middle_from() - plate.middle_to();
+  const double width = norm(across);
+  const double upright = across.y / width;  // cos b, with its sign
+  Development strip;
+  Vec2 at;
+  double heading = 0.0;
+  const auto put = [&] {
+    const auto [sine, cosine] = math::sine_cosine(heading);
+    strip.base.push_back(at);
+    strip.upper.push_back(at + width * Vec2{-sine, cosine});
+  };
+  put();
+  for (const TrackArc& arc : arcs_in(job.track, span)) {
+    const double length = arc.length * (1.0 - arc.curvature * plate.middle_to().y);
+    const double turn = arc.curvature * arc.length * upright;
+    const double half = 0.5 * turn;
+    const double chord = std::fabs(half) < 1e-9 ? length : length * math::sin(half) / half;
+    const auto [sine, cosine] = math::sine_cosine(heading + half);
+    at = at + chord * Vec2{cosine, sine};
+    heading += turn;
+    strip.turns.push_back(turn);
+    put();
+  }
+  return strip;
+}
+
+double length_along(const std::vector<Vec2>& places, const std::vector<double>& turns) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    sum += length(PathPiece{places[i], places[i + 1], math::tan(0.25 * turns[i])});
+  }
+  return sum;
+}
+
+double radius_of(double curvature) {
+  return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
+}
+
+FlatPattern pattern_of(const Development& strip, const std::vector<double>& radii) {
+  FlatPattern pattern;
+  ArcPath& outline = pattern.region.outline;
+  outline.closed = true;
+  const std::size_t count = strip.turns.size();
+  const auto bulge = [&](std::size_t i) {
+    return std::fabs(strip.turns[i]) < 1e-12 ? 0.0 : math::tan(0.25 * strip.turns[i]);
+  };
+  for (std::size_t i = 0; i <= count; ++i)
+    outline.vertices.push_back({strip.base[i], i < count ? bulge(i) : 0.0});
+  for (std::size_t i = count + 1; i-- > 0;)
+    outline.vertices.push_back({strip.upper[i], i > 0 ? -bulge(i - 1) : 0.0});
+  const OwnPlane plane = own_plane(outline);
+  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
+  const PlaneMotion motion = PlaneMotion::turn(-plane.angle, -1.0 * back);
+  outline = moved(outline, motion);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (radii.empty()) break;
+    pattern.rolls.push_back({motion(strip.base[i]), motion(strip.upper[i]), radii[i]});
+  }
+  set_number_place(pattern, bounds(outline));
+  return pattern;
+}
+
+Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
+  const SectionPlate& plate = job.section.plates[index];
+  const Vec2 across = plate.middle_from() - plate.middle_to();
+  const double level = std::fabs(across.x) / norm(across);  // sin b
+  const Development flat = developed(job, plate, span);
+  Strip strip;
+  strip.plate = index;
+  strip.span = span;
+  strip.edge_to = length_along(flat.base, flat.turns);
+  strip.edge_from = length_along(flat.upper, flat.turns);
+
+  std::vector<double> radii;
+  double reached = 0.0;
+  double sum = 0.0;
+  int hit = 0;
+  const double middle = 0.5 * (plate.middle_from().y + plate.middle_to().y);
+  for (const TrackArc& arc : arcs_in(job.track, span)) {
+    // The normal curvature of the cone; upright plates are not rolled at all.
+    const double curvature = level < 1e-9 ? 0.0 : level * arc.curvature / (1.0 - arc.curvature * middle);
+    const double length = arc.length * (1.0 - arc.curvature * plate.middle_to().y);
+    const double turned = level * arc.curvature * arc.length;
+    sum += turned;
+    radii.push_back(radius_of(curvature));
+    strip.steps.push_back({0, ++hit, reached, length, turned, sum, radii.back(), 0.0});
+    reached += length;
+  }
+  if (level < 1e-9) {
+    radii.clear();
+    strip.steps.clear();
+  }
+
+  ShopPart& part = strip.part;
+  part.name = plate.name;
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = job.section.thickness;
+  ArcPath path = *offset_line(job.track, span, 0.0);
+  const Vec2 origin = path.vertices.front().at;
+  for (PathVertex& vertex : path.vertices) vertex.at = vertex.at - origin;
+  const double middle_across = 0.5 * (plate.face_from.x + plate.face_to.x);
+  // Of the body x counts upwards from the track, z to the right.
+  std::vector<Vec2> corners;
+  for (const Vec2 corner : {plate.face_from, plate.face_to, plate.back_to, plate.back_from})
+    corners.push_back({corner.y, middle_across - corner.x});
+  part.body = SweptBody{std::move(path), std::move(corners)};
+  part.places = {plane_of_track(job.placement, origin, 0.0, -middle_across)};
+  weigh(part);
+  part.pattern = pattern_of(flat, radii);
+  return strip;
+}
+
+std::vector<Strip> strips_between(const StripJob& job, const std::vector<double>& joints) {
+  std::vector<Strip> strips;
+  for (std::size_t p = 0; p < job.section.plates.size(); ++p) {
+    const Span whole = unfolded(job, job.section.plates[p]);
+    for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
+      const Span span{std::max(joints[j], whole.from), std::min(joints[j + 1], whole.to)};
+      if (!(span.to - span.from > 1e-6)) continue;
+      strips.push_back(strip_of(job, p, span));
+      if (joints.size() > 2) strips.back().part.name += "_" + std::to_string(j + 1);
+    }
+  }
+  return strips;
+}
+
+// --- frames
+
+void add_polygon(ArcPath& path, const std::vector<Vec2>& corners) {
+  for (const Vec2 corner : corners) path.vertices.push_back({corner, 0.0});
+}
+
+/// Evenly spaced places along a chain of lines.
+std::vector<Vec2> along_chain(std::vector<Vec2> chain, bool closed, double pitch, double edge) {
+  if (closed) chain.push_back(chain.front());
+  double whole = 0.0;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) whole += norm(chain[i + 1] - chain[i]);
+  const double room = closed ? whole : whole - 2.0 * edge;
+  const double gaps = std::max(closed ? 4.0 : 1.0, std::ceil(room / pitch - 1e-9));
+  std::vector<Vec2> places;
+  for (double k = 0.0; k < (closed ? gaps : gaps + 1.0); k += 1.0) {
+    double left = (closed ? 0.5 * room / gaps : edge) + room * k / gaps;
+    std::size_t i = 0;
+    while (i + 2 < chain.size() && left > norm(chain[i + 1] - chain[i])) {
+      left -= norm(chain[i + 1] - chain[i]);
+      ++i;
+    }
+    places.push_back(chain[i] + (left / norm(chain[i + 1] - chain[i])) * (chain[i + 1] - chain[i]));
+  }
+  return places;
+}
+
+ShopPart frame_of(const StripJob& job, HoleFit fit) {
+  const FlangeOptions& flange = job.options.flanges;
+  const PlateSection& section = job.section;
+  const double sign = section.outside_on_left ? 1.0 : -1.0;
+  const auto at = [&](double by) { return moved_to_left(section.outside, section.closed, sign * by); };
+  std::vector<Vec2> inner = at(flange.gap);
+  std::vector<Vec2> outer = at(flange.gap + flange.width);
+  FlatPattern pattern;
+  pattern.region.outline.closed = true;
+  if (section.closed) {
+    add_polygon(pattern.region.outline, outer);
+    pattern.region.cutouts.push_back({{}, true});
+    add_polygon(pattern.region.cutouts.back(), inner);
+  } else {
+    std::reverse(inner.begin(), inner.end());
+    add_polygon(pattern.region.outline, outer);
+    add_polygon(pattern.region.outline, inner);
+  }
+  // Rims are level: of a wall that leans, holes keep their distance from the rim, not along the wall.
+  const Vec2 first = section.outside[1] - section.outside[0];
+  const double upright = section.closed ? 1.0 : std::fabs(first.y) / norm(first);
+  const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse) / (upright > 0.0 ? upright : 1.0);
+  const double radius = 0.5 * clearance_hole(flange.bolt, fit);
+  for (const Vec2 centre :
+       along_chain(at(flange.gap + 0.5 * flange.width), section.closed, flange.pitch, edge))
+    pattern.region.holes.push_back({centre, radius});
+  ShopPart part;
+  part.name = fit == HoleFit::coarse ? "end_frame_loose" : "end_frame";
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = flange.thickness;
+  part.body = Prism{pattern.region, flange.thickness};
+  part.pattern = std::move(pattern);
+  return part;
+}
+
+Frame place_of_frame(const StripJob& job, double s, double shift) {
+  const TrackFrame at = frame_at(job.track, s);
+  return {in_space(job.placement, at.at + shift * at.along), across(job.placement),
+          direction_in_space(job.placement, at.up), direction_in_space(job.placement, at.along)};
+}
+
+void add_frames(const StripJob& job, const std::vector<double>& joints, Workshop& workshop) {
+  if (!job.options.flanges.wanted) return;
+  if (!job.section.convex) {
+    workshop.notes.emplace_back("The section is hollow outside: no frame fits round it, ends are welded.");
+    return;
+  }
+  ShopPart tight = frame_of(job, HoleFit::medium);
+  ShopPart loose = frame_of(job, HoleFit::coarse);
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    loose.places.push_back(place_of_frame(job, joints[i], 0.0));
+    tight.places.push_back(place_of_frame(job, joints[i + 1], -job.options.flanges.thickness));
+  }
+  const std::size_t holes = tight.pattern->region.holes.size();
+  for (ShopPart* part : {&tight, &loose}) {
+    weigh(*part);
+    add_part(workshop, *part, kFrameColour);
+  }
+  add_joint_bolts(workshop, job.options.flanges, holes, joints.size() - 2);
+}
+
+// --- proof
+
+/// Area and first moment of the whole section by its outlines.
+Vec2 area_and_moment(const PlateSection& section) {
+  Vec2 sum;
+  const auto add = [&](const std::vector<Vec2>& corners) {
+    Vec2 one;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2 a = corners[i];
+      const Vec2 b = corners[(i + 1) % corners.size()];
+      one = one + Vec2{0.5 * cross(a, b), cross(a, b) * (a.y + b.y) / 6.0};
+    }
+    return one;
+  };
+  std::vector<Vec2> face;
+  std::vector<Vec2> back;
+  for (const SectionPlate& plate : section.plates) {
+    face.push_back(plate.face_from);
+    back.push_back(plate.back_from);
+  }
+  if (section.closed) {
+    const Vec2 one = add(face);
+    const Vec2 other = add(back);
+    sum = one - other;
+  } else {
+    face.push_back(section.plates.back().face_to);
+    back.push_back(section.plates.back().back_to);
+    face.insert(face.end(), back.rbegin(), back.rend());
+    sum = add(face);
+  }
+  return sum.x < 0.0 ? -1.0 * sum : sum;
+}
+
+PartsProof prove(const StripJob& job, const std::vector<Strip>& strips, const Workshop& workshop) {
+  PartsProof proof;
+  const Vec2 section = area_and_moment(job.section);
+  for (const TrackArc& arc : job.track.arcs())
+    proof.exact_volume += arc.length * (section.x - arc.curvature * section.y);
+  const double whole = job.track.length();
+  for (const Strip& strip : strips) {
+    proof.volume += strip.part.volume;
+    const SectionPlate& plate = job.section.plates[strip.plate];
+    double from = 0.0;
+    double to = 0.0;
+    for (const TrackArc& arc : arcs_in(job.track, strip.span)) {
+      from += arc.length * (1.0 - arc.curvature * plate.middle_from().y);
+      to += arc.length * (1.0 - arc.curvature * plate.middle_to().y);
+    }
+    proof.edge_mismatch =
+        std::max({proof.edge_mismatch, std::fabs(from - strip.edge_from), std::fabs(to - strip.edge_to)});
+  }
+  // What is missing where the track bends tighter than a strip is high.
+  for (const SectionPlate& plate : job.section.plates) {
+    const Span span = unfolded(job, plate);
+    const auto [area, moment] = area_and_moment({{plate}, 0.0, false, true, 0.0, 0.0, 0.0, {}, true});
+    for (const Span& gap : {Span{0.0, span.from}, Span{span.to, whole}}) {
+      for (const TrackArc& arc : arcs_in(job.track, gap))
+        proof.exact_volume -= arc.length * (area - arc.curvature * moment);
+    }
+  }
+  double listed = 0.0;
+  for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());
+  proof.added_volume = listed - proof.volume;
+  if (!(std::fabs(proof.volume - proof.exact_volume) <= kPartsVolumeAccuracy * proof.exact_volume)) {
+    throw InternalError({"",
+                         "the strips hold " + rounded_text(proof.volume, 12) + " m^3, the section " +
+                             rounded_text(proof.exact_volume, 12) + " m^3",
+                         "", ""});
+  }
+  if (!(proof.edge_mismatch <= kSameEdge)) {
+    throw InternalError({"", "edges differ by " + length_text(proof.edge_mismatch, 3), "", ""});
+  }
+  proof.pairs = require_no_clash(workshop);
+  if (job.options.flanges.wanted) proof.smallest_gap = job.options.flanges.gap;
+  return proof;
+}
+
+void list_strips(std::vector<Strip>& strips, Workshop& workshop) {
+  for (Strip& strip : strips) {
+    const std::size_t before = workshop.parts.size();
+    const bool floor = strip.part.name.starts_with("floor");
+    const int number = add_part(workshop, strip.part, floor ? kFloorColour : kWallColour);
+    if (workshop.parts.size() == before) continue;
+    for (BendStep step : strip.steps) {
+      step.part = number;
+      workshop.bends.push_back(step);
+    }
+  }
+}
+
+void add_checks(const StripJob& job, const std::vector<Strip>& strips, std::vector<ShopCheck>& checks) {
+  double least = std::numeric_limits<double>::infinity();
+  std::string where;
+  for (const Strip& strip : strips) {
+    for (const BendStep& step : strip.steps) {
+      if (!(std::fabs(step.radius) < least)) continue;
+      least = std::fabs(step.radius);
+      where = strip.part.name + " at " + length_text(strip.span.from + step.distance, 3) + " along the track";
+    }
+  }
+  if (std::isfinite(least)) checks.push_back(rolling_check(least, job.section.thickness, where));
+}
+
+void add_notes(const StripJob& job, Workshop& workshop) {
+  workshop.notes.emplace_back(
+      "Strips meet in mitres: patterns are of the middle of the thickness, edges are bevelled to the joint.");
+  if (job.section.departure > 0.0) {
+    workshop.notes.push_back("Flat staves stand in for the round section; they lie outside it by at most " +
+                             length_text(job.section.departure, 3) + ".");
+  }
+  for (const SectionPlate& plate : job.section.plates) {
+    const Span span = unfolded(job, plate);
+    if (span.from == 0.0 && span.to == job.track.length()) continue;
+    workshop.notes.push_back("The " + plate.name + " goes from " + length_text(span.from, 4) + " to " +
+                             length_text(span.to, 4) + " along the track: beyond, its rim would fold over.");
+  }
+}
+
+}  // namespace
+
+std::vector<Issue> strip_problems(const PlateSection& section, const PlateOptions& options) {
+  std::vector<Issue> issues;
+  if (options.floor == FloorMake::bent) {
+    issues.push_back({"floor", "floor: bent goes with upright walls",
+                      "Plates that lean or meet in mitres are rolled along the track.", "floor: rolled"});
+  }
+  for (const SectionPlate& plate : section.plates) {
+    if (dot(plate.back_to - plate.back_from, plate.face_to - plate.face_from) > 0.0) continue;
+    issues.push_back({section.outside_on_left ? "cross_section.thickness" : "thickness",
+                      "thickness: " + length_text(section.thickness) + " leaves nothing of the " +
+                          plate.name + ", which is " + length_text(norm(plate.face_to - plate.face_from), 3) +
+                          " wide",
+                      "Plates meet in mitres there.", "a thinner plate"});
+    return issues;
+  }
+  if (!section.outside_on_left) {
+    const std::size_t count = section.plates.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = i + 1; k < count; ++k) {
+        const SectionPlate& a = section.plates[i];
+        const SectionPlate& b = section.plates[k];
+        const bool next = k == i + 1 || (i == 0 && k + 1 == count);
+        const double apart = std::min({core::distance_to_segment(a.face_from, b.face_from, b.face_to),
+                                       core::distance_to_segment(a.face_to, b.face_from, b.face_to),
+                                       core::distance_to_segment(b.face_from, a.face_from, a.face_to),
+                                       core::distance_to_segment(b.face_to, a.face_from, a.face_to)});
+        if (next || apart >= 2.0 * section.thickness) continue;
+        issues.push_back({"thickness",
+                          "thickness: plates of " + length_text(section.thickness) + " inside " + a.name +
+                              " and " + b.name + " would meet",
+                          "The sides are " + length_text(apart, 3) + " apart.",
+                          "thickness: " + length_text(0.45 * apart, 2)});
+        return issues;
+      }
+    }
+  }
+  return issues;
+}
+
+WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, const PlateOptions& options,
+                          const Placement& placement, const Body& body, double gravity,
+                          const Motion& design) {
+  const StripJob job{track, section, options, placement};
+  std::vector<Strip> strips;
+  WorkshopBuild build;
+  split_until_it_fits(options.split, track.length(), [&](std::size_t count) -> std::optional<Excess> {
+    build.joints = joints_of(track, options.split, count);
+    strips = strips_between(job, build.joints);
+    for (const Strip& strip : strips) {
+      std::optional<Excess> found = excess(options.split, strip.part);
+      if (found) found->what = "the " + strip.part.name + " " + found->what;
+      if (found) return found;
+    }
+    return std::nullopt;
+  });
+  Workshop& workshop = build.workshop;
+  list_strips(strips, workshop);
+  add_frames(job, build.joints, workshop);
+  workshop.setting_out = setting_out(track, build.joints, placement);
+  std::vector<std::shared_ptr<const ArcSpline>> lines;
+  for (std::size_t i = 0; i + 1 < build.joints.size(); ++i) {
+    lines.push_back(
+        std::make_shared<ArcSpline>(rolled_face(track, {build.joints[i], build.joints[i + 1]}).line));
+  }
+  const FacetRide ride = ride_lines(lines, body, gravity, options.joint_step);
+  build.ride = {ride.arrives,        ride.time, ride.speed,       design.travel_time(),
+                design.exit_speed(), 0,         lines.size() - 1, ride.highest_load};
+  workshop.checks = part_checks(options, workshop);
+  add_checks(job, strips, workshop.checks);
+  add_notes(job, workshop);
+  build.proof = prove(job, strips, workshop);
+  return build;
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "glissade/parts/plate_options.hpp"
+#include "glissade/parts/shop_part.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace glissade::parts {
+
+inline constexpr std::array<double, 3> kFloorColour{0.62, 0.66, 0.70};
+inline constexpr std::array<double, 3> kWallColour{0.45, 0.56, 0.68};
+inline constexpr std::array<double, 3> kFrameColour{0.80, 0.55, 0.30};
+inline constexpr std::array<double, 3> kLinerColour{0.55, 0.50, 0.46};
+inline constexpr std::array<double, 3> kFittingColour{0.42, 0.62, 0.48};
+inline constexpr std::array<double, 3> kSupportColour{0.36, 0.42, 0.58};
+
+/// Adds a part to the list; under the number of its equal where there is one.
+/// @return its number
+int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& colour);
+
+/// Adds what is bought; to the count of its like where there is one.
+void add_item(Workshop& workshop, BoughtInItem item);
+
+/// A bolt with its nut and two washers through a grip.
+void add_bolts(Workshop& workshop, int size, double grip, std::size_t count, const std::string& where);
+
+/// Bolts of the frames that meet at joints.
+/// @param holes   of one frame
+/// @param joints  between units
+void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_t holes, std::size_t joints);
+
+}  // namespace glissade::parts

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "glissade/pipeline.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace glissade::pipeline {
+
+/// Tells every part the names of its own files, as the design asks for them.
+void name_part_files(const Design& design, Workshop& workshop);
+
+/// Every file that a workshop gets and the design asks for: a folder of parts, the assembly, drawings, templates, a folder
+/// of nests, the tables.
+[[nodiscard]] std::vector<PendingFile> workshop_files(const Design& design,
+                                                      const std::shared_ptr<const WorkshopBuild>& build);
+
+}  // namespace glissade::pipeline
