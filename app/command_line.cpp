@@ -57,6 +57,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_gates(program, action);
   add_fit(program, action);
   add_profile(program, action);
+  add_redesign(program, action);
   add_survey(program, action);
   add_rules(program, action);
   add_materials(program, action);

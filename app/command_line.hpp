@@ -28,6 +28,7 @@ void add_rules(CLI::App& program, Action& action);
 void add_survey(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_schema(CLI::App& program, Action& action);
+void add_redesign(CLI::App& program, Action& action);
 void add_rewrite(CLI::App& program, Action& action);
 void add_help(CLI::App& program, Action& action);
 void add_completion(CLI::App& program, Action& action);

@@ -48,8 +48,11 @@ Design without_limits(Design design) {
 /// A free finish fixed to where a track ends.
 Design finishing_like(Design design, const Track& track) {
   const CenterlinePoint end = track.centerline->at(track.centerline->length());
+  design.track.start = track.placement.start();
   design.track.finish = track.placement.to_space(end.x, end.drop, 0.0);
   design.track.free_finish = FinishKind::point;
+  design.track.free_start = false;
+  design.track.edge.reset();
   return design;
 }
 

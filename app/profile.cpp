@@ -1,8 +1,6 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
-#include "glissade/io/dxf_file.hpp"
-#include "glissade/io/sheet_file.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/profile_drawing.hpp"
 
@@ -16,6 +14,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -91,22 +90,13 @@ ExitCode draw_profile(const Options& options) {
     ProgressLine progress(options.verbosity);
     return solve(design, {progress.callback(), interrupt.token()});
   }();
-  const std::vector<ProfileStation> stations = coordinate_table(design, track, wanted);
-  const Drawing drawing = longitudinal_section(design, track, wanted);
-  const std::vector<Sheet> sheets = profile_sheets(design, track, wanted);
-  const std::string stem = design.file.stem().string();
-  const std::filesystem::path folder = options.directory.empty() ? std::filesystem::path("out") / stem
-                                                                 : std::filesystem::path(options.directory);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const std::filesystem::path dxf = folder / (stem + ".section.dxf");
-  const std::filesystem::path pdf = folder / (stem + ".section.pdf");
-  const std::filesystem::path csv = folder / (stem + ".coordinates.csv");
-  write_dxf(dxf, drawing);
-  write_pdf(pdf, sheets, design.name.empty() ? stem : design.name);
-  write_coordinates_csv(csv, stations, wanted);
-  print(labelled("Section", dxf.generic_string()) + labelled("Sheets", pdf.generic_string()) +
-        labelled("Coordinates", csv.generic_string() + ", " + std::to_string(stations.size()) + " stations"));
+  const std::size_t stations = coordinate_table(design, track, wanted).size();
+  const std::filesystem::path folder = options.directory.empty()
+                                           ? std::filesystem::path("out") / design.file.stem()
+                                           : std::filesystem::path(options.directory);
+  const std::vector<std::filesystem::path> files = write_profile(folder, design, track, wanted);
+  print(labelled("Section", files[0].generic_string()) + labelled("Sheets", files[1].generic_string()) +
+        labelled("Coordinates", files[2].generic_string() + ", " + std::to_string(stations) + " stations"));
   return ExitCode::done;
 }
 

@@ -2,6 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
+#include "glissade/core/words.hpp"
 
 #include "app/console.hpp"
 #include "app/summary.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace glissade::app {
 namespace {
@@ -39,12 +41,30 @@ std::string line_of(const Judgement& judgement) {
   if (judgement.value) text += " " + value_text(judgement);
   text += ", " + bound_text(rule);
   if (needs_checking(rule.certainty)) text += " " + mark_of(rule);
-  if (!judgement.reason.empty()) text += "\n  " + judgement.reason;
   return text;
 }
 
 std::string counted(std::size_t count, const std::string& what) {
   return count_text(count) + " " + what;
+}
+
+/// What would have to be known, once for all the rules that ask it: "unknown: hill: {size: 142 m}, ... (a, b)"
+std::vector<std::string> open_questions(const std::vector<Judgement>& judgements) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> asked;
+  for (const Judgement& judgement : judgements) {
+    if (judgement.verdict != RuleVerdict::cannot_be_judged) continue;
+    const auto same = std::find_if(asked.begin(), asked.end(),
+                                   [&](const auto& one) { return one.first == judgement.reason; });
+    if (same != asked.end()) {
+      same->second.push_back(judgement.rule.id);
+    } else {
+      asked.push_back({judgement.reason, {judgement.rule.id}});
+    }
+  }
+  std::vector<std::string> lines;
+  lines.reserve(asked.size());
+  for (const auto& [reason, rules] : asked) lines.push_back(listed(rules) + ":\n  " + reason);
+  return lines;
 }
 
 }  // namespace
@@ -62,8 +82,10 @@ std::string rules_lines(const std::vector<Judgement>& judgements) {
   bool marked = false;
   for (const Judgement& judgement : judgements) {
     marked = marked || needs_checking(judgement.rule.certainty);
-    if (judgement.verdict != RuleVerdict::pass) text += "\n" + line_of(judgement);
+    const bool told = judgement.verdict == RuleVerdict::warn || judgement.verdict == RuleVerdict::fail;
+    if (told) text += "\n" + line_of(judgement);
   }
+  for (const std::string& line : open_questions(judgements)) text += "\ncannot be judged: " + line;
   if (marked)
     text += "\nbounds not read in the document itself; their certainty stands in [ ], \"glissade rules\"";
   return labelled("Rules", text);
@@ -76,8 +98,9 @@ std::string verdicts_table(const std::vector<Judgement>& judgements) {
                bound_text(judgement.rule), std::string(word(judgement.rule.certainty))});
   }
   std::string text = table.text();
-  for (const Judgement& judgement : judgements) {
-    if (!judgement.reason.empty()) text += "\n  " + judgement.rule.id + ": " + judgement.reason;
+  for (const std::string& line : open_questions(judgements)) {
+    text += "\n  ";
+    for (const char letter : line) text += letter == '\n' ? std::string("\n  ") : std::string(1, letter);
   }
   return text + (text.ends_with('\n') ? "" : "\n");
 }

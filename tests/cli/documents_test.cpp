@@ -71,8 +71,9 @@ TEST_CASE("docs/cli.md quotes the help of every command as the program prints it
   std::string text = bytes_of(path);
   const bool update = std::getenv("GLISSADE_UPDATE_GOLDEN") != nullptr;
   for (const std::string command :
-       {"", "build", "solve", "ride", "compare", "plot", "inspect", "init", "gates", "fit", "profile",
-        "survey", "rules", "materials", "sweep", "schema", "rewrite", "help", "completion"}) {
+       {"",          "build", "solve",  "ride",    "compare",  "plot",      "inspect",
+        "init",      "gates", "fit",    "profile", "redesign", "survey",    "rules",
+        "materials", "sweep", "schema", "rewrite", "help",     "completion"}) {
     const Outcome help = glissade_run(with_help(command));
     REQUIRE(help.exit_code == 0);
     const std::string heading = command.empty() ? "## glissade\n" : "## glissade " + command + "\n";
@@ -102,7 +103,7 @@ TEST_CASE("every example of --help does what it says") {
   const std::string find = "PATH=" + program.substr(0, program.rfind('/')) + ":$PATH; ";
   std::size_t tried = 0;
   for (const std::string command : {"", "init", "build", "solve", "compare", "plot", "inspect", "gates",
-                                    "fit", "profile", "survey", "sweep", "rewrite", "help"}) {
+                                    "fit", "profile", "redesign", "survey", "sweep", "rewrite", "help"}) {
     if (command == "inspect") {
       REQUIRE(run_program(program, {"build", "designs/grain_chute.yaml", "-q"}, here).exit_code == 0);
       std::filesystem::copy_file(place / "out/grain_chute/grain_chute.off", place / "part.off");

@@ -51,6 +51,18 @@ TEST_CASE("every part of a design in the reference reads in its place") {
         REQUIRE(example.find(finish) != std::string::npos);
         CHECK(problems_with("{x: 5.4 m, z: 1.1 m}", finish) == "");
       }
+    } else if (example.starts_with("# in track, to an edge:")) {
+      ++parts;
+      const std::size_t edge = example.find("\nedge:") + 1;
+      const std::size_t start = example.find("\nstart:") + 1;
+      REQUIRE(start > edge);
+      const std::string to_edge = "  " + example.substr(edge, start - edge);
+      const std::string limits = "limits: {exit_speed: {lowest: 9 m/s}}\n";
+      constexpr std::string_view kEnds = "  start: {x: 0 m, z: 6.2 m}\n  finish: {x: 5.4 m, z: 1.1 m}\n";
+      for (const std::string& ends : {to_edge, to_edge + "  " + example.substr(start)}) {
+        std::string text = sound_design_with(kEnds, ends);
+        CHECK(problems_of(text.insert(text.find("centerline:"), limits)) == "");
+      }
     } else if (example.starts_with("# in body:")) {
       ++parts;
       std::string keys = example.substr(example.find('\n') + 1);
@@ -68,7 +80,7 @@ TEST_CASE("every part of a design in the reference reads in its place") {
       CHECK(problems_of(text) == "");
     }
   }
-  CHECK(parts == 5);
+  CHECK(parts == 6);
 }
 
 TEST_CASE("the errors that the reference shows are those that are told") {

@@ -164,6 +164,58 @@ TEST_CASE("the finish may lie anywhere on a vertical line or on a level, within 
              Contains("the finish lies on the vertical through the start"));
 }
 
+TEST_CASE("a track to an edge has a start that is free both ways, or one way") {
+  constexpr std::string_view kEnds = "start: {x: 0 m, z: 6.2 m}\n  finish: {x: 5.4 m, z: 1.1 m}\n";
+  const auto design = [&](const std::string& ends, const std::string& limits) {
+    std::string text = sound_design_with(kEnds, ends + "\n");
+    return text.insert(text.find("cross_section:"), limits.empty() ? "" : "limits: {" + limits + "}\n");
+  };
+  const std::string speed = "exit_speed: {lowest: 9 m/s}";
+  const auto track = [&](const std::string& ends) {
+    return parse_design(design(ends, speed), "d.yaml").track;
+  };
+  const TrackDesign both = track("edge: {x: 7 m, z: 1 m}");
+  CHECK(both.free_start);
+  CHECK(both.free_finish == FinishKind::anywhere);
+  CHECK(both.finish == Vec3{7.0, 0.0, 1.0});
+  CHECK(both.start.x < 7.0);
+  CHECK(both.start.z > 1.0);
+  CHECK(track("edge: {x: 7 m, z: 1 m}\n  start: {x: free, z: free}") == both);
+  CHECK(track("edge: {x: 7 m, z: 1 m}\n  start: {x: free, z: 4 m}").free_finish == FinishKind::level);
+  CHECK(track("edge: {x: 7 m, z: 1 m}\n  start: {x: 2 m, z: free}").free_finish == FinishKind::vertical_line);
+  CHECK_FALSE(track("edge: {x: 7 m, z: 1 m}\n  start: {x: 2 m, z: 4 m}").free_start);
+
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", "")),
+             Contains("the start is free both ways, and no exit speed above the entry speed is asked for"));
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", waypoints: [[3 m, 3 m]]")),
+             Contains("limits that are places, with a start that is free"));
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  finish: {x: 7 m, z: 1 m}", speed)),
+             Contains("edge alone, which is where the track ends"));
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  start: {x: 7 m, z: free}", speed)),
+             Contains("the start lies on the vertical through the edge"));
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", objective: least_load")),
+             Contains("objective: least_load, with an end that is free both ways"));
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  start: {x: free, z: 4 m}",
+                                "objective: least_curvature_rate")),
+             Contains("objective: least_curvature_rate, without a lowest exit_speed"));
+}
+
+TEST_CASE("a finish that is free both ways lies within its bounds, and leads the way they lie") {
+  const auto finish = [](const std::string& text) {
+    std::string whole = sound_design_with("{x: 5.4 m, z: 1.1 m}", text);
+    whole.insert(whole.find("cross_section:"), "limits: {exit_speed: {lowest: 9 m/s}}\n");
+    return parse_design(whole, "d.yaml").track;
+  };
+  const TrackDesign open = finish("{x: free, z: free}");
+  CHECK(open.free_finish == FinishKind::anywhere);
+  CHECK_FALSE(open.free_start);
+  const TrackDesign bounded = finish("{x: {highest: -2 m}, z: {lowest: 0 m, highest: 3 m}}");
+  CHECK(bounded.free_range == Range{std::nullopt, -2.0});
+  CHECK(bounded.free_height == Range{0.0, 3.0});
+  CHECK(bounded.finish.x <= -2.0);
+  CHECK(bounded.finish.z <= 3.0);
+}
+
 TEST_CASE("limits that contradict each other or the design are refused where they stand") {
   CHECK_THAT(problems_of_limits("exit_slope_angle: 40 deg, slope_angle: {highest: 35 deg}"),
              StartsWith("d.yaml:10:28: exit_slope_angle: 40 deg contradicts slope_angle: at most 35 deg"));

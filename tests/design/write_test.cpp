@@ -88,6 +88,13 @@ TEST_CASE("every key is written back") {
         "  friction_coefficient: 0.3");
   check("{x: 5.4 m, z: 1.1 m}", "{x: 5.4 m, y: 3 ft, z: {lowest: 1 m, highest: 2 m}}");
   check("{x: 5.4 m, z: 1.1 m}", "{x: free, z: 1.1 m}");
+  const std::string kSpeed = "\nlimits: {exit_speed: {lowest: 9 m/s}, objective: least_drop}\nbody:";
+  check("{x: 5.4 m, z: 1.1 m}\nbody:", "{x: {highest: -1 m}, z: {lowest: 0 m, highest: 2 m}}" + kSpeed);
+  const std::string kEnds = "start: {x: 0 m, z: 6.2 m}\n  finish: {x: 5.4 m, z: 1.1 m}\nbody:";
+  check(kEnds, "edge: {x: 7 m, z: 1 m}" + kSpeed);
+  check(kEnds, "edge: {x: 7 m, y: 2 m, z: 1 m}\n  azimuth: 30 deg\n  start: {x: free, z: 4 m}" + kSpeed);
+  check(kEnds, "edge: {x: 7 m, z: 1 m}\n  start: {x: 2 m, y: 1 m, z: free}" + kSpeed);
+  check(kEnds, "edge: {x: 7 m, z: 1 m}\n  start: {x: 2 m, z: 3 m}" + kSpeed);
   check("{kind: fastest}",
         "{kind: points, file: found.csv, columns: [run_m, height_m, slope_angle_deg, curvature_per_m]}");
   check("{kind: fastest}", "{kind: constant-speed, p: 12.3 m^2/s^2}");

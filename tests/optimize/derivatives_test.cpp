@@ -53,6 +53,8 @@ std::vector<Rider> riders() {
           {"ball from rest", 0.0, std::make_shared<const RollingBall>(ball)},
           {"ball", 2.5, std::make_shared<const RollingBall>(ball)},
           {"wind", 2.5, nullptr, 3.0},
+          {"lowest", 2.5, nullptr, 0.0, ObjectiveKind::least_drop},
+          {"shortest", 2.5, nullptr, 0.0, ObjectiveKind::least_length},
           {"stream", 2.5, std::make_shared<const BulkStream>(stream)},
           {"even stream", 2.5, std::make_shared<const BulkStream>(stream), 0.0, ObjectiveKind::even_speed},
           {"landing stream", 3.5, std::make_shared<const BulkStream>(stream), 0.0, ObjectiveKind::travel_time,

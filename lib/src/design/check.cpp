@@ -55,6 +55,8 @@ namespace {
 
 /// Whether a free finish can come as near to the start's vertical, or as deep, as reach may need.
 bool finish_is_unbounded(const TrackDesign& track) {
+  if (track.free_start || track.free_finish == FinishKind::anywhere)
+    return track.free_finish != FinishKind::point;
   if (track.free_finish == FinishKind::vertical_line) return !track.free_range.lowest;
   if (track.free_finish != FinishKind::level) return false;
   const bool to_the_right = track.free_range.lowest && *track.free_range.lowest > track.start.x;

@@ -186,7 +186,8 @@ struct NamedPoint {
 
 std::vector<NamedPoint> fixed_points(const Design& design) {
   const TrackDesign& track = design.track;
-  std::vector<NamedPoint> points = {{"the start", in_limit_plane(track, track.start), "track.start"}};
+  std::vector<NamedPoint> points;
+  if (!track.free_start) points.push_back({"the start", in_limit_plane(track, track.start), "track.start"});
   if (track.free_finish == FinishKind::point) {
     points.push_back({"the finish", in_limit_plane(track, track.finish), "track.finish"});
   }
@@ -330,8 +331,26 @@ void check_of_stream(const Design& design, Collected& findings) {
   }
 }
 
+/// The tightest bound at which a speed is still reached needs that speed, and ends that a track cannot flee to.
+void check_least_bound(const Design& design, Collected& findings) {
+  const bool load = design.objective.kind == ObjectiveKind::least_load;
+  const std::string name = std::string("objective: ") + (load ? "least_load" : "least_curvature_rate");
+  if (!(design.limits->exit_speed.lowest.value_or(0.0) > design.body.entry_speed)) {
+    report(findings, {path("objective"), path("exit_speed")},
+           {"", name + ", without a lowest exit_speed above the entry speed",
+            "The least is that at which a given speed is just reached.", "exit_speed: {lowest: 27 m/s}"});
+  }
+  if (design.track.free_finish == FinishKind::anywhere) {
+    report(findings, {path("objective"), "track"},
+           {"", name + ", with an end that is free both ways",
+            "A longer and longer track has less and less of it.",
+            "a start at a level: {x: free, z: 47 m}, or objective: least_drop"});
+  }
+}
+
 void check_objective(const Design& design, Collected& findings) {
   const Objective& objective = design.objective;
+  if (is_least_bound(objective.kind)) check_least_bound(design, findings);
   if (!(objective.exit_speed_weight >= 0.0 && std::isfinite(objective.exit_speed_weight))) {
     report(findings, {path("objective.exit_speed_weight")},
            {"", "exit_speed_weight: " + rounded_text(objective.exit_speed_weight, 4) + " s/(m/s) is negative",

@@ -62,22 +62,64 @@ void check_drop(const Design& design, Collected& findings) {
           "a lower finish.z or a higher entry_speed"});
 }
 
-void check_free_finish(const Design& design, Collected& findings) {
-  const TrackDesign& track = design.track;
-  const Range& range = track.free_range;
-  const std::string key = track.free_finish == FinishKind::level ? "x" : "z";
-  if (design.centerline.kind != CenterlineKind::fastest) {
-    report(findings, {"track.finish", "centerline.kind"},
-           {"", "a free " + key + " of the finish needs the kind fastest",
-            "It is the fastest track that chooses.", "kind: fastest, or a finish with a value for " + key});
-  }
+void check_free_range(const Range& range, const std::string& key, Collected& findings) {
   if (range.lowest && range.highest && *range.lowest > *range.highest) {
     report(findings, {"track.finish." + key},
            {"", key + ": lowest " + metres(*range.lowest) + " is above highest " + metres(*range.highest),
             "Nothing lies between them.", "the two the other way round"});
   }
+  if (range.lowest) check_coordinates({*range.lowest, 0.0, 0.0}, "track.finish." + key, findings);
+  if (range.highest) check_coordinates({*range.highest, 0.0, 0.0}, "track.finish." + key, findings);
+}
+
+/// It is the speed to be reached that says how far a track with a free end has to fall.
+void check_free_both_ways(const Design& design, const char* end, Collected& findings) {
+  const bool given =
+      design.limits && design.limits->exit_speed.lowest.value_or(0.0) > design.body.entry_speed;
+  if (given) return;
+  report(
+      findings, {"limits.exit_speed", std::string("track.") + end, "track.edge", "limits", "track"},
+      {"",
+       std::string("the ") + end + " is free both ways, and no exit speed above the entry speed is asked for",
+       "It is the speed to be reached that says how far the track has to fall.",
+       "limits: {exit_speed: {lowest: 27 m/s}}"});
+}
+
+/// A start that the search chooses lies nowhere before it is found.
+void check_free_start(const Design& design, Collected& findings) {
+  const TrackDesign& track = design.track;
+  if (track.free_finish == FinishKind::anywhere) check_free_both_ways(design, "start", findings);
+  if (track.free_finish == FinishKind::vertical_line && run_of(track) == 0.0) {
+    report(findings, {"track.start", "track.edge"},
+           {"", "the start lies on the vertical through the edge",
+            "With a free height the track could begin where it ends.", "a start to the side"});
+  }
+  if (!design.limits || (!design.limits->has_clearances() && design.limits->waypoints.empty())) return;
+  report(findings,
+         {"limits.waypoints", "limits.keep_outs", "limits.half_planes", "limits.stay_above",
+          "limits.stay_below", "limits"},
+         {"", "limits that are places, with a start that is free",
+          "The search counts places from the start, which it has yet to find.",
+          "a start with a value for x and z"});
+}
+
+void check_free_finish(const Design& design, Collected& findings) {
+  const TrackDesign& track = design.track;
+  const std::string key = track.free_finish == FinishKind::level ? "x" : "z";
+  if (track.free_finish == FinishKind::anywhere) {
+    check_free_both_ways(design, "finish", findings);
+    check_free_range(track.free_range, "x", findings);
+    check_free_range(track.free_height, "z", findings);
+  } else {
+    check_free_range(track.free_range, key, findings);
+  }
+  if (design.centerline.kind != CenterlineKind::fastest) {
+    report(findings, {"track.finish", "centerline.kind"},
+           {"", "a free " + key + " of the finish needs the kind fastest",
+            "It is the fastest track that chooses.", "kind: fastest, or a finish with a value for " + key});
+  }
   const bool aside = track.start.y == track.finish.y;
-  if (track.free_finish == FinishKind::level && !aside) {
+  if (!fixes_run(track.free_finish) && !aside) {
     report(findings, {"track.finish.y", "track.start"},
            {"", "y: a finish with a free x lies straight along x from the start", "", "the y of the start"});
   }
@@ -86,8 +128,6 @@ void check_free_finish(const Design& design, Collected& findings) {
            {"", "the finish lies on the vertical through the start",
             "With a free height the track could end where it begins.", "a finish to the side"});
   }
-  if (range.lowest) check_coordinates({*range.lowest, 0.0, 0.0}, "track.finish." + key, findings);
-  if (range.highest) check_coordinates({*range.highest, 0.0, 0.0}, "track.finish." + key, findings);
 }
 
 }  // namespace
@@ -97,7 +137,10 @@ void check_track(const Design& design, Collected& findings) {
   check_coordinates(track.start, "track.start", findings);
   check_coordinates(track.finish, "track.finish", findings);
   if (!track.finish_given) return;
-  if (track.free_finish != FinishKind::point) check_free_finish(design, findings);
+  if (track.free_finish != FinishKind::point) {
+    (track.free_start ? check_free_start : check_free_finish)(design, findings);
+  }
+  if (track.free_finish == FinishKind::anywhere) return;
   const std::vector<std::string> paths = {"track.finish", "track.start"};
   const double distance = norm(track.finish - track.start);
   if (distance == 0.0) {

@@ -99,6 +99,15 @@ double easiest_run(const TrackDesign& track) {
   return std::min(start + std::fabs(track.start.z - track.finish.z), range.highest.value_or(kLongestFreeRun));
 }
 
+/// Some place within both ranges: a metre along and a metre down where they leave it open.
+void place_somewhere(TrackDesign& track) {
+  const auto within = [](const Range& range, double value) {
+    return std::min(std::max(value, range.lowest.value_or(value)), range.highest.value_or(HUGE_VAL));
+  };
+  track.finish.x = within(track.free_range, track.start.x + 1.0);
+  track.finish.z = within(track.free_height, track.start.z - 1.0);
+}
+
 void read_finish(const Value& value, TrackDesign& track, Findings& findings) {
   MapReader map(value, "A finish", "{x: 5.4 m, z: 1.1 m}", findings);
   const auto x = map.need("x", "x: 5.4 m");
@@ -107,10 +116,10 @@ void read_finish(const Value& value, TrackDesign& track, Findings& findings) {
   map.refuse_unknown_keys();
   track.finish.y = y.value_or(is_free(x, findings) ? track.start.y : 0.0);
   if (is_free(x, findings) && is_free(z, findings)) {
-    findings.add(
-        findings.position(value.key_path), value.key_path,
-        {"", "the finish is free both ways", "A finish is a point, or lies on a vertical line or on a level.",
-         "one of x and z with a value"});
+    track.free_finish = FinishKind::anywhere;
+    track.free_range = read_free_range(*x, findings);
+    track.free_height = read_free_range(*z, findings);
+    place_somewhere(track);
     return;
   }
   if (x && !is_free(x, findings)) track.finish.x = as_quantity(*x, Dimension::length, findings).value_or(0.0);
@@ -149,6 +158,56 @@ TrackDesign read_track_of_in_run(const Value& value, Findings& findings) {
   return track;
 }
 
+/// A coordinate of a start: `free`, or a length.
+std::optional<double> read_start_coordinate(const std::optional<Value>& value, Findings& findings) {
+  if (!value || is_word(*value, "free", findings)) return {};
+  return as_quantity(*value, Dimension::length, findings);
+}
+
+/// The start of a track to an edge where it says something: `free` both ways where it does not.
+void read_start_to_edge(const std::optional<Value>& value, TrackDesign& track, Findings& findings) {
+  std::optional<double> x;
+  std::optional<double> z;
+  track.start = track.finish;
+  if (value) {
+    MapReader map(*value, "A start above an edge", "{x: free, z: free}", findings);
+    const auto given_x = map.need("x", "x: free");
+    const auto given_y = map.quantity("y", Dimension::length);
+    const auto given_z = map.need("z", "z: free, or the level of the start");
+    map.refuse_unknown_keys();
+    x = read_start_coordinate(given_x, findings);
+    z = read_start_coordinate(given_z, findings);
+    track.start.y = given_y.value_or(track.finish.y);
+  }
+  track.free_start = !x || !z;
+  track.free_finish = x && z ? FinishKind::point
+                      : x    ? FinishKind::vertical_line
+                      : z    ? FinishKind::level
+                             : FinishKind::anywhere;
+  const double side = x ? std::fabs(*x - track.finish.x) : 1.0;
+  track.start.z = z.value_or(track.finish.z + std::max(side, 1e-3));
+  const double run = std::fabs(track.start.z - track.finish.z);
+  if (x) {
+    track.start.x = *x;
+    return;
+  }
+  track.start.x = track.finish.x - run * math::cos(track.azimuth.radians());
+  track.start.y = track.finish.y - run * math::sin(track.azimuth.radians());
+}
+
+/// A track that ends at a given edge, as an in-run does, and whose start the search may choose.
+TrackDesign read_track_to_edge(const Value& value, Findings& findings) {
+  MapReader map(value, "A track to an edge", "{edge: {x: 0 m, z: 0 m}, start: {x: free, z: free}}", findings);
+  map.add_stranger("finish", "edge alone, which is where the track ends");
+  TrackDesign track;
+  if (const auto edge = map.find("edge")) track.edge = read_position(*edge, "An edge", findings);
+  track.finish = track.edge.value_or(Vec3{});
+  track.azimuth = Angle::from_radians(map.quantity("azimuth", Dimension::angle).value_or(0.0));
+  read_start_to_edge(map.find("start"), track, findings);
+  map.refuse_unknown_keys();
+  return track;
+}
+
 /// @param kind  some say themselves where they end
 TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) {
   TrackDesign track;
@@ -157,6 +216,9 @@ TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) 
   if (!value) return track;
   if (kind == CenterlineKind::in_run) return read_track_of_in_run(*value, findings);
   const bool finish_may_follow = is_drawn(kind);
+  const bool to_edge = kind == CenterlineKind::fastest && value->node->kind == Node::Kind::map &&
+                       MapReader(*value, "A track", "", findings).has("edge");
+  if (to_edge) return read_track_to_edge(*value, findings);
   MapReader map(*value, "A track", "{start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}", findings);
   if (const auto start = map.need("start", "start: {x: 0 m, z: 6.2 m}")) {
     track.start = read_position(*start, "A start", findings);
@@ -167,7 +229,7 @@ TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) 
       finish_may_follow ? map.find("finish") : map.need("finish", "finish: {x: 5.4 m, z: 1.1 m}");
   if (finish) read_finish(*finish, track, findings);
   for (const std::string_view key : {"edge", "azimuth"}) {
-    map.add_stranger(key, "kind: in-run in the centerline, which is placed by its edge");
+    map.add_stranger(key, "kind: in-run or kind: fastest in the centerline, which may be placed by an edge");
   }
   map.refuse_unknown_keys();
   // A schema does not know here of which kind the centerline is.

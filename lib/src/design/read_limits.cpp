@@ -204,6 +204,10 @@ void read_objective(MapReader& limits_map, Objective& objective, Findings& findi
                                              {"exit_speed", ObjectiveKind::exit_speed},
                                              {"least_wear", ObjectiveKind::least_wear},
                                              {"even_speed", ObjectiveKind::even_speed},
+                                             {"least_drop", ObjectiveKind::least_drop},
+                                             {"least_length", ObjectiveKind::least_length},
+                                             {"least_load", ObjectiveKind::least_load},
+                                             {"least_curvature_rate", ObjectiveKind::least_curvature_rate},
                                              {"blend", ObjectiveKind::blend}};
   const auto value = limits_map.find("objective");
   if (!value) return;

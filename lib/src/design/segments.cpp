@@ -1,6 +1,7 @@
 // From what a file tells of each segment to what it is on the track: each begins where the one before it ended.
 
 #include "glissade/centerline/drawn_track.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/design/design.hpp"
 
@@ -135,11 +136,11 @@ Drawn to_point(const SegmentDesign& segment, const Beginning& from, Vec2 end) {
                              length_text(from.place.y) + " below it, with slope angle " +
                              angle_text(from.slope_angle) + ".";
   constexpr double kShortest = 1e-6;
-  if (!(std::hypot(way.x, way.y) >= kShortest)) {
+  if (!(math::hypot(way.x, way.y) >= kShortest)) {
     return fault("to_point", "to_point: " + point + " is where the segment begins", begins,
                  "a point farther on");
   }
-  if (!(std::hypot(way.x, way.y) <= design_file::kLongestTrack)) {
+  if (!(math::hypot(way.x, way.y) <= design_file::kLongestTrack)) {
     return fault("to_point", "to_point: " + point + " is too far away", "A segment is at most 1000 km long.",
                  "");
   }

@@ -47,12 +47,26 @@ std::string track(const TrackDesign& design) {
     group.add("start", start.inlined());
   }
   group.add_unless(0.0, "azimuth", design.azimuth.radians(), Dimension::angle);
+  if (design.edge && design.finish_given) {
+    const Vec3& at = design.start;
+    const bool free = design.free_start;
+    Group above;
+    above.add("x", free && !fixes_run(design.free_finish) ? "free" : length(at.x));
+    if (!free || fixes_run(design.free_finish)) above.add("y", at.y, Dimension::length);
+    above.add("z", free && !fixes_drop(design.free_finish) ? "free" : length(at.z));
+    group.add("start", above.inlined());
+    return group.lines();
+  }
   if (!design.finish_given) return group.lines();
-  const std::string free = design.free_range.limited() ? range(design.free_range, Dimension::length) : "free";
+  const auto free = [](const Range& within) {
+    return within.limited() ? range(within, Dimension::length) : std::string("free");
+  };
+  const bool anywhere = design.free_finish == FinishKind::anywhere;
   Group finish;
-  finish.add("x", design.free_finish == FinishKind::level ? free : length(design.finish.x));
+  finish.add("x", fixes_run(design.free_finish) ? length(design.finish.x) : free(design.free_range));
   finish.add("y", design.finish.y, Dimension::length);
-  finish.add("z", design.free_finish == FinishKind::vertical_line ? free : length(design.finish.z));
+  finish.add("z", fixes_drop(design.free_finish) ? length(design.finish.z)
+                                                 : free(anywhere ? design.free_height : design.free_range));
   group.add("finish", finish.inlined());
   return group.lines();
 }
@@ -427,6 +441,18 @@ std::string objective(const Objective& objective) {
       break;
     case ObjectiveKind::even_speed:
       group.add("kind", "even_speed");
+      break;
+    case ObjectiveKind::least_drop:
+      group.add("kind", "least_drop");
+      break;
+    case ObjectiveKind::least_length:
+      group.add("kind", "least_length");
+      break;
+    case ObjectiveKind::least_load:
+      group.add("kind", "least_load");
+      break;
+    case ObjectiveKind::least_curvature_rate:
+      group.add("kind", "least_curvature_rate");
       break;
     case ObjectiveKind::blend:
       group.add("kind", "blend");

@@ -8,6 +8,7 @@
 
 #include "optimize/end_conflict.hpp"
 #include "optimize/infeasibility.hpp"
+#include "optimize/least_bound.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/load_arcs.hpp"
 #include "optimize/refinement.hpp"
@@ -535,8 +536,9 @@ std::vector<Stretch> joined(std::vector<Stretch> stretches, const std::vector<St
 }
 
 std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
-  // Seconds, or m/s where speed alone counts.
-  const double objective_si = problem.time_weight > 0.0 ? problem.time : problem.speed;
+  // Seconds, or m/s or metres where speed or a length alone counts.
+  const double length_or_speed = problem.speed_weight > 0.0 ? problem.speed : problem.chord;
+  const double objective_si = problem.time_weight > 0.0 ? problem.time : length_or_speed;
   std::vector<ActiveLimit> result;
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
@@ -575,6 +577,18 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
   return result;
 }
 
+/// "faster", as an adjective of what is searched for.
+const char* better_text(const Objective& objective) {
+  switch (objective.kind) {
+    case ObjectiveKind::least_drop:
+      return "lower";
+    case ObjectiveKind::least_length:
+      return "shorter";
+    default:
+      return "faster";
+  }
+}
+
 }  // namespace
 }  // namespace optimizer
 
@@ -584,6 +598,7 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
   require_searchable(problem);
   require_passable_in_order(problem);
   require_valid(options);
+  if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);
   const auto begin = Clock::now();
   SearchControl control;
   control.limit_tolerance = 0.1 * options.limit_tolerance;
@@ -652,7 +667,8 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     const bool converged = found.residual <= options.tolerance && !stopped;
     report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
     if (converged) {
-      report.message = "every limit holds and no neighbouring track is faster";
+      report.message =
+          std::string("every limit holds and no neighbouring track is ") + better_text(problem.objective);
     } else if (stopped) {
       report.message =
           out_of_time ? "the time budget ran out: the best track so far" : "stopped: the best track so far";

@@ -77,7 +77,8 @@ Rows::Rows(const ScaledProblem& problem, const Transcription& track)
     : problem_(problem),
       track_(track),
       envelope_(problem, track),
-      fixed_equalities_(problem.finish == FinishKind::point ? 2 : 1),
+      fixed_equalities_(static_cast<std::size_t>(fixes_run(problem.finish)) +
+                        static_cast<std::size_t>(fixes_drop(problem.finish))),
       margins_(problem.limits.size(), 0.0) {
   if (problem.lead_in > 0.0) ++fixed_equalities_;
   if (problem.lead_out > 0.0) ++fixed_equalities_;
@@ -113,6 +114,8 @@ double Rows::objective(const State& state) const {
     const double v = flow.v.back();
     value -= problem_.speed_weight * std::copysign(std::sqrt(std::fabs(v)), v);
   }
+  value += problem_.drop_weight * state.shape.y.back();
+  value += problem_.length_weight * state.z[track_.layout().length()];
   return value;
 }
 
@@ -125,6 +128,9 @@ Vector Rows::objective_gradient(const State& state) const {
     const double root = std::sqrt(std::max(std::fabs(flow.v[last]), 1e-12));
     track_.add(flow.dv, last, -problem_.speed_weight * 0.5 / root, gradient.data());
   }
+  if (problem_.drop_weight > 0.0)
+    track_.add(state.shape.dy, state.shape.y.size() - 1, problem_.drop_weight, gradient.data());
+  gradient[track_.layout().length()] += problem_.length_weight;
   return gradient;
 }
 
@@ -173,8 +179,8 @@ Vector Rows::equality_values(const State& state) const {
   const Layout& layout = track_.layout();
   Vector value;
   value.reserve(equality_count());
-  if (problem_.finish != FinishKind::level) value.push_back(state.shape.x.back() - problem_.run);
-  if (problem_.finish != FinishKind::vertical_line) value.push_back(state.shape.y.back() - problem_.drop);
+  if (fixes_run(problem_.finish)) value.push_back(state.shape.x.back() - problem_.run);
+  if (fixes_drop(problem_.finish)) value.push_back(state.shape.y.back() - problem_.drop);
   if (problem_.lead_in > 0.0) value.push_back(state.z[layout.turn(0)]);
   if (problem_.lead_out > 0.0) value.push_back(state.z[layout.turn(layout.knots - 1)]);
   for (std::size_t i = fixed_equalities_; i < equality_count(); ++i) {
@@ -192,8 +198,8 @@ void Rows::equalities(const State& state, Vector& value, Matrix& jacobian) const
   value = equality_values(state);
   jacobian = Matrix(equality_count(), n);
   std::size_t at = 0;
-  if (problem_.finish != FinishKind::level) track_.add(state.shape.dx, last, 1.0, jacobian.row(at++));
-  if (problem_.finish != FinishKind::vertical_line) track_.add(state.shape.dy, last, 1.0, jacobian.row(at++));
+  if (fixes_run(problem_.finish)) track_.add(state.shape.dx, last, 1.0, jacobian.row(at++));
+  if (fixes_drop(problem_.finish)) track_.add(state.shape.dy, last, 1.0, jacobian.row(at++));
   if (problem_.lead_in > 0.0) jacobian(at++, layout.turn(0)) = 1.0;
   if (problem_.lead_out > 0.0) jacobian(at++, layout.turn(layout.knots - 1)) = 1.0;
   for (; at < equality_count(); ++at) {
@@ -263,7 +269,7 @@ double Rows::plain_measure(const State& state, const LimitSpec& limit, const Row
     case Measure::arc_length:
       return problem_.lead_in + length + problem_.lead_out;
     case Measure::finish_coordinate:
-      return problem_.finish == FinishKind::level ? shape.x[last] : shape.y[last];
+      return limit.name.id == LimitId::finish_run ? shape.x[last] : shape.y[last];
     case Measure::distance: {
       const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
       if (has_envelope()) return envelope_.measure(state, obstacle, row);
@@ -349,7 +355,7 @@ void Rows::plain_gradient(const State& state, const LimitSpec& limit, const Row&
       out[layout.length()] = 1.0;
       return;
     case Measure::finish_coordinate:
-      track_.add(problem_.finish == FinishKind::level ? shape.dx : shape.dy, last, 1.0, out);
+      track_.add(limit.name.id == LimitId::finish_run ? shape.dx : shape.dy, last, 1.0, out);
       return;
     case Measure::distance: {
       const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
@@ -577,7 +583,7 @@ void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const
           factor / free_fall(track_, row.place, problem_.rides[row.ride].entry_speed2);
       return;
     case Measure::finish_coordinate:
-      (problem_.finish == FinishKind::level ? weights.x : weights.y)[last] += factor;
+      (limit.name.id == LimitId::finish_run ? weights.x : weights.y)[last] += factor;
       return;
     case Measure::distance: {
       const Obstacle& obstacle = problem_.obstacles[limit.obstacle];
@@ -630,9 +636,10 @@ StationWeights Rows::weights(const State& state, const Vector& equality, const s
     weights.v_v[problem_.objective_ride][last] +=
         objective * problem_.speed_weight * 0.25 / (root * root * root);
   }
+  weights.y[last] += objective * problem_.drop_weight;
   std::size_t row = 0;
-  if (problem_.finish != FinishKind::level) weights.x[last] += equality[row++];
-  if (problem_.finish != FinishKind::vertical_line) weights.y[last] += equality[row++];
+  if (fixes_run(problem_.finish)) weights.x[last] += equality[row++];
+  if (fixes_drop(problem_.finish)) weights.y[last] += equality[row++];
   for (row = fixed_equalities_; row < equality.size(); ++row) {
     const Row at = row_of_equality(row);
     const LimitSpec& limit = problem_.limits[at.limit];

@@ -92,9 +92,11 @@ class LimitList {
       if (entry.value != nullptr && limits.*entry.value) add_value(entry, *(limits.*entry.value));
     }
     if (problem_.limits.match_belt) add_match(*problem_.limits.match_belt);
-    if (problem_.finish.kind == FinishKind::point) return;
-    const bool level = problem_.finish.kind == FinishKind::level;
-    add_range(entry_of(level ? LimitId::finish_run : LimitId::finish_drop), problem_.finish.free_range);
+    const Finish& finish = problem_.finish;
+    if (!fixes_run(finish.kind)) add_range(entry_of(LimitId::finish_run), finish.free_range);
+    if (fixes_drop(finish.kind)) return;
+    const bool both = finish.kind == FinishKind::anywhere;
+    add_range(entry_of(LimitId::finish_drop), both ? finish.free_drop : finish.free_range);
   }
 
   LimitSpec& add(const LimitName& name, double bound_si) {
@@ -390,22 +392,64 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
 
 }  // namespace
 
+namespace {
+
+/// The length that the problem is scaled by [m].
+double chord_of(const Problem& problem) {
+  const double run = std::fabs(problem.endpoints.run);
+  switch (problem.finish.kind) {
+    case FinishKind::point:
+      return math::hypot(run, problem.endpoints.drop);
+    case FinishKind::vertical_line:
+      return run;
+    case FinishKind::level:
+      return std::fabs(problem.endpoints.drop);
+    case FinishKind::anywhere:
+      break;
+  }
+  // The drop of free fall to the speed that is to be reached: no track has less.
+  const double speed = problem.limits.exit_speed.lowest.value_or(0.0);
+  const double entry = problem.body.entry_speed;
+  return (speed * speed - entry * entry) / (2.0 * problem.gravity);
+}
+
+void set_objective(const Objective& objective, double entry_speed, ScaledProblem& out) {
+  switch (objective.kind) {
+    case ObjectiveKind::travel_time:
+      break;
+    case ObjectiveKind::even_speed:
+      for (Ride& ride : out.rides) ride.even_speed = entry_speed;
+      break;
+    case ObjectiveKind::least_wear:
+    case ObjectiveKind::exit_speed:
+    // Of a least bound this is what is searched for at each bound that is tried (least_bound.cpp).
+    case ObjectiveKind::least_load:
+    case ObjectiveKind::least_curvature_rate:
+      out.time_weight = 0.0;
+      out.speed_weight = 1.0;
+      break;
+    case ObjectiveKind::least_drop:
+      out.time_weight = 0.0;
+      out.drop_weight = 1.0;
+      break;
+    case ObjectiveKind::least_length:
+      out.time_weight = 0.0;
+      out.length_weight = 1.0;
+      break;
+    case ObjectiveKind::blend:
+      out.speed_weight = objective.exit_speed_weight * out.speed / out.time;
+      break;
+  }
+}
+
+}  // namespace
+
 ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   const Limits& limits = problem.limits;
   ScaledProblem out;
   out.finish = problem.finish.kind;
   const double run = std::fabs(problem.endpoints.run);
-  switch (problem.finish.kind) {
-    case FinishKind::point:
-      out.chord = math::hypot(run, problem.endpoints.drop);
-      break;
-    case FinishKind::vertical_line:
-      out.chord = run;
-      break;
-    case FinishKind::level:
-      out.chord = std::fabs(problem.endpoints.drop);
-      break;
-  }
+  out.chord = chord_of(problem);
   out.gravity = problem.gravity;
   out.time = std::sqrt(out.chord / problem.gravity);
   out.speed = std::sqrt(out.chord * problem.gravity);
@@ -427,21 +471,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   const auto nominal = std::find(frictions.begin(), frictions.end(), problem.body.friction.coefficient());
   out.nominal_ride = static_cast<std::size_t>(nominal - frictions.begin());
   out.objective_ride = problem.objective.worst_case ? frictions.size() - 1 : out.nominal_ride;
-  switch (problem.objective.kind) {
-    case ObjectiveKind::travel_time:
-      break;
-    case ObjectiveKind::even_speed:
-      for (Ride& ride : out.rides) ride.even_speed = entry_speed;
-      break;
-    case ObjectiveKind::least_wear:
-    case ObjectiveKind::exit_speed:
-      out.time_weight = 0.0;
-      out.speed_weight = 1.0;
-      break;
-    case ObjectiveKind::blend:
-      out.speed_weight = problem.objective.exit_speed_weight * out.speed / out.time;
-      break;
-  }
+  set_objective(problem.objective, entry_speed, out);
 
   out.envelope_low = -limits.envelope.below / out.chord;
   out.envelope_high = limits.envelope.top() / out.chord;

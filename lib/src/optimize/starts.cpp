@@ -14,24 +14,38 @@ namespace {
 /// Where the search expects a free finish.
 Vec2 expected_finish(const ScaledProblem& problem) {
   Vec2 finish{problem.run, problem.drop};
-  double lowest = -HUGE_VAL;
-  double highest = HUGE_VAL;
-  for (const LimitSpec& limit : problem.limits) {
-    if (limit.measure != Measure::finish_coordinate) continue;
-    if (limit.side <= 0) lowest = limit.bound;
-    if (limit.side >= 0) highest = limit.bound;
-  }
+  const auto within = [&](LimitId coordinate, double value) {
+    for (const LimitSpec& limit : problem.limits) {
+      if (limit.name.id != coordinate) continue;
+      if (limit.side <= 0) value = std::max(value, limit.bound);
+      if (limit.side >= 0) value = std::min(value, limit.bound);
+    }
+    return value;
+  };
   const double mu = problem.rides.back().friction;
   switch (problem.finish) {
     case FinishKind::point:
       break;
     case FinishKind::vertical_line:
       // The frictionless cycloid that meets a wall squarely has dropped 2/pi of its run.
-      finish.y = std::clamp(finish.x * (2.0 / std::numbers::pi + 1.2 * mu), lowest, highest);
+      finish.y = within(LimitId::finish_drop, finish.x * (2.0 / std::numbers::pi + 1.2 * mu));
       break;
     case FinishKind::level:
-      finish.x = std::clamp(0.5 * std::fabs(finish.y) / std::max(mu, 1.0), lowest, highest);
+      finish.x = within(LimitId::finish_run, 0.5 * std::fabs(finish.y) / std::max(mu, 1.0));
       break;
+    case FinishKind::anywhere: {
+      // Free fall takes a drop of 1; a quarter more goes with friction, and with a slope as steep as is allowed.
+      constexpr double kLost = 0.25;
+      constexpr double kSteepest = 1.0;
+      double slope = kSteepest;
+      for (const LimitSpec& limit : problem.limits) {
+        if (limit.measure == Measure::slope_angle && limit.side > 0)
+          slope = std::min(slope, math::tan(std::min(limit.bound, 0.25 * std::numbers::pi)));
+      }
+      finish.y = within(LimitId::finish_drop, 1.0 + kLost);
+      finish.x = within(LimitId::finish_run, finish.y / std::max(0.8 * slope, 1.5 * mu));
+      break;
+    }
   }
   return finish;
 }

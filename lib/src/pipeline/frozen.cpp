@@ -28,10 +28,13 @@ const ClothoidSpline* clothoids_of(const Centerline& centerline) {
 Design emptied(const Design& design, const Track& track) {
   Design frozen = design;
   const Endpoints end = track.centerline->endpoints();
+  frozen.track.start = track.placement.start();
   frozen.track.finish = track.placement.to_space(end.run, end.drop, 0.0);
   frozen.track.finish_given = true;
   frozen.track.free_finish = FinishKind::point;
   frozen.track.free_range = {};
+  frozen.track.free_height = {};
+  frozen.track.free_start = false;
   frozen.track.edge.reset();
   frozen.track.azimuth = {};
   // Gates fill the start area of an in-run's certificate, which goes.

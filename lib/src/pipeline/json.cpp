@@ -320,6 +320,40 @@ std::string verdicts_json(const Design& design, const std::vector<Judgement>& ju
   return document_text(json);
 }
 
+std::string redesign_json(const Design& design, const Redesign& found) {
+  Json json{{"glissade", version()}};
+  if (!design.name.empty()) json["name"] = design.name;
+  json["goal"] = word(found.goal);
+  json["take_off_speed_m_per_s"] = found.take_off.speed;
+  json["shapes"] = Json::array();
+  const double drop = found.shapes.front().ends.drop;
+  for (const RedesignShape& shape : found.shapes) {
+    Json row{{"name", shape.name}};
+    row["problem"] = shape.problem.empty() ? Json(nullptr) : Json(shape.problem);
+    const bool there = shape.track != nullptr && shape.problem.empty();
+    const auto add = [&](const char* key, double value) { row[key] = there ? Json(value) : Json(nullptr); };
+    add("drop_m", shape.ends.drop);
+    add("saved_m", drop - shape.ends.drop);
+    add("run_m", shape.ends.run);
+    add("length_m", shape.length);
+    add("take_off_speed_m_per_s", shape.take_off_speed);
+    add("max_normal_load_m_per_s2", shape.highest_load);
+    add("max_radial_acceleration_m_per_s2", shape.highest_radial);
+    add("curvature_rate_per_m2", shape.curvature_rate);
+    add("curvature_jump_per_m", shape.largest_jump);
+    json["shapes"].push_back(std::move(row));
+  }
+  json["letters"] = Json::array();
+  for (const LetterPrice& price : found.prices) {
+    json["letters"].push_back({{"letter", price.letter},
+                               {"value", price.value},
+                               {"drop_m_per_unit", price.price},
+                               {"rule", price.rule.empty() ? Json(nullptr) : Json(price.rule)}});
+  }
+  json["search"] = found.search ? search_json(*found.search) : Json(nullptr);
+  return document_text(json);
+}
+
 std::string fit_json(const SpeedSheet& sheet, const SpeedFit& fit,
                      const std::vector<SpeedResidual>& as_designed) {
   Json json{{"glissade", version()}};

@@ -60,18 +60,20 @@ Range turned(const Range& range, double at_zero, double sign) {
 }
 
 Finish finish_of(const TrackDesign& track) {
+  if (track.free_start) return {track.free_finish, {}, {}};
   switch (track.free_finish) {
     case FinishKind::point:
       return {};
     case FinishKind::vertical_line:
       return {FinishKind::vertical_line, turned(track.free_range, track.start.z, -1.0)};
     case FinishKind::level:
+    case FinishKind::anywhere:
       break;
   }
   Range runs = turned(track.free_range, track.start.x, is_mirrored(track) ? -1.0 : 1.0);
   // Behind the start there is no track that leads to the finish.
   if (runs.lowest && *runs.lowest <= 0.0) runs.lowest.reset();
-  return {FinishKind::level, runs};
+  return {track.free_finish, runs, turned(track.free_height, track.start.z, -1.0)};
 }
 
 /// The way back for the coordinates of a free finish: from run and drop to x and z.

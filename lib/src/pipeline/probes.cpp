@@ -23,7 +23,8 @@ std::string name_of(const ProbeDesign& probe) {
 }
 
 /// @return the arc length of a probe; none if the track does not have it
-std::optional<double> arc_length_of(const Design& design, const Centerline& track, const ProbeDesign& probe) {
+std::optional<double> arc_length_of(const Design& design, const Track& found, const ProbeDesign& probe) {
+  const Centerline& track = *found.centerline;
   const double length = track.length();
   switch (probe.origin) {
     case ProbeOrigin::start:
@@ -33,7 +34,9 @@ std::optional<double> arc_length_of(const Design& design, const Centerline& trac
     case ProbeOrigin::x:
       break;
   }
-  const double run = in_track_plane(design.track, {probe.at, design.track.start.z}).x;
+  TrackDesign placed = design.track;
+  placed.start = found.placement.start();
+  const double run = in_track_plane(placed, {probe.at, placed.start.z}).x;
   if (run < 0.0 || run > track.endpoints().run) return {};
   return track.arc_length_at_run(run);
 }
@@ -43,7 +46,7 @@ std::optional<double> arc_length_of(const Design& design, const Centerline& trac
 std::vector<ProbeReading> probe_readings(const Design& design, const Track& track) {
   std::vector<ProbeReading> readings;
   for (const ProbeDesign& probe : design.probes) {
-    const auto s = arc_length_of(design, *track.centerline, probe);
+    const auto s = arc_length_of(design, track, probe);
     if (!s) continue;
     ProbeReading reading{name_of(probe), track.centerline->at(*s), {}, {}};
     reading.position = track.placement.to_space(reading.point.x, reading.point.drop, 0.0);
@@ -61,7 +64,7 @@ std::vector<Issue> pipeline::probes_beside_track(const Design& design, const Tra
   std::vector<Issue> issues;
   for (std::size_t index = 0; index < design.probes.size(); ++index) {
     const ProbeDesign& probe = design.probes[index];
-    if (arc_length_of(design, *track.centerline, probe)) continue;
+    if (arc_length_of(design, track, probe)) continue;
     const std::string key = "probes[" + std::to_string(index) + "]";
     issues.push_back({design.where("probes." + std::to_string(index)),
                       key + ", " + name_of(probe) + ", does not lie on the track",

@@ -159,7 +159,7 @@ ReportFlight flight_from(const char* name, Vec2 from, Vec2 velocity, double time
 
 std::vector<ReportFlight> flights_of(const Design& design, const Track& track) {
   std::vector<ReportFlight> flights;
-  const double height = design.track.start.z;
+  const double height = track.placement.start().z;
   const double g = design.gravity;
   if (design.feed) {
     const FeedFall fall = feed_fall(design);
@@ -200,6 +200,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.stall_angle = stall_angle_of(track);
   input.probes = probe_readings(design, track);
   input.warnings = warnings(design, track);
+  if (track.gates) input.gates = &*track.gates;
   input.rules = judge_rules(design, track);
   input.workshop = build.workshop;
   input.flights = flights_of(design, track);

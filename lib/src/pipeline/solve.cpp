@@ -178,6 +178,14 @@ std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body
   return ride;
 }
 
+/// Where the track lies: from its start, or, where the search chose that, up to its finish.
+Placement placement_of(const TrackDesign& track, const Endpoints& endpoints) {
+  const Placement from_start = Placement::through(track.start, track.finish);
+  if (!track.free_start) return from_start;
+  const Vec3 miss = track.finish - from_start.to_space(endpoints.run, endpoints.drop, 0.0);
+  return {from_start.start() + miss, from_start.azimuth()};
+}
+
 /// Whether the theory gives the fastest track of this body in closed form, limits aside.
 bool has_closed_optimum(const Body& body) {
   return is_sliding_point(body) && body.drag_per_metre == 0.0;
@@ -232,7 +240,7 @@ Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<Fast
   }
   std::vector<LimitCheck> limit_checks = checked_limits(design, endpoints, centerline);
   std::vector<RangeRide> range = rides_of_range(design, centerline);
-  const Placement placement = Placement::through(design.track.start, design.track.finish);
+  const Placement placement = placement_of(design.track, endpoints);
   std::optional<GateTable> gates = gate_table(design, centerline, placement);
   return {endpoints,
           placement,
@@ -301,7 +309,19 @@ Track solve(const Design& design, const RunContext& context) {
 }
 
 std::string searched_name(const Design& design) {
-  return design.limits ? "fastest within the limits" : "fastest, searched for";
+  if (!design.limits) return "fastest, searched for";
+  switch (design.objective.kind) {
+    case ObjectiveKind::least_drop:
+      return "lowest within the limits";
+    case ObjectiveKind::least_length:
+      return "shortest within the limits";
+    case ObjectiveKind::least_load:
+      return "of the least load within the limits";
+    case ObjectiveKind::least_curvature_rate:
+      return "of the most gradual bends within the limits";
+    default:
+      return "fastest within the limits";
+  }
 }
 
 namespace {

@@ -313,6 +313,10 @@ class Watches {
         miss = std::fabs(miss_drop);
         see_range(LimitId::finish_run, problem_.finish.free_range, last.x, end);
         break;
+      case FinishKind::anywhere:
+        see_range(LimitId::finish_run, problem_.finish.free_range, last.x, end);
+        see_range(LimitId::finish_drop, problem_.finish.free_drop, last.drop, end);
+        return;
     }
     see_side({LimitId::finish, Bound::exactly}, 0.0, miss, end);
   }

@@ -246,7 +246,7 @@ Json keep_outs_of(const ReportInput& input) {
 /// The side view of the solid and its headroom: null where clearances are measured from the centerline.
 Json envelope_of(const ReportInput& input) {
   if (input.envelope.is_line()) return nullptr;
-  const double height = input.design->track.start.z;
+  const double height = input.placement.start().z;
   Json edges = Json::array();
   for (const EnvelopeEdge& edge : envelope_edges(input.motion->centerline(), input.envelope)) {
     Json xs = Json::array();
@@ -305,11 +305,28 @@ Json cases_of(const ReportInput& input) {
   return list;
 }
 
+/// Null without gates; the first of the conditions is the design's own.
+Json gates_of(const ReportInput& input) {
+  if (input.gates == nullptr) return nullptr;
+  Json conditions = Json::array();
+  for (const GateCondition& condition : input.gates->conditions) conditions.push_back(condition.name);
+  return {{"measuring_place_m", input.gates->measuring_place},
+          {"conditions", std::move(conditions)},
+          {"list", gates_json(*input.gates)}};
+}
+
+/// A finish that was free lies where the track ends.
+Vec3 finish_of(const ReportInput& input) {
+  const TrackDesign& track = input.design->track;
+  if (track.free_finish == FinishKind::point || track.free_start) return track.finish;
+  return input.placement.to_space(input.endpoints.run, input.endpoints.drop, 0.0);
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_document(const ReportInput& input) {
   const Design& design = *input.design;
-  const double height = design.track.start.z;
+  const double height = input.placement.start().z;
   Json document;
   document["schema"] = "glissade-report/2";
   document["generator"] = {{"name", "Glissade"}, {"version", version()}};
@@ -319,8 +336,8 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
       {"centerline",
        input.centerline.empty() ? std::string(input.motion->centerline().kind()) : input.centerline},
       {"cross_section", input.solid.section ? std::string(input.solid.section->kind()) : "none"}};
-  document["placement"] = {{"start_m", position_json(design.track.start)},
-                           {"finish_m", position_json(design.track.finish)},
+  document["placement"] = {{"start_m", position_json(input.placement.start())},
+                           {"finish_m", position_json(finish_of(input))},
                            {"azimuth_deg", input.placement.azimuth().degrees()}};
   document["endpoints"] = {{"run_m", input.endpoints.run}, {"drop_m", input.endpoints.drop}};
   add_body(document["body"], design);
@@ -329,6 +346,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["ride"] = ride_facts(input);
   document["rides"] = rides_of(input);
   document["probes"] = probes_json(input.probes);
+  document["gates"] = gates_of(input);
   document["rules"] = rules_json(input.rules);
   document["fabrication"] = fabrication_of(input);
   document["flights"] = flights_of(input);

@@ -53,13 +53,11 @@ class Checker {
 void require_valid(const Problem& problem) {
   Checker check;
   const Limits& limits = problem.limits;
-  const bool run_given = problem.finish.kind != FinishKind::level;
-  const bool drop_given = problem.finish.kind != FinishKind::vertical_line;
-  if (run_given) {
+  if (fixes_run(problem.finish.kind)) {
     check.number("endpoints.run", problem.endpoints.run, problem.endpoints.run != 0.0,
                  "a run of 0 is a fall straight down, which leaves nothing to optimise");
   }
-  if (drop_given) {
+  if (fixes_drop(problem.finish.kind)) {
     check.number("endpoints.drop", problem.endpoints.drop, true, "the drop is a finite length");
     check.require(problem.body.entry_speed > 0.0 || problem.endpoints.drop > 0.0,
                   "endpoints.drop: " + exact_text(problem.endpoints.drop) + " m",
@@ -84,10 +82,25 @@ void require_valid(const Problem& problem) {
   }
   check.number("objective.exit_speed_weight", problem.objective.exit_speed_weight,
                problem.objective.exit_speed_weight >= 0.0, "a weight is not negative");
+  const bool speed_given = limits.exit_speed.lowest && *limits.exit_speed.lowest > problem.body.entry_speed;
+  if (problem.finish.kind == FinishKind::anywhere) {
+    check.require(speed_given, "finish: free both ways, without a lowest exit speed above the entry speed",
+                  "it is the speed to be reached that says how far the track has to fall",
+                  "exit_speed.lowest, or a finish with a run or a drop");
+  }
+  if (is_least_bound(problem.objective.kind)) {
+    check.require(speed_given, "objective: a least bound, without a lowest exit speed above the entry speed",
+                  "the tightest bound is the one at which a given speed is just reached",
+                  "exit_speed.lowest");
+    check.require(problem.finish.kind != FinishKind::anywhere,
+                  "objective: a least bound, with a finish that is free both ways",
+                  "a longer and longer track has less and less of it", "a finish with a drop");
+  }
   for (LimitFault& fault : limit_faults(limits)) check.add(std::move(fault.issue));
   check.number("lowest_speed_from", limits.lowest_speed_from, limits.lowest_speed_from >= 0.0,
                "an arc length is not negative");
   check.range("finish.free_range", problem.finish.free_range);
+  check.range("finish.free_drop", problem.finish.free_drop);
   for (const HalfPlane& plane : limits.half_planes) {
     check.require(norm(plane.forbidden) > 0.0 && std::isfinite(norm(plane.forbidden)) &&
                       std::isfinite(norm(plane.point)),

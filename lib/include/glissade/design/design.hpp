@@ -39,12 +39,16 @@ struct TrackDesign {
   /// +x. Of a free coordinate it holds some value within its range.
   Vec3 finish;
   bool finish_given = true;  ///< false only for `segments` and `points` whose file leaves the finish out
-  /// Of an in-run that is placed by its take-off edge: the finish; the start follows [m].
+  /// Of a track that is placed by its take-off edge: the finish; the start follows [m].
   std::optional<Vec3> edge = {};
-  /// Of an in-run the direction that it leads in, counter-clockwise from +x seen from above.
+  /// Of an in-run, or a start that is free, the direction that it leads in, counter-clockwise from +x seen from above.
   Angle azimuth = {};
-  FinishKind free_finish = FinishKind::point;  ///< z is free on a vertical_line, x on a level
-  Range free_range;                            ///< of the free coordinate, x or z [m]
+  FinishKind free_finish = FinishKind::point;  ///< z is free on a vertical_line, x on a level, both anywhere
+  Range free_range;                            ///< of the free coordinate, x or z, of x where both are [m]
+  Range free_height;                           ///< of z where both are free [m]
+  /// The finish is given, and what `free_finish` says is true of the start, which has no ranges; of a free
+  /// coordinate it holds some value.
+  bool free_start = false;
 
   friend bool operator==(const TrackDesign&, const TrackDesign&) = default;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/redesign.hpp"
 #include "glissade/pipeline/speeds.hpp"
 
 #include <string>
@@ -45,6 +46,9 @@ struct ComparedTrack {
 /// @param as_designed  the same speeds with the friction and drag of the sheet's body
 [[nodiscard]] std::string fit_json(const SpeedSheet& sheet, const SpeedFit& fit,
                                    const std::vector<SpeedResidual>& as_designed);
+
+/// An in-run beside what the rules would allow.
+[[nodiscard]] std::string redesign_json(const Design& design, const Redesign& found);
 
 /// A track that stays as it is, ridden at several frictions.
 /// @param rides  as ride_at() gives them

@@ -56,6 +56,13 @@ struct ProfileStation {
 [[nodiscard]] std::vector<Sheet> profile_sheets(const Design& design, const Track& track,
                                                 const ProfileOptions& options = {});
 
+/// The longitudinal section as DXF, the sheets as PDF and the coordinate table as CSV: all three appear together, or none.
+/// @param directory  made if missing
+/// @return their paths, in this order
+/// @throws InputError as coordinate_table(), FileError if a file cannot be written; what was there is then as it was
+std::vector<std::filesystem::path> write_profile(const std::filesystem::path& directory, const Design& design,
+                                                 const Track& track, const ProfileOptions& options = {});
+
 /// The coordinate table as CSV, SI, every number with all its digits.
 /// @throws FileError as AtomicFile
 void write_coordinates_csv(const std::filesystem::path& file, const std::vector<ProfileStation>& stations,

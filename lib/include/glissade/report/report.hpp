@@ -12,6 +12,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/sweep.hpp"
 #include "glissade/trades/rules.hpp"
+#include "glissade/trades/ski_jump/gates.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -101,6 +102,7 @@ struct ReportInput {
   std::vector<ReportRide> rides;
   std::optional<Angle> stall_angle;  ///< friction angle from which on the body stalls on this track
   std::vector<ProbeReading> probes;
+  const GateTable* gates = nullptr;         ///< the rides from every gate; null: the design has none
   std::vector<Judgement> rules;             ///< the rules of the design, judged
   const WorkshopBuild* workshop = nullptr;  ///< what a workshop makes; null: nothing
   std::vector<ReportFlight> flights;        ///< of a stream

@@ -12,8 +12,19 @@ enum class ObjectiveKind {
   least_wear,
   /// Of a stream: least integral of (u/u(0) - 1)^2 along the track; even speed is even burden depth
   even_speed,
+  least_drop,    ///< least drop from start to finish: of a ski jump, the lowest tower
+  least_length,  ///< least arc length S
+  /// Least highest normal load at which Limits::exit_speed.lowest is reached
+  least_load,
+  /// Least highest |d kappa/ds| at which Limits::exit_speed.lowest is reached
+  least_curvature_rate,
   blend  ///< least T - exit_speed_weight * u(S)
 };
+
+/// @return whether the objective is a bound, made as tight as a given exit speed allows
+[[nodiscard]] constexpr bool is_least_bound(ObjectiveKind kind) {
+  return kind == ObjectiveKind::least_load || kind == ObjectiveKind::least_curvature_rate;
+}
 
 struct Objective {
   ObjectiveKind kind = ObjectiveKind::travel_time;
@@ -23,11 +34,22 @@ struct Objective {
   friend bool operator==(const Objective&, const Objective&) = default;
 };
 
-/// @return what a unit of the objective is: "s", "m/s"
+/// @return what a unit of the objective is: "s", "m/s", "m"
 [[nodiscard]] constexpr std::string_view unit_of(const Objective& objective) {
-  const bool by_speed =
-      objective.kind == ObjectiveKind::exit_speed || objective.kind == ObjectiveKind::least_wear;
-  return by_speed ? "m/s" : "s";
+  switch (objective.kind) {
+    case ObjectiveKind::exit_speed:
+    case ObjectiveKind::least_wear:
+      return "m/s";
+    case ObjectiveKind::least_drop:
+    case ObjectiveKind::least_length:
+      return "m";
+    case ObjectiveKind::least_load:
+      return "m/s^2";
+    case ObjectiveKind::least_curvature_rate:
+      return "1/m^2";
+    default:
+      return "s";
+  }
 }
 
 }  // namespace glissade

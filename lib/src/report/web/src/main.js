@@ -2,6 +2,7 @@ import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { readDocument } from "./data.js";
 import { element, select } from "./dom.js";
+import { gatesSection } from "./gates.js";
 import { plotSection } from "./plots.js";
 import { profileSection } from "./profile.js";
 import { Rides } from "./ranges.js";
@@ -51,7 +52,7 @@ function start() {
   for (const key of ["units", "friction"]) store.on(key, () => holder.replaceChildren(summary(doc, units)));
   document.getElementById("page").replaceChildren(
     header(doc, store, units, rides),
-    element("main", {}, holder, limitTable(doc, store, units) ?? "", profile.node, view?.node ?? "", plots.node, stationTable(doc, store, units)),
+    element("main", {}, holder, limitTable(doc, store, units) ?? "", profile.node, view?.node ?? "", plots.node, gatesSection(doc, store, units) ?? "", stationTable(doc, store, units)),
     element("footer", {}, element("p", {}, `Made by ${doc.generator.name} ${doc.generator.version}. Every number comes from the `
       + "document embedded in this page; the ride is re-integrated along the centerline that was built.")));
 

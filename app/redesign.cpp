@@ -1,0 +1,218 @@
+#include "glissade/pipeline/redesign.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/core/words.hpp"
+#include "glissade/design/write.hpp"
+#include "glissade/io/atomic_file.hpp"
+#include "glissade/pipeline/json.hpp"
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "app/interrupt.hpp"
+#include "app/limits_text.hpp"
+#include "app/option_value.hpp"
+#include "app/progress_line.hpp"
+#include "app/summary.hpp"
+#include "app/table.hpp"
+#include "app/time_budget.hpp"
+#include "app/track_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace glissade::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Compare an in-run with what the rules would allow for the same take-off speed: its letters at the "
+    "bounds of\n"
+    "the rules, other transitions, and the free shape that a search finds; with metres of tower saved and "
+    "the\n"
+    "price of each letter.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  glissade redesign designs/hills/garmisch_hs142.yaml\n"
+    "  glissade redesign designs/hills/garmisch_hs142.yaml --for least-load      from the same height\n"
+    "  glissade redesign designs/hills/garmisch_hs142.yaml --speed 26.5m/s -o lower.yaml\n"
+    "  glissade redesign designs/hills/garmisch_hs142.yaml --letters -o letters.yaml   a certificate again";
+
+struct Options {
+  std::string design;
+  Overrides overrides;
+  std::string goal = "least-drop";
+  std::string speed;
+  std::string rate;
+  std::string output;
+  bool letters = false;
+  bool json = false;
+  TimeBudget time_budget;
+  Verbosity verbosity;
+};
+
+RedesignGoal goal_named(const std::string& text) {
+  std::vector<std::string> words;
+  for (const RedesignGoal goal : redesign_goals()) {
+    if (text == word(goal)) return goal;
+    words.emplace_back(word(goal));
+  }
+  throw InputError(
+      {"--for", "'" + text + "' is nothing that an in-run is redesigned for", "", listed(words)});
+}
+
+double positive(const std::string& text, Dimension dimension, const char* option) {
+  const double value = option_value(text, dimension, option);
+  if (value > 0.0) return value;
+  throw InputError({option, text + " is not positive", "", ""});
+}
+
+RedesignOptions wanted(const Options& options) {
+  RedesignOptions wanted;
+  wanted.goal = goal_named(options.goal);
+  if (!options.speed.empty()) wanted.speed = positive(options.speed, Dimension::speed, "--speed");
+  if (!options.rate.empty())
+    wanted.curvature_rate = positive(options.rate, Dimension::per_area, "--curvature-rate");
+  return wanted;
+}
+
+std::string difference_text(double metres) {
+  const std::string text = fixed_text(std::fabs(metres), 2);
+  if (text == "0.00") return "0.00";
+  return (metres < 0.0 ? "-" : "+") + text;
+}
+
+Table shapes_table(const Redesign& found) {
+  Table table({"in-run", "drop [m]", "change [m]", "length [m]", "v [m/s]", "load [g]", "v^2/r [g]",
+               "growth [1/m^2]"});
+  const RedesignShape& certificate = found.shapes.front();
+  for (const RedesignShape& shape : found.shapes) {
+    if (!shape.problem.empty()) {
+      table.add({shape.name, shape.problem});
+      continue;
+    }
+    // A bend that begins at full curvature has no rate, a power curve one without bound.
+    constexpr double kJump = 1e-6;      // [1/m]
+    constexpr double kUnbounded = 1.0;  // [1/m^2]
+    const std::string growth =
+        shape.curvature_rate > kUnbounded ? "unbounded" : rounded_text(shape.curvature_rate, 3);
+    table.add({shape.name, fixed_text(shape.ends.drop, 2),
+               difference_text(shape.ends.drop - certificate.ends.drop), fixed_text(shape.length, 2),
+               fixed_text(shape.take_off_speed, 3), fixed_text(shape.highest_load / kStandardGravity, 3),
+               fixed_text(shape.highest_radial / kStandardGravity, 3),
+               shape.largest_jump > kJump ? "jumps" : growth});
+  }
+  return table;
+}
+
+/// "0.31 m of tower per m"
+std::string price_words(const LetterPrice& price) {
+  constexpr double kDegree = 0.017453292519943295;
+  const bool angle = price.dimension == Dimension::angle;
+  const double value = price.price * (angle ? kDegree : 1.0);
+  const std::string unit = angle ? "deg" : price.dimension == Dimension::speed ? "m/s" : "m";
+  return rounded_text(value, 3) + " m per " + unit;
+}
+
+std::string prices_text(const Redesign& found) {
+  std::string text;
+  for (const LetterPrice& price : found.prices) {
+    text += (text.empty() ? "" : "\n") + price.letter + " " + quantity_text(price.value, price.dimension) +
+            ": " + price_words(price);
+    if (!price.rule.empty()) text += ", held by " + price.rule;
+  }
+  return labelled("Tower for each", text);
+}
+
+/// What holds the free shape back, to the beginning of the table.
+std::string free_text(const Redesign& found) {
+  if (!found.search || found.shapes.back().track == nullptr) return "";
+  std::string text = found.search->message;
+  for (const ActiveLimit& active : found.search->active) {
+    // Those of the take-off are told with the letters, table included.
+    if (active.limit.id == LimitId::exit_slope_angle || active.limit.id == LimitId::exit_speed) continue;
+    const std::string_view met = entry_of(active.limit.id).met;
+    text += "\n" + active.limit.key() + " " +
+            (met.empty() ? quantity_text(active.value, active.limit.dimension()) : std::string(met)) + ": " +
+            price_text(active.price, active.limit, found.search->objective);
+  }
+  return labelled("Free shape", text);
+}
+
+void write_design(const Options& options, const Design& design, const Redesign& found) {
+  if (options.output.empty()) return;
+  Design made = redesigned(design, found, !options.letters);
+  made.file = options.output;
+  const std::string of = design.name.empty() ? std::string("an in-run") : design.name;
+  made.name = of + ", redesigned";
+  AtomicFile target(options.output);
+  target.write("# " + of + " for the same take-off speed within the rules, " +
+               (options.letters ? "by its letters" : "the shape that a search found") + ".\n" +
+               design_text(made));
+  target.commit();
+}
+
+ExitCode show_redesign(const Options& options) {
+  const RedesignOptions asked = wanted(options);
+  const Design design = read_design(options.design, options.overrides.values());
+  const Redesign found = [&] {
+    const Interrupt interrupt;
+    ProgressLine progress(options.verbosity);
+    return redesign(design, asked, {progress.callback(), interrupt.token(), options.time_budget.seconds()});
+  }();
+  write_design(options, design, found);
+  if (options.json) {
+    print(redesign_json(design, found));
+  } else {
+    const std::string heading = design.name.empty() ? std::string("In-run") : design.name;
+    print(emphasised(heading, Emphasis::heading) + "\n  take-off speed " + speed_text(found.take_off.speed) +
+          ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
+          rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
+          "\n" + prices_text(found) + free_text(found));
+  }
+  const bool whole = found.shapes.back().track != nullptr;
+  return whole ? ExitCode::done : ExitCode::not_converged;
+}
+
+}  // namespace
+
+void add_redesign(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("redesign", kDescription)->footer(kFooter);
+  const auto options = std::make_shared<Options>();
+  command.add_option("design", options->design, "Design file, of kind in-run")
+      ->type_name("DESIGN.yaml")
+      ->required();
+  options->overrides.add_to(command);
+  command
+      .add_option(
+          "--for", options->goal,
+          "What the free shape is searched for: least-drop or least-length at the take-off speed; "
+          "least-load or least-curvature-rate at that speed and the same drop; exit-speed at the same "
+          "drop [default: least-drop]")
+      ->type_name("GOAL");
+  command
+      .add_option("--speed", options->speed,
+                  "The take-off speed [default: what the design gives from its highest start]")
+      ->type_name("SPEED");
+  command
+      .add_option("--curvature-rate", options->rate,
+                  "How fast the curvature of the free shape may grow [default: as in the certificate's bend]")
+      ->type_name("RATE");
+  command.add_option("-o,--output", options->output, "Write the free shape as a design of kind segments")
+      ->type_name("FILE");
+  command.add_flag("--letters", options->letters,
+                   "Write the certificate's letters within the rules instead, a design of kind in-run");
+  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  options->time_budget.add_to(command);
+  options->verbosity.add_to(command, "Show no progress");
+  command.callback([options, &action] { action = [options] { return show_redesign(*options); }; });
+}
+
+}  // namespace glissade::app

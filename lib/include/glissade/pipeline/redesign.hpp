@@ -1,0 +1,84 @@
+#pragma once
+
+#include "glissade/pipeline/solve.hpp"
+#include "glissade/trades/ski_jump/redesign.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glissade {
+
+/// What an in-run is redesigned for, the take-off speed or the drop being that of the certificate.
+enum class RedesignGoal {
+  least_drop,            ///< the lowest tower for the take-off speed
+  least_length,          ///< the shortest in-run for it
+  least_load,            ///< the least highest load, from the same height to the same speed
+  least_curvature_rate,  ///< the most gradual bend, from the same height to the same speed
+  exit_speed             ///< the highest take-off speed from the same height
+};
+
+/// @return the word of the command line: "least-drop"
+[[nodiscard]] std::string_view word(RedesignGoal goal);
+/// @return every goal, in the order of the enumeration
+[[nodiscard]] const std::vector<RedesignGoal>& redesign_goals();
+
+struct RedesignOptions {
+  RedesignGoal goal = RedesignGoal::least_drop;
+  std::optional<double> speed;  ///< at the edge [m/s]; none: what the design gives from its highest start
+  std::optional<double>
+      curvature_rate;  ///< of the free shape at most [1/m^2]; none: that of the certificate's bend
+};
+
+/// One shape of in-run, ridden by the body of the design from its start.
+struct RedesignShape {
+  std::string name;
+  CenterlinePtr track;          ///< none: see `problem`
+  std::string problem;          ///< why there is none
+  Endpoints ends;               ///< from start to edge [m]
+  double length = 0.0;          ///< [m]
+  double take_off_speed = 0.0;  ///< [m/s]
+  double highest_load = 0.0;    ///< per unit mass [m/s^2]
+  double highest_radial = 0.0;  ///< v^2/radius [m/s^2]
+  /// Highest |d kappa/ds| between the places where curvature jumps [1/m^2].
+  double curvature_rate = 0.0;
+  double largest_jump =
+      0.0;  ///< of the curvature, where it jumps most but for the end of the transition [1/m]
+};
+
+/// What one letter of the certificate costs in drop, at the take-off speed.
+struct LetterPrice {
+  std::string letter;  ///< "gamma", "alpha", "r1", "t", "v0"
+  double value = 0.0;  ///< [SI, rad]
+  double price = 0.0;  ///< d(drop)/d(letter) [m per SI unit]
+  Dimension dimension = Dimension::length;
+  std::string rule;  ///< the id of the rule that the letter lies at the bound of; may be empty
+};
+
+/// A certificate beside what the rules would allow.
+struct Redesign {
+  RedesignGoal goal = RedesignGoal::least_drop;
+  TakeOff take_off;                      ///< at its speed all shapes are compared, but that of highest speed
+  std::vector<RedesignShape> shapes;     ///< the certificate first, the free shape last
+  InRunShape within_rules;               ///< the letters of the lowest certificate within the rules
+  std::vector<LetterPrice> prices;       ///< of those letters
+  std::optional<OptimizeReport> search;  ///< of the free shape, from its start to the table
+};
+
+/// Compares an in-run with others that give the same take-off speed: its own letters at the bounds of the rules, other
+/// transitions, Zanevskyy's power curve, a load-controlled bend, and the free shape that a search finds within the
+/// rules: no steeper than gamma may be, no tighter than r1, no crest, curvature growing no faster than asked, straight
+/// along the start area, alpha and the table at its end.
+///
+/// Bounds of gamma, r1 and t come from the design's rules on in_run_slope_angle, transition_radius or
+/// design_radial_acceleration, table_length or table_time; a letter that no rule bounds stays. alpha stays, too: the jump
+/// decides it. Where no design_speed is given the rules count with the take-off speed.
+/// @throws InputError if the design is of another kind than in-run, InfeasibleError if the body does not arrive
+[[nodiscard]] Redesign redesign(const Design& design, const RedesignOptions& options,
+                                const RunContext& context);
+
+/// The free shape, or the certificate within the rules, as a design of its own.
+/// @param free  the shape that the search found, of kind segments; otherwise of kind in-run
+[[nodiscard]] Design redesigned(const Design& design, const Redesign& found, bool free);
+
+}  // namespace glissade

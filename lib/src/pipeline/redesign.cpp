@@ -1,0 +1,417 @@
+#include "glissade/pipeline/redesign.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/pipeline/rules.hpp"
+
+#include "pipeline/extremes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace glissade {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kGoalWords = {"least-drop", "least-length", "least-load",
+                                                        "least-curvature-rate", "exit-speed"};
+
+// --- what the rules say of letters -------------------------------------------------------------------
+
+/// A bound of a letter and the rule that sets it.
+struct RuledBound {
+  double value = 0.0;
+  std::string rule;
+};
+
+struct RuledLetters {
+  std::optional<RuledBound> steepest;  ///< gamma at most
+  std::optional<RuledBound> radius;    ///< r1 at least
+  std::optional<RuledBound> table;     ///< t at least
+};
+
+void tighten(std::optional<RuledBound>& bound, double value, const std::string& rule, double sign) {
+  if (!bound || sign * value > sign * bound->value) bound = RuledBound{value, rule};
+}
+
+bool applies(const Rule& rule, const Measurements& measurements) {
+  return std::all_of(rule.when.begin(), rule.when.end(), [&](const RuleCondition& condition) {
+    const Measurements::Entry* const entry = measurements.find(condition.quantity);
+    if (entry == nullptr || !entry->value) return false;
+    const Range& range = condition.range;
+    return *entry->value >= range.lowest.value_or(-HUGE_VAL) &&
+           *entry->value <= range.highest.value_or(HUGE_VAL);
+  });
+}
+
+/// @param v0  the speed that the rules size table and transition by [m/s]
+RuledLetters ruled_letters(const Design& design, const Measurements& measurements, double v0) {
+  RuledLetters letters;
+  for (const Rule& rule : design.rules.in_force) {
+    if (!applies(rule, measurements)) continue;
+    const Range& bound = rule.bound;
+    if (rule.quantity == "in_run_slope_angle" && bound.highest)
+      tighten(letters.steepest, *bound.highest, rule.id, -1.0);
+    if (rule.quantity == "transition_radius" && bound.lowest)
+      tighten(letters.radius, *bound.lowest, rule.id, 1.0);
+    if (rule.quantity == "design_radial_acceleration" && bound.highest)
+      tighten(letters.radius, v0 * v0 / *bound.highest, rule.id, 1.0);
+    if (rule.quantity == "table_length" && bound.lowest) tighten(letters.table, *bound.lowest, rule.id, 1.0);
+    if (rule.quantity == "table_time" && bound.lowest)
+      tighten(letters.table, v0 * *bound.lowest, rule.id, 1.0);
+  }
+  return letters;
+}
+
+/// A letter that a rule bounds may take any value within it; of the others each stays.
+LetterBounds bounds_of(const RuledLetters& ruled) {
+  LetterBounds bounds;
+  if (ruled.steepest) bounds.gamma.highest = ruled.steepest->value;
+  if (ruled.radius) bounds.r1.lowest = ruled.radius->value;
+  if (ruled.table) bounds.t.lowest = ruled.table->value;
+  return bounds;
+}
+
+// --- shapes and their rides --------------------------------------------------------------------------
+
+/// Highest rate of the curvature between its jumps, and the largest of those but for the one at the table's beginning.
+void measure_bends(const Centerline& track, RedesignShape& shape) {
+  constexpr int kSamples = 200;
+  constexpr double kInside = 1e-9;
+  const std::vector<double> breaks = track.breaks();
+  double before = 0.0;
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double from = breaks[i - 1];
+    const double width = (breaks[i] - from) * (1.0 - kInside);
+    const auto curvature = [&](int k) { return track.direction(from + width * k / kSamples).curvature; };
+    double last = curvature(0);
+    const bool at_table = i + 1 == breaks.size();
+    if (i > 1 && !at_table) shape.largest_jump = std::max(shape.largest_jump, std::fabs(last - before));
+    for (int k = 1; k <= kSamples; ++k) {
+      const double now = curvature(k);
+      shape.curvature_rate = std::max(shape.curvature_rate, std::fabs(now - last) * kSamples / width);
+      last = now;
+    }
+    before = last;
+  }
+}
+
+RedesignShape ridden(std::string name, CenterlinePtr track, const TakeOff& take_off) {
+  RedesignShape shape;
+  shape.name = std::move(name);
+  const Motion motion(track, take_off.body, take_off.gravity);
+  shape.ends = track->endpoints();
+  shape.length = track->length();
+  if (motion.arrived()) {
+    shape.take_off_speed = motion.exit_speed();
+  } else {
+    shape.problem = "the body does not arrive at the edge";
+  }
+  shape.highest_load = motion.highest_load().normal_load;
+  shape.highest_radial = highest_radial_acceleration(motion).value;
+  measure_bends(*track, shape);
+  shape.track = std::move(track);
+  return shape;
+}
+
+/// A shape, or why there is none.
+RedesignShape attempted(const std::string& name, const TakeOff& take_off,
+                        const std::function<CenterlinePtr()>& make) {
+  try {
+    return ridden(name, make(), take_off);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error& error) {
+    RedesignShape none;
+    none.name = name;
+    none.problem = error.issues().front().what;
+    return none;
+  }
+}
+
+std::string name_of(InRunTransition transition) {
+  switch (transition) {
+    case InRunTransition::cubic:
+      return "cubic";
+    case InRunTransition::circle:
+      return "circle";
+    case InRunTransition::clothoid:
+      return "clothoid";
+    case InRunTransition::two_radii:
+      break;
+  }
+  return "two-radii";
+}
+
+/// The certificate's own letters with every other transition, and the curves of the literature.
+void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, double radial_load,
+                     std::vector<RedesignShape>& shapes) {
+  for (const InRunTransition other :
+       {InRunTransition::cubic, InRunTransition::circle, InRunTransition::clothoid}) {
+    if (other == certificate.transition) continue;
+    InRunShape shape = certificate;
+    shape.transition = other;
+    shapes.push_back(attempted("its letters, " + name_of(other), take_off,
+                               [&] { return std::make_shared<const InRun>(reaching(shape, take_off)); }));
+  }
+  shapes.push_back(attempted("power curve (Zanevskyy)", take_off, [&] {
+    return std::make_shared<const ClothoidSpline>(power_in_run(certificate, take_off));
+  }));
+  shapes.push_back(attempted("load-controlled (after Palej, Filipowska)", take_off, [&] {
+    return std::make_shared<const ClothoidSpline>(load_controlled_in_run(certificate, radial_load, take_off));
+  }));
+}
+
+// --- the free shape ----------------------------------------------------------------------------------
+
+/// The rate at which the curvature of a certificate's bend grows at most; none where it jumps at E1.
+std::optional<double> rate_of(const InRunShape& shape) {
+  const double turn = shape.gamma.radians() - shape.alpha.radians();
+  switch (shape.transition) {
+    case InRunTransition::cubic: {
+      // 6 C of eta = C xi^3, at E1
+      const double cosine = math::cos(turn);
+      const double reach = 2.0 * shape.r1 * math::sin(turn) * cosine * cosine;
+      return 2.0 * math::tan(turn) / (reach * reach);
+    }
+    case InRunTransition::clothoid:
+      return 1.0 / (shape.r1 * transition_length(shape));
+    default:
+      return {};
+  }
+}
+
+/// Searches the way from the start to the table, which is straight and adds nothing that could be chosen: so the
+/// curvature may jump there, as the norm has it.
+class FreeShape {
+ public:
+  FreeShape(const Design& design, const RedesignOptions& options, const InRunShape& certificate,
+            const RuledLetters& ruled, const TakeOff& take_off)
+      : options_(options), certificate_(certificate), take_off_(take_off) {
+    table_ = ruled.table ? ruled.table->value : certificate.t;
+    problem_.body = take_off.body;
+    problem_.gravity = take_off.gravity;
+    Limits& limits = problem_.limits;
+    limits.slope_angle.highest = ruled.steepest ? ruled.steepest->value : certificate.gamma.radians();
+    limits.exit_slope_angle = Range::fixed(certificate.alpha.radians());
+    limits.concave = true;
+    limits.lead_in = design.centerline.in_run.start_area().value_or(0.0);
+    if (options.goal != RedesignGoal::least_load)
+      limits.smallest_valley_radius = ruled.radius ? ruled.radius->value : certificate.r1;
+    if (options.goal != RedesignGoal::least_curvature_rate) {
+      limits.highest_curvature_rate = options.curvature_rate ? options.curvature_rate : rate_of(certificate);
+    }
+    set_goal();
+  }
+
+  /// @return the whole track, its table included
+  CenterlinePtr found(const RunContext& context, std::optional<OptimizeReport>& report) {
+    OptimizeOptions options;
+    options.time_budget = context.time_budget;
+    const bool given_speed = options_.goal != RedesignGoal::exit_speed;
+    double wanted = given_speed ? speed_above_table() : 0.0;
+    CenterlinePtr track;
+    // A skier's centre of mass feels the end of the bend: the speed above the table is corrected by what is missed.
+    constexpr int kMostRounds = 4;
+    constexpr double kEnough = 1e-7;
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (given_speed) problem_.limits.exit_speed.lowest = wanted;
+      Optimum optimum = optimize(problem_, options, context.stop, context.progress);
+      report = std::move(optimum.report);
+      if (!optimum.centerline) throw ConvergenceError({"", report->message, "", ""});
+      track = with_table(*optimum.centerline);
+      if (!given_speed) break;
+      const Motion motion(track, take_off_.body, take_off_.gravity);
+      const double miss = take_off_.speed - (motion.arrived() ? motion.exit_speed() : 0.0);
+      if (std::fabs(miss) < kEnough * take_off_.speed) break;
+      wanted += miss;
+    }
+    return track;
+  }
+
+ private:
+  void set_goal() {
+    switch (options_.goal) {
+      case RedesignGoal::least_drop:
+        problem_.objective.kind = ObjectiveKind::least_drop;
+        break;
+      case RedesignGoal::least_length:
+        problem_.objective.kind = ObjectiveKind::least_length;
+        break;
+      case RedesignGoal::least_load:
+        problem_.objective.kind = ObjectiveKind::least_load;
+        break;
+      case RedesignGoal::least_curvature_rate:
+        problem_.objective.kind = ObjectiveKind::least_curvature_rate;
+        break;
+      case RedesignGoal::exit_speed:
+        problem_.objective.kind = ObjectiveKind::exit_speed;
+        break;
+    }
+    const bool free =
+        options_.goal == RedesignGoal::least_drop || options_.goal == RedesignGoal::least_length;
+    problem_.finish.kind = free ? FinishKind::anywhere : FinishKind::level;
+    const double drop = InRun(certificate_).endpoints().drop;
+    problem_.endpoints = {0.0, drop - table_ * math::sin(certificate_.alpha.radians())};
+  }
+
+  /// The speed where the table begins that gives the take-off speed at its end.
+  [[nodiscard]] double speed_above_table() const {
+    const auto table = std::make_shared<const ClothoidSpline>(
+        certificate_.alpha, std::vector<ClothoidSegment>{{table_, 0.0, 0.0}});
+    double speed = take_off_.speed;
+    constexpr int kMostRounds = 20;
+    for (int round = 0; round < kMostRounds; ++round) {
+      Body body = take_off_.body;
+      body.entry_speed = speed;
+      const Motion motion(table, body, take_off_.gravity);
+      const double miss = take_off_.speed - (motion.arrived() ? motion.exit_speed() : 0.0);
+      speed += miss;
+      if (std::fabs(miss) < kTakeOffAccuracy * take_off_.speed) break;
+    }
+    return speed;
+  }
+
+  [[nodiscard]] CenterlinePtr with_table(const Centerline& found) const {
+    const auto& spline = dynamic_cast<const ClothoidSpline&>(found);
+    std::vector<ClothoidSegment> segments = spline.segments();
+    segments.push_back({table_, 0.0, 0.0});
+    return std::make_shared<const ClothoidSpline>(spline.entry_slope_angle(), std::move(segments));
+  }
+
+  const RedesignOptions& options_;
+  const InRunShape& certificate_;
+  const TakeOff& take_off_;
+  double table_ = 0.0;
+  Problem problem_;
+};
+
+// --- prices ------------------------------------------------------------------------------------------
+
+std::vector<LetterPrice> prices_of(const InRunShape& shape, const TakeOff& take_off,
+                                   const RuledLetters& ruled) {
+  const DropSlopes slopes = drop_slopes(shape, take_off);
+  const auto at_bound = [](const std::optional<RuledBound>& bound, double value) {
+    constexpr double kAt = 1e-9;
+    const bool there = bound && std::fabs(value - bound->value) <= kAt * std::fabs(bound->value);
+    return there ? bound->rule : std::string();
+  };
+  return {{"gamma", shape.gamma.radians(), slopes.by_gamma, Dimension::angle,
+           at_bound(ruled.steepest, shape.gamma.radians())},
+          {"alpha", shape.alpha.radians(), slopes.by_alpha, Dimension::angle, ""},
+          {"r1", shape.r1, slopes.by_r1, Dimension::length, at_bound(ruled.radius, shape.r1)},
+          {"t", shape.t, slopes.by_t, Dimension::length, at_bound(ruled.table, shape.t)},
+          {"v", take_off.speed, slopes.by_speed, Dimension::speed, ""}};
+}
+
+TakeOff take_off_of(const Design& design, const RedesignOptions& options, const CenterlinePtr& certificate) {
+  TakeOff take_off{body_of(design), 0.0, design.gravity};
+  if (options.speed) {
+    take_off.speed = *options.speed;
+    return take_off;
+  }
+  const Motion motion(certificate, take_off.body, take_off.gravity);
+  if (!motion.arrived()) {
+    throw InfeasibleError({design.where("centerline"), "the body does not arrive at the edge of the in-run",
+                           "What it would be redesigned for is its take-off speed.",
+                           "less friction, or --speed"});
+  }
+  take_off.speed = motion.exit_speed();
+  return take_off;
+}
+
+}  // namespace
+
+std::string_view word(RedesignGoal goal) {
+  return kGoalWords[static_cast<std::size_t>(goal)];
+}
+
+const std::vector<RedesignGoal>& redesign_goals() {
+  static const std::vector<RedesignGoal> all = {RedesignGoal::least_drop, RedesignGoal::least_length,
+                                                RedesignGoal::least_load, RedesignGoal::least_curvature_rate,
+                                                RedesignGoal::exit_speed};
+  return all;
+}
+
+Redesign redesign(const Design& design, const RedesignOptions& options, const RunContext& context) {
+  if (design.centerline.kind != CenterlineKind::in_run) {
+    throw InputError(
+        {design.where("centerline.kind"),
+         "a track of kind " + std::string(word(design.centerline.kind)) + " is no in-run by its letters",
+         "What is redesigned are gamma, r1 and t of a certificate.", "kind: in-run"});
+  }
+  const Track track = solve(design, context);
+  const InRunShape certificate = design.centerline.in_run.shape();
+  Redesign result;
+  result.goal = options.goal;
+  result.take_off = take_off_of(design, options, track.centerline);
+  const TakeOff& take_off = result.take_off;
+  const double v0 = design.hill.design_speed.value_or(take_off.speed);
+  const RuledLetters ruled = ruled_letters(design, rule_measurements(design, track), v0);
+
+  result.shapes.push_back(ridden("certificate", track.centerline, take_off));
+  const bool moved = std::fabs(result.shapes.front().take_off_speed / take_off.speed - 1.0) > 1e-9;
+  if (moved) {
+    result.shapes.push_back(attempted("its letters, at that speed", take_off, [&] {
+      return std::make_shared<const InRun>(reaching(certificate, take_off));
+    }));
+  }
+  result.within_rules = least_drop_in_run(certificate, bounds_of(ruled), take_off);
+  result.shapes.push_back(
+      ridden("its letters within the rules", std::make_shared<const InRun>(result.within_rules), take_off));
+  result.prices = prices_of(result.within_rules, take_off, ruled);
+  const double radius = ruled.radius ? ruled.radius->value : certificate.r1;
+  add_comparisons(certificate, take_off, v0 * v0 / radius, result.shapes);
+  result.shapes.push_back(attempted("free, " + std::string(word(options.goal)), take_off, [&] {
+    return FreeShape(design, options, certificate, ruled, take_off).found(context, result.search);
+  }));
+  return result;
+}
+
+Design redesigned(const Design& design, const Redesign& found, bool free) {
+  Design result = design;
+  const CenterlinePtr& track = found.shapes.back().track;
+  if (free && track == nullptr) throw ConvergenceError({"", found.shapes.back().problem, "", ""});
+  InRunDesign& letters = result.centerline.in_run;
+  const double area = letters.start_area().value_or(0.0);
+  if (!free) {
+    const InRunShape& shape = found.within_rules;
+    letters.gamma = shape.gamma;
+    letters.r1 = shape.r1;
+    letters.t = shape.t;
+    letters.e1 = shape.length - (letters.counts_to_edge ? 0.0 : shape.t);
+    letters.e2.reset();
+    if (area > 0.0) letters.es = area;
+  } else {
+    const auto& spline = dynamic_cast<const ClothoidSpline&>(*track);
+    if (result.gates && !result.gates->start_area) result.gates->start_area = area;
+    result.centerline = {};
+    result.centerline.kind = CenterlineKind::segments;
+    result.centerline.entry_slope_angle = spline.entry_slope_angle();
+    for (const ClothoidSegment& piece : spline.segments()) {
+      result.centerline.segments.push_back({piece.length, piece.entry_curvature, piece.exit_curvature});
+    }
+  }
+  // The edge is where it was: the start follows.
+  const Endpoints ends = free ? found.shapes.back().ends : InRun(found.within_rules).endpoints();
+  const Placement from = Placement::through(design.track.start, design.track.finish);
+  const Vec3 miss = design.track.finish - from.to_space(ends.run, ends.drop, 0.0);
+  result.track.start = from.start() + miss;
+  if (free) {
+    result.track.edge.reset();
+    result.track.azimuth = {};
+    result.track.finish_given = true;
+  }
+  return result;
+}
+
+}  // namespace glissade

@@ -1,0 +1,91 @@
+// Start gates of a ski jump: speed and load against the gate, and the table.
+import { element, scrollable, section, svgElement } from "./dom.js";
+import { exportButtons, standAlone } from "./export.js";
+import { number } from "./units.js";
+
+const COLOURS = ["--series-1", "--series-3", "--series-2"];
+const SIZE = { width: 640, height: 260, left: 64, right: 16, top: 26, bottom: 44 };
+
+const CHARTS = [
+  ["Speed at the measuring place", "speed", "speed_at_measuring_place_m_per_s"],
+  ["Highest normal load", "load", "max_normal_load_m_per_s2"],
+];
+
+// The ride from a gate in a condition; the first condition is that of the design, which the gate itself carries.
+const ridden = (gate, condition, first) => (condition === first ? gate : gate.conditions[condition]);
+
+function steps(low, high, most) {
+  const rough = (high - low) / most || 1;
+  const decade = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((k) => k * decade).find((s) => s >= rough);
+  const ticks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) ticks.push(k * step);
+  return ticks;
+}
+
+function drawn(doc, units, [title, quantity, key]) {
+  const { list, conditions } = doc.gates;
+  const curves = conditions.map((condition) => list.map((gate) => [gate.gate, units.convert(quantity, ridden(gate, condition, conditions[0])[key])])
+    .filter(([, value]) => value !== null));
+  const values = curves.flat().map(([, value]) => value);
+  if (values.length === 0) return null;
+  const margin = 0.05 * (Math.max(...values) - Math.min(...values) || Math.abs(values[0]) || 1);
+  const [low, high] = [Math.min(...values) - margin, Math.max(...values) + margin];
+  const [first, last] = [list[0].gate, Math.max(list[list.length - 1].gate, list[0].gate + 1)];
+  const x = (gate) => SIZE.left + ((gate - first) / (last - first)) * (SIZE.width - SIZE.left - SIZE.right);
+  const y = (value) => SIZE.height - SIZE.bottom - ((value - low) / (high - low)) * (SIZE.height - SIZE.top - SIZE.bottom);
+  const text = (attributes, words) => svgElement("text", { "font-size": 12, "font-family": "system-ui, sans-serif", fill: "var(--ink-soft)", ...attributes }, words);
+  const line = (ends) => svgElement("line", { stroke: "var(--grid)", ...ends });
+  const bottom = SIZE.height - SIZE.bottom;
+  return svgElement("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, role: "img", "aria-label": `${title} against the gate`, class: "gates-plot" },
+    steps(low, high, 5).map((value) => [line({ x1: SIZE.left, x2: SIZE.width - SIZE.right, y1: y(value), y2: y(value) }),
+      text({ x: SIZE.left - 6, y: y(value) + 4, "text-anchor": "end" }, number(value, 4))]),
+    steps(first, last, 12).filter(Number.isInteger).map((gate) => [line({ x1: x(gate), x2: x(gate), y1: SIZE.top, y2: bottom }),
+      text({ x: x(gate), y: bottom + 16, "text-anchor": "middle" }, String(gate))]),
+    curves.map((curve, i) => [
+      svgElement("polyline", { points: curve.map(([gate, value]) => `${x(gate).toFixed(2)},${y(value).toFixed(2)}`).join(" "), fill: "none", stroke: `var(${COLOURS[i]})`, "stroke-width": 2 }),
+      curve.length > 60 ? null : curve.map(([gate, value]) => svgElement("circle", { cx: x(gate).toFixed(2), cy: y(value).toFixed(2), r: 2.5, fill: `var(${COLOURS[i]})` },
+        svgElement("title", {}, `gate ${gate}, ${conditions[i]}: ${number(value, 4)} ${units.unit(quantity)}`))),
+      text({ x: SIZE.left + 8 + 90 * i, y: 16, fill: `var(${COLOURS[i]})` }, conditions[i]),
+    ]),
+    text({ x: 0.5 * (SIZE.left + SIZE.width), y: SIZE.height - 8, "text-anchor": "middle" }, "gate, from the lowest"),
+    text({ transform: `translate(14 ${0.5 * SIZE.height}) rotate(-90)`, "text-anchor": "middle" }, `[${units.unit(quantity)}]`));
+}
+
+function table(doc, units) {
+  const { list, conditions } = doc.gates;
+  const several = conditions.length > 1;
+  const heads = ["Gate", "To the edge", "z", ...conditions.flatMap((condition) => ["Speed", "At the edge", "Time", "Load"].map((head) => (several ? `${head}, ${condition}` : head)))];
+  return scrollable("Table of gates", element("table", { class: "gates" },
+    element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
+    element("tbody", {}, list.map((gate) => element("tr", {},
+      element("th", { scope: "row" }, String(gate.gate)),
+      element("td", {}, units.text("length", gate.distance_to_edge_m, 5)),
+      element("td", {}, units.text("length", gate.z_m, 5)),
+      conditions.map((condition) => {
+        const ride = ridden(gate, condition, conditions[0]);
+        return [
+          element("td", {}, units.text("speed", ride.speed_at_measuring_place_m_per_s, 4)),
+          element("td", {}, units.text("speed", ride.speed_at_edge_m_per_s, 4)),
+          element("td", {}, units.text("time", ride.travel_time_s, 4)),
+          element("td", {}, units.text("load", ride.max_normal_load_m_per_s2, 4)),
+        ];
+      }))))));
+}
+
+// Null for a design without gates.
+export function gatesSection(doc, store, units) {
+  if (!doc.gates) return null;
+  const holder = element("div");
+  const draw = () => {
+    const charts = CHARTS.map((chart) => [chart[0], drawn(doc, units, chart)]).filter(([, svg]) => svg !== null);
+    holder.replaceChildren(element("div", { class: "charts gates-charts" }, ...charts.map(([title, svg]) => element("figure", { class: "chart" },
+      element("figcaption", {}, element("span", { class: "chart-title" }, title),
+        element("span", { class: "exports" }, exportButtons(doc.design.stem, `gates ${title}`, () => ({ svg: standAlone(svg), width: SIZE.width, height: SIZE.height })))), svg))),
+    ...[table(doc, units)].flat());
+  };
+  draw();
+  store.on("units", draw);
+  const place = units.text("length", doc.gates.measuring_place_m, 4);
+  return section("gates", "Gates", element("p", { class: "hint" }, `Gates count from the lowest; speed is measured ${place} before the edge.`), holder);
+}

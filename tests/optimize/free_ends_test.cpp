@@ -1,0 +1,224 @@
+// Tracks with a free end: how low, how short, how gentle one can be that gives a body a certain speed.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/optimize/optimize.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace glissade;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kGravity = 9.81;
+
+/// A body that is to leave an in-run at a speed, from wherever it has to start.
+Problem task(double mu, double drag, double speed, ObjectiveKind objective) {
+  Problem problem;
+  problem.gravity = kGravity;
+  problem.body.friction = Friction::from_coefficient(mu);
+  problem.body.drag_per_metre = drag;
+  problem.finish.kind = FinishKind::anywhere;
+  problem.objective.kind = objective;
+  problem.limits.exit_speed.lowest = speed;
+  return problem;
+}
+
+/// An in-run of a large hill: a straight of at most 35 deg, a bend that grows and fades, a table.
+Problem in_run(ObjectiveKind objective) {
+  Problem problem = task(0.03, 0.0013, 27.0, objective);
+  Limits& limits = problem.limits;
+  limits.slope_angle.highest = 35.0 * kDegree;
+  limits.exit_slope_angle = Range::fixed(11.0 * kDegree);
+  limits.highest_curvature_rate = 6e-4;
+  limits.lead_out = 6.9;
+  limits.concave = true;
+  return problem;
+}
+
+Optimum solved(const Problem& problem) {
+  Optimum optimum = optimize(problem);
+  INFO(optimum.report.brief());
+  CHECK(optimum.report.status == OptimizeStatus::optimal);
+  REQUIRE(optimum.centerline);
+  for (const LimitCheck& check : optimum.report.checks) {
+    INFO(check.limit.key() << " reached " << check.reached << " of " << check.value);
+    CHECK(check.kept());
+  }
+  return optimum;
+}
+
+double drop_of(const Optimum& optimum) {
+  return optimum.centerline->endpoints().drop;
+}
+
+double price_of(const Optimum& optimum, LimitId id) {
+  for (const ActiveLimit& active : optimum.report.active) {
+    if (active.limit.id == id) return active.price;
+  }
+  return 0.0;
+}
+
+/// The in-run's shape worked out by hand: a straight, a curvature that grows and fades at its highest rate, a table. Its
+/// bend turns by rate l^2, l the length of either half; only the straight is left to be found.
+double hand_drop(const Problem& problem) {
+  const Limits& limits = problem.limits;
+  const double turn = *limits.slope_angle.highest - *limits.exit_slope_angle.lowest;
+  const double half = std::sqrt(turn / *limits.highest_curvature_rate);
+  const double most = *limits.highest_curvature_rate * half;
+  const auto track = [&](double straight) {
+    return std::make_shared<const ClothoidSpline>(
+        Angle::from_radians(*limits.slope_angle.highest),
+        std::vector<ClothoidSegment>{
+            {straight, 0.0, 0.0}, {half, 0.0, most}, {half, most, 0.0}, {limits.lead_out, 0.0, 0.0}});
+  };
+  double low = 1.0;
+  double high = 500.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double speed = Motion(track(middle), problem.body, problem.gravity).exit_speed();
+    (speed < *limits.exit_speed.lowest ? low : high) = middle;
+  }
+  return track(0.5 * (low + high))->endpoints().drop;
+}
+
+}  // namespace
+
+// A crest would take load off the track, and friction with it: without `concave` the lowest track begins flatter.
+TEST_CASE(
+    "under a highest slope, without a crest, the lowest and the shortest track is that slope, straight") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 4; ++i) {
+    const double mu = random.between(0.02, 0.4);
+    const double slope = random.between(std::atan(mu) + 0.15, 1.2);
+    const double speed = random.between(3.0, 30.0);
+    CAPTURE(mu, slope, speed);
+    const double pull = std::sin(slope) - mu * std::cos(slope);
+    const double length = speed * speed / (2.0 * kGravity * pull);
+    Problem problem = task(mu, 0.0, speed, ObjectiveKind::least_drop);
+    problem.limits.slope_angle.highest = slope;
+    problem.limits.concave = true;
+    const Optimum lowest = solved(problem);
+    CHECK(std::fabs(drop_of(lowest) / (length * std::sin(slope)) - 1.0) < 1e-6);
+    // d(drop)/d(speed) and d(drop)/d(slope), drop = u^2/(2 g (1 - mu cot(slope)))
+    const double share = 1.0 - mu / std::tan(slope);
+    const double by_speed = speed / (kGravity * share);
+    CHECK(std::fabs(price_of(lowest, LimitId::exit_speed) / by_speed - 1.0) < 1e-4);
+    const double by_slope = 0.5 * speed * speed / kGravity * mu / std::pow(std::sin(slope) * share, 2.0);
+    CHECK(std::fabs(price_of(lowest, LimitId::slope_angle) / by_slope - 1.0) < 1e-3);
+    problem.objective.kind = ObjectiveKind::least_length;
+    CHECK(std::fabs(solved(problem).centerline->length() / length - 1.0) < 1e-6);
+  }
+}
+
+TEST_CASE(
+    "the lowest in-run is the one worked out by hand, and the highest speed from its height is its speed") {
+  const Problem problem = in_run(ObjectiveKind::least_drop);
+  const Optimum lowest = solved(problem);
+  const double by_hand = hand_drop(problem);
+  CAPTURE(drop_of(lowest), by_hand);
+  CHECK(drop_of(lowest) < by_hand * (1.0 + 1e-7));
+  CHECK(drop_of(lowest) > by_hand * (1.0 - 1e-4));
+
+  Problem fastest = in_run(ObjectiveKind::exit_speed);
+  fastest.limits.exit_speed = {};
+  fastest.finish.kind = FinishKind::level;
+  fastest.endpoints = {0.0, drop_of(lowest)};
+  CHECK(std::fabs(solved(fastest).report.exit_speed / 27.0 - 1.0) < 1e-6);
+}
+
+TEST_CASE("the price of a limit in drop is what the drop changes by") {
+  Problem problem = in_run(ObjectiveKind::least_drop);
+  const Optimum lowest = solved(problem);
+  const double step = 6e-6;
+  problem.limits.highest_curvature_rate = 6e-4 + step;
+  const double looser = drop_of(solved(problem));
+  problem.limits.highest_curvature_rate = 6e-4 - step;
+  const double tighter = drop_of(solved(problem));
+  const double measured = (tighter - looser) / (2.0 * step);
+  CHECK(std::fabs(price_of(lowest, LimitId::highest_curvature_rate) / measured - 1.0) < 1e-3);
+}
+
+TEST_CASE("a limit that is relaxed never asks for a higher start") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const Problem problem = in_run(ObjectiveKind::least_drop);
+  const double before = drop_of(solved(problem));
+  const double by = random.between(1.02, 1.3);
+  for (int which = 0; which < 3; ++which) {
+    CAPTURE(which, by);
+    Problem relaxed = problem;
+    Limits& limits = relaxed.limits;
+    if (which == 0) *limits.slope_angle.highest *= by;
+    if (which == 1) *limits.highest_curvature_rate *= by;
+    if (which == 2) limits.exit_speed.lowest = 27.0 / by;
+    CHECK(drop_of(solved(relaxed)) < before * (1.0 + 1e-7));
+  }
+}
+
+TEST_CASE("the least highest load, kept as a limit, needs just the height that it was found from") {
+  Problem gentle = in_run(ObjectiveKind::least_load);
+  gentle.finish.kind = FinishKind::level;
+  const double height = drop_of(solved(in_run(ObjectiveKind::least_drop))) + 0.2;
+  gentle.endpoints = {0.0, height};
+  const Optimum least = solved(gentle);
+  CHECK(std::fabs(least.report.exit_speed - 27.0) < 1e-6);
+  const double load = Motion(least.centerline, gentle.body, kGravity).highest_load().normal_load;
+  CHECK(load < 1.8 * kGravity);
+  CHECK(least.report.message.find("tighter bound") != std::string::npos);
+
+  Problem lowest = in_run(ObjectiveKind::least_drop);
+  lowest.limits.highest_normal_load = load;
+  const Optimum other = solved(lowest);
+  CHECK(std::fabs(drop_of(other) / height - 1.0) < 1e-5);
+  // How the load answers to the speed is the price of the one over that of the other.
+  const double by_speed = price_of(least, LimitId::exit_speed);
+  const double expected =
+      price_of(other, LimitId::exit_speed) / price_of(other, LimitId::highest_normal_load);
+  CHECK(std::fabs(by_speed / expected - 1.0) < 1e-2);
+}
+
+TEST_CASE("the least rate of curvature, kept as a limit, needs just the height that it was found from") {
+  Problem gentle = in_run(ObjectiveKind::least_curvature_rate);
+  gentle.limits.highest_curvature_rate.reset();
+  gentle.finish.kind = FinishKind::level;
+  const Problem lowest = in_run(ObjectiveKind::least_drop);
+  gentle.endpoints = {0.0, drop_of(solved(lowest))};
+  const Optimum least = solved(gentle);
+  double rate = 0.0;
+  for (const ClothoidSegment& piece : dynamic_cast<const ClothoidSpline&>(*least.centerline).segments()) {
+    rate = std::max(rate, std::fabs(piece.exit_curvature - piece.entry_curvature) / piece.length);
+  }
+  CHECK(std::fabs(rate / *lowest.limits.highest_curvature_rate - 1.0) < 1e-3);
+}
+
+TEST_CASE("a speed that drag does not allow is infeasible, not a high tower") {
+  Problem problem = in_run(ObjectiveKind::least_drop);
+  problem.limits.exit_speed.lowest = 80.0;  // above sqrt(g (sin - mu cos)/k) = 64.4 m/s at 35 deg
+  const Optimum optimum = optimize(problem);
+  CHECK(optimum.centerline == nullptr);
+  problem.objective.kind = ObjectiveKind::least_load;
+  problem.finish.kind = FinishKind::level;
+  problem.endpoints = {0.0, 46.0};
+  const Optimum load = optimize(problem);
+  CHECK(load.centerline == nullptr);
+  CHECK(load.report.objective.kind == ObjectiveKind::least_load);
+}
+
+TEST_CASE("an end that is free both ways needs a speed to be reached, and a least bound an end that is not") {
+  Problem problem = in_run(ObjectiveKind::least_drop);
+  problem.limits.exit_speed = {};
+  CHECK_THROWS_AS(optimize(problem), InputError);
+  problem = in_run(ObjectiveKind::least_load);
+  CHECK_THROWS_WITH(optimize(problem), contains_text("a longer and longer track"));
+}

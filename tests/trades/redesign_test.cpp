@@ -1,0 +1,241 @@
+#include "glissade/pipeline/redesign.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/design/write.hpp"
+
+#include "support/catch.hpp"
+#include "support/paths.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+using namespace glissade;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+InRunShape garmisch(InRunTransition transition = InRunTransition::cubic) {
+  return {Angle::from_degrees(35.0), Angle::from_degrees(11.0), 103.0, 6.9, 102.9, transition, 0.0};
+}
+
+TakeOff take_off(double speed, double mu = 0.03, double drag = 0.0013) {
+  TakeOff result;
+  result.body.friction = Friction::from_coefficient(mu);
+  result.body.drag_per_metre = drag;
+  result.speed = speed;
+  result.gravity = 9.81;
+  return result;
+}
+
+double speed_on(const CenterlinePtr& track, const TakeOff& take_off) {
+  return Motion(track, take_off.body, take_off.gravity).exit_speed();
+}
+
+double drop_of(const InRunShape& shape) {
+  return InRun(shape).endpoints().drop;
+}
+
+Design garmisch_design() {
+  return read_design(designs_path("hills/garmisch_hs142.yaml"));
+}
+
+const RedesignShape& shape_named(const Redesign& found, const std::string& part) {
+  for (const RedesignShape& shape : found.shapes) {
+    if (shape.name.find(part) != std::string::npos) return shape;
+  }
+  throw std::logic_error("no shape is named " + part);
+}
+
+}  // namespace
+
+TEST_CASE("an in-run that reaches its own speed is itself, and every transition reaches it") {
+  const TakeOff own = take_off(speed_on(std::make_shared<const InRun>(garmisch()), take_off(1.0)));
+  CHECK(std::fabs(reaching(garmisch(), own).length - 102.9) < 1e-8);
+  for (const InRunTransition transition : {InRunTransition::circle, InRunTransition::clothoid}) {
+    const InRunShape shape = reaching(garmisch(transition), own);
+    CHECK(std::fabs(speed_on(std::make_shared<const InRun>(shape), own) / own.speed - 1.0) < 1e-11);
+  }
+  // At the same length the circle begins 1.26 m higher and is 0.39 m/s faster: at the same speed it saves height.
+  CHECK(drop_of(reaching(garmisch(InRunTransition::circle), own)) < drop_of(garmisch()));
+}
+
+TEST_CASE("without friction and drag the drop is that of the speed, whatever the letters") {
+  const TakeOff free = take_off(28.0, 0.0, 0.0);
+  const double drop = 28.0 * 28.0 / (2.0 * 9.81);
+  CHECK(std::fabs(drop_of(reaching(garmisch(), free)) - drop) < 1e-8);
+  const ClothoidSpline power = power_in_run(garmisch(), free);
+  CHECK(std::fabs(power.endpoints().drop - drop) < 1e-8);
+  const DropSlopes slopes = drop_slopes(garmisch(), free);
+  CHECK(std::fabs(slopes.by_gamma) < 1e-5);
+  CHECK(std::fabs(slopes.by_r1) < 1e-6);
+  CHECK(std::fabs(slopes.by_speed - 28.0 / 9.81) < 1e-6);
+}
+
+TEST_CASE("the price of a letter is what the drop changes by when it is changed") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 3; ++i) {
+    InRunShape shape = garmisch();
+    shape.gamma = Angle::from_degrees(random.between(30.0, 37.0));
+    shape.r1 = random.between(70.0, 110.0);
+    const TakeOff wanted = take_off(random.between(24.0, 28.0), random.between(0.02, 0.05));
+    const DropSlopes slopes = drop_slopes(shape, wanted);
+    const double before = drop_of(reaching(shape, wanted));
+    InRunShape other = shape;
+    other.r1 += 1.0;
+    CHECK(std::fabs(drop_of(reaching(other, wanted)) - before - slopes.by_r1) < 0.02 * slopes.by_r1);
+    other = shape;
+    other.t += 0.5;
+    CHECK(std::fabs(drop_of(reaching(other, wanted)) - before - 0.5 * slopes.by_t) < 0.01 * slopes.by_t);
+    CHECK(slopes.by_gamma < 0.0);  // steeper is lower
+  }
+}
+
+TEST_CASE("the lowest letters within bounds are no higher than any others within them") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const TakeOff wanted = take_off(27.0);
+  LetterBounds bounds;
+  bounds.gamma.highest = 37.0 * kDegree;
+  bounds.r1.lowest = 95.0;
+  bounds.t.lowest = 6.5;
+  const InRunShape best = least_drop_in_run(garmisch(), bounds, wanted);
+  CHECK(std::fabs(best.gamma.degrees() - 37.0) < 1e-9);
+  CHECK(best.r1 == 95.0);
+  CHECK(best.t == 6.5);
+  for (int i = 0; i < 20; ++i) {
+    InRunShape other = garmisch();
+    other.gamma = Angle::from_degrees(random.between(33.0, 37.0));
+    other.r1 = random.between(95.0, 110.0);
+    other.t = random.between(6.5, 8.0);
+    CHECK(drop_of(best) <= drop_of(reaching(other, wanted)) + 1e-9);
+  }
+  bounds.gamma = {38.0 * kDegree, 37.0 * kDegree};
+  CHECK_THROWS_AS(least_drop_in_run(garmisch(), bounds, wanted), InputError);
+}
+
+TEST_CASE("a speed that the bend alone exceeds, or that drag does not allow, is told") {
+  CHECK_THROWS_WITH(reaching(garmisch(), take_off(15.0)),
+                    contains_text("less than the transition alone gives"));
+  CHECK_THROWS_WITH(reaching(garmisch(), take_off(70.0)), contains_text("out of reach of this body"));
+}
+
+TEST_CASE(
+    "Zanevskyy's power curve turns as the circle does between the same straights, and begins without a "
+    "jump") {
+  const TakeOff wanted = take_off(27.0);
+  const ClothoidSpline power = power_in_run(garmisch(), wanted);
+  const std::vector<ClothoidSegment>& pieces = power.segments();
+  const double turn = 24.0 * kDegree;
+  CHECK(std::fabs(power.slope_angle(power.length()) - 11.0 * kDegree) < 1e-12);
+  CHECK(pieces[1].entry_curvature == 0.0);
+  CHECK(std::fabs(pieces[pieces.size() - 2].exit_curvature * 103.0 / std::cos(turn) - 1.0) < 1e-4);
+  // From E1 to E2 it leads where an arc of the same radius does.
+  const CenterlinePoint e1 = power.at(pieces.front().length);
+  const CenterlinePoint e2 = power.at(power.length() - 6.9);
+  const ClothoidSpline arc(Angle::from_degrees(35.0), {{103.0 * turn, 1.0 / 103.0, 1.0 / 103.0}});
+  const Endpoints way = arc.endpoints();
+  CHECK(std::fabs(e2.x - e1.x - way.run) < 1e-3);
+  CHECK(std::fabs(e2.drop - e1.drop - way.drop) < 1e-3);
+  CHECK(std::fabs(speed_on(std::make_shared<const ClothoidSpline>(power), wanted) / 27.0 - 1.0) < 1e-10);
+}
+
+TEST_CASE("along a load-controlled bend the curvature's load is the one prescribed") {
+  const TakeOff wanted = take_off(27.0);
+  const auto track = std::make_shared<const ClothoidSpline>(load_controlled_in_run(garmisch(), 6.0, wanted));
+  const Motion motion(track, wanted.body, wanted.gravity);
+  CHECK(std::fabs(motion.exit_speed() / 27.0 - 1.0) < 1e-10);
+  const double e1 = track->segments().front().length;
+  const double length = track->length() - 6.9 - e1;
+  for (const double share : {0.05, 0.125, 0.25, 0.4, 0.6, 0.75, 0.875, 0.95}) {
+    const double s = e1 + share * length;
+    const double speed = motion.at(s).speed;
+    const double expected = 6.0 * std::min({4.0 * share, 1.0, 4.0 * (1.0 - share)});
+    CHECK(std::fabs(track->at(s).curvature * speed * speed - expected) < 2e-3);
+  }
+  CHECK(std::fabs(track->slope_angle(track->length()) - 11.0 * kDegree) < 1e-12);
+}
+
+TEST_CASE(
+    "a redesign keeps the take-off speed, and the free shape is no higher than the letters within the "
+    "rules") {
+  const Design design = garmisch_design();
+  const Redesign found = redesign(design, {}, {});
+  const RedesignShape& certificate = found.shapes.front();
+  CHECK(std::fabs(certificate.take_off_speed - 27.0665) < 5e-4);  // facts of the hill, to four digits
+  for (const RedesignShape& shape : found.shapes) {
+    INFO(shape.name << ": " << shape.problem);
+    REQUIRE(shape.track);
+    CHECK(std::fabs(shape.take_off_speed / certificate.take_off_speed - 1.0) < 1e-6);
+  }
+  const RedesignShape& letters = shape_named(found, "within the rules");
+  const RedesignShape& free = found.shapes.back();
+  CHECK(letters.ends.drop <= certificate.ends.drop + 1e-9);
+  CHECK(free.ends.drop < letters.ends.drop);
+  CHECK(free.curvature_rate < 1.001 * certificate.curvature_rate);
+  CHECK(found.search->status == OptimizeStatus::optimal);
+  // Advice says 35 deg; r1 is held by its rule at the take-off speed, which is also that of the sizes.
+  const LetterPrice& r1 = found.prices[2];
+  CHECK(r1.letter == "r1");
+  CHECK(r1.rule == "fis.in-run.r1");
+  CHECK(std::fabs(r1.value - 0.14 * found.take_off.speed * found.take_off.speed) < 1e-6);
+  CHECK(r1.price > 0.0);
+}
+
+TEST_CASE("a redesign reads back as a design that gives its numbers") {
+  const Design design = garmisch_design();
+  const Redesign found = redesign(design, {}, {});
+  for (const bool free : {true, false}) {
+    const Design made = parse_design(design_text(redesigned(design, found, free)), "made.yaml");
+    const Track track = solve(made);
+    const double drop = free ? found.shapes.back().ends.drop : drop_of(found.within_rules);
+    CHECK(std::fabs(track.endpoints.drop - drop) < 1e-9);
+    CHECK(std::fabs(track.motion.exit_speed() / found.take_off.speed - 1.0) < 1e-6);
+    const Vec3 edge = track.placement.to_space(track.endpoints.run, track.endpoints.drop, 0.0);
+    CHECK(norm(edge - design.track.finish) < 1e-6);
+    REQUIRE(track.gates);
+    CHECK(track.gates->gates.size() == 49);
+  }
+}
+
+TEST_CASE("every goal is met from the height or the speed of the certificate, and no worse than it") {
+  const Design design = garmisch_design();
+  for (const RedesignGoal goal : redesign_goals()) {
+    RedesignOptions options;
+    options.goal = goal;
+    const Redesign found = redesign(design, options, {});
+    const RedesignShape& certificate = found.shapes.front();
+    const RedesignShape& free = found.shapes.back();
+    INFO(word(goal) << ": " << free.problem);
+    REQUIRE(free.track);
+    switch (goal) {
+      case RedesignGoal::least_drop:
+        CHECK(free.ends.drop < certificate.ends.drop);
+        break;
+      case RedesignGoal::least_length:
+        CHECK(free.length < certificate.length);
+        break;
+      case RedesignGoal::least_load:
+        CHECK(free.highest_load < certificate.highest_load);
+        break;
+      case RedesignGoal::least_curvature_rate:
+        CHECK(free.curvature_rate < certificate.curvature_rate);
+        break;
+      case RedesignGoal::exit_speed:
+        CHECK(free.take_off_speed > certificate.take_off_speed);
+        break;
+    }
+    const bool same_height = goal != RedesignGoal::least_drop && goal != RedesignGoal::least_length;
+    if (same_height) CHECK(std::fabs(free.ends.drop - certificate.ends.drop) < 1e-5);
+  }
+}
+
+TEST_CASE("a design that is no in-run has no letters to redesign") {
+  const Design design = read_design(designs_path("grain_chute.yaml"));
+  CHECK_THROWS_WITH(redesign(design, {}, {}), contains_text("is no in-run by its letters"));
+}
