@@ -1,5 +1,6 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "design/check.hpp"
 #include "design/checks.hpp"
@@ -8,14 +9,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <utility>
 
 namespace glissade::design_file {
 namespace {
-
-constexpr double kQuarterTurn = std::numbers::pi / 2.0;
 
 void check_segment(const SegmentDesign& segment, const std::string& key_path, Collected& findings) {
   if (!(segment.length > 0.0 && segment.length <= kLongestTrack)) {
@@ -53,20 +51,20 @@ double steepest_slope(const SegmentDesign& segment, double entry_slope) {
 void check_overhang(const CenterlineDesign& centerline, Collected& findings) {
   constexpr double kRounding = 1e-12;
   double slope = centerline.entry_slope_angle.radians();
-  if (std::fabs(slope) > kQuarterTurn + kRounding) {
+  if (std::fabs(slope) > kRightAngle + kRounding) {
     report(findings, {"centerline.entry_slope_angle"},
-           {"", "entry_slope_angle: " + angle_text(slope) + " overhangs",
+           {"", "entry_slope_angle: " + angle_text(Angle::from_radians(slope)) + " overhangs",
             "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
     return;
   }
   for (std::size_t index = 0; index < centerline.segments.size(); ++index) {
     const SegmentDesign& segment = centerline.segments[index];
     const double steepest = steepest_slope(segment, slope);
-    if (!(std::fabs(steepest) <= kQuarterTurn + kRounding)) {
+    if (!(std::fabs(steepest) <= kRightAngle + kRounding)) {
       report(findings, {"centerline.segments." + std::to_string(index), "centerline"},
              {"",
               "segments[" + std::to_string(index) + "] overhangs: its slope angle reaches " +
-                  angle_text(steepest),
+                  angle_text(Angle::from_radians(steepest)),
               "A slope angle lies between -90 deg (straight up) and 90 deg (straight down); a positive "
               "curvature or radius turns the track upwards.",
               "a shorter segment, a larger radius, or the other sign"});

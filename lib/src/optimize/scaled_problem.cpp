@@ -3,13 +3,13 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace glissade::optimizer {
 namespace {
@@ -186,7 +186,7 @@ class LimitList {
   }
 
   void add_match(const BeltMatch& match) {
-    const double seen = math::cos(match.direction);
+    const double seen = math::cos(match.direction.radians());
     for (const Bound bound : {Bound::lowest, Bound::highest}) {
       const double side = bound == Bound::highest ? 1.0 : -1.0;
       LimitSpec& limit = add({LimitId::match_belt, bound}, match.speed * (1.0 + side * match.within));
@@ -354,12 +354,11 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   add_obstacles(limits, passages, list);
   for (std::size_t i = 0; i < limits.waypoints.size(); ++i) list.add_waypoint(i);
   // Beyond the vertical a track would run backwards; the fastest one of all starts exactly vertical.
-  constexpr double kUpright = 0.5 * std::numbers::pi;
   if (!limits.slope_angle.highest) {
-    list.add_built_in(LimitId::no_steeper_than_vertical, Measure::slope_angle, kUpright);
+    list.add_built_in(LimitId::no_steeper_than_vertical, Measure::slope_angle, kRightAngle);
   }
   if (!limits.slope_angle.lowest) {
-    list.add_built_in(LimitId::no_climb_beyond_vertical, Measure::slope_angle, -kUpright);
+    list.add_built_in(LimitId::no_climb_beyond_vertical, Measure::slope_angle, -kRightAngle);
   }
   // In a valley hardly wider than the body is high its centre hardly moves and is pressed without bound: a ball
   // would roll up the tightest bend there is to touch the finish. Unless a radius is asked for, it is at least
@@ -385,7 +384,7 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   list.add_no_choking();
   // A stream flatter than the floor flies on over it.
   if (problem.body.landing)
-    list.add_built_in(LimitId::landing, Measure::entry_slope_angle, problem.body.landing->angle);
+    list.add_built_in(LimitId::landing, Measure::entry_slope_angle, problem.body.landing->angle.radians());
 }
 
 }  // namespace
@@ -481,10 +480,9 @@ void require_searchable(const Problem& problem) {
 }
 
 void require_passable_in_order(const Problem& problem) {
-  constexpr double kUpright = 0.5 * std::numbers::pi;
   const Limits& limits = problem.limits;
-  const bool runs_back = limits.slope_angle.highest.value_or(kUpright) > kUpright ||
-                         limits.slope_angle.lowest.value_or(-kUpright) < -kUpright;
+  const bool runs_back = limits.slope_angle.highest.value_or(kRightAngle) > kRightAngle ||
+                         limits.slope_angle.lowest.value_or(-kRightAngle) < -kRightAngle;
   if (runs_back) return;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i + 1 < limits.waypoints.size(); ++i) {

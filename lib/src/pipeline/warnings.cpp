@@ -66,8 +66,7 @@ void add_material_warnings(const Design& design, std::vector<Issue>& found) {
   if (!needs_checking(friction->certainty())) return;
   found.push_back({where,
                    "wall friction of " + choice.material + " on " + choice.liner + ": " +
-                       angle_text(friction->low.radians(), 3) + " to " +
-                       angle_text(friction->high.radians(), 3) +
+                       angle_text(friction->low, 3) + " to " + angle_text(friction->high, 3) +
                        " from the library, not measured for this chute",
                    "The least sure of its sources is \"" + std::string(word(friction->certainty())) +
                        "\"; 'glissade materials " + choice.material + "' names them.",
