@@ -2,6 +2,7 @@
 
 #include "glissade/core/units.hpp"
 
+#include "optimize/feet.hpp"
 #include "optimize/rows.hpp"
 
 #include <algorithm>

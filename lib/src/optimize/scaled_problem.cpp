@@ -14,44 +14,6 @@
 namespace glissade::optimizer {
 namespace {
 
-/// What the search measures for a limit that is one number.
-Measure measure_of(LimitId id) {
-  switch (id) {
-    case LimitId::entry_slope_angle:
-      return Measure::entry_slope_angle;
-    case LimitId::exit_slope_angle:
-      return Measure::exit_slope_angle;
-    case LimitId::smallest_valley_radius:
-    case LimitId::smallest_crest_radius:
-    case LimitId::concave:
-      return Measure::curvature;
-    case LimitId::highest_curvature_rate:
-      return Measure::curvature_rate;
-    case LimitId::highest_normal_load:
-    case LimitId::lowest_normal_load:
-      return Measure::normal_load;
-    case LimitId::highest_curvature_load:
-      return Measure::curvature_load;
-    case LimitId::speed:
-    case LimitId::highest_burden_depth:
-    case LimitId::no_choking:
-      return Measure::speed;
-    case LimitId::highest_floor_wear:
-      return Measure::normal_load;
-    case LimitId::exit_speed:
-      return Measure::exit_speed;
-    case LimitId::match_belt:
-      return Measure::exit_run_speed;
-    case LimitId::arc_length:
-      return Measure::arc_length;
-    case LimitId::finish_run:
-    case LimitId::finish_drop:
-      return Measure::finish_coordinate;
-    default:
-      return Measure::slope_angle;
-  }
-}
-
 /// +1: at most, -1: at least, 0: exactly.
 int side_of(Bound bound) {
   return bound == Bound::highest ? 1 : bound == Bound::lowest ? -1 : 0;
@@ -142,7 +104,7 @@ class LimitList {
   }
 
   /// What holds without being asked for.
-  void add_built_in(LimitId id, Measure measure, double bound) {
+  void add_built_in(LimitId id, const Measure* measure, double bound) {
     LimitSpec limit;
     limit.name = {id, entry_of(id).bound};
     limit.measure = measure;
