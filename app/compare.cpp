@@ -136,16 +136,15 @@ Table sweep_table(const std::vector<Entry>& entries) {
   Table table({"Friction angle", "P", "slope at start", "at finish", "arc length", "at constant speed",
                "from rest", "fastest track", "straight line"});
   for (const Entry& entry : entries) {
-    const std::string angle = angle_text(entry.design.body.friction.angle().radians());
+    const std::string angle = angle_text(entry.design.body.friction.angle());
     if (!entry.track) {
       table.add({angle, entry.problem});
       continue;
     }
     const Track& track = *entry.track;
     const auto& curve = dynamic_cast<const ConstantSpeedCurve&>(*track.centerline);
-    table.add({angle, rounded_text(curve.p(), 4) + " m^2/s^2",
-               angle_text(curve.entry_slope_angle().radians()),
-               angle_text(curve.exit_slope_angle().radians()), length_text(curve.length()),
+    table.add({angle, rounded_text(curve.p(), 4) + " m^2/s^2", angle_text(curve.entry_slope_angle()),
+               angle_text(curve.exit_slope_angle()), length_text(curve.length()),
                time_text(curve.travel_time_at_constant_speed()), ride_text(track.motion),
                track.optimum_travel_time ? time_text(*track.optimum_travel_time) : "none arrives",
                track.straight ? ride_text(*track.straight) : "stalls"});

@@ -72,7 +72,7 @@ std::vector<FigureRide> rides_of(const std::vector<Entry>& entries, const Naming
 }
 
 std::string friction_name(const Entry& entry) {
-  return angle_text(entry.design.body.friction.angle().radians());
+  return angle_text(entry.design.body.friction.angle());
 }
 
 std::string design_name(const Entry& entry) {
@@ -132,8 +132,7 @@ std::vector<Figure> over_friction(Design design, const Entry& own, const RunCont
       times.xs.push_back(angle);
       times.ys.push_back(arrives ? entry.track->motion.travel_time() : missing);
       slopes.xs.push_back(angle);
-      slopes.ys.push_back(entry.track ? Angle::from_radians(entry.track->steepest_slope_angle).degrees()
-                                      : missing);
+      slopes.ys.push_back(entry.track ? entry.track->steepest_slope_angle.degrees() : missing);
     }
     time.lines.push_back(std::move(times));
     slope.lines.push_back(std::move(slopes));

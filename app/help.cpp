@@ -93,11 +93,21 @@ HelpPage help_page(const CLI::App& command) {
   }
   for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
     if (is_hidden(*subcommand)) continue;
-    const std::string& description = subcommand->get_description();
-    page.commands.emplace_back(subcommand->get_name(), description.substr(0, description.find('\n')));
+    page.commands.emplace_back(subcommand->get_name(), first_sentence(subcommand->get_description()));
   }
   page.usage += page.commands.empty() ? " [OPTIONS]" : " COMMAND [OPTIONS]";
   return page;
+}
+
+std::string first_sentence(std::string_view description) {
+  std::size_t end = std::min(description.find("\n\n"), description.size());
+  for (const std::string_view stop : {". ", ".\n"}) {
+    const std::size_t at = description.substr(0, end).find(stop);
+    if (at != std::string_view::npos) end = at + 1;
+  }
+  std::string sentence(description.substr(0, end));
+  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+  return sentence;
 }
 
 std::string help_text(const CLI::App& command) {

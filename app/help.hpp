@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct HelpPage {
 /// @return what --help prints for a command: usage, what it does, arguments, options, examples. The same
 ///         bytes with every version of the library that parses the command line.
 [[nodiscard]] std::string help_text(const CLI::App& command);
+
+/// @return the first sentence of a description, on one line, with its full stop
+[[nodiscard]] std::string first_sentence(std::string_view description);
 
 /// @return whether an option or a command is for scripts of the program's own, and in no help
 [[nodiscard]] bool is_hidden(const CLI::App& command);

@@ -16,14 +16,13 @@ namespace glissade::app {
 namespace {
 
 std::string angle_and_coefficient(Friction friction) {
-  return angle_text(friction.angle().radians()) + " (coefficient " + rounded_text(friction.coefficient(), 4) +
-         ")";
+  return angle_text(friction.angle()) + " (coefficient " + rounded_text(friction.coefficient(), 4) + ")";
 }
 
 std::string rolling_text(const BodyDesign& body) {
   std::string text = ", rolls: radius " + length_text(body.rolling->radius);
   if (body.rolling->groove_half_angle < Angle::from_degrees(90.0)) {
-    text += " in a groove of " + angle_text(2.0 * body.rolling->groove_half_angle.radians());
+    text += " in a groove of " + angle_text(2.0 * body.rolling->groove_half_angle);
   }
   return text + ", rolling resistance " + rounded_text(body.friction.coefficient(), 4);
 }
@@ -44,7 +43,7 @@ std::string resistance_text(const Design& design) {
     text = ", friction angle";
     for (const FrictionFrom& change : body.friction_changes) {
       text += (change.from == 0.0 ? " " : ", from " + length_text(change.from) + " on ") +
-              angle_text(change.friction.angle().radians());
+              angle_text(change.friction.angle());
     }
   } else if (body.friction.coefficient() == 0.0) {
     text = ", no friction";

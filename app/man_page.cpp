@@ -97,9 +97,9 @@ std::string footer(const std::string& text) {
   return result;
 }
 
-std::string first_sentence(const std::string& text) {
-  const std::size_t end = std::min({text.find(":\n"), text.find('\n'), text.find(". "), text.size()});
-  std::string sentence = text.substr(0, end);
+/// What a page is called by, without a stop.
+std::string title_of(const std::string& text) {
+  std::string sentence = first_sentence(std::string_view(text).substr(0, text.find(":\n")));
   while (sentence.ends_with('.') || sentence.ends_with(':')) sentence.pop_back();
   return sentence;
 }
@@ -117,7 +117,7 @@ std::string man_page(const HelpPage& page, const std::vector<std::string>& also)
   std::string text = ".TH " + in_capitals(as_it_stands(name)) + " 1 \"\" \"Glissade " +
                      std::string(version()) + "\" \"Glissade\"\n.nh\n.ad l\n";
   text +=
-      heading("Name") + as_it_stands(name) + " \\- " + as_it_stands(first_sentence(page.description)) + "\n";
+      heading("Name") + as_it_stands(name) + " \\- " + as_it_stands(title_of(page.description)) + "\n";
   text += heading("Synopsis") + ".B " + as_it_stands(page.usage) + "\n";
   text += heading("Description") + paragraphs(page.description);
   if (!page.commands.empty()) text += heading("Commands") + tagged(page.commands);

@@ -94,7 +94,7 @@ std::string details(const Material& material, const MaterialLibrary& library) {
     const auto found = friction_on(material, liner);
     if (!found) continue;
     text += "\n  on " + liner.word + ": " + friction_text(*found) + ", nominal " +
-            angle_text(found->nominal.radians(), 3) + "\n";
+            angle_text(found->nominal, 3) + "\n";
     for (const WallFriction& friction : found->from) {
       text += "    " + range_text(friction.low.radians(), friction.nominal.radians(), friction.high.radians(),
                                   Dimension::angle);
@@ -117,7 +117,7 @@ std::string on_liner(const Liner& liner, const MaterialLibrary& library) {
   for (const Material& material : library.materials) {
     const auto found = friction_on(material, liner);
     if (!found) continue;
-    table.add({material.word, friction_text(*found), angle_text(found->nominal.radians(), 3),
+    table.add({material.word, friction_text(*found), angle_text(found->nominal, 3),
                certainty_text(found->certainty())});
   }
   return table.text();

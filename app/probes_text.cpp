@@ -16,7 +16,7 @@ namespace {
 void add_rows(Table& table, const ProbeReading& probe, bool ranged) {
   std::string name = probe.name;
   std::string place = length_text(probe.point.arc_length);
-  std::string slope = angle_text(probe.point.slope_angle);
+  std::string slope = angle_text(Angle::from_radians(probe.point.slope_angle));
   for (const ProbeState& state : probe.states) {
     std::vector<std::string> row = {name, place, slope};
     if (ranged) row.emplace_back(to_text(state.level));

@@ -75,9 +75,7 @@ std::string rides_summary(const Design& design, const Track& track, const std::v
   const auto add = [&](const std::string& name, const Motion& motion, const Track& checked) {
     add_ride(table, name, motion, stall_angle, design.limits ? limits_at(checked) : "");
   };
-  const auto angle_of = [](const Motion& motion) {
-    return angle_text(motion.body().friction.angle().radians());
-  };
+  const auto angle_of = [](const Motion& motion) { return angle_text(motion.body().friction.angle()); };
   add("found at " + angle_of(track.motion), track.motion, track);
   for (const Track& ride : rides) add(angle_of(ride.motion), ride.motion, ride);
   const std::string heading = design.name.empty() ? std::string("Track") : design.name;

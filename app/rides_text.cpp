@@ -23,16 +23,16 @@ std::string time_of(const Motion& motion) {
 
 std::string margin_text(const Motion& motion, const std::optional<Angle>& stall_angle) {
   if (!stall_angle) return "never stalls";
-  return angle_text(stall_angle->radians() - motion.body().friction.angle().radians(), 3);
+  return angle_text(*stall_angle - motion.body().friction.angle(), 3);
 }
 
 std::string stall_text(const Track& track, const std::optional<Angle>& stall_angle) {
   if (!stall_angle) return "at no friction angle below 89.9 deg";
   if (stall_angle->radians() == 0.0) return "even without friction";
-  const double margin = stall_angle->radians() - track.motion.body().friction.angle().radians();
+  const Angle margin = *stall_angle - track.motion.body().friction.angle();
   const bool rolls = track.motion.body().law && track.motion.body().law->kind() == "rolling";
-  return (rolls ? "an angle of rolling resistance of " : "a friction angle of ") +
-         angle_text(stall_angle->radians()) + " (margin " + angle_text(margin, 3) + ")";
+  return (rolls ? "an angle of rolling resistance of " : "a friction angle of ") + angle_text(*stall_angle) +
+         " (margin " + angle_text(margin, 3) + ")";
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::string friction_lines(const Track& track) {
   if (track.range.empty()) return text;
   Table table = rides_table("Friction");
   for (const LevelRide& ride : track.rides()) {
-    const double angle = ride.motion->body().friction.angle().radians();
+    const Angle angle = ride.motion->body().friction.angle();
     add_ride(table, std::string(to_text(ride.level)) + ", " + angle_text(angle), *ride.motion, stall_angle);
   }
   return text + "\n" + table.text();

@@ -56,8 +56,8 @@ std::string feed_lines(const Design& design, const Track& track) {
   if (!design.feed) return "";
   const FeedFall fall = feed_fall(design);
   const Body& body = track.motion.body();
-  const Impact impact =
-      impact_on(fall.landing, track.centerline->slope_angle(0.0), body.friction, design.stream->bulk_density);
+  const Impact impact = impact_on(fall.landing, Angle::from_radians(track.centerline->slope_angle(0.0)),
+                                  body.friction, design.stream->bulk_density);
   std::string text = "falls at " + speed_text(fall.landing.speed) + ", " + angle_text(fall.landing.angle, 3) +
                      " below the horizontal, " + angle_text(impact.angle, 3) + " to the floor";
   if (impact.speed_ratio > 0.0) {

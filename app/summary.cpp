@@ -113,8 +113,8 @@ std::string ride_lines(const Track& track) {
 
 std::string slope_text(const Track& track) {
   const Centerline& centerline = *track.centerline;
-  return angle_text(centerline.slope_angle(0.0)) + " at the start, " +
-         angle_text(centerline.slope_angle(centerline.length())) + " at the finish";
+  return angle_text(Angle::from_radians(centerline.slope_angle(0.0))) + " at the start, " +
+         angle_text(Angle::from_radians(centerline.slope_angle(centerline.length()))) + " at the finish";
 }
 
 /// The cosine of a right angle is not quite 0 in a computer.

@@ -58,7 +58,9 @@ SurveyOptions options_of(const Options& options) {
   };
   take(options.offset, Dimension::length, "--offset", survey.height);
   take(options.tolerance, Dimension::length, "--tolerance", survey.tolerance);
-  take(options.slope_tolerance, Dimension::angle, "--slope-tolerance", survey.slope_tolerance);
+  double slope_tolerance = survey.slope_tolerance.radians();
+  take(options.slope_tolerance, Dimension::angle, "--slope-tolerance", slope_tolerance);
+  survey.slope_tolerance = Angle::from_radians(slope_tolerance);
   take(options.gap, Dimension::length, "--largest-gap", survey.largest_gap);
   take(options.reach, Dimension::length, "--reach", survey.reach);
   return survey;
@@ -80,11 +82,10 @@ Table places_table(const Survey& survey) {
     constexpr double kStraight = 1e-4;  // [1/m]
     return std::fabs(curvature) < kStraight ? std::string("straight") : fixed_text(1.0 / curvature, 1);
   };
-  const auto degrees = [](double radians) { return Angle::from_radians(radians).degrees(); };
   for (const SurveyedPlace& place : survey.places) {
     table.add({place.name, fixed_text(place.arc_length, 2), fixed_text(1e3 * place.deviation, 1),
-               fixed_text(1e3 * place.aside, 1), fixed_text(degrees(place.slope_angle), 3),
-               fixed_text(degrees(place.slope_deviation), 3), radius(place.curvature),
+               fixed_text(1e3 * place.aside, 1), fixed_text(place.slope_angle.degrees(), 3),
+               fixed_text(place.slope_deviation.degrees(), 3), radius(place.curvature),
                radius(place.designed_curvature)});
   }
   return table;

@@ -96,7 +96,7 @@ void measure_solid(benchmark::State& state) {
   for ([[maybe_unused]] const auto iteration : state) facts = measure(solid.mesh);
   if (!facts.valid()) state.SkipWithError("the solid must be valid");
   label(state, solid);
-  state.counters["smallest_angle_deg"] = facts.smallest_angle * 180.0 / 3.14159265358979;
+  state.counters["smallest_angle_deg"] = facts.smallest_angle.degrees();
 }
 
 /// The self-intersection test alone, of a mesh that CGAL holds already.

@@ -87,11 +87,12 @@ Section fastest_track() {
         solve_coulomb_brachistochrone(curve.endpoints, curve.friction, curve.gravity);
     time.add(relative_error(found.travel_time, curve.travel_time), bound);
     speed.add(relative_error(found.exit_speed, curve.exit_speed), bound);
-    slope.add(relative_error(found.exit_slope_angle, curve.exit_slope_angle), bound);
+    slope.add(relative_error(found.exit_slope_angle.radians(), curve.exit_slope_angle), bound);
     straight.add(relative_error(found.straight_time, curve.straight_time), bound);
     for (const reference::CurvePoint& point : curve.points) {
-      const CoulombState state = reference::turned_by(found.at_slope_angle(point.slope_angle),
-                                                      point.slope_remainder, curve.friction, curve.gravity);
+      const CoulombState state =
+          reference::turned_by(found.at_slope_angle(Angle::from_radians(point.slope_angle)),
+                               point.slope_remainder, curve.friction, curve.gravity);
       x.add(relative_error(state.x, point.x), bound);
       drop.add(relative_error(state.drop, point.drop), bound);
       point_time.add(relative_error(state.time, point.time), bound);
@@ -129,8 +130,8 @@ Section flying_start() {
         flying_start_accuracy((ends.drop - least_drop(ends.run, friction, v0, gravity)) / size);
     time.add(relative_error(found.travel_time, number(item, "travel_time")), bound);
     speed.add(relative_error(found.exit_speed, number(item, "exit_speed")), bound);
-    entry.add(std::fabs(found.entry_slope_angle - number(item, "entry_slope_angle")), bound);
-    exit.add(std::fabs(found.exit_slope_angle - number(item, "exit_slope_angle")), bound);
+    entry.add(std::fabs(found.entry_slope_angle.radians() - number(item, "entry_slope_angle")), bound);
+    exit.add(std::fabs(found.exit_slope_angle.radians() - number(item, "exit_slope_angle")), bound);
     const Endpoints end = curve->endpoints();
     place.add(std::hypot(end.run - ends.run, end.drop - ends.drop) / curve->length());
     const Motion ride(curve, {friction, v0, 0.0}, gravity);

@@ -140,14 +140,14 @@ TEST_CASE("fastest track: the body never leaves it, and its speed obeys the reac
     const double friction_angle = problem.friction.angle().radians();
     INFO("mu " << mu << ", run " << problem.endpoints.run << ", drop " << problem.endpoints.drop);
     CHECK(solution.travel_time < solution.straight_time);
-    CHECK(solution.exit_slope_angle > 2.0 * friction_angle - std::numbers::pi / 2.0);
+    CHECK(solution.exit_slope_angle.radians() > 2.0 * friction_angle - std::numbers::pi / 2.0);
     CHECK(solution.exit_speed * solution.exit_speed <=
           2.0 * solution.gravity * (problem.endpoints.drop - mu * problem.endpoints.run) *
-              std::exp(2.0 * mu * (solution.exit_slope_angle - friction_angle)) * (1.0 + 1e-12));
+              std::exp(2.0 * mu * (solution.exit_slope_angle.radians() - friction_angle)) * (1.0 + 1e-12));
     for (const double part : {0.01, 0.3, 0.7, 1.0}) {
       const double angle =
-          std::numbers::pi / 2.0 + part * (solution.exit_slope_angle - std::numbers::pi / 2.0);
-      const CoulombState state = solution.at_slope_angle(angle);
+          std::numbers::pi / 2.0 + part * (solution.exit_slope_angle.radians() - std::numbers::pi / 2.0);
+      const CoulombState state = solution.at_slope_angle(Angle::from_radians(angle));
       CHECK(state.curvature > 0.0);
       CHECK(solution.gravity * std::cos(angle) + state.curvature * state.speed * state.speed > 0.0);
     }

@@ -1,4 +1,5 @@
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/units.hpp"
 
 #include "coulomb_quadrature.hpp"
 #include "coulomb_reference.hpp"
@@ -18,8 +19,6 @@ using reference::PreciseCurve;
 using reference::SolutionErrors;
 
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 /// A part of the reachable domain, by decimal exponents of the friction coefficient (none: no friction) and
 /// of eps = drop/(mu run) - 1, or of drop/run where there is no friction.
@@ -60,10 +59,10 @@ Problem random_problem(testing::Random& random, const Region& region) {
 /// Slope angles spread over the track, the first and the last close to its ends. The double pi/2 stands for
 /// the start, those next to the exit slope angle for the finish.
 std::vector<double> slope_angles_of(const CoulombSolution& solution) {
-  const double last = std::nextafter(solution.exit_slope_angle, kRightAngle);
+  const double last = std::nextafter(solution.exit_slope_angle.radians(), kRightAngle);
   std::vector<double> angles;
   for (const double part : {1e-6, 0.1, 0.5, 0.9, 0.9999}) {
-    const double angle = kRightAngle + part * (solution.exit_slope_angle - kRightAngle);
+    const double angle = kRightAngle + part * (solution.exit_slope_angle.radians() - kRightAngle);
     if (angle < kRightAngle && angle > last) angles.push_back(angle);
   }
   return angles;

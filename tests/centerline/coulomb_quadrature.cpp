@@ -173,11 +173,11 @@ SolutionErrors PreciseCurve::errors(const std::vector<double>& slope_angles) con
   SolutionErrors errors;
   errors.travel_time = relative(solution_.travel_time, finish.time * time_scale);
   errors.exit_speed = relative(solution_.exit_speed, speed_scale / sqrt(Real(1 + exit_slope * exit_slope)));
-  errors.exit_slope_angle = angle_error(solution_.exit_slope_angle, atan(exit_slope));
+  errors.exit_slope_angle = angle_error(solution_.exit_slope_angle.radians(), atan(exit_slope));
   errors.straight_time = relative(solution_.straight_time,
                                   sqrt(Real(2 * (run * run + drop * drop) / (gravity * (drop - mu * run)))));
   for (const double slope_angle : slope_angles) {
-    const CoulombState state = solution_.at_slope_angle(slope_angle);
+    const CoulombState state = solution_.at_slope_angle(Angle::from_radians(slope_angle));
     const Real slope = tan(Real(slope_angle));
     const Integrals there = integrals_to(shape, slope);
     const Real tau = slope - mu;

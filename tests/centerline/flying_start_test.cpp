@@ -176,9 +176,9 @@ TEST_CASE("fastest track with an entry speed: every reference case") {
     CHECK(relative_error(found.travel_time, number("travel_time")) <= tolerance);
     CHECK(relative_error(found.exit_speed, number("exit_speed")) <= tolerance + exit_speed_rounding(found));
     // Angles and the flight are given to 12 digits.
-    CHECK(std::fabs(found.entry_slope_angle - number("entry_slope_angle")) <= 2e-12);
-    CHECK(std::fabs(found.flight_end_slope_angle - number("flight_end_slope_angle")) <= 2e-12);
-    CHECK(std::fabs(found.exit_slope_angle - number("exit_slope_angle")) <= 2e-12);
+    CHECK(std::fabs(found.entry_slope_angle.radians() - number("entry_slope_angle")) <= 2e-12);
+    CHECK(std::fabs(found.flight_end_slope_angle.radians() - number("flight_end_slope_angle")) <= 2e-12);
+    CHECK(std::fabs(found.exit_slope_angle.radians() - number("exit_slope_angle")) <= 2e-12);
     CHECK(relative_error(found.flight.run, number("flight_run")) <= 1e-11);
     CHECK(std::fabs(found.flight.drop - number("flight_drop")) <= 1e-11 * problem.endpoints.run);
   }
@@ -281,9 +281,9 @@ TEST_CASE("fastest track with an entry speed: the junction condition and the cos
     if (found.all_flight()) continue;
     INFO(describe(problem));
     const double delta = problem.friction.angle().radians();
-    const double z0 = found.entry_slope_angle;
-    const double zj = found.flight_end_slope_angle;
-    const double z1 = found.exit_slope_angle;
+    const double z0 = found.entry_slope_angle.radians();
+    const double zj = found.flight_end_slope_angle.radians();
+    const double z1 = found.exit_slope_angle.radians();
     CHECK(std::sin(zj - z0) * std::sin(z0 + delta - z1) * std::cos(zj) ==
           Approx(std::sin(zj - z1) * std::sin(zj - z0 - delta) * std::cos(z0)).margin(1e-12));
     // dT/dL and dT/dH, (B2) and (B3) at the finish.
@@ -315,15 +315,15 @@ TEST_CASE("fastest track with an entry speed: from ever less speed the track fro
     INFO(speed);
     // A body that falls gains v0/g of time, and what the shape gains is of higher order.
     CHECK(won == Approx(speed / kDefaultGravity / rest.travel_time).epsilon(0.3).margin(1e-14));
-    CHECK(found.exit_slope_angle == Approx(rest.exit_slope_angle).margin(speed));
-    CHECK(found.flight_end_slope_angle < std::numbers::pi / 2.0);
+    CHECK(found.exit_slope_angle.radians() == Approx(rest.exit_slope_angle.radians()).margin(speed));
+    CHECK(found.flight_end_slope_angle.radians() < std::numbers::pi / 2.0);
     CHECK(won < last);
     last = won;
   }
   // The flight shrinks to a point; its two slopes tend to 90 deg - delta and 90 deg.
   const FlyingStartSolution slow = solve_flying_start(endpoints, friction, 1e-9);
-  CHECK(slow.entry_slope_angle == Approx(std::atan(1.0 / 0.2)).margin(1e-4));
-  CHECK(slow.flight_end_slope_angle == Approx(std::numbers::pi / 2.0).margin(1e-4));
+  CHECK(slow.entry_slope_angle.radians() == Approx(std::atan(1.0 / 0.2)).margin(1e-4));
+  CHECK(slow.flight_end_slope_angle.radians() == Approx(std::numbers::pi / 2.0).margin(1e-4));
 }
 
 TEST_CASE("fastest track with an entry speed: without friction a cycloid without a flight") {
@@ -360,7 +360,7 @@ TEST_CASE("fastest track with an entry speed: at high speed all of it is flight"
   CHECK_FALSE(slower.all_flight());
   CHECK(faster.all_flight());
   CHECK(slower.travel_time == Approx(faster.travel_time).epsilon(1e-8));
-  CHECK(faster.flight_end_slope_angle - faster.entry_slope_angle ==
+  CHECK(faster.flight_end_slope_angle.radians() - faster.entry_slope_angle.radians() ==
         Approx(friction.angle().radians()).epsilon(1e-8));
   for (const double factor : {1.5, 10.0, 1e3, 1e6}) {
     const Problem problem{endpoints, friction, factor * speed};
@@ -386,7 +386,7 @@ TEST_CASE("fastest track with an entry speed: the load is 0 on the flight and po
   const CenterlinePoint end = track->at(junction);
   CHECK(end.x == Approx(track->solution().flight.run).epsilon(1e-13));
   CHECK(end.drop == Approx(track->solution().flight.drop).epsilon(1e-13));
-  CHECK(end.slope_angle == Approx(track->solution().flight_end_slope_angle).epsilon(1e-13));
+  CHECK(end.slope_angle == Approx(track->solution().flight_end_slope_angle.radians()).epsilon(1e-13));
   CHECK(end.curvature > 0.0);
   CHECK(track->at(std::nextafter(junction, 0.0)).curvature < 0.0);
 }
@@ -396,7 +396,7 @@ TEST_CASE("fastest track with an entry speed: mirrored, scaled and vertical") {
   const FlyingStartSolution right = solve_flying_start({8.0, 3.0}, friction, 4.0);
   const FlyingStartSolution left = solve_flying_start({-8.0, 3.0}, friction, 4.0);
   CHECK(right.travel_time == left.travel_time);
-  CHECK(right.entry_slope_angle == left.entry_slope_angle);
+  CHECK(right.entry_slope_angle.radians() == left.entry_slope_angle.radians());
   const FlyingStartSolution large = solve_flying_start({800.0, 300.0}, friction, 40.0);
   CHECK(large.travel_time == Approx(10.0 * right.travel_time).epsilon(1e-13));
   for (const double drop : {3.0, -0.8}) {
@@ -454,7 +454,8 @@ TEST_CASE("reach theorem with an entry speed: just within it a track arrives, ne
     const auto track = curve(problem);
     CHECK(track->solution().exit_speed < 5e-3 * problem.entry_speed);
     // Then nearly straight, after a flight that turns by 45 deg + delta/2.
-    CHECK(track->solution().flight_end_slope_angle - track->solution().entry_slope_angle ==
+    CHECK(track->solution().flight_end_slope_angle.radians() -
+              track->solution().entry_slope_angle.radians() ==
           Approx(0.25 * std::numbers::pi + 0.5 * problem.friction.angle().radians()).margin(5e-3));
     problem.endpoints.drop = least - 1e-9 * unit;
     CHECK_THROWS_AS(solve(problem), InfeasibleError);

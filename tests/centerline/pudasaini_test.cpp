@@ -65,12 +65,13 @@ TEST_CASE(
     "eq. 15, 17, 18: the curve's slope angle, slope and curvature obey the first- and second-order forms") {
   for (const ConstantSpeedCurve& curve : pudasaini::figure_one()) {
     const pudasaini::Setting setting = setting_of(curve);
-    const double c = pudasaini::offset(0, 0, curve.entry_slope_angle().radians(), setting);
+    const double c = pudasaini::offset(0, 0, curve.entry_slope_angle(), setting);
     CHECK(c == curve.entry_slope_angle().radians());
     for (const CenterlinePoint& point : stations(curve)) {
-      CHECK(pudasaini::slope_angle_rate(point.slope_angle, setting) ==
+      CHECK(pudasaini::slope_angle_rate(Angle::from_radians(point.slope_angle), setting) ==
             Approx(-point.curvature).epsilon(1e-12));
-      CHECK(pudasaini::offset(point.x, point.drop, point.slope_angle, setting) == Approx(c).epsilon(1e-13));
+      CHECK(pudasaini::offset(point.x, point.drop, Angle::from_radians(point.slope_angle), setting) ==
+            Approx(c).epsilon(1e-13));
       const double slope = pudasaini::slope(point.x, point.drop, c, setting);
       CHECK(slope == Approx(std::tan(point.slope_angle)).epsilon(1e-12));
       // y'' = d(tan zeta)/dx = -kappa/cos^3(zeta)

@@ -120,7 +120,7 @@ TEST_CASE("solve --json of the fastest track gives the reference values") {
     CHECK(relative(track["travel_time_s"], value_of(expected["travel_time"])) <= referee);
     CHECK(relative(track["exit_speed_m_per_s"], speed) <= referee + speed_slip);
     CHECK(relative(track["straight_travel_time_s"], value_of(expected["straight_time"])) <= referee);
-    const double exit_slope = track["exit_slope_angle_deg"].get<double>() * std::numbers::pi / 180.0;
+    const double exit_slope = track["exit_slope_angle_deg"].get<double>() * (std::numbers::pi / 180.0);
     CHECK(std::fabs(exit_slope - value_of(expected["exit_slope_angle"])) <= closed_form + curvature * slip);
   }
 }

@@ -31,9 +31,9 @@ TEST_CASE("lengths are shown in the unit that suits their size") {
   CHECK(length_text(0.4) == "400 mm");
   CHECK(length_text(5.4) == "5.4 m");
   CHECK(length_text(12000) == "12 km");
-  CHECK(angle_text(0.29670597283903605) == "17 deg");
-  CHECK(angle_text(-8.7e-16) == "0 deg");
-  CHECK(angle_text(1e-9) == "5.73e-08 deg");
+  CHECK(angle_text(Angle::from_radians(0.29670597283903605)) == "17 deg");
+  CHECK(angle_text(Angle::from_radians(-8.7e-16)) == "0 deg");
+  CHECK(angle_text(Angle::from_radians(1e-9)) == "5.73e-08 deg");
 }
 
 TEST_CASE("number text: decimals have no exponent and read back as the same number") {

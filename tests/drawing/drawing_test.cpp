@@ -26,9 +26,9 @@ TEST_CASE("stroked text is as high as asked for and as wide as it says, at its a
   CHECK(left.height() == Approx(7.0));
   CHECK(left.low.x + stroked_width(text, 7.0) >= left.high.x);
   CHECK(left.width() == Approx(stroked_width(text, 7.0)).epsilon(0.02));
-  const PlaneBox right = box_of(stroked_text(text, {3.0, 4.0}, 7.0, 0.0, TextAnchor::right));
+  const PlaneBox right = box_of(stroked_text(text, {3.0, 4.0}, 7.0, {}, TextAnchor::right));
   CHECK(right.low.x == Approx(3.0 - stroked_width(text, 7.0)));
-  const PlaneBox upright = box_of(stroked_text(text, {3.0, 4.0}, 7.0, std::acos(-1.0) / 2));
+  const PlaneBox upright = box_of(stroked_text(text, {3.0, 4.0}, 7.0, Angle::from_degrees(90.0)));
   CHECK(upright.width() == Approx(7.0));
   CHECK(upright.height() == Approx(left.width()));
 }
@@ -71,11 +71,11 @@ TEST_CASE("a dimension says the distance it measures, and its line keeps its off
   CHECK(lines.text.at.y == Approx(-72.0));
   // Upright texts are read from the right, whichever way they were measured.
   const double quarter = std::acos(0.0);
-  CHECK(lines_of({0, {0.0, 0.0}, {0.0, 90.0}, 8.0, DimensionKind::aligned, ""}, 1.0).text.angle ==
+  CHECK(lines_of({0, {0.0, 0.0}, {0.0, 90.0}, 8.0, DimensionKind::aligned, ""}, 1.0).text.angle.radians() ==
         Approx(quarter));
-  CHECK(lines_of({0, {0.0, 90.0}, {0.0, 0.0}, 8.0, DimensionKind::aligned, ""}, 1.0).text.angle ==
+  CHECK(lines_of({0, {0.0, 90.0}, {0.0, 0.0}, 8.0, DimensionKind::aligned, ""}, 1.0).text.angle.radians() ==
         Approx(quarter));
-  CHECK(lines_of({0, {90.0, 0.0}, {0.0, 0.0}, 8.0, DimensionKind::aligned, ""}, 1.0).text.angle ==
+  CHECK(lines_of({0, {90.0, 0.0}, {0.0, 0.0}, 8.0, DimensionKind::aligned, ""}, 1.0).text.angle.radians() ==
         Approx(0.0).margin(1e-12));
 }
 

@@ -91,8 +91,8 @@ TEST_CASE("the view from the side shows parts in their true size") {
   // Upright, across a track that runs to the north-east.
   const double k = std::sqrt(0.5);
   workshop.parts[0].places = {{{5.0, 5.0, 3.0}, {k, k, 0.0}, {0.0, 0.0, 1.0}, {k, -k, 0.0}}};
-  workshop.setting_out = {{"start", 0, 0, 0, {5.0, 5.0, 4.0}, 0, 0, 0, {}},
-                          {"end", 0, 0, 0, {7.0, 7.0, 3.0}, 0, 0, 0, {}}};
+  workshop.setting_out = {{"start", 0, 0, 0, {5.0, 5.0, 4.0}, {}, 0, 0, {}},
+                          {"end", 0, 0, 0, {7.0, 7.0, 3.0}, {}, 0, 0, {}}};
   const PlaneBox side = bounds(side_view(workshop)).value();
   CHECK(side.width() == Approx(2000.0));
   const PlaneBox plan = bounds(plan_view(workshop)).value();
@@ -103,7 +103,7 @@ TEST_CASE("the view from the side shows parts in their true size") {
   bare.setting_out.resize(2);
   CHECK(plan_view(bare).paths.size() == 4);
   // A tube lying along the track: two outlines and its ends.
-  workshop.parts = {testing::shop_part(2, "pipe", TubeGore{0.05, 0.002, 1.0, 0.0, 0.0})};
+  workshop.parts = {testing::shop_part(2, "pipe", TubeGore{0.05, 0.002, 1.0, {}, {}})};
   workshop.parts[0].places = {{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {k, -k, 0.0}, {k, k, 0.0}}};
   const PlaneBox pipe = bounds(side_view(workshop)).value();
   CHECK(pipe.width() == Approx(1000.0));

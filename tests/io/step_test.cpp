@@ -83,8 +83,9 @@ TEST_CASE("STEP of random parts is closed and exact, wherever they lie and howev
       part.body = testing::leaning_plate(random.between(-1.5, 3.0), random.between(0.05, 0.2), 0.004);
     }
     if (round % 5 == 1) {
-      part.body = TubeGore{random.between(0.05, 0.3), 0.003, 0.4, random.between(-0.3, 0.3),
-                           random.between(-0.3, 0.3)};
+      part.body =
+          TubeGore{random.between(0.05, 0.3), 0.003, 0.4, Angle::from_radians(random.between(-0.3, 0.3)),
+                   Angle::from_radians(random.between(-0.3, 0.3))};
     }
     write_step(file, part);
     CHECK_NOTHROW(require_same_step(file, part));
@@ -127,7 +128,8 @@ TEST_CASE("a STEP file that is not the parts is found out") {
 TEST_CASE("a STEP file that is cut off or broken anywhere is an error, never more") {
   const TempDir directory;
   const auto file = directory / "broken.step";
-  const std::string good = step_text(testing::shop_part(1, "pipe", TubeGore{0.05, 0.002, 1.0, 0.0, 0.1}));
+  const std::string good =
+      step_text(testing::shop_part(1, "pipe", TubeGore{0.05, 0.002, 1.0, {}, Angle::from_radians(0.1)}));
   for (std::size_t size = 0; size + 20 < good.size(); size += 97) {
     put_bytes(file, good.substr(0, size));
     CHECK(message_of(file).find("broken.step") != std::string::npos);
@@ -150,7 +152,7 @@ TEST_CASE("bodies that are none are refused with what is wrong") {
   region.holes[0].radius = 1.0;
   CHECK(refusal_of(Prism{region, 0.004}) == "part 7, plate: hole 1 reaches outside the outline");
   CHECK(refusal_of(Prism{testing::metre_band(3, 1), 0.0}) == "part 7, plate: its depth is 0 m");
-  CHECK(refusal_of(TubeGore{0.1, 0.003, 0.02, -0.3, 0.3}) ==
+  CHECK(refusal_of(TubeGore{0.1, 0.003, 0.02, Angle::from_radians(-0.3), Angle::from_radians(0.3)}) ==
         "part 7, plate: its end planes meet inside the tube: length 20 mm");
   SweptBody kinked = testing::leaning_plate(0.5, 0.2, 0.004);
   kinked.path.vertices[2].bulge = 0.0;

@@ -40,7 +40,7 @@ TEST_CASE("stall: uphill a body stops where its energy is used up, and that take
     CHECK_FALSE(motion.arrived());
     CHECK_FALSE(motion.lift_off().has_value());
     CHECK(motion.stall()->arc_length == close_to(entry_speed * entry_speed / (2.0 * deceleration)));
-    CHECK(motion.stall()->missing_slope == close_to(slope + std::atan(mu)));
+    CHECK(motion.stall()->missing_slope.radians() == close_to(slope + std::atan(mu)));
     CHECK(motion.travel_time() == close_to(entry_speed / deceleration));
     CHECK(motion.exit_speed() == 0.0);
     CHECK(motion.distance() == motion.stall()->arc_length);
@@ -64,7 +64,7 @@ TEST_CASE("stall: on the far side of a valley, where the energy balance with fri
   // Roberts' formula, v = 0 at both ends
   CHECK(particular(zeta) * std::exp(-2.0 * mu * zeta) ==
         close_to(particular(entry) * std::exp(-2.0 * mu * entry)));
-  CHECK(motion.stall()->missing_slope == Approx(std::atan(mu) - zeta).epsilon(1e-14));
+  CHECK(motion.stall()->missing_slope.radians() == Approx(std::atan(mu) - zeta).epsilon(1e-14));
 }
 
 TEST_CASE("stall: drag alone never stops a body, on the level it takes (e^(k s) - 1) / (k u0)") {
@@ -80,7 +80,7 @@ TEST_CASE("a body at rest on a slope not steeper than the friction angle never m
     const Motion motion(track(std::atan(mu) - missing, {{1.0, 0.0, 0.0}, {3.0, -0.3, -0.3}}), body(mu, 0.0));
     REQUIRE(motion.stall().has_value());
     CHECK(motion.stall()->arc_length == 0.0);
-    CHECK(motion.stall()->missing_slope == Approx(missing).margin(1e-15));
+    CHECK(motion.stall()->missing_slope.radians() == Approx(missing).margin(1e-15));
     CHECK(motion.travel_time() == kInfinity);
     CHECK(motion.distance() == 0.0);
     CHECK(motion.exit_speed() == 0.0);
@@ -108,7 +108,7 @@ TEST_CASE("a body that has just the energy for the top of a crest takes endless 
   CHECK_FALSE(motion.arrived());
   REQUIRE(motion.stall().has_value());
   CHECK(motion.stall()->arc_length == theta * radius);
-  CHECK(motion.stall()->missing_slope == 0.0);
+  CHECK(motion.stall()->missing_slope.radians() == 0.0);
   CHECK(motion.travel_time() == kInfinity);
   CHECK(motion.at(theta * radius).time == kInfinity);
   // u = 2 sqrt(g R) sin(zeta/2): T = sqrt(R/g) ln(tan(theta/4) / tan(zeta/4))

@@ -369,7 +369,7 @@ TEST_CASE("friction by place: two straights of one slope, one after the other") 
   rough.friction_changes = {{4.0, Friction::from_coefficient(2.0)}};
   const Motion stalled(track(angle, {{10.0, 0.0, 0.0}}), rough);
   REQUIRE(stalled.stall());
-  CHECK(stalled.stall()->missing_slope == Approx(std::atan(2.0) - angle).epsilon(1e-12));
+  CHECK(stalled.stall()->missing_slope.radians() == Approx(std::atan(2.0) - angle).epsilon(1e-12));
   CHECK(stalled.distance() == Approx(4.0 - (9.0 + gain(0.05, 4.0)) / gain(2.0, 1.0)).epsilon(1e-12));
 }
 

@@ -85,13 +85,13 @@ Setup make_setup(const Rider& rider) {
   limits.stay_above.push_back({{{1.0, 4.0}, {4.0, 5.0}, {7.0, 6.5}}, 0.2});
   limits.waypoints.push_back({5.0, 3.6});
   limits.lowest_slope_margin = -0.4;
-  limits.match_belt = BeltMatch{3.0, 0.4, 0.1};
+  limits.match_belt = BeltMatch{3.0, Angle::from_radians(0.4), 0.1};
   if (rider.law && rider.law->kind() == "stream") {
     limits.highest_burden_depth = 0.3;
     limits.highest_floor_wear = 2500.0;
   }
   given.objective.kind = rider.objective;
-  if (rider.lands) given.body.landing = Landing{entry_speed, 1.4};
+  if (rider.lands) given.body.landing = Landing{entry_speed, Angle::from_radians(1.4)};
   limits.exit_speed.highest = 9.0;
   Setup setup;
   setup.problem = scaled(given, {});

@@ -7,6 +7,8 @@
 
 #include "optimize/hand_optima.hpp"
 
+#include "glissade/core/units.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +23,6 @@
 namespace hand_optima {
 namespace {
 
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
 constexpr int kSteps = 400;
 
 template <class Function>
@@ -197,7 +198,7 @@ Optimum below_slope(double run, double drop, double mu, double highest) {
     return (std::sin(highest) + arc.drop()) * run - (std::cos(highest) + arc.run()) * drop;
   };
   constexpr double kMargin = 1e-3;
-  const double flattest = 2.0 * std::atan(mu) - kRightAngle;
+  const double flattest = 2.0 * std::atan(mu) - glissade::kRightAngle;
   const double exit = root(direction, std::max(flattest, -1.2) + kMargin, highest - kMargin);
   const double straight = run / (std::cos(highest) + after_one_metre(exit).run());
   const FreeArc arc(mu, highest, exit, 2.0 * pull * straight);

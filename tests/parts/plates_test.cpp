@@ -160,7 +160,7 @@ TEST_CASE("plates: as many bends as cost one hundredth of the exit speed, and on
   CHECK(1.0 - coarse.ride.exit_speed / coarse.ride.design_exit_speed > 0.015);
   CHECK(build.workshop.bends.size() == build.ride.bends);
   // Each bend is one line of the pattern, up where the floor curls up; angles add up to what the track turns.
-  const double sum = build.workshop.bends.back().sum;
+  const double sum = build.workshop.bends.back().sum.radians();
   const ArcSpline& line = *build.master.spline;
   CHECK(std::fabs(sum - (line.slope_angle(0.0) - line.slope_angle(line.length()))) < 1e-9);
   CHECK(build.workshop.parts.front().pattern->bends.size() == build.ride.bends);

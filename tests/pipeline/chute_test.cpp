@@ -159,7 +159,7 @@ TEST_CASE("the search chooses how steep to start with what the impact leaves") {
   REQUIRE(best.search);
   REQUIRE(best.motion.arrived());
   const double start = best.centerline->slope_angle(0.0);
-  CHECK(start <= feed_fall(design).landing.angle + 1e-6);
+  CHECK(start <= feed_fall(design).landing.angle.radians() + 1e-6);
   // Held a little steeper or flatter, it is never faster.
   for (const double away : {-0.05, 0.05}) {
     Design held = design;

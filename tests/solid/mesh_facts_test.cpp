@@ -42,7 +42,7 @@ TEST_CASE("a tetrahedron is valid and has the facts known by hand") {
   CHECK(facts.euler_characteristic == 2);
   CHECK(facts.volume == Approx(1.0 / 6.0).epsilon(1e-15));
   CHECK(facts.area == Approx(1.5 + std::sqrt(3.0) / 2.0).epsilon(1e-15));
-  CHECK(facts.smallest_angle == Approx(std::numbers::pi / 4.0).epsilon(1e-15));
+  CHECK(facts.smallest_angle.radians() == Approx(std::numbers::pi / 4.0).epsilon(1e-15));
   CHECK(facts.shortest_edge == 1.0);
   CHECK(facts.lower == Vec3{0, 0, 0});
   CHECK(facts.upper == Vec3{1, 1, 1});
@@ -54,7 +54,7 @@ TEST_CASE("a box has its volume and area wherever it stands") {
     CHECK(facts.valid());
     CHECK(facts.volume == Approx(0.25).epsilon(1e-15));
     CHECK(facts.area == Approx(2.0 * (1.0 + 0.5 + 0.125)).epsilon(1e-15));
-    CHECK(facts.smallest_angle == Approx(std::atan(0.125)).epsilon(1e-15));
+    CHECK(facts.smallest_angle.radians() == Approx(std::atan(0.125)).epsilon(1e-15));
   }
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("facets without area and repeated vertices are counted and do no harm"
   mesh.triangles.push_back({0, 8, 1});
   const MeshFacts facts = measure(mesh);
   CHECK(facts.degenerate_facets == 2);
-  CHECK(facts.smallest_angle == 0.0);
+  CHECK(facts.smallest_angle.radians() == 0.0);
   CHECK_FALSE(facts.valid());
   CHECK(contains(facts.faults(), "2 facets without area"));
 }

@@ -9,6 +9,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,19 @@ std::vector<std::string> types_defined(const std::string& text) {
   return types;
 }
 
+/// @return lines of a public header in which an angle is a bare double, functions of arc length and stated bounds
+///         apart
+std::vector<std::string> bare_angles(const std::string& text) {
+  static const std::regex kBare(R"(\bdouble\b.*\[rad\]|\bdouble (\w*_)?(angle|tilt|lean|azimuth)\b)");
+  static const std::regex kFine(R"(constexpr double|\(double s\b|^ *///|_( = [^;]*)?;)");
+  std::vector<std::string> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_search(line, kBare) && !std::regex_search(line, kFine)) found.push_back(line);
+  }
+  return found;
+}
+
 std::vector<fs::path> sources_below(const std::string& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLISSADE_SOURCE_DIR) / folder)) {
@@ -214,6 +228,45 @@ TEST_CASE("elementary functions come from glissade/core/math.hpp, whose bits no 
   for (const char* folder : {"lib", "app"}) {
     for (const fs::path& file : sources_below(folder)) {
       if (std::regex_search(text_of(file), kProcessorsOwn)) found.push_back(relative_name(file));
+    }
+  }
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE(
+    "public headers take and give an angle as Angle, where it is no sample of a curve nor plane geometry") {
+  // docs/decisions/0008-angles-at-the-edges.md
+  const std::set<std::string> samples = {
+      "centerline/centerline.hpp", "centerline/coulomb_brachistochrone.hpp",
+      "centerline/cubic_bend.hpp", "centerline/tabulated_curve.hpp",
+      "parts/arc_spline.hpp",      "motion/law.hpp",
+      "io/profile_csv.hpp"};
+  const std::set<std::string> plane_geometry = {"core/math.hpp", "core/arc_path.hpp", "section/outline.hpp"};
+  CHECK(bare_angles("  double slope_angle = 0.0;\n  double turn = 0.0;  ///< of it all [rad]\n").size() == 2);
+  CHECK(bare_angles("  Angle angle;\n  double slope_angle(double s) const;\n  double angle_;\n").empty());
+  std::vector<std::string> found;
+  for (const fs::path& file : sources_below("lib/include/glissade")) {
+    const std::string name = relative_name(file).substr(std::string("lib/include/glissade/").size());
+    if (samples.contains(name) || plane_geometry.contains(name)) continue;
+    for (const std::string& line : bare_angles(text_of(file))) found.push_back(name + ": " + line);
+  }
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("degrees are made by Angle alone, and a quarter turn has one name") {
+  static const std::regex kOwnFactor(
+      R"((180\.0|180) ?/ ?\S*pi\b|pi ?/ ?180|57\.29577|0\.0174532|3\.14159|6\.28318|1\.57079)"
+      R"(|constexpr double k\w+ = (0\.5 \* std::numbers::pi|std::numbers::pi / 2(\.0)?);)");
+  CHECK(std::regex_search("angle * (180.0 / std::numbers::pi)", kOwnFactor));
+  CHECK(std::regex_search("constexpr double kFlat = std::numbers::pi / 2.0;", kOwnFactor));
+  CHECK_FALSE(std::regex_search("const double turn = 2.0 * std::numbers::pi;", kOwnFactor));
+  std::vector<std::string> found;
+  for (const char* folder : {"lib", "app"}) {
+    for (const fs::path& file : sources_below(folder)) {
+      const std::string name = relative_name(file);
+      if (name != "lib/include/glissade/core/units.hpp" && std::regex_search(text_of(file), kOwnFactor)) {
+        found.push_back(name);
+      }
     }
   }
   CHECK(found == std::vector<std::string>{});

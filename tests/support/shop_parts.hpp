@@ -60,26 +60,34 @@ inline glissade::Workshop sample_workshop() {
   workshop.parts.back().places.push_back({{0.0, 0.0, 0.5}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}});
   glissade::FlatPattern pattern{wall, {}, {}, {}, wall.outline.vertices[3].at + glissade::Vec2{0.02, 0.03},
                                 0.02};
-  pattern.bends.push_back({wall.outline.vertices[2].at, wall.holes[1].centre, 0.1, 0.004, true});
-  pattern.bends.push_back({wall.outline.vertices[4].at, wall.holes[3].centre, 0.1, 0.004, false});
+  pattern.bends.push_back(
+      {wall.outline.vertices[2].at, wall.holes[1].centre, glissade::Angle::from_radians(0.1), 0.004, true});
+  pattern.bends.push_back(
+      {wall.outline.vertices[4].at, wall.holes[3].centre, glissade::Angle::from_radians(0.1), 0.004, false});
   pattern.rolls.push_back({wall.outline.vertices[5].at, wall.holes[4].centre, 2.5});
   workshop.parts.back().pattern = pattern;
   workshop.parts.back().mass = 20.4;
   workshop.parts.back().centre_of_gravity = {1.0, -1.0, 0.0};
   workshop.parts.push_back(shop_part(2, "floor", glissade::Prism{metre_band(6, 0), 0.5}));
   workshop.parts.push_back(shop_part(3, "leaning_wall", leaning_plate(0.6, 0.25, 0.004)));
-  workshop.parts.push_back(shop_part(4, "gore", glissade::TubeGore{0.1, 0.003, 0.3, -0.1, 0.12}));
+  workshop.parts.push_back(shop_part(4, "gore",
+                                     glissade::TubeGore{0.1, 0.003, 0.3, glissade::Angle::from_radians(-0.1),
+                                                        glissade::Angle::from_radians(0.12)}));
   workshop.parts.back().places = {{{1.0, 0.0, 0.0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {{2.0, 0.0, 0.0}}};
-  workshop.parts.push_back(shop_part(5, "pipe", glissade::TubeGore{0.05, 0.002, 1.0, 0.0, 0.0}));
+  workshop.parts.push_back(shop_part(5, "pipe", glissade::TubeGore{0.05, 0.002, 1.0, {}, {}}));
   // Coordinates of some nanometres, which take an exponent.
   const glissade::PathVertex tiny{{0.4, 7.5254e-9}, 0.2};
   glissade::ArcPath plate{{{{0.0, 0.3}}, {{0.0, 0.0}}, tiny, {{0.5, 3e-7}}, {{0.5, 0.3}}}, true};
   workshop.parts.push_back(shop_part(6, "plate", glissade::Prism{{plate, {}, {}}, 0.4}));
   workshop.items.push_back({"bolt M12 x 40", "ISO 4017 8.8", 24, "joint 1"});
-  workshop.bends.push_back({2, 1, 0.25, 0.0, 0.03, 0.03, 2.5, 2e-4});
-  workshop.setting_out.push_back({"start", 0.0, 0.0, 0.0, {0.0, 0.0, 0.0}, 1.2, 2.5, 0.0, {-0.1}});
-  workshop.setting_out.push_back({"joint 1", 2.0, 1.4, -1.1, {1.4, 0.0, -1.1}, 0.6, 2.5, 0.1, {-0.1}});
-  workshop.setting_out.push_back({"end", 3.0, 2.4, -1.3, {2.4, 0.0, -1.3}, 0.1, 2.5, 0.0, {-0.1}});
+  workshop.bends.push_back(
+      {2, 1, 0.25, 0.0, glissade::Angle::from_radians(0.03), glissade::Angle::from_radians(0.03), 2.5, 2e-4});
+  workshop.setting_out.push_back(
+      {"start", 0.0, 0.0, 0.0, {0.0, 0.0, 0.0}, glissade::Angle::from_radians(1.2), 2.5, 0.0, {-0.1}});
+  workshop.setting_out.push_back(
+      {"joint 1", 2.0, 1.4, -1.1, {1.4, 0.0, -1.1}, glissade::Angle::from_radians(0.6), 2.5, 0.1, {-0.1}});
+  workshop.setting_out.push_back(
+      {"end", 3.0, 2.4, -1.3, {2.4, 0.0, -1.3}, glissade::Angle::from_radians(0.1), 2.5, 0.0, {-0.1}});
   workshop.offset_names = {"underside mm"};
   workshop.checks.push_back(
       {"smallest hole", glissade::ShopVerdict::pass, "14 mm", "at least 4 mm", "part 1", "a source"});

@@ -34,9 +34,9 @@ TEST_CASE("impact without bounce: cos(theta + phi)/cos(phi) of the speed is left
   // Reference values of Stuart-Dick & Royal's formula.
   for (const Example& e : {Example{20.0, 25.0, 0.7802060087}, Example{45.0, 25.0, 0.3773774740},
                            Example{60.0, 30.0, 0.0}, Example{65.0, 25.0, 0.0}}) {
-    const Landing landing{5.0, (e.theta + 30.0) * kDegree};
-    const Impact impact = impact_on(landing, 30.0 * kDegree, friction_of(e.phi), 1600.0);
-    CHECK(impact.angle == Approx(e.theta * kDegree).epsilon(1e-12));
+    const Landing landing{5.0, Angle::from_degrees(e.theta + 30.0)};
+    const Impact impact = impact_on(landing, Angle::from_degrees(30.0), friction_of(e.phi), 1600.0);
+    CHECK(impact.angle.radians() == Approx(e.theta * kDegree).epsilon(1e-12));
     CHECK(impact.speed_ratio == Approx(e.ratio).margin(1e-9));
     CHECK(impact.speed_ratio ==
           Approx(std::cos((e.theta + e.phi) * kDegree) / std::cos(e.phi * kDegree)).margin(1e-12));
@@ -48,9 +48,9 @@ TEST_CASE("a slow stream stays on the pulley until gravity no longer holds it, a
   // v^2/(g R) = 0.5: leaves 60 deg past the top.
   const double speed = std::sqrt(0.5 * kGravity * 0.4);
   const FeedFall slow = fall_from_belt({speed, 0.4, Angle{}}, 1.0, kGravity);
-  CHECK(slow.leaves_at == Approx(60.0 * kDegree).epsilon(1e-12));
+  CHECK(slow.leaves_at.radians() == Approx(60.0 * kDegree).epsilon(1e-12));
   const FeedFall fast = fall_from_belt({3.2, 0.4, Angle::from_degrees(12.0)}, 1.0, kGravity);
-  CHECK(fast.leaves_at == Approx(-12.0 * kDegree).epsilon(1e-12));
+  CHECK(fast.leaves_at.radians() == Approx(-12.0 * kDegree).epsilon(1e-12));
   // It leaves the pulley's top behind by the radius turned through.
   CHECK(slow.pulley.x == Approx(-slow.reach - 0.4 * std::sin(60.0 * kDegree)));
   CHECK(slow.pulley.y == Approx(1.0 - 0.4 * std::cos(60.0 * kDegree)));
@@ -66,14 +66,15 @@ TEST_CASE("a fall keeps its energy and its level speed, and is the parabola step
                             Angle::from_degrees(random.between(-20.0, 20.0))};
     const FeedFall fall = fall_from_belt(pulley, drop, kGravity);
     CHECK(fall.landing.speed == Approx(std::sqrt(speed * speed + 2.0 * kGravity * drop)).epsilon(1e-12));
-    CHECK(fall.landing.speed * std::cos(fall.landing.angle) ==
-          Approx(speed * std::cos(fall.leaves_at)).epsilon(1e-12));
-    CHECK(fall.reach == Approx(speed * std::cos(fall.leaves_at) * fall.time).epsilon(1e-12));
-    const double sunk = speed * std::sin(fall.leaves_at) * fall.time + 0.5 * kGravity * fall.time * fall.time;
+    CHECK(fall.landing.speed * std::cos(fall.landing.angle.radians()) ==
+          Approx(speed * std::cos(fall.leaves_at.radians())).epsilon(1e-12));
+    CHECK(fall.reach == Approx(speed * std::cos(fall.leaves_at.radians()) * fall.time).epsilon(1e-12));
+    const double sunk =
+        speed * std::sin(fall.leaves_at.radians()) * fall.time + 0.5 * kGravity * fall.time * fall.time;
     CHECK(sunk == Approx(drop).epsilon(1e-12));
   }
   const FeedFall straight = fall_from_outlet(0.5, 1.2, kGravity);
-  CHECK(straight.landing.angle == Approx(0.5 * std::numbers::pi));
+  CHECK(straight.landing.angle.radians() == Approx(0.5 * std::numbers::pi));
   CHECK(straight.reach == 0.0);
 }
 
@@ -85,7 +86,7 @@ TEST_CASE("a stream that lands on its track rides on with what the impact leaves
   shape.wall_height = 0.5;
   Body body;
   body.law = std::make_shared<const BulkStream>(shape);
-  body.landing = Landing{4.0, 70.0 * kDegree};
+  body.landing = Landing{4.0, Angle::from_degrees(70.0)};
   const auto track = std::make_shared<const StraightLine>(Endpoints{3.0, 3.0 * std::tan(50.0 * kDegree)});
   double before = 10.0;
   for (const double angle : {20.0, 27.0, 35.0}) {
@@ -98,7 +99,7 @@ TEST_CASE("a stream that lands on its track rides on with what the impact leaves
     before = left;
   }
   // theta + phi beyond 90 deg: it stalls where it lands.
-  body.landing = Landing{4.0, 120.0 * kDegree};
+  body.landing = Landing{4.0, Angle::from_degrees(120.0)};
   body.friction = friction_of(30.0);
   const Motion stuck(track, body, kGravity);
   CHECK_FALSE(stuck.arrived());
@@ -107,7 +108,8 @@ TEST_CASE("a stream that lands on its track rides on with what the impact leaves
 
 TEST_CASE("landing on a belt: Roberts' components and wear factor on a level belt without a drop") {
   const double slope = 40.0 * kDegree;
-  const BeltLanding landing = land_on_belt(4.0, slope, {3.5, Angle{}, Angle{}, 0.0, 0.5}, 1600.0, kGravity);
+  const BeltLanding landing =
+      land_on_belt(4.0, Angle::from_radians(slope), {3.5, Angle{}, Angle{}, 0.0, 0.5}, 1600.0, kGravity);
   const double from_vertical = 0.5 * std::numbers::pi - slope;
   CHECK(landing.speed_along == Approx(4.0 * std::sin(from_vertical)).epsilon(1e-12));
   CHECK(landing.speed_into == Approx(4.0 * std::cos(from_vertical)).epsilon(1e-12));
@@ -127,7 +129,7 @@ TEST_CASE("landing on a belt: its own components are a turn of the stream's, wha
     const double slope = random.between(-0.2, 1.3);
     const ReceivingBelt belt{random.between(1.0, 5.0), Angle::from_degrees(random.between(-90.0, 90.0)),
                              Angle::from_degrees(random.between(-15.0, 15.0)), random.between(0.0, 2.0), 0.5};
-    const BeltLanding landing = land_on_belt(speed, slope, belt, 1600.0, kGravity);
+    const BeltLanding landing = land_on_belt(speed, Angle::from_radians(slope), belt, 1600.0, kGravity);
     CHECK(std::pow(landing.speed_along, 2) + std::pow(landing.speed_into, 2) +
               std::pow(landing.speed_across, 2) ==
           Approx(landing.speed * landing.speed).epsilon(1e-12));
@@ -136,8 +138,8 @@ TEST_CASE("landing on a belt: its own components are a turn of the stream's, wha
     CHECK(sunk == Approx(belt.drop).margin(1e-12));
   }
   // Across the belt: nothing along it, and it lands beside the middle.
-  const BeltLanding across =
-      land_on_belt(4.0, 0.5, {2.0, Angle::from_degrees(90.0), Angle{}, 0.5, 0.5}, 1600.0, kGravity);
+  const BeltLanding across = land_on_belt(
+      4.0, Angle::from_radians(0.5), {2.0, Angle::from_degrees(90.0), Angle{}, 0.5, 0.5}, 1600.0, kGravity);
   CHECK(across.speed_along == Approx(0.0).margin(1e-12));
   CHECK(across.off_centre == Approx(-across.reach));
 }

@@ -62,8 +62,10 @@ TEST_CASE("parallel lines lie square to the track at their distance") {
   for (const ProfileStation& station : coordinate_table(design, track, options)) {
     for (std::size_t i = 0; i < 2; ++i) {
       const Vec3 away = station.parallels[i] - station.position;
-      const double along = away.x * std::cos(station.slope_angle) - away.z * std::sin(station.slope_angle);
-      const double up = away.x * std::sin(station.slope_angle) + away.z * std::cos(station.slope_angle);
+      const double along =
+          away.x * std::cos(station.slope_angle.radians()) - away.z * std::sin(station.slope_angle.radians());
+      const double up =
+          away.x * std::sin(station.slope_angle.radians()) + away.z * std::cos(station.slope_angle.radians());
       CHECK(std::fabs(along) < 1e-12);
       CHECK(std::fabs(up - options.parallels[i].height) < 1e-12);
     }

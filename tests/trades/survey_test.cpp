@@ -72,7 +72,7 @@ TEST_CASE("points of the design itself deviate by nothing, in any order, whateve
     REQUIRE(survey.places.size() == 60);
     for (const SurveyedPlace& place : survey.places) {
       CHECK(std::fabs(place.deviation) < 1e-9);
-      CHECK(std::fabs(place.slope_deviation) < 1e-4);
+      CHECK(abs(place.slope_deviation).radians() < 1e-4);
       CHECK(place.aside == 0.002);
     }
     CHECK(survey.sound());
@@ -96,10 +96,10 @@ TEST_CASE("a deviation that was built is found again, square to the profile, and
   CHECK(std::fabs(survey.places[survey.worst].arc_length - place) < 0.6);
   // uphill of the bump the track is flatter than designed, by the bump's own slope
   const double steepest = 0.03 * std::sqrt(2.0) / 8.0 * std::exp(-0.5);
-  CHECK(std::fabs(survey.places[survey.worst_slope].slope_deviation) == Approx(steepest).epsilon(0.15));
+  CHECK(abs(survey.places[survey.worst_slope].slope_deviation).radians() == Approx(steepest).epsilon(0.15));
   SurveyOptions wide;
   wide.tolerance = 0.031;
-  wide.slope_tolerance = 0.01;
+  wide.slope_tolerance = Angle::from_radians(0.01);
   CHECK(survey_of(*track, points_on(*track, 0.0, track->length(), 200, 0.0, bump), wide).sound());
 }
 

@@ -114,9 +114,9 @@ ConstantSpeedCurve ConstantSpeedCurve::fastest(Endpoints endpoints, Friction fri
   if (!(endpoints.drop > friction.coefficient() * std::abs(endpoints.run))) {
     throw InfeasibleError(
         Issue{"",
-              "friction_angle: " + angle_text(friction.angle().radians()) +
+              "friction_angle: " + angle_text(friction.angle()) +
                   " is not flatter than the mean slope from start to finish, " +
-                  angle_text(math::atan2(endpoints.drop, std::abs(endpoints.run))),
+                  angle_text(Angle::from_radians(math::atan2(endpoints.drop, std::abs(endpoints.run)))),
               "From rest, no track between these points reaches the finish, whatever its shape "
               "(docs/theory.md, reach "
               "theorem).",

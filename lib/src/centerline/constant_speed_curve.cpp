@@ -6,6 +6,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +20,6 @@
 
 namespace glissade {
 namespace {
-
-constexpr double kHalfPi = std::numbers::pi / 2.0;
 
 /// How far beyond vertical an entry slope angle may lie by rounding alone [rad]: smallest_p() itself must be
 /// usable.
@@ -104,7 +103,7 @@ void require_endpoints(Endpoints endpoints) {
 }
 
 std::string mean_slope_text(Endpoints endpoints) {
-  return angle_text(math::atan2(endpoints.drop, std::abs(endpoints.run))) + " (drop " +
+  return angle_text(Angle::from_radians(math::atan2(endpoints.drop, std::abs(endpoints.run)))) + " (drop " +
          length_text(endpoints.drop) + " over " + length_text(std::abs(endpoints.run)) + ")";
 }
 
@@ -146,7 +145,7 @@ double p_of_entry_slope(Endpoints endpoints, Friction friction, double gravity, 
   throw InputError(Issue{
       "",
       "p: " + rounded_text(p, 6) + " m^2/s^2 is too small for a mean slope of " + mean_slope_text(endpoints) +
-          " at a friction angle of " + angle_text(friction.angle().radians()),
+          " at a friction angle of " + angle_text(friction.angle()),
       "Below P = " + exact_text(smallest) + " m^2/s^2 the constant-speed track overhangs: it would start " +
           (convex ? "uphill, " : "") + "steeper than vertical.",
       "p at or above " + exact_text(smallest) + " m^2/s^2" +
@@ -177,14 +176,15 @@ ConstantSpeedCurve::ConstantSpeedCurve(Endpoints endpoints, Friction friction, d
   psi_entry_ = entry_angle(turned_total_, along);
   psi_exit_ = exit_angle(turned_total_, along);
   length_ = scaled_length(turned_total_, along) / rate_;
-  if (std::abs(psi_entry_ + delta_) > kHalfPi + kVerticalRounding) refuse_p(p, endpoints, friction, gravity);
+  if (std::abs(psi_entry_ + delta_) > kRightAngle + kVerticalRounding)
+    refuse_p(p, endpoints, friction, gravity);
 }
 
 ConstantSpeedCurve ConstantSpeedCurve::from_entry_slope(Angle entry_slope_angle, double length,
                                                         Friction friction, double gravity, double p) {
   const double zeta = entry_slope_angle.radians();
-  if (!(std::abs(zeta) <= kHalfPi)) {
-    throw InputError(Issue{"", "entry_slope_angle: " + angle_text(zeta) + " overhangs",
+  if (!(std::abs(zeta) <= kRightAngle)) {
+    throw InputError(Issue{"", "entry_slope_angle: " + angle_text(Angle::from_radians(zeta)) + " overhangs",
                            "A slope angle lies between -90 and 90 deg.", ""});
   }
   require_positive(length, "length", " m");
@@ -210,7 +210,7 @@ double ConstantSpeedCurve::smallest_p(Endpoints endpoints, Friction friction, do
   require_positive(gravity, "gravity", " m/s^2");
   const double across = turned_finish(endpoints, friction.coefficient()).across;
   if (across == 0.0) return 0.0;
-  return p_of_entry_slope(endpoints, friction, gravity, std::copysign(kHalfPi, across));
+  return p_of_entry_slope(endpoints, friction, gravity, std::copysign(kRightAngle, across));
 }
 
 double ConstantSpeedCurve::constant_speed() const noexcept {
@@ -265,10 +265,9 @@ double ConstantSpeedCurve::arc_length_at_slope(Angle slope_angle) const {
   const auto [low, high] = std::minmax(psi_entry_, psi_exit_);
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   if (low == high || !(psi >= low - rounding && psi <= high + rounding)) {
-    throw InputError(Issue{"",
-                           "slope_angle: " + angle_text(slope_angle.radians()) + " is not met at one place",
-                           "The track turns from " + angle_text(psi_entry_ + delta_) + " to " +
-                               angle_text(psi_exit_ + delta_) + ".",
+    throw InputError(Issue{"", "slope_angle: " + angle_text(slope_angle) + " is not met at one place",
+                           "The track turns from " + angle_text(Angle::from_radians(psi_entry_ + delta_)) +
+                               " to " + angle_text(Angle::from_radians(psi_exit_ + delta_)) + ".",
                            ""});
   }
   const double turn = math::sin((psi_entry_ - psi) / 2.0);
@@ -298,8 +297,8 @@ void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
   if (entry_speed == 0.0 && psi_entry_ <= 0.0) {
     throw InfeasibleError(Issue{
         "",
-        "the entry slope angle, " + angle_text(psi_entry_ + delta_) +
-            ", is not steeper than the friction angle, " + angle_text(delta_),
+        "the entry slope angle, " + angle_text(Angle::from_radians(psi_entry_ + delta_)) +
+            ", is not steeper than the friction angle, " + angle_text(Angle::from_radians(delta_)),
         "A body at rest never starts to slide there (docs/theory.md, reach theorem).",
         "an entry_speed of " + rounded_text(constant_speed(), 6) + " m/s, which this track keeps constant"});
   }
@@ -310,8 +309,8 @@ void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
     throw InfeasibleError(Issue{
         "",
         "a body that enters at " + rounded_text(entry_speed, 6) + " m/s stalls where the slope angle is " +
-            angle_text(psi_entry_ + delta_ - turned),
-        "The mean slope is flatter than the friction angle, " + angle_text(delta_) + ".",
+            angle_text(Angle::from_radians(psi_entry_ + delta_ - turned)),
+        "The mean slope is flatter than the friction angle, " + angle_text(Angle::from_radians(delta_)) + ".",
         "an entry_speed of " + rounded_text(constant_speed(), 6) + " m/s, which this track keeps constant"});
   }
   const auto require_contact = [&](double station) {

@@ -5,6 +5,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/units.hpp"
 
 #include "chebyshev_series.hpp"
 #include "coulomb_laws.hpp"
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -23,8 +23,6 @@ namespace glissade {
 using namespace centerline;
 
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 /// A stretch of the track by its local half tangent v: tan(phi/2), or tan((pi - phi)/2) in the upper half,
 /// where v falls from `first` to `last`.
@@ -224,8 +222,8 @@ Direction CoulombBrachistochrone::direction(double s) const {
           coulomb_curvature(solution_.shape, half_tangent)};
 }
 
-double CoulombBrachistochrone::arc_length_at_slope_angle(double slope_angle) const {
-  const double half_tangent = half_tangent_at_slope_angle(solution_, slope_angle);
+double CoulombBrachistochrone::arc_length_at_slope_angle(Angle slope_angle) const {
+  const double half_tangent = half_tangent_at_slope_angle(solution_, slope_angle.radians());
   const bool upper_half = half_tangent > 1.0;
   const double local = upper_half ? 1.0 / half_tangent : half_tangent;
   const auto holds = [&](const Piece& piece) {

@@ -11,18 +11,16 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "phase.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace glissade::centerline {
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 double finish_cotangent(const CoulombShape& shape) {
   const double half_tangent = shape.finish_phase_half_tangent;
@@ -78,10 +76,11 @@ double half_tangent_at_slope_angle(const CoulombSolution& solution, double slope
                       "Run " + exact_text(solution.endpoints.run) + " m leaves nothing but free fall.",
                       "arc length instead of slope angle"});
   }
-  if (!(slope_angle >= solution.exit_slope_angle - kSlopeAngleRounding && slope_angle <= kRightAngle)) {
+  if (!(slope_angle >= solution.exit_slope_angle.radians() - kSlopeAngleRounding &&
+        slope_angle <= kRightAngle)) {
     throw InputError({"", "slope angle: " + exact_text(slope_angle) + " rad does not occur on this track",
                       "It falls from " + exact_text(kRightAngle) + " rad at the start to " +
-                          exact_text(solution.exit_slope_angle) + " rad at the finish.",
+                          exact_text(solution.exit_slope_angle.radians()) + " rad at the finish.",
                       ""});
   }
   if (slope_angle == kRightAngle) return 0.0;

@@ -14,6 +14,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "coulomb_laws.hpp"
 #include "endpoint_rules.hpp"
@@ -29,8 +30,6 @@ namespace glissade {
 using namespace centerline;
 
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 /// A finish at a given phase: everything that depends on the phase and mu alone.
 struct FinishPhase {
@@ -162,7 +161,7 @@ CoulombSolution free_fall(const Endpoints& endpoints, double gravity) {
   solution.exit_speed = std::sqrt(2.0 * gravity * endpoints.drop);
   solution.travel_time = std::sqrt(2.0 * endpoints.drop / gravity);
   solution.straight_time = solution.travel_time;
-  solution.exit_slope_angle = kRightAngle;
+  solution.exit_slope_angle = Angle::from_radians(kRightAngle);
   solution.gravity = gravity;
   solution.endpoints = endpoints;
   return solution;
@@ -190,15 +189,15 @@ CoulombSolution solve_coulomb_brachistochrone(const Endpoints& endpoints, Fricti
   solution.travel_time = solution.exit_speed / gravity *
                          (finish.phase.angle / sine +
                           2.0 * mu * (sine * sine + finish.phase.second_integral) / (3.0 * finish.p));
-  solution.exit_slope_angle = exit_slope(mu, finish);
+  solution.exit_slope_angle = Angle::from_radians(exit_slope(mu, finish));
   solution.straight_time = math::hypot(run, endpoints.drop) * std::sqrt(2.0 / (gravity * drop));
   solution.gravity = gravity;
   solution.endpoints = endpoints;
   return solution;
 }
 
-CoulombState CoulombSolution::at_slope_angle(double slope_angle) const {
-  return coulomb_state(*this, half_tangent_at_slope_angle(*this, slope_angle));
+CoulombState CoulombSolution::at_slope_angle(Angle slope_angle) const {
+  return coulomb_state(*this, half_tangent_at_slope_angle(*this, slope_angle.radians()));
 }
 
 }  // namespace glissade

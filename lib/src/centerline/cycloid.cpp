@@ -3,6 +3,7 @@
 #include "glissade/centerline/cycloid.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/units.hpp"
 
 #include "endpoint_rules.hpp"
 #include "phase.hpp"
@@ -20,8 +21,6 @@ namespace glissade {
 using namespace centerline;
 
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 /// @return tan(a/2) where x/y = ratio
 double finish_half_tangent(double ratio) {

@@ -25,11 +25,10 @@ int digits_to_tell_apart(double first, double second) {
 
 Issue out_of_reach(const Endpoints& endpoints, Friction friction) {
   const double run = std::fabs(endpoints.run);
-  const double mean_slope = math::atan2(endpoints.drop, run);
-  const double friction_angle = friction.angle().radians();
+  const Angle mean_slope = Angle::from_radians(math::atan2(endpoints.drop, run));
+  const Angle friction_angle = friction.angle();
   const double least_drop = friction.coefficient() * run;
-  const int angle_digits =
-      digits_to_tell_apart(mean_slope * (180.0 / std::numbers::pi), friction.angle().degrees());
+  const int angle_digits = digits_to_tell_apart(mean_slope.degrees(), friction_angle.degrees());
   const int drop_digits = digits_to_tell_apart(endpoints.drop, least_drop);
   const std::string verdict = friction_angle > mean_slope ? " is steeper than" : " is as steep as";
   return {"",
@@ -51,7 +50,7 @@ Issue out_of_reach_with_speed(const Endpoints& endpoints, Friction friction, dou
           "entry_speed: " + rounded_text(entry_speed, digits) + " m/s is not more than the " +
               rounded_text(needed, digits) + " m/s that bring a body to rest at the finish (drop " +
               length_text(endpoints.drop) + " over " + length_text(std::fabs(endpoints.run)) +
-              ", friction_angle " + angle_text(friction.angle().radians()) + ")",
+              ", friction_angle " + angle_text(friction.angle()) + ")",
           "At that speed no track between these points reaches the finish, whatever its shape "
           "(docs/theory.md, reach theorem).",
           "an entry_speed above " + rounded_text(needed, digits) + " m/s, a drop above " +

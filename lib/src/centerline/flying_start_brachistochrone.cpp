@@ -53,13 +53,13 @@ FlyingStartBrachistochrone::FlyingStartBrachistochrone(const Endpoints& endpoint
   }
   const double flown = math::atan2(shape.flight_turn, 1.0 + shape.entry_slope * shape.flight_end_slope);
   if (flown > 0.0) {
-    flight_ = std::make_shared<SlopeTable>(solution_.entry_slope_angle, flown,
+    flight_ = std::make_shared<SlopeTable>(solution_.entry_slope_angle.radians(), flown,
                                            [this](double zeta) { return flight_radius(solution_, zeta); });
     flight_length_ = flight_->length();
   }
   const double pressed = turn_between(shape.flight_end_slope, shape.exit_slope);
   if (pressed < 0.0) {
-    pressed_ = std::make_shared<SlopeTable>(solution_.flight_end_slope_angle, pressed,
+    pressed_ = std::make_shared<SlopeTable>(solution_.flight_end_slope_angle.radians(), pressed,
                                             [this](double zeta) { return pressed_radius(solution_, zeta); });
   }
   length_ = flight_length_ + (pressed_ ? pressed_->length() : 0.0);
@@ -68,7 +68,7 @@ FlyingStartBrachistochrone::FlyingStartBrachistochrone(const Endpoints& endpoint
 double FlyingStartBrachistochrone::slope_angle(double s) const {
   require_on_track(s);
   if (flight_ && (s < flight_length_ || !pressed_)) return flight_->slope_angle(s);
-  return pressed_ ? pressed_->slope_angle(s - flight_length_) : solution_.entry_slope_angle;
+  return pressed_ ? pressed_->slope_angle(s - flight_length_) : solution_.entry_slope_angle.radians();
 }
 
 double FlyingStartBrachistochrone::curvature(double s, double slope_angle) const {
@@ -83,7 +83,8 @@ Direction FlyingStartBrachistochrone::direction(double s) const {
 
 CenterlinePoint FlyingStartBrachistochrone::at(double s) const {
   require_on_track(s);
-  SlopeTable::Point point{solution_.entry_slope_angle, 0.0, std::copysign(s, solution_.endpoints.drop)};
+  SlopeTable::Point point{solution_.entry_slope_angle.radians(), 0.0,
+                          std::copysign(s, solution_.endpoints.drop)};
   if (flight_ && (s < flight_length_ || !pressed_)) {
     point = flight_->at(s);
   } else if (pressed_) {

@@ -8,6 +8,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "endpoint_rules.hpp"
 #include "flying_start_moments.hpp"
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -24,8 +24,6 @@
 namespace glissade {
 namespace centerline {
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 /// A finish in units of v0^2/g, with all that depends on friction and run alone.
 struct Task {
@@ -265,7 +263,7 @@ FlyingStartSolution vertical(FlyingStartSolution solution) {
   const double drop = solution.endpoints.drop;
   solution.exit_speed = std::sqrt(v0 * v0 + 2.0 * solution.gravity * drop);
   solution.travel_time = 2.0 * std::fabs(drop) / (v0 + solution.exit_speed);
-  solution.entry_slope_angle = std::copysign(kRightAngle, drop);
+  solution.entry_slope_angle = Angle::from_radians(std::copysign(kRightAngle, drop));
   solution.flight_end_slope_angle = solution.entry_slope_angle;
   solution.exit_slope_angle = solution.entry_slope_angle;
   solution.flight_time = solution.travel_time;
@@ -335,9 +333,9 @@ FlyingStartSolution solve_flying_start(const Endpoints& endpoints, Friction fric
   const Task task = task_of(mu, run, drop);
   const bool flies = run * run * (1.0 + mu * mu) <= mu * mu * (1.0 + 2.0 * drop);
   solution = flies ? flown(solution, task) : pressed(solution, task);
-  solution.entry_slope_angle = math::atan(solution.shape.entry_slope);
-  solution.flight_end_slope_angle = math::atan(solution.shape.flight_end_slope);
-  solution.exit_slope_angle = math::atan(solution.shape.exit_slope);
+  solution.entry_slope_angle = Angle::from_radians(math::atan(solution.shape.entry_slope));
+  solution.flight_end_slope_angle = Angle::from_radians(math::atan(solution.shape.flight_end_slope));
+  solution.exit_slope_angle = Angle::from_radians(math::atan(solution.shape.exit_slope));
   return solution;
 }
 

@@ -5,10 +5,10 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,19 +17,19 @@ namespace glissade {
 namespace {
 
 void require_angles(const InRunShape& shape) {
-  constexpr double kRightAngle = std::numbers::pi / 2.0;
-  const double gamma = shape.gamma.radians();
-  const double alpha = shape.alpha.radians();
-  if (!(gamma > 0.0 && gamma < kRightAngle)) {
+  constexpr Angle kUpright = Angle::from_radians(kRightAngle);
+  const Angle gamma = shape.gamma;
+  const Angle alpha = shape.alpha;
+  if (!(gamma > Angle() && gamma < kUpright)) {
     throw InputError({"gamma", "gamma: " + angle_text(gamma) + " is out of range",
                       "The straight of an in-run falls by more than 0 and less than 90 deg.", "35 deg"});
   }
-  if (!(alpha > -kRightAngle && alpha < kRightAngle)) {
+  if (!(alpha > -kUpright && alpha < kUpright)) {
     throw InputError({"alpha", "alpha: " + angle_text(alpha) + " is out of range",
                       "A table lies between -90 and 90 deg.", "11 deg"});
   }
   if (!(gamma > alpha)) {
-    const auto [straight, table] = texts_apart(gamma, alpha, &angle_text);
+    const auto [straight, table] = texts_apart(gamma, alpha);
     throw InputError({"gamma", "gamma: " + straight + " is not above alpha, " + table,
                       "The in-run bends upwards from its straight, gamma, to its table, alpha.",
                       "the two exchanged: a straight is some 35 deg steep, a table 11 deg"});
@@ -47,12 +47,12 @@ void require_bend(const InRunShape& shape) {
   if (shape.transition == InRunTransition::two_radii) {
     require_length("first_radius", shape.first_radius, "It is the radius where the transition begins.");
   }
-  const double turn = shape.gamma.radians() - shape.alpha.radians();
-  if (shape.transition == InRunTransition::cubic && turn > CubicBend::kMostTurn.radians()) {
-    throw InputError({"gamma", "gamma - alpha: " + angle_text(turn) + " is too much for a cubic transition",
-                      "A cubic parabola whose curvature grows turns by at most " +
-                          angle_text(CubicBend::kMostTurn.radians()) + ".",
-                      "transition: clothoid, or circle"});
+  const Angle turn = shape.gamma - shape.alpha;
+  if (shape.transition == InRunTransition::cubic && turn > CubicBend::kMostTurn) {
+    throw InputError(
+        {"gamma", "gamma - alpha: " + angle_text(turn) + " is too much for a cubic transition",
+         "A cubic parabola whose curvature grows turns by at most " + angle_text(CubicBend::kMostTurn) + ".",
+         "transition: clothoid, or circle"});
   }
 }
 

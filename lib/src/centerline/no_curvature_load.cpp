@@ -5,6 +5,7 @@
 #include "glissade/centerline/no_curvature_load.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/units.hpp"
 
 #include "endpoint_rules.hpp"
 #include "phase.hpp"
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -22,8 +22,6 @@ namespace glissade {
 using namespace centerline;
 
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 /// @return tan(a/2) where (y - mu x)/x = ratio
 double finish_half_tangent(double mu, double ratio) {

@@ -80,13 +80,13 @@ double travel_time_from_rest(const Centerline& track, Friction friction, double 
   return integral_from_start(track, slowness, track.length());
 }
 
-double slope_angle_rate(double slope_angle, const Setting& setting) {
-  return -lambda(setting) *
-         (math::sin(slope_angle) - setting.friction.coefficient() * math::cos(slope_angle));
+double slope_angle_rate(Angle slope_angle, const Setting& setting) {
+  return -lambda(setting) * (math::sin(slope_angle.radians()) -
+                             setting.friction.coefficient() * math::cos(slope_angle.radians()));
 }
 
-double offset(double x, double y, double slope_angle, const Setting& setting) {
-  return slope_angle - lambda(setting) * (setting.friction.coefficient() * x - y);
+double offset(double x, double y, Angle slope_angle, const Setting& setting) {
+  return slope_angle.radians() - lambda(setting) * (setting.friction.coefficient() * x - y);
 }
 
 double slope(double x, double y, double offset, const Setting& setting) {

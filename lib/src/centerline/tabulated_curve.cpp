@@ -154,9 +154,11 @@ std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
     }
     if (!agrees(before, here, reach)) {
       return fault(
-          i, "its slope angle of " + angle_text(row.slope_angle) + " does not agree with the places",
+          i,
+          "its slope angle of " + angle_text(Angle::from_radians(row.slope_angle)) +
+              " does not agree with the places",
           "From the row before it the way leads along " +
-              angle_text(math::atan2(here.drop - before.drop, here.x - before.x)) + ".",
+              angle_text(Angle::from_radians(math::atan2(here.drop - before.drop, here.x - before.x))) + ".",
           "slope angles in degrees, positive downhill, and rows that lie near enough for their bends; or "
           "columns: [x, z] alone, to which a curve is fitted");
     }

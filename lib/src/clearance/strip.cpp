@@ -1,18 +1,17 @@
 #include "clearance/strip.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace glissade::clearance {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
 // Halving ends here: a cell of a station's distance by 2^40 is a point.
 constexpr int kDeepest = 40;
 // Heights that differ by less than this share of the envelope's are the same.

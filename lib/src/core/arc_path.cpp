@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace glissade {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Below this sweep the differences of the closed forms would lose digits, and their series end soon.
 constexpr double kSmallSweep = 0.3;
@@ -297,7 +296,7 @@ AreaMoments moments(const PlaneRegion& region) {
   add(moments_of(region.outline, origin), 1.0);
   for (const ArcPath& cutout : region.cutouts) add(moments_of(cutout, origin), -1.0);
   for (const Circle& hole : region.holes) {
-    const double area = kPi * hole.radius * hole.radius;
+    const double area = std::numbers::pi * hole.radius * hole.radius;
     add({area, area * (hole.centre - origin)}, -1.0);
   }
   return {sum.area, origin + (sum.area != 0.0 ? 1.0 / sum.area : 0.0) * sum.first};
@@ -414,7 +413,7 @@ int ray_crossings_of_arc(Vec2 point, const PathPiece& piece) {
     const Vec2 a = piece.from - arc.centre;
     const Vec2 b = p - arc.centre;
     const double angle = math::atan2(cross(a, b), dot(a, b)) * (piece.bulge > 0.0 ? 1.0 : -1.0);
-    return angle < 0.0 ? angle + 2.0 * kPi : angle;
+    return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
   };
   if (stops.size() == 3 && turned(stops[1]) > turned(stops[2])) std::swap(stops[1], stops[2]);
   stops.push_back(piece.from + along);

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 namespace glissade {
 
@@ -45,10 +44,10 @@ std::string length_text(double metres, int digits) {
   return rounded_text(metres, digits) + " m";
 }
 
-std::string angle_text(double radians, int digits) {
+std::string angle_text(Angle angle, int digits) {
   constexpr double kLevel = 1e-12;
-  if (std::fabs(radians) < kLevel) return "0 deg";
-  return rounded_text(radians * (180.0 / std::numbers::pi), digits) + " deg";
+  if (std::fabs(angle.radians()) < kLevel) return "0 deg";
+  return rounded_text(angle.degrees(), digits) + " deg";
 }
 
 std::pair<std::string, std::string> texts_apart(double a, double b,
@@ -57,6 +56,11 @@ std::pair<std::string, std::string> texts_apart(double a, double b,
   constexpr int kMostDigits = 15;
   while (digits < kMostDigits && a != b && text(a, digits) == text(b, digits)) ++digits;
   return {text(a, digits), text(b, digits)};
+}
+
+std::pair<std::string, std::string> texts_apart(Angle a, Angle b, int digits) {
+  const auto text = [](double radians, int shown) { return angle_text(Angle::from_radians(radians), shown); };
+  return texts_apart(a.radians(), b.radians(), text, digits);
 }
 
 std::string size_text(double bytes, int digits) {

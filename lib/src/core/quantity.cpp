@@ -39,8 +39,8 @@ constexpr std::array kUnits = {
     Unit{"\u03bcm", Dimension::length, 1.0, 1e6, false},
     Unit{"in", Dimension::length, 254.0, 1e4, true},
     Unit{"ft", Dimension::length, 3048.0, 1e4, true},
-    Unit{"deg", Dimension::angle, std::numbers::pi / 180.0, 1.0, true},
-    Unit{"\u00b0", Dimension::angle, std::numbers::pi / 180.0, 1.0, false},
+    Unit{"deg", Dimension::angle, Angle::from_degrees(1.0).radians(), 1.0, true},
+    Unit{"\u00b0", Dimension::angle, Angle::from_degrees(1.0).radians(), 1.0, false},
     Unit{"rad", Dimension::angle, 1.0, 1.0, true},
     Unit{"m/s", Dimension::speed, 1.0, 1.0, true},
     Unit{"km/h", Dimension::speed, 10.0, 36.0, true},
@@ -344,7 +344,7 @@ double in_unit_for_people(double value, Dimension dimension) {
 
 std::string quantity_text(double value, Dimension dimension, int digits) {
   if (!std::isfinite(value)) return "unbounded";
-  if (dimension == Dimension::angle) return angle_text(value, digits);
+  if (dimension == Dimension::angle) return angle_text(Angle::from_radians(value), digits);
   if (dimension == Dimension::length) return length_text(value, digits);
   const std::string_view unit = unit_for_people(dimension);
   return rounded_text(in_unit_for_people(value, dimension), digits) + (unit.empty() ? "" : " ") +

@@ -10,7 +10,7 @@ namespace glissade {
 
 Friction Friction::from_angle(Angle angle) {
   const double radians = angle.radians();
-  if (!(radians >= 0.0 && radians < std::numbers::pi / 2.0)) {
+  if (!(radians >= 0.0 && radians < kRightAngle)) {
     throw InputError(
         {"", "friction angle " + rounded_text(angle.degrees(), 6) + " deg is out of range",
          "A friction angle lies between 0 and 90 deg (90 excluded).",

@@ -77,7 +77,7 @@ Finding too_slow(const Design& design, Friction friction) {
   Issue issue;
   issue.what = "entry_speed: " + rounded_text(speed, 6) + " m/s is not more than the " +
                rounded_text(needed, 6) + " m/s that bring a body to rest at the finish (" +
-               drop_over_run(track) + ", friction angle " + angle_text(friction.angle().radians()) + ")";
+               drop_over_run(track) + ", friction angle " + angle_text(friction.angle()) + ")";
   issue.why =
       "At that speed no track between these points reaches the finish, whatever its shape (docs/theory.md, "
       "reach theorem).";
@@ -113,8 +113,8 @@ std::optional<Finding> find_unreachable(const Design& design) {
   constexpr double kAbove = 1.0 + 1e-3;
   const std::string key = friction_key(design);
   const bool by_coefficient = key == "friction_coefficient" || key == "rolling_resistance";
-  const double mean_slope = math::atan2(drop, run);
-  const auto [angle, slope] = texts_apart(math::atan(mu), mean_slope, &angle_text);
+  const Angle mean_slope = Angle::from_radians(math::atan2(drop, run));
+  const auto [angle, slope] = texts_apart(Angle::from_radians(math::atan(mu)), mean_slope);
   const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle + ")" : angle;
   const std::string better =
       by_coefficient ? rounded_text(kBelow * drop / run, 4) : angle_text(kBelow * mean_slope);

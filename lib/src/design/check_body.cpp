@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace glissade {
@@ -46,8 +45,9 @@ void check_friction_range(const Design& design, Collected& findings) {
   if (low > nominal || nominal > high) {
     report(findings, {"body." + key},
            {"", key + ": low, nominal and high are not in ascending order",
-            "They are " + angle_text(math::atan(low)) + ", " + angle_text(math::atan(nominal)) + " and " +
-                angle_text(math::atan(high)) + ".",
+            "They are " + angle_text(Angle::from_radians(math::atan(low))) + ", " +
+                angle_text(Angle::from_radians(math::atan(nominal))) + " and " +
+                angle_text(Angle::from_radians(math::atan(high))) + ".",
             ""});
   }
 }
@@ -77,10 +77,9 @@ void check_rolling(const BodyDesign& body, Collected& findings) {
   const RollingDesign& ball = *body.rolling;
   check_range(ball.radius >= kSmallestBall && ball.radius <= kLargestBall, "body.radius",
               length_text(ball.radius), "A ball's radius lies between 0.001 mm and 1 km.", "8 mm", findings);
-  const double angle = ball.groove_half_angle.radians();
-  constexpr double kFlat = std::numbers::pi / 2.0;
-  check_range(angle > 0.0 && angle <= kFlat, "body.groove_half_angle", angle_text(angle),
-              "It lies above 0 and is at most 90 deg, which is a flat floor.",
+  const Angle angle = ball.groove_half_angle;
+  check_range(angle > Angle() && angle <= Angle::from_degrees(90.0), "body.groove_half_angle",
+              angle_text(angle), "It lies above 0 and is at most 90 deg, which is a flat floor.",
               "half the angle between the walls of the groove", findings);
 }
 

@@ -1,18 +1,16 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "design/check.hpp"
 #include "design/checks.hpp"
 
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <utility>
 
 namespace glissade::design_file {
 namespace {
-
-constexpr double kQuarterTurn = std::numbers::pi / 2.0;
 
 void check_segment(const SegmentDesign& segment, const std::string& key_path, Collected& findings) {
   if (segment.length && !(*segment.length > 0.0 && *segment.length <= kLongestTrack)) {
@@ -24,9 +22,9 @@ void check_segment(const SegmentDesign& segment, const std::string& key_path, Co
     report(findings, {key_path}, {"", "the curvature is not finite", "", ""});
   }
   const double leads_to = segment.to_slope_angle.value_or(Angle()).radians();
-  if (!(std::fabs(leads_to) <= kQuarterTurn)) {
+  if (!(std::fabs(leads_to) <= kRightAngle)) {
     report(findings, {key_path + ".to_slope_angle"},
-           {"", "to_slope_angle: " + angle_text(leads_to) + " overhangs",
+           {"", "to_slope_angle: " + angle_text(*segment.to_slope_angle) + " overhangs",
             "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
   }
 }
@@ -34,9 +32,9 @@ void check_segment(const SegmentDesign& segment, const std::string& key_path, Co
 bool check_entry(const CenterlineDesign& centerline, Collected& findings) {
   const double slope = centerline.entry_slope_angle.radians();
   constexpr double kRounding = 1e-12;
-  if (std::fabs(slope) <= kQuarterTurn + kRounding) return true;
+  if (std::fabs(slope) <= kRightAngle + kRounding) return true;
   report(findings, {"centerline.entry_slope_angle"},
-         {"", "entry_slope_angle: " + angle_text(slope) + " overhangs",
+         {"", "entry_slope_angle: " + angle_text(centerline.entry_slope_angle) + " overhangs",
           "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
   return false;
 }

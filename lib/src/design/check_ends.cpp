@@ -11,10 +11,10 @@
 namespace glissade::design_file {
 namespace {
 
-constexpr double kFastest = 100.0;                             // [m/s]
-constexpr double kHighest = 1e3;                               // [m]
-constexpr double kLargest = 10.0;                              // [m], of a pulley's radius
-constexpr double kSteepest = 45.0 * std::numbers::pi / 180.0;  // of a belt
+constexpr double kFastest = 100.0;                                 // [m/s]
+constexpr double kHighest = 1e3;                                   // [m]
+constexpr double kLargest = 10.0;                                  // [m], of a pulley's radius
+constexpr double kSteepest = Angle::from_degrees(45.0).radians();  // of a belt
 
 void check_between(double value, double least, double most, bool above_least, const std::string& key,
                    Dimension dimension, const std::string& why, const std::string& hint,
@@ -91,7 +91,7 @@ void check_match(const Design& design, Collected& findings) {
                 "A belt runs: above 0, at most 100 m/s.", "2.5 m/s", findings);
   check_between(match.within, 0.0, 1.0, true, "limits.match_belt.within", Dimension::number,
                 "A share of the belt's speed: above 0, at most 100 %.", "10 %", findings);
-  const double cosine = math::cos(match.direction);
+  const double cosine = math::cos(match.direction.radians());
   if (!(cosine > 0.0)) {
     report(findings, {"limits.match_belt.direction"},
            {"", "direction: " + angle_text(match.direction) + ", against the track",
@@ -104,13 +104,14 @@ void check_match(const Design& design, Collected& findings) {
       std::sqrt(std::max(0.0, entry * entry + 2.0 * design.gravity * drop_of(design.track))) * cosine;
   const double least = match.speed * (1.0 - match.within);
   if (!(least > most)) return;
-  report(findings, {"limits.match_belt.speed"},
-         {"",
-          "match_belt: a belt of " + quantity_text(match.speed, Dimension::speed) +
-              " is faster than the stream can be, " + quantity_text(most, Dimension::speed),
-          "That is the speed of free fall from start to finish" +
-              std::string(match.direction == 0.0 ? "." : ", of which the belt sees its direction's share."),
-          "a slower belt, or a longer drop"});
+  report(
+      findings, {"limits.match_belt.speed"},
+      {"",
+       "match_belt: a belt of " + quantity_text(match.speed, Dimension::speed) +
+           " is faster than the stream can be, " + quantity_text(most, Dimension::speed),
+       "That is the speed of free fall from start to finish" +
+           std::string(match.direction == Angle() ? "." : ", of which the belt sees its direction's share."),
+       "a slower belt, or a longer drop"});
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -71,11 +70,12 @@ void check_concave(const Limits& limits, Collected& findings) {
   const std::optional<double>& entry = limits.entry_slope_angle.highest;
   const std::optional<double>& exit = limits.exit_slope_angle.lowest;
   if (!limits.concave || !entry || !exit || *entry >= *exit) return;
-  report(findings, {path("concave"), path("entry_slope_angle"), path("exit_slope_angle")},
-         {"",
-          "concave: the track would have to be steeper at the exit (" + angle_text(*exit) +
-              ") than at the entry (" + angle_text(*entry) + ")",
-          "Without a crest the slope angle only falls.", "concave: false, or a steeper entry_slope_angle"});
+  report(
+      findings, {path("concave"), path("entry_slope_angle"), path("exit_slope_angle")},
+      {"",
+       "concave: the track would have to be steeper at the exit (" + angle_text(Angle::from_radians(*exit)) +
+           ") than at the entry (" + angle_text(Angle::from_radians(*entry)) + ")",
+       "Without a crest the slope angle only falls.", "concave: false, or a steeper entry_slope_angle"});
 }
 
 void check_loads(const Limits& limits, Collected& findings) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,10 +56,9 @@ void check_mesh_size(const Design& design, Collected& findings) {
 
 void check_kink(const Design& design, Collected& findings) {
   if (!design.mesh.largest_kink) return;
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  constexpr double kSmallest = 0.001 * kDegree;
-  constexpr double kLargest = 14.0 * kDegree;
-  const double kink = design.mesh.largest_kink->radians();
+  constexpr Angle kSmallest = Angle::from_degrees(0.001);
+  constexpr Angle kLargest = Angle::from_degrees(14.0);
+  const Angle kink = *design.mesh.largest_kink;
   if (kink >= kSmallest && kink <= kLargest) return;
   report(findings, {"mesh.largest_kink"},
          {"", "largest_kink: " + angle_text(kink) + " is out of range",

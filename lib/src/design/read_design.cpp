@@ -31,7 +31,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 namespace glissade {

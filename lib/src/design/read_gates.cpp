@@ -2,9 +2,9 @@
 
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
+#include "glissade/core/units.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 namespace glissade::design_file {
@@ -25,10 +25,9 @@ std::optional<Friction> read_friction(MapReader& map, Findings& findings) {
                   "One is the tangent of the other.", "one of the two"});
     return {};
   }
-  constexpr double kRightAngle = std::numbers::pi / 2.0;
   if (angle && !(*angle >= 0.0 && *angle < kRightAngle)) {
-    add_out_of_range(map, "friction_angle", angle_text(*angle), "It lies between 0 and 90 deg (90 excluded).",
-                     findings);
+    add_out_of_range(map, "friction_angle", angle_text(Angle::from_radians(*angle)),
+                     "It lies between 0 and 90 deg (90 excluded).", findings);
     return {};
   }
   if (coefficient && !(*coefficient >= 0.0)) {

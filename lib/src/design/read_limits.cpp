@@ -54,7 +54,7 @@ BeltMatch read_match(const Value& value, Findings& findings) {
   map.expect({"speed", "direction", "within"});
   BeltMatch match;
   match.speed = map.needed_quantity("speed", Dimension::speed, "speed: 2.5 m/s").value_or(1.0);
-  match.direction = map.quantity("direction", Dimension::angle).value_or(0.0);
+  match.direction = Angle::from_radians(map.quantity("direction", Dimension::angle).value_or(0.0));
   match.within = map.quantity("within", Dimension::number).value_or(match.within);
   map.refuse_unknown_keys();
   return match;

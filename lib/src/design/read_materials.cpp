@@ -3,6 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/nearest_word.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/design/materials.hpp"
 
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -20,8 +20,6 @@
 namespace glissade {
 namespace design_file {
 namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 void complain(const Value& value, std::string what, std::string why, std::string hint, Findings& findings) {
   findings.add(value.node->at, value.key_path, {"", std::move(what), std::move(why), std::move(hint)});

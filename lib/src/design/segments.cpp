@@ -3,12 +3,12 @@
 #include "glissade/centerline/drawn_track.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/design/design.hpp"
 
 #include "design/checks.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
@@ -19,7 +19,6 @@ namespace {
 using Fault = DrawnSegments::Fault;
 using Drawn = std::variant<TrackSegment, Fault>;
 
-constexpr double kQuarterTurn = std::numbers::pi / 2.0;
 constexpr double kRounding = 1e-12;
 
 /// Where a segment begins: (run, drop) from the start of the track, and the slope angle there.
@@ -46,7 +45,7 @@ bool is_bent(const SegmentDesign& segment) {
 
 /// @param turn  by how much it is to turn upwards
 std::optional<Fault> fault_of_turn(const SegmentDesign& segment, double slope_angle, double turn) {
-  const std::string wanted = angle_text(segment.to_slope_angle->radians());
+  const std::string wanted = angle_text(*segment.to_slope_angle);
   if (std::fabs(turn) <= kRounding) {
     return fault("to_slope_angle",
                  "to_slope_angle: " + wanted + " is the slope angle where the segment begins",
@@ -54,7 +53,7 @@ std::optional<Fault> fault_of_turn(const SegmentDesign& segment, double slope_an
   }
   const double curvature = segment.entry_curvature + segment.exit_curvature;
   if (curvature * turn >= 0.0) return {};
-  const auto [before, after] = texts_apart(slope_angle, segment.to_slope_angle->radians(), &angle_text);
+  const auto [before, after] = texts_apart(Angle::from_radians(slope_angle), *segment.to_slope_angle);
   const double sharper = std::fabs(segment.entry_curvature) > std::fabs(segment.exit_curvature)
                              ? segment.entry_curvature
                              : segment.exit_curvature;
@@ -77,10 +76,10 @@ Drawn cubic_to_slope(const SegmentDesign& segment, double turn) {
                  "{bend: cubic, to_slope_angle: 11 deg, exit_radius: 103 m}");
   }
   if (std::fabs(turn) > CubicBend::kMostTurn.radians()) {
-    return fault("to_slope_angle",
-                 "to_slope_angle: a cubic bend would turn by " + angle_text(std::fabs(turn)),
-                 "It turns by at most " + angle_text(CubicBend::kMostTurn.radians()) + ".",
-                 "bend: clothoid, or two bends");
+    return fault(
+        "to_slope_angle",
+        "to_slope_angle: a cubic bend would turn by " + angle_text(Angle::from_radians(std::fabs(turn))),
+        "It turns by at most " + angle_text(CubicBend::kMostTurn) + ".", "bend: clothoid, or two bends");
   }
   const bool begins_bent = segment.entry_curvature != 0.0;
   const double curvature = begins_bent ? segment.entry_curvature : segment.exit_curvature;
@@ -107,8 +106,8 @@ Drawn to_slope(const SegmentDesign& segment, double slope_angle) {
   }
   if (!is_bent(segment)) {
     return fault("to_slope_angle",
-                 "to_slope_angle: a straight never reaches " + angle_text(segment.to_slope_angle->radians()) +
-                     " from " + angle_text(slope_angle),
+                 "to_slope_angle: a straight never reaches " + angle_text(*segment.to_slope_angle) +
+                     " from " + angle_text(Angle::from_radians(slope_angle)),
                  "A segment turns by its radius, its curvature or its length.",
                  "radius: " + std::string(turn > 0.0 ? "5 m" : "-5 m"));
   }
@@ -134,7 +133,7 @@ Drawn to_point(const SegmentDesign& segment, const Beginning& from, Vec2 end) {
   const std::string point = point_text(*segment.to_point);
   const std::string begins = "The segment begins " + length_text(from.place.x) + " away from the start and " +
                              length_text(from.place.y) + " below it, with slope angle " +
-                             angle_text(from.slope_angle) + ".";
+                             angle_text(Angle::from_radians(from.slope_angle)) + ".";
   constexpr double kShortest = 1e-6;
   if (!(math::hypot(way.x, way.y) >= kShortest)) {
     return fault("to_point", "to_point: " + point + " is where the segment begins", begins,
@@ -150,14 +149,14 @@ Drawn to_point(const SegmentDesign& segment, const Beginning& from, Vec2 end) {
       segment.to_slope_angle ? clothoid_to(way, entry, *segment.to_slope_angle) : arc_to(way, entry);
   const double ends =
       bend ? from.slope_angle - 0.5 * bend->length * (bend->entry_curvature + bend->exit_curvature) : 0.0;
-  if (bend && std::fabs(ends) <= kQuarterTurn + kRounding) return TrackSegment(*bend);
-  return fault("to_point",
-               "to_point: no " + name + " leads to " + point +
-                   (bend ? " but one that ends at a slope angle of " + angle_text(ends) : ""),
-               begins + " A slope angle lies between -90 and 90 deg.",
-               segment.to_slope_angle
-                   ? "another point, or another slope angle there"
-                   : "a point nearer to the straight ahead, or a to_slope_angle beside it");
+  if (bend && std::fabs(ends) <= kRightAngle + kRounding) return TrackSegment(*bend);
+  return fault(
+      "to_point",
+      "to_point: no " + name + " leads to " + point +
+          (bend ? " but one that ends at a slope angle of " + angle_text(Angle::from_radians(ends)) : ""),
+      begins + " A slope angle lies between -90 and 90 deg.",
+      segment.to_slope_angle ? "another point, or another slope angle there"
+                             : "a point nearer to the straight ahead, or a to_slope_angle beside it");
 }
 
 Drawn drawn(const SegmentDesign& segment, const Beginning& from, const TrackDesign& track) {
@@ -201,9 +200,9 @@ double steepest_slope(const TrackSegment& segment, double entry_slope) {
 std::optional<Fault> fault_of_overhang(const SegmentDesign& design, const TrackSegment& segment,
                                        double entry_slope) {
   const double steepest = steepest_slope(segment, entry_slope);
-  if (std::fabs(steepest) <= kQuarterTurn + kRounding) return {};
+  if (std::fabs(steepest) <= kRightAngle + kRounding) return {};
   return Fault{"",
-               {"", " overhangs: its slope angle reaches " + angle_text(steepest),
+               {"", " overhangs: its slope angle reaches " + angle_text(Angle::from_radians(steepest)),
                 "A slope angle lies between -90 deg (straight up) and 90 deg (straight down); a positive "
                 "curvature or radius turns the track upwards.",
                 design.to_point ? "another point, or another slope angle there"

@@ -76,7 +76,7 @@ std::optional<std::string> angle_of(Friction friction) {
   constexpr int kMostDigits = 17;
   const double angle = friction.angle().radians();
   for (int digits = 1; digits <= kMostDigits; ++digits) {
-    std::string text = angle_text(angle, digits);
+    std::string text = angle_text(Angle::from_radians(angle), digits);
     const auto read = read_quantity(text, Dimension::angle, "friction_angle");
     const double* const value = std::get_if<double>(&read);
     if (value != nullptr && Friction::from_angle(Angle::from_radians(*value)) == friction) return text;
@@ -469,7 +469,7 @@ std::string limits(const Limits& design, const Objective& aim) {
   if (design.match_belt) {
     Group match;
     match.add("speed", design.match_belt->speed, Dimension::speed);
-    match.add_unless(0.0, "direction", design.match_belt->direction, Dimension::angle);
+    match.add_unless(0.0, "direction", design.match_belt->direction.radians(), Dimension::angle);
     match.add("within", exact_text(design.match_belt->within));
     group.add("match_belt", match.inlined());
   }

@@ -1,14 +1,14 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/drawing/drawing.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace glissade {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // On paper, in millimetres (ISO 129: arrows of 15 deg, extension lines 2 mm beyond the dimension line).
 constexpr double kArrowLength = 2.5;
@@ -36,10 +36,9 @@ ArcPath arrow(Vec2 tip, Vec2 inward, double per_paper) {
 /// @return the angle at which a text along a direction is read from below or from the right
 double reading_angle(Vec2 along) {
   const double angle = math::atan2(along.y, along.x);
-  constexpr double kUpright = 0.5 * kPi;
   constexpr double kLeeway = 1e-6;
-  if (angle > kUpright + kLeeway) return angle - kPi;
-  return angle < -kUpright + kLeeway ? angle + kPi : angle;
+  if (angle > kRightAngle + kLeeway) return angle - std::numbers::pi;
+  return angle < -kRightAngle + kLeeway ? angle + std::numbers::pi : angle;
 }
 
 }  // namespace
@@ -73,7 +72,7 @@ DimensionLines lines_of(const DrawnDimension& dimension, double scale) {
   drawn.text.layer = dimension.layer;
   drawn.text.height_mm = kTextHeight;
   drawn.text.anchor = TextAnchor::centre;
-  drawn.text.angle = angle;
+  drawn.text.angle = Angle::from_radians(angle);
   drawn.text.at = 0.5 * (start + end) + (kTextAbove * per_paper) * Vec2{-sine, cosine};
   // To a tenth: what a tape or a folding rule shows; the files carry the exact numbers.
   drawn.text.text = dimension.text.empty() ? decimal_text(std::round(reach * 10.0) / 10.0) : dimension.text;

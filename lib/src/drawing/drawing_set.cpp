@@ -17,7 +17,6 @@ using drawing::Eye;
 using drawing::Projection;
 
 constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr double kDegrees = 57.295779513082320877;
 constexpr const char* kTolerance = "General tolerance ISO 2768-m; edges deburred";
 
 /// @return a length in millimetres, to a tenth
@@ -170,7 +169,7 @@ SheetTable bend_schedule(const Workshop& workshop) {
   table.header = {"part", "no.", "distance mm", "length mm", "angle deg", "sum deg", "radius mm", "chord mm"};
   for (const BendStep& step : workshop.bends) {
     table.rows.push_back({std::to_string(step.part), std::to_string(step.hit), mm(step.distance),
-                          mm(step.length), fixed(step.angle * kDegrees, 3), fixed(step.sum * kDegrees, 3),
+                          mm(step.length), fixed(step.angle.degrees(), 3), fixed(step.sum.degrees(), 3),
                           mm(step.radius), fixed(step.chord_error * kMillimetres, 2)});
   }
   return table;
@@ -190,7 +189,7 @@ SheetTable setting_out_table(const Workshop& workshop) {
                                  mm(point.arc_length),
                                  mm(point.x),
                                  mm(point.z),
-                                 fixed(point.slope_angle * kDegrees, 3),
+                                 fixed(point.slope_angle.degrees(), 3),
                                  mm(point.radius),
                                  mm(point.ordinate)};
     for (std::size_t i = 0; i < point.offsets.size() && i < 4; ++i) row.push_back(mm(point.offsets[i]));

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@ namespace glissade {
 namespace {
 
 constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of chords that stand for arcs where columns are measured; spacing is widened by as much.
 constexpr double kSagitta = 2e-5;
@@ -63,7 +63,7 @@ double lying_angle(const std::vector<Vec2>& points) {
     if (area >= least * (1.0 - 1e-9)) continue;
     least = area;
     const double turn = -math::atan2(along.y, along.x);
-    angle = high - low >= up ? turn : turn + 0.5 * kPi;
+    angle = high - low >= up ? turn : turn + kRightAngle;
   }
   return angle;
 }
@@ -226,7 +226,8 @@ Piece piece_of(const ShopPart& part, std::size_t index, double column) {
   const ArcPath& outline = part.pattern->region.outline;
   const double lying = lying_angle(flattened(outline, kSagitta));
   // Along the sheet and across it, end for end; and as it was drawn, whose box is the one that a designer sees.
-  for (const double angle : {lying, lying + kPi, lying + 0.5 * kPi, lying + 1.5 * kPi, 0.0, 0.5 * kPi}) {
+  for (const double angle :
+       {lying, lying + 2.0 * kRightAngle, lying + kRightAngle, lying + 3.0 * kRightAngle, 0.0, kRightAngle}) {
     piece.attitudes.push_back(attitude_of(outline, angle, column));
   }
   return piece;
@@ -324,7 +325,7 @@ Drawing nest_drawing(const Workshop& workshop, const NestedSheet& sheet) {
     const double size = std::clamp(0.05 * std::min(box.width(), box.height()), 3.0, 20.0);
     const std::string digits = (part.number < 10 ? "0" : "") + std::to_string(part.number);
     const Vec2 at = place_for_number(region) - Vec2{0.0, 0.5 * size};
-    for (const ArcPath& stroke : stroked_text(digits, at, size, 0.0, TextAnchor::centre))
+    for (const ArcPath& stroke : stroked_text(digits, at, size, {}, TextAnchor::centre))
       drawing.add(mark, stroke);
   }
   return drawing;

@@ -18,11 +18,11 @@ double stroked_width(const std::string& text, double height) {
   return width * height / drawing::kCapitalHeight;
 }
 
-std::vector<ArcPath> stroked_text(const std::string& text, Vec2 at, double height, double angle,
+std::vector<ArcPath> stroked_text(const std::string& text, Vec2 at, double height, Angle angle,
                                   TextAnchor anchor) {
   const double unit = height / drawing::kCapitalHeight;
   const double share = anchor == TextAnchor::left ? 0.0 : anchor == TextAnchor::centre ? 0.5 : 1.0;
-  const PlaneMotion motion = PlaneMotion::turn(angle, at);
+  const PlaneMotion motion = PlaneMotion::turn(angle.radians(), at);
   std::vector<ArcPath> strokes;
   double pen = -share * stroked_width(text, height);
   for (const char32_t character : drawing::characters_of(text)) {

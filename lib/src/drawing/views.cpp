@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
@@ -18,7 +19,7 @@ namespace drawing {
 namespace {
 
 constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr double kTurn = 6.283185307179586477;
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// An edge in space, placed.
 struct PlacedEdge {
@@ -237,7 +238,7 @@ Drawing side_view(const Workshop& workshop) {
     text.layer = marks;
     text.at = at + Vec2{0.0, 1.1 * reach};
     text.text = point.what;
-    text.angle = 0.25 * kTurn;
+    text.angle = Angle::from_degrees(90.0);
     view.texts.push_back(std::move(text));
   }
   return view;

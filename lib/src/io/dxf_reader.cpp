@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,6 @@ using namespace io;
 
 namespace {
 
-constexpr double kRadiansPerDegree = 0.017453292519943295769;
 /// A drawing that a workshop gets has kilobytes; this is far above what it may ever be.
 constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 28U;
 
@@ -144,10 +144,9 @@ void add(Drawing& drawing, const Entity& entity) {
   } else if (entity.kind == "CIRCLE") {
     drawing.add(layer(), Circle{place, value(40)});
   } else if (entity.kind == "ARC") {
-    const double start = value(50) * kRadiansPerDegree;
-    double sweep = (value(51) - value(50)) * kRadiansPerDegree;
-    constexpr double kTurn = 6.283185307179586477;
-    while (sweep <= 0.0) sweep += kTurn;
+    const double start = Angle::from_degrees(value(50)).radians();
+    double sweep = Angle::from_degrees(value(51) - value(50)).radians();
+    while (sweep <= 0.0) sweep += 2.0 * std::numbers::pi;
     const auto at = [&](double angle) {
       const auto [sine, cosine] = math::sine_cosine(angle);
       return place + value(40) * Vec2{cosine, sine};
@@ -161,7 +160,7 @@ void add(Drawing& drawing, const Entity& entity) {
     text.text = utf8_of(entity.text);
     const auto anchor = static_cast<int>(value(72));
     text.anchor = anchor == 1 ? TextAnchor::centre : anchor == 2 ? TextAnchor::right : TextAnchor::left;
-    text.angle = value(50) * kRadiansPerDegree;
+    text.angle = Angle::from_degrees(value(50));
     drawing.texts.push_back(std::move(text));
   }
 }

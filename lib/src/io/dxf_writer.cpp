@@ -21,7 +21,6 @@
 namespace glissade {
 namespace {
 
-constexpr double kDegreesPerRadian = 57.295779513082320877;
 constexpr std::string_view kModelSpace = "*Model_Space";
 constexpr std::string_view kPaperSpace = "*Paper_Space";
 
@@ -189,7 +188,7 @@ void require_writable(const Drawing& drawing) {
   }
   for (const DrawnText& text : drawing.texts) {
     require_layer(drawing, text.layer);
-    require_finite(drawing, "text", text.at.x + text.at.y + text.height_mm + text.angle);
+    require_finite(drawing, "text", text.at.x + text.at.y + text.height_mm + text.angle.radians());
   }
 }
 
@@ -453,8 +452,8 @@ class DxfFile {
     entity("ARC", drawn.layer, "AcDbCircle", drawn.colour, drawn.style);
     out_.point3(10, arc.centre);
     out_.group(40, arc.radius);
-    out_.group(50, math::atan2(first.y, first.x) * kDegreesPerRadian);
-    out_.group(51, math::atan2(last.y, last.x) * kDegreesPerRadian);
+    out_.group(50, Angle::from_radians(math::atan2(first.y, first.x)).degrees());
+    out_.group(51, Angle::from_radians(math::atan2(last.y, last.x)).degrees());
   }
 
   void text(const DrawnText& drawn) {
@@ -462,7 +461,7 @@ class DxfFile {
     out_.point3(10, drawn.at);
     out_.group(40, drawn.height_mm * drawing_.text_scale);
     out_.group(1, ascii_text(drawn.text));
-    if (drawn.angle != 0.0) out_.group(50, drawn.angle * kDegreesPerRadian);
+    if (drawn.angle != Angle()) out_.group(50, drawn.angle.degrees());
     if (drawn.anchor != TextAnchor::left) {
       out_.group(72, drawn.anchor == TextAnchor::centre ? 1 : 2);
       out_.point3(11, drawn.at);

@@ -179,7 +179,7 @@ class Painter {
                                                              : 1.0;
     cairo_save(context_);
     cairo_translate(context_, text.at.x, text.at.y);
-    cairo_rotate(context_, text.angle);
+    cairo_rotate(context_, text.angle.radians());
     cairo_scale(context_, 1.0, -1.0);
     cairo_set_font_face(context_, font_);
     cairo_set_font_size(context_, text.height_mm / kCapitalShare);
@@ -202,7 +202,7 @@ bool finite(const Drawing& drawing) {
     sum += 0.0 * (drawn.circle.centre.x + drawn.circle.centre.y + drawn.circle.radius);
   }
   for (const DrawnText& text : drawing.texts)
-    sum += 0.0 * (text.at.x + text.at.y + text.height_mm + text.angle);
+    sum += 0.0 * (text.at.x + text.at.y + text.height_mm + text.angle.radians());
   return sum == 0.0;
 }
 

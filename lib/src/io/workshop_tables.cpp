@@ -13,7 +13,6 @@ namespace glissade {
 namespace {
 
 constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr double kDegrees = 57.295779513082320877;
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
@@ -61,8 +60,8 @@ double mm(double metres) {
   return clean(kMillimetres * metres);
 }
 
-double degrees(double angle) {
-  return clean(kDegrees * angle);
+double degrees(Angle angle) {
+  return clean(angle.degrees());
 }
 
 }  // namespace
@@ -120,7 +119,8 @@ std::string setting_out_csv(const Workshop& workshop) {
   for (const SettingOutPoint& point : workshop.setting_out) {
     csv.row() << point.what << mm(point.arc_length) << mm(point.x) << mm(point.z) << point.site.x
               << point.site.y << point.site.z << degrees(point.slope_angle)
-              << clean(100.0 * math::tan(point.slope_angle)) << mm(point.radius) << mm(point.ordinate);
+              << clean(100.0 * math::tan(point.slope_angle.radians())) << mm(point.radius)
+              << mm(point.ordinate);
     for (const double offset : point.offsets) csv << mm(offset);
   }
   return csv.text();

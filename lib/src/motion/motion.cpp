@@ -283,8 +283,8 @@ QuantityPeak Motion::Ride::highest(std::size_t index) const {
   return peak;
 }
 
-double speed_after(const Landing& landing, double slope_angle, Friction friction) {
-  const double theta = landing.angle - slope_angle;
+double speed_after(const Landing& landing, Angle slope_angle, Friction friction) {
+  const double theta = (landing.angle - slope_angle).radians();
   return landing.speed * (math::cos(theta) - math::sin(theta) * friction.coefficient());
 }
 
@@ -306,7 +306,8 @@ Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
   if (body.landing) {
     // What friction stops at once is a stream without speed: it chokes where it lands.
     constexpr double kStopped = 1e-9;
-    const double left = speed_after(*body.landing, centerline->slope_angle(0.0), body.friction);
+    const double left =
+        speed_after(*body.landing, Angle::from_radians(centerline->slope_angle(0.0)), body.friction);
     body.entry_speed = std::max(left, kStopped);
   }
   require_body(body, gravity);

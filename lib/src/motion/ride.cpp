@@ -212,7 +212,7 @@ bool Integrator::starts() {
   const double rounding = kPushRounding * 2.0 * equation().gravity * (1.0 + mu);
   // Where the valley is too tight at once, the ride ends for that.
   if (equation().path_rate(start) <= kTight || equation().slope_at_rest(start, mu) > rounding) return true;
-  record_.stall = Stall{0.0, std::max(0.0, math::atan(mu) - start.slope_angle)};
+  record_.stall = Stall{0.0, Angle::from_radians(std::max(0.0, math::atan(mu) - start.slope_angle))};
   close(0.0, 0.0);
   return false;
 }
@@ -260,7 +260,7 @@ void Integrator::slide(const Stretch& whole, int halvings) {
         return close(length_, 0.0);
       case Verdict::endless:
         come_to_rest(task.stretch, length_, kDeepestCreep);
-        record_.stall = Stall{length_, 0.0};
+        record_.stall = Stall{length_, Angle()};
         close(length_, 0.0);
         record_.end.time = kInfinity;
         return;
@@ -357,7 +357,7 @@ void Integrator::stall(const Panel& panel) {
   const double s = panel.stretch.arc_length(sigma);
   come_to_rest(panel.stretch, s, kDeepest);
   const double missing = math::atan(panel.friction) - equation().centerline->slope_angle(s);
-  record_.stall = Stall{s, std::max(0.0, missing)};
+  record_.stall = Stall{s, Angle::from_radians(std::max(0.0, missing))};
   close(s, 0.0);
 }
 

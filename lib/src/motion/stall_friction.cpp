@@ -1,9 +1,9 @@
 #include "glissade/motion/stall_friction.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace glissade {
 namespace {
@@ -42,7 +42,6 @@ std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const
   while (!stalls(Angle::from_radians(stuck))) {
     if (stuck >= kSteepest.radians()) return {};
     clear = stuck;
-    constexpr double kRightAngle = std::numbers::pi / 2.0;
     stuck = std::min(0.5 * (stuck + kRightAngle), kSteepest.radians());
   }
   while (stuck - clear > kStallFrictionAccuracy) {

@@ -20,6 +20,13 @@ void add_scaled(double* y, double k, const double* a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) y[i] += k * a[i];
 }
 
+void add_symmetric(Matrix& matrix, double factor, const Vector& a, const Vector& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    add_scaled(matrix.row(i), factor * a[i], b.data(), b.size());
+    add_scaled(matrix.row(i), factor * b[i], a.data(), a.size());
+  }
+}
+
 double norm(const Vector& a) {
   return std::sqrt(dot(a.data(), a.data(), a.size()));
 }

@@ -29,6 +29,8 @@ class Matrix {
 [[nodiscard]] double dot(const double* a, const double* b, std::size_t n);
 /// y += k a
 void add_scaled(double* y, double k, const double* a, std::size_t n);
+/// matrix += factor (a b^T + b a^T)
+void add_symmetric(Matrix& matrix, double factor, const Vector& a, const Vector& b);
 [[nodiscard]] double norm(const Vector& a);
 
 /// Lower triangular L with L L^T = H + shift D, D the diagonal given, shift the least of a geometric sequence

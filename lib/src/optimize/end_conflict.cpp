@@ -2,6 +2,7 @@
 
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
 
 #include "clearance/region.hpp"
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -67,8 +67,7 @@ struct End {
 };
 
 End end_of(const char* name, Vec2 point, const Range& own, const Range& whole) {
-  constexpr double kUpright = 0.5 * std::numbers::pi;
-  End end{name, point, -kUpright, kUpright};
+  End end{name, point, -kRightAngle, kRightAngle};
   for (const Range* range : {&own, &whole}) {
     if (range->lowest) end.flattest = std::max(end.flattest, *range->lowest);
     if (range->highest) end.steepest = std::min(end.steepest, *range->highest);

@@ -1,16 +1,16 @@
 #include "optimize/envelope_rows.hpp"
 
+#include "glissade/core/units.hpp"
+
+#include "optimize/feet.hpp"
 #include "optimize/rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace glissade::optimizer {
 namespace {
-
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
 
 Vec2 point_of(const Shape& shape, std::size_t station) {
   return {shape.x[station], shape.y[station]};

@@ -111,29 +111,4 @@ class EnvelopeRows {
   const Transcription& track_;
 };
 
-/// Signed distance of a corner from the track at its foot: positive where the corner lies on the side that
-/// `side` calls forbidden; unsigned beyond the ends of the track.
-[[nodiscard]] double corner_distance(const Foot& foot, Vec2 corner, double side);
-
-/// What a distance at a foot weighs the stations beside it with.
-void add_foot_weights(const Foot& foot, double factor, StationWeights& weights);
-
-/// Unit vector square to an edge, towards the forbidden side.
-[[nodiscard]] Vec2 edge_normal(Vec2 from, Vec2 to, double side);
-
-/// Whether an edge of a chain tells how far a point lies from what the chain bounds. A point on its free side
-/// is as far from it as from the line through it where it lies beside the edge; one behind that line lies within
-/// only over the edge's own runs: elsewhere, in a gully or beyond a cliff, other edges stand before this one.
-[[nodiscard]] bool concerns(Vec2 point, Vec2 from, Vec2 to, double side);
-
-/// @return curvature at a foot
-[[nodiscard]] double curvature_at(const Transcription& track, const Vector& z, const Foot& foot);
-
-/// Adds factor (a b^T + b a^T).
-void add_symmetric(Matrix& hessian, double factor, const Vector& a, const Vector& b);
-
-/// Second derivative of a corner's distance at its foot, which slides along the track.
-void add_foot_terms(const Transcription& track, const State& state, const Foot& foot, double distance,
-                    double side, double factor, Matrix& hessian);
-
 }  // namespace glissade::optimizer

@@ -2,15 +2,13 @@
 
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace glissade::optimizer {
 namespace {
-
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
 
 /// ds/dzeta of the frictional brachistochrone with exit slope angle zeta_1, for scale C = 1.
 double arc_per_angle(double zeta, double zeta_1, double mu) {
@@ -73,12 +71,12 @@ GuessCurve brachistochrone_guess(double run, double drop, double mu) {
   constexpr int kSteps = 400;
   const CoulombSolution exact =
       solve_coulomb_brachistochrone({run, drop}, Friction::from_coefficient(mu), 1.0);
-  const Arc arc = trace(exact.exit_slope_angle, mu, kSteps);
+  const Arc arc = trace(exact.exit_slope_angle.radians(), mu, kSteps);
   const double scale = math::hypot(run, drop) / math::hypot(arc.x, arc.y);
   GuessCurve guess;
   guess.length = arc.s.back() * scale;
   guess.zeta = arc.zeta;
-  const double q2 = 1.0 - mu * mu + 2.0 * mu * math::tan(exact.exit_slope_angle);
+  const double q2 = 1.0 - mu * mu + 2.0 * mu * math::tan(exact.exit_slope_angle.radians());
   for (const double zeta : arc.zeta) {
     const auto [sine, cosine] = math::sine_cosine(zeta);
     const double lean = sine - mu * cosine;

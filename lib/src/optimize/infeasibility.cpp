@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace glissade::optimizer {
 namespace {
@@ -86,8 +85,7 @@ Conflict too_slow(const Problem& problem, Friction friction) {
   conflict.limits = {{{LimitId::friction}, {}}, {{LimitId::finish}, {}}};
   conflict.relaxations.push_back({{LimitId::finish_drop}, ends.drop, drop});
   conflict.text = "at an entry speed of " + rounded_text(speed, 4) +
-                  " m/s no track reaches the finish at a friction angle of " +
-                  angle_text(friction.angle().radians()) +
+                  " m/s no track reaches the finish at a friction angle of " + angle_text(friction.angle()) +
                   ", whatever the shape (reach theorem); an entry speed above " + rounded_text(needed, 4) +
                   " m/s or a drop above " + length_text(drop) + " would do";
   return conflict;
@@ -116,8 +114,8 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
   conflict.relaxations.push_back(
       {{LimitId::finish_drop}, problem.endpoints.drop, friction.coefficient() * run});
   conflict.text = "from rest, no track reaches the finish at a friction angle of " +
-                  angle_text(friction.angle().radians()) + ": the mean slope is " +
-                  angle_text(math::atan2(problem.endpoints.drop, run)) +
+                  angle_text(friction.angle()) + ": the mean slope is " +
+                  angle_text(Angle::from_radians(math::atan2(problem.endpoints.drop, run))) +
                   ", whatever the shape (reach theorem); a drop above " +
                   length_text(friction.coefficient() * run) + " would do";
   return conflict;

@@ -50,7 +50,7 @@ Term dragged(double v, double wind) {
 /// v where a ride enters, and its derivatives by the slope angle there: V1^2 r |r| with r what the impact leaves.
 Term entry_v(const Ride& ride, double slope_angle) {
   if (!ride.landing) return {ride.entry_speed2, 0.0, 0.0};
-  const double theta = ride.landing->angle - slope_angle;
+  const double theta = ride.landing->angle.radians() - slope_angle;
   const double left = math::cos(theta) - ride.friction * math::sin(theta);
   const double first = math::sin(theta) + ride.friction * math::cos(theta);
   const double v = ride.landing->speed * ride.landing->speed;

@@ -23,10 +23,6 @@ constexpr std::size_t kLifting = 8;
 // constant load has no bound there.
 constexpr double kAtRest = 1e-9;
 
-bool is_load(Measure measure) {
-  return measure == Measure::normal_load || measure == Measure::curvature_load;
-}
-
 /// One piece along which a load limit is held.
 struct HeldPiece {
   std::size_t piece = 0;
@@ -77,7 +73,7 @@ std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& fo
   std::vector<bool> has_fine(pieces, false);
   for (const FineKnot& fine : track.fine_knots()) has_fine[fine.piece] = true;
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
-    if (!is_load(problem.limits[i].measure)) continue;
+    if (!problem.limits[i].measure->is_load()) continue;
     Vector price(pieces, 0.0);
     double whole = 0.0;
     for (std::size_t k = 0; k < found.active.size(); ++k) {

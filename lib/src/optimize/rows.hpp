@@ -1,6 +1,7 @@
 #pragma once
 
 #include "optimize/envelope_rows.hpp"
+#include "optimize/measure.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/sqp.hpp"
 #include "optimize/transcription.hpp"
@@ -76,17 +77,10 @@ class Rows {
                                        double objective) const;
 
  private:
-  /// Where a row that is measured at a foot has it.
-  [[nodiscard]] Foot foot_of(const State& state, const LimitSpec& limit, const Row& row) const;
   [[nodiscard]] Row row_of_equality(std::size_t index) const;
-  [[nodiscard]] Ride::CurvatureLoad curvature_load(const State& state, const Row& row) const;
-  /// u cos(zeta) with its derivatives by v and by the slope angle.
-  struct RunSpeed {
-    double value = 0.0;
-    double by_v = 0.0, by_zeta = 0.0;
-    double by_v_v = 0.0, by_zeta_v = 0.0, by_zeta_zeta = 0.0;
-  };
-  [[nodiscard]] RunSpeed exit_run_speed(const State& state, const Row& row) const;
+  [[nodiscard]] RowAt at(const State& state, const LimitSpec& limit, const Row& row) const {
+    return {problem_, track_, envelope_, state, limit, row};
+  }
   /// The channel's width over that at the start, to the limit's power, and its derivatives by the core's length.
   struct WidthFactor {
     double value = 1.0;
@@ -96,23 +90,10 @@ class Rows {
   [[nodiscard]] WidthFactor width_factor(const State& state, const LimitSpec& limit, const Row& row) const;
   [[nodiscard]] double measure(const State& state, const LimitSpec& limit, const Row& row) const;
   void measure_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
-  /// The same without the factor of the width.
-  [[nodiscard]] double plain_measure(const State& state, const LimitSpec& limit, const Row& row) const;
-  void plain_gradient(const State& state, const LimitSpec& limit, const Row& row, double* out) const;
   void add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,
                            StationWeights& weights) const;
   void add_direct_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
                         Matrix& hessian) const;
-  void add_plain_terms(const State& state, const LimitSpec& limit, const Row& row, double factor,
-                       Matrix& hessian) const;
-  struct Bend {
-    std::size_t piece = 0;
-    double share = 0.0;  ///< of the way through it
-    double turn = 0.0;
-    double sigma = 0.0;
-  };
-  /// The knot of a row of Measure::curvature.
-  [[nodiscard]] Bend bend(const Vector& z, std::size_t place) const;
   /// Whether clearances are measured from more than the centerline.
   [[nodiscard]] bool has_envelope() const { return problem_.envelope_high > problem_.envelope_low; }
   [[nodiscard]] double effective_bound(const LimitSpec& limit) const;

@@ -3,54 +3,16 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace glissade::optimizer {
 namespace {
-
-/// What the search measures for a limit that is one number.
-Measure measure_of(LimitId id) {
-  switch (id) {
-    case LimitId::entry_slope_angle:
-      return Measure::entry_slope_angle;
-    case LimitId::exit_slope_angle:
-      return Measure::exit_slope_angle;
-    case LimitId::smallest_valley_radius:
-    case LimitId::smallest_crest_radius:
-    case LimitId::concave:
-      return Measure::curvature;
-    case LimitId::highest_curvature_rate:
-      return Measure::curvature_rate;
-    case LimitId::highest_normal_load:
-    case LimitId::lowest_normal_load:
-      return Measure::normal_load;
-    case LimitId::highest_curvature_load:
-      return Measure::curvature_load;
-    case LimitId::speed:
-    case LimitId::highest_burden_depth:
-    case LimitId::no_choking:
-      return Measure::speed;
-    case LimitId::highest_floor_wear:
-      return Measure::normal_load;
-    case LimitId::exit_speed:
-      return Measure::exit_speed;
-    case LimitId::match_belt:
-      return Measure::exit_run_speed;
-    case LimitId::arc_length:
-      return Measure::arc_length;
-    case LimitId::finish_run:
-    case LimitId::finish_drop:
-      return Measure::finish_coordinate;
-    default:
-      return Measure::slope_angle;
-  }
-}
 
 /// +1: at most, -1: at least, 0: exactly.
 int side_of(Bound bound) {
@@ -144,7 +106,7 @@ class LimitList {
   }
 
   /// What holds without being asked for.
-  void add_built_in(LimitId id, Measure measure, double bound) {
+  void add_built_in(LimitId id, const Measure* measure, double bound) {
     LimitSpec limit;
     limit.name = {id, entry_of(id).bound};
     limit.measure = measure;
@@ -188,7 +150,7 @@ class LimitList {
   }
 
   void add_match(const BeltMatch& match) {
-    const double seen = math::cos(match.direction);
+    const double seen = math::cos(match.direction.radians());
     for (const Bound bound : {Bound::lowest, Bound::highest}) {
       const double side = bound == Bound::highest ? 1.0 : -1.0;
       LimitSpec& limit = add({LimitId::match_belt, bound}, match.speed * (1.0 + side * match.within));
@@ -356,12 +318,11 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   add_obstacles(limits, passages, list);
   for (std::size_t i = 0; i < limits.waypoints.size(); ++i) list.add_waypoint(i);
   // Beyond the vertical a track would run backwards; the fastest one of all starts exactly vertical.
-  constexpr double kUpright = 0.5 * std::numbers::pi;
   if (!limits.slope_angle.highest) {
-    list.add_built_in(LimitId::no_steeper_than_vertical, Measure::slope_angle, kUpright);
+    list.add_built_in(LimitId::no_steeper_than_vertical, Measure::slope_angle, kRightAngle);
   }
   if (!limits.slope_angle.lowest) {
-    list.add_built_in(LimitId::no_climb_beyond_vertical, Measure::slope_angle, -kUpright);
+    list.add_built_in(LimitId::no_climb_beyond_vertical, Measure::slope_angle, -kRightAngle);
   }
   // In a valley hardly wider than the body is high its centre hardly moves and is pressed without bound: a ball
   // would roll up the tightest bend there is to touch the finish. Unless a radius is asked for, it is at least
@@ -387,7 +348,7 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   list.add_no_choking();
   // A stream flatter than the floor flies on over it.
   if (problem.body.landing)
-    list.add_built_in(LimitId::landing, Measure::entry_slope_angle, problem.body.landing->angle);
+    list.add_built_in(LimitId::landing, Measure::entry_slope_angle, problem.body.landing->angle.radians());
 }
 
 }  // namespace
@@ -511,10 +472,9 @@ void require_searchable(const Problem& problem) {
 }
 
 void require_passable_in_order(const Problem& problem) {
-  constexpr double kUpright = 0.5 * std::numbers::pi;
   const Limits& limits = problem.limits;
-  const bool runs_back = limits.slope_angle.highest.value_or(kUpright) > kUpright ||
-                         limits.slope_angle.lowest.value_or(-kUpright) < -kUpright;
+  const bool runs_back = limits.slope_angle.highest.value_or(kRightAngle) > kRightAngle ||
+                         limits.slope_angle.lowest.value_or(-kRightAngle) < -kRightAngle;
   if (runs_back) return;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i + 1 < limits.waypoints.size(); ++i) {

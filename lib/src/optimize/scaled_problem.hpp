@@ -5,6 +5,7 @@
 #include "glissade/task/limit_catalogue.hpp"
 #include "glissade/task/problem.hpp"
 
+#include "optimize/measure.hpp"
 #include "optimize/transcription.hpp"
 
 #include <cstddef>
@@ -14,29 +15,10 @@
 
 namespace glissade::optimizer {
 
-/// What a limit is about; each is one scalar that is kept on one side of a bound.
-enum class Measure {
-  entry_slope_angle,
-  exit_slope_angle,
-  slope_angle,
-  curvature,  ///< positive in a valley
-  curvature_rate,
-  normal_load,
-  curvature_load,
-  speed,
-  exit_speed,
-  exit_run_speed,  ///< the level part of the exit speed
-  arc_length,
-  finish_coordinate,  ///< whichever is free
-  distance,           ///< from an obstacle, positive on its free side
-  waypoint,           ///< distance of the track from a point
-  arrival             ///< squared speed over that of free fall through the arc length
-};
-
 /// One limit, scaled.
 struct LimitSpec {
   LimitName name;
-  Measure measure = Measure::slope_angle;
+  const Measure* measure = nullptr;
   int side = 0;              ///< +1: measure <= bound, -1: measure >= bound, 0: measure == bound
   double bound = 0.0;        ///< scaled; of a radius: the curvature
   double scale = 1.0;        ///< what a violation is measured against, as `bound`

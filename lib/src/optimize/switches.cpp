@@ -26,40 +26,12 @@ double count_pieces(const Vector& knots, double sigma) {
   return static_cast<double>(i) + std::clamp((sigma - knots[i]) / (knots[i + 1] - knots[i]), 0.0, 1.0);
 }
 
-/// Whether a limit can bind along a stretch.
-bool holds_along(Measure measure) {
-  switch (measure) {
-    case Measure::slope_angle:
-    case Measure::curvature:
-    case Measure::normal_load:
-    case Measure::curvature_load:
-    case Measure::speed:
-    case Measure::distance:
-      return true;
-    case Measure::curvature_rate:
-    case Measure::entry_slope_angle:
-    case Measure::exit_slope_angle:
-    case Measure::exit_speed:
-    case Measure::exit_run_speed:
-    case Measure::arc_length:
-    case Measure::finish_coordinate:
-    case Measure::waypoint:
-    case Measure::arrival:
-      return false;
-  }
-  return false;
-}
-
-bool is_load(Measure measure) {
-  return measure == Measure::normal_load || measure == Measure::curvature_load;
-}
-
 /// By how much a limit may be left alone between two places where it binds: a linear curvature cannot follow
 /// that of a load.
-double slack_within(Measure measure) {
+double slack_within(const Measure& measure) {
   constexpr double kOfLoad = 0.1;
   constexpr double kElse = 1e-5;
-  return is_load(measure) ? kOfLoad : kElse;
+  return measure.is_load() ? kOfLoad : kElse;
 }
 
 /// Places where a limit that carries a price begins or ceases to bind, counted in pieces.
@@ -72,12 +44,12 @@ std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& f
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   std::vector<double> ends;
   for (std::size_t i = 0; i < bindings.size(); ++i) {
-    if (price[i] <= 0.0 || !holds_along(problem.limits[i].measure)) continue;
+    if (price[i] <= 0.0 || !problem.limits[i].measure->holds_along()) continue;
     // A load that a linear curvature misses next to an end of the core is held up to there all the same: a body
     // that flies off with little speed bends more in the first pieces than they can follow.
     constexpr double kJoined = 3.0;
     const double last = static_cast<double>(mesh.knots.size() - 1);
-    const bool load = is_load(problem.limits[i].measure);
+    const bool load = problem.limits[i].measure->is_load();
     for (const Span& span : bindings[i]) {
       for (const double place : {span.from, span.to}) {
         const double at = count_pieces(mesh.knots, (place - mesh.lead_in) / length);
@@ -564,7 +536,7 @@ std::vector<std::vector<Span>> bindings_of(const ScaledProblem& problem, const F
     const auto end = std::unique(places[i].begin(), places[i].end(),
                                  [](const Place& a, const Place& b) { return a.at == b.at; });
     places[i].erase(end, places[i].end());
-    const double shallow = slack_within(problem.limits[i].measure);
+    const double shallow = slack_within(*problem.limits[i].measure);
     double deepest = 0.0;
     for (const Place& place : places[i]) {
       deepest = std::max(deepest, place.slack);

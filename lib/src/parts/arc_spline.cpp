@@ -47,8 +47,9 @@ ArcSpline::ArcSpline(ArcPath path) : path_(std::move(path)) {
     const double own = math::atan2(chord.y, chord.x) - half;
     const double kink = wrapped(own - heading);
     if (i > 0 && std::fabs(kink) > kArcSplineKink) {
-      throw InputError({"", "arc spline: a kink of " + angle_text(kink) + " at " + joint_text(i),
-                        "Its pieces share a tangent to " + rounded_text(kArcSplineKink, 3) + " rad.", ""});
+      throw InputError(
+          {"", "arc spline: a kink of " + angle_text(Angle::from_radians(kink)) + " at " + joint_text(i),
+           "Its pieces share a tangent to " + rounded_text(kArcSplineKink, 3) + " rad.", ""});
     }
     heading = i == 0 ? own : heading + kink;
     const double length = distance / sinc(half);

@@ -357,8 +357,8 @@ Brep brep_of(const TubeGore& gore, const ShopPart& part) {
   const double inner = gore.inner_radius * kMillimetres;
   const double outer = inner + gore.thickness * kMillimetres;
   const double length = gore.length * kMillimetres;
-  const double start = math::tan(gore.start_tilt);
-  const double end = math::tan(gore.end_tilt);
+  const double start = math::tan(gore.start_tilt.radians());
+  const double end = math::tan(gore.end_tilt.radians());
   if (!(inner > 0.0) || !(outer > inner)) throw bad_body(part, "its radius or thickness is not positive");
   if (!(length - outer * std::fabs(end - start) > 0.0)) {
     throw bad_body(part, "its end planes meet inside the tube: length " + length_text(gore.length));

@@ -159,16 +159,19 @@ ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep
     if (bent && turned != 0.0) {
       sum += turned;
       const Across at = across_at(reached + 0.5 * length, width);
-      pattern.bends.push_back({at.from, at.to, std::fabs(turned), bend_radius(job), turned > 0.0});
+      pattern.bends.push_back(
+          {at.from, at.to, Angle::from_radians(std::fabs(turned)), bend_radius(job), turned > 0.0});
       const double miss = face.facets->misses[static_cast<std::size_t>(hit)];
       ++hit;
-      steps.push_back({0, hit, reached + 0.5 * length, 0.0, turned, sum, bend_radius(job), miss});
+      steps.push_back({0, hit, reached + 0.5 * length, 0.0, Angle::from_radians(turned),
+                       Angle::from_radians(sum), bend_radius(job), miss});
     } else if (!bent) {
       sum += turned;
       const Across at = across_at(reached, width);
       pattern.rolls.push_back({at.from, at.to, radius_of(arc.curvature)});
       ++hit;
-      steps.push_back({0, hit, reached, length, turned, sum, radius_of(arc.curvature), 0.0});
+      steps.push_back({0, hit, reached, length, Angle::from_radians(turned), Angle::from_radians(sum),
+                       radius_of(arc.curvature), 0.0});
     }
     reached += length;
   }

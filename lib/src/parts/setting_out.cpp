@@ -35,7 +35,7 @@ SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord_span
   row.x = at.x;
   row.z = 0.0 - at.drop;
   row.site = placement.to_space(at.x, at.drop, 0.0);
-  row.slope_angle = at.slope_angle;
+  row.slope_angle = Angle::from_radians(at.slope_angle);
   row.radius = at.curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / at.curvature;
   row.ordinate = cross(chord, away) / norm(chord);
   return row;

@@ -58,7 +58,8 @@ FeedFall feed_fall(const Design& design) {
 
 BeltLanding belt_landing(const Design& design, const Motion& motion) {
   const DischargeDesign& belt = design.discharge.value();
-  return land_on_belt(motion.exit_speed(), motion.centerline().slope_angle(motion.distance()),
+  return land_on_belt(motion.exit_speed(),
+                      Angle::from_radians(motion.centerline().slope_angle(motion.distance())),
                       {belt.belt_speed, belt.direction, belt.belt_angle, belt.drop, belt.belt_friction},
                       design.stream.value().bulk_density, design.gravity);
 }
@@ -109,7 +110,7 @@ std::string pipeline::friction_text(const Body& body, const Stall& stall) {
   }
   const bool rolls = body.law && body.law->kind() == "rolling";
   return (rolls ? "the angle of rolling resistance, " : "the friction angle, ") +
-         angle_text(friction.angle().radians());
+         angle_text(friction.angle());
 }
 
 namespace {

@@ -116,10 +116,11 @@ void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Mea
   WorstCase angle(1.0);
   for (const ChuteCase& run : cases) {
     const Body& body = run.motion.body();
-    const Impact impact = impact_on(body.landing.value(), run.motion.centerline().slope_angle(0.0),
-                                    body.friction, design.stream->bulk_density);
+    const Impact impact =
+        impact_on(body.landing.value(), Angle::from_radians(run.motion.centerline().slope_angle(0.0)),
+                  body.friction, design.stream->bulk_density);
     ratio.see(impact.speed_ratio, 0.0, run);
-    angle.see(impact.angle, 0.0, run);
+    angle.see(impact.angle.radians(), 0.0, run);
   }
   ratio.set_in(measurements, "impact_speed_ratio");
   angle.set_in(measurements, "impact_angle");

@@ -79,7 +79,7 @@ ProfileStation station_at(const Track& track, double s, const ProfileOptions& op
   station.arc_length = s;
   station.to_edge = track.centerline->length() - s;
   station.position = track.placement.to_space(point.x, point.drop, 0.0);
-  station.slope_angle = point.slope_angle;
+  station.slope_angle = Angle::from_radians(point.slope_angle);
   station.curvature = point.curvature;
   for (const ParallelLine& line : options.parallels) {
     const double x = point.x + line.height * math::sin(point.slope_angle);
@@ -127,7 +127,7 @@ void write_coordinates_csv(const std::filesystem::path& file, const std::vector<
   for (const ProfileStation& station : stations) {
     text += station.name + "," + exact_text(station.arc_length) + "," + exact_text(station.to_edge);
     add(station.position);
-    text += "," + exact_text(Angle::from_radians(station.slope_angle).degrees());
+    text += "," + exact_text(station.slope_angle.degrees());
     text += "," + (std::isfinite(station.curvature) ? exact_text(station.curvature) : std::string());
     for (const Vec3& at : station.parallels) add(at);
     text += "\n";

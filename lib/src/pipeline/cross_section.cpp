@@ -29,7 +29,7 @@ class MeasureWords {
   void optional_length(const std::string& key, double value) {
     if (value > 0.0) add(key, length_text(value));
   }
-  void angle(const std::string& key, Angle value, const char*) { add(key, angle_text(value.radians())); }
+  void angle(const std::string& key, Angle value, const char*) { add(key, angle_text(value)); }
   void corners(const std::string&, const std::vector<Vec2>&, const char*) const {}
   void misnomer(const char*, const char*) const {}
 

@@ -69,8 +69,9 @@ double smallest_radius(const Centerline& centerline) {
   return sharpest == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / sharpest;
 }
 
-double steepest_slope_angle(const Centerline& centerline) {
-  return highest_along(centerline, [&](double s) { return centerline.slope_angle(s); }).value;
+Angle steepest_slope_angle(const Centerline& centerline) {
+  return Angle::from_radians(
+      highest_along(centerline, [&](double s) { return centerline.slope_angle(s); }).value);
 }
 
 }  // namespace glissade::pipeline

@@ -27,6 +27,6 @@ struct Extreme {
 [[nodiscard]] double smallest_radius(const Centerline& centerline);
 
 /// @return largest slope angle along a centerline [rad]
-[[nodiscard]] double steepest_slope_angle(const Centerline& centerline);
+[[nodiscard]] Angle steepest_slope_angle(const Centerline& centerline);
 
 }  // namespace glissade::pipeline

@@ -51,7 +51,7 @@ std::vector<RangeRide> rides_of_range(const Design& design, const CenterlinePtr&
 
 std::string at_friction_text(const LevelRide& ride) {
   return "at " + std::string(to_text(ride.level)) + " friction, " +
-         angle_text(ride.motion->body().friction.angle().radians());
+         angle_text(ride.motion->body().friction.angle());
 }
 
 }  // namespace pipeline

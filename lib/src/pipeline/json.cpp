@@ -192,10 +192,11 @@ Json pipeline::track_document(const Design& design, const Track& track, StallMar
   if (design.feed) {
     const Body& body = track.motion.body();
     json["entry_speed_m_per_s"] = body.entry_speed;
-    json["feed"] = feed_json(feed_fall(design),
-                             impact_on(body.landing.value(), track.centerline->slope_angle(0.0),
-                                       body.friction, design.stream->bulk_density),
-                             body.entry_speed);
+    json["feed"] =
+        feed_json(feed_fall(design),
+                  impact_on(body.landing.value(), Angle::from_radians(track.centerline->slope_angle(0.0)),
+                            body.friction, design.stream->bulk_density),
+                  body.entry_speed);
   }
   if (design.discharge) {
     json["discharge"] =

@@ -70,8 +70,12 @@ void add_gates(const Track& track, const Plane& plane, Drawing& drawing) {
         gate.number % kEvery == 0 || gate.number == 1 || gate.to_edge == track.gates->gates.back().to_edge;
     drawing.line(layer, plane.at(gate.from_start), plane.at(gate.from_start, told ? 2.0 * kTick : kTick));
     if (!told) continue;
-    drawing.texts.push_back({layer, plane.at(gate.from_start, 2.4 * kTick), 1.8, std::to_string(gate.number),
-                             TextAnchor::centre, 0.0});
+    drawing.texts.push_back({layer,
+                             plane.at(gate.from_start, 2.4 * kTick),
+                             1.8,
+                             std::to_string(gate.number),
+                             TextAnchor::centre,
+                             {}});
   }
 }
 
@@ -86,8 +90,12 @@ void add_letters(const Design& design, const Track& track, const Plane& plane, D
     constexpr double kBelow = -2.5;  // [m]
     constexpr double kLower = -6.0;  // [m]
     const bool close = before && letter.arc_length - *before < kClose;
-    drawing.texts.push_back({layer, plane.at(letter.arc_length, close ? kLower : kBelow), 3.5, letter.name,
-                             TextAnchor::right, 0.0});
+    drawing.texts.push_back({layer,
+                             plane.at(letter.arc_length, close ? kLower : kBelow),
+                             3.5,
+                             letter.name,
+                             TextAnchor::right,
+                             {}});
     before = letter.arc_length;
   }
 }
@@ -117,14 +125,14 @@ void add_dimensions(const Design& design, const Track& track, const Plane& plane
   const double bend = in_run->table_begins() - in_run->transition_begins();
   const std::size_t notes = drawing.layer({"notes", LineStyle::continuous, 0.25, 7});
   const auto note = [&](double s, double height, const std::string& text) {
-    drawing.texts.push_back({notes, plane.at(s, height), 2.5, text, TextAnchor::left, 0.0});
+    drawing.texts.push_back({notes, plane.at(s, height), 2.5, text, TextAnchor::left, {}});
   };
   note(0.5 * (in_run->transition_begins() + in_run->table_begins()), 3.0,
        "E1-E2 " + metres_text(bend) + ", r1 " + metres_text(in_run->shape().r1));
   note(in_run->transition_begins(), 11.0,
-       "gamma " + angle_text(in_run->shape().gamma.radians(), 6) + ", e1 " + metres_text(e1) + " to the " +
+       "gamma " + angle_text(in_run->shape().gamma, 6) + ", e1 " + metres_text(e1) + " to the " +
            (design.centerline.in_run.counts_to_edge ? "edge" : "table"));
-  note(in_run->table_begins(), -6.0, "alpha " + angle_text(in_run->shape().alpha.radians(), 6));
+  note(in_run->table_begins(), -6.0, "alpha " + angle_text(in_run->shape().alpha, 6));
 }
 
 }  // namespace
@@ -180,9 +188,9 @@ std::vector<Row> certificate_rows(const Design& design, const Track& track, cons
   }
   length("t", "table", "Schanzentisch", "table du tremplin", from.t);
   add("gamma", "slope of the straight", "Neigung der Geraden", "pente de la partie droite",
-      angle_text(from.gamma.radians(), 6));
+      angle_text(from.gamma, 6));
   add("alpha", "slope of the table", "Neigung des Schanzentisches", "pente de la table",
-      angle_text(from.alpha.radians(), 6));
+      angle_text(from.alpha, 6));
   length("r1", "radius at the end of the transition", "Radius am Ende des Übergangsbogens",
          "rayon à la fin de la courbe de transition", from.r1);
   length("E1-E2", "transition, along the curve", "Übergangsbogen, Länge", "courbe de transition, longueur",
@@ -257,7 +265,7 @@ SheetTable coordinates_sheet_table(const std::vector<ProfileStation>& stations,
                rounded_text(station.position.x, 8),
                rounded_text(station.position.y, 8),
                rounded_text(station.position.z, 8),
-               rounded_text(Angle::from_radians(station.slope_angle).degrees(), 6),
+               rounded_text(station.slope_angle.degrees(), 6),
                station.curvature == 0.0 ? "straight" : rounded_text(1.0 / station.curvature, 6)};
     for (const Vec3& at : station.parallels)
       row.push_back(rounded_text(at.x, 8) + ", " + rounded_text(at.z, 8));

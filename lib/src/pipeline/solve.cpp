@@ -224,7 +224,7 @@ Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<Fast
   const Body body = body_of(design);
 
   const double radius = smallest_radius(*centerline);
-  const double steepest = steepest_slope_angle(*centerline);
+  const Angle steepest = steepest_slope_angle(*centerline);
   Motion motion(centerline, body, design.gravity);
 
   std::optional<Motion> optimum;
@@ -329,9 +329,9 @@ namespace {
 /// A feed that falls flatter than the floor where it should land never meets it there.
 std::optional<Issue> feed_problem(const Design& design, const Track& track) {
   if (!design.feed) return {};
-  const double slope = track.centerline->slope_angle(0.0);
-  const double falls = feed_fall(design).landing.angle;
-  constexpr double kRounding = 1e-9;
+  const Angle slope = Angle::from_radians(track.centerline->slope_angle(0.0));
+  const Angle falls = feed_fall(design).landing.angle;
+  constexpr Angle kRounding = Angle::from_radians(1e-9);
   if (slope <= falls + kRounding) return {};
   return Issue{design.where("feed"),
                "the feed flies over the start: it falls at " + angle_text(falls) + ", the floor at " +
@@ -351,7 +351,8 @@ std::optional<Issue> problem_of_ride(const Design& design, const Track& track, c
                                   ? "the body does not start to slide"
                                   : "the body stalls after " + length_text(stall->arc_length);
     return Issue{design.where("centerline"), when + place + ", before the finish at " + length_text(length),
-                 "The slope angle there is " + angle_text(track.centerline->slope_angle(stall->arc_length)) +
+                 "The slope angle there is " +
+                     angle_text(Angle::from_radians(track.centerline->slope_angle(stall->arc_length))) +
                      ", " + angle_text(stall->missing_slope) + " less than " +
                      friction_text(motion.body(), *stall) + ".",
                  std::string("a steeper track, less friction, or ") +

@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/design/materials.hpp"
 #include "glissade/pipeline/solve.hpp"
+#include "glissade/section/measures.hpp"
 
 #include "pipeline/probes.hpp"
 
@@ -24,6 +25,24 @@ std::optional<Issue> never_applies(const Design& design, const Track& track) {
       design.where("limits.speed.lowest_from"),
       "speed.lowest holds from " + start + " on, but the track ends after " + end + ": it never applies",
       "lowest_from is an arc length from the start.", "a place before the end, or exit_speed: {lowest: ...}"};
+}
+
+/// What the design says of places of the track that there are none of: they change nothing.
+void add_places_beyond(const Design& design, const Track& track, std::vector<Issue>& found) {
+  const double length = track.centerline->length();
+  const auto tell = [&](const std::string& where, double at, const std::string& what) {
+    if (!(at > length)) return;
+    const auto [place, end] = texts_apart(at, length, &length_text);
+    found.push_back({design.where(where), what + " at " + place + ", but the track ends after " + end,
+                     "Places are arc lengths from the start.", "a place on the track"});
+  };
+  if (design.cross_section) {
+    const std::optional<WidthLaw> law = section::width_law(*design.cross_section);
+    for (const WidthAt& knot : law ? law->knots() : std::vector<WidthAt>{})
+      tell("cross_section.width", knot.at, "a width is given");
+  }
+  for (const FrictionFrom& change : design.body.friction_changes)
+    tell("body.friction", change.from, "friction changes");
 }
 
 /// Points whose shape the fitted curve passes over.
@@ -66,8 +85,7 @@ void add_material_warnings(const Design& design, std::vector<Issue>& found) {
   if (!needs_checking(friction->certainty())) return;
   found.push_back({where,
                    "wall friction of " + choice.material + " on " + choice.liner + ": " +
-                       angle_text(friction->low.radians(), 3) + " to " +
-                       angle_text(friction->high.radians(), 3) +
+                       angle_text(friction->low, 3) + " to " + angle_text(friction->high, 3) +
                        " from the library, not measured for this chute",
                    "The least sure of its sources is \"" + std::string(word(friction->certainty())) +
                        "\"; 'glissade materials " + choice.material + "' names them.",
@@ -95,6 +113,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   std::vector<Issue> found;
   if (auto issue = law_problem(design, track)) found.push_back(*std::move(issue));
   if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
+  add_places_beyond(design, track, found);
   if (auto issue = kink(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
   add_material_warnings(design, found);

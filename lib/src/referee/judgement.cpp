@@ -286,7 +286,7 @@ class Watches {
     see(LimitId::exit_speed, exit_speed, end.arc_length);
     if (!problem_.limits.match_belt) return;
     const BeltMatch& match = *problem_.limits.match_belt;
-    const double along = exit_speed * math::cos(end.slope_angle) * math::cos(match.direction);
+    const double along = exit_speed * math::cos(end.slope_angle) * math::cos(match.direction.radians());
     see_side({LimitId::match_belt, Bound::lowest}, match.speed * (1.0 - match.within), along, end.arc_length);
     see_side({LimitId::match_belt, Bound::highest}, match.speed * (1.0 + match.within), along,
              end.arc_length);

@@ -90,12 +90,12 @@ Radius smallest_radius(const Motion& motion) {
   return least;
 }
 
-double steepest_slope_angle(const Motion& motion) {
+Angle steepest_slope_angle(const Motion& motion) {
   double steepest = -std::numeric_limits<double>::infinity();
   for (const double s : ride_stations(motion)) {
     steepest = std::max(steepest, motion.centerline().slope_angle(s));
   }
-  return steepest;
+  return Angle::from_radians(steepest);
 }
 
 Json optimum_travel_time(const ReportInput& input) {
@@ -107,7 +107,7 @@ Json ride_facts(const ReportInput& input) {
   const Motion& motion = *input.motion;
   const Centerline& centerline = motion.centerline();
   const Radius radius = smallest_radius(motion);
-  const double steepest =
+  const Angle steepest =
       input.steepest_slope_angle ? *input.steepest_slope_angle : steepest_slope_angle(motion);
   Json facts;
   add_ride(facts, motion);

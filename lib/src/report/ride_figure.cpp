@@ -10,7 +10,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace glissade {
@@ -97,7 +96,7 @@ void add_line(Figure& figure, RideQuantity quantity, const FigureRide& ride, boo
       return;
     case RideQuantity::slope:
       lines.push_back(track_line(ride, arc_length, [](const CenterlinePoint& point) {
-        return point.slope_angle * (180.0 / std::numbers::pi);
+        return Angle::from_radians(point.slope_angle).degrees();
       }));
       return;
     case RideQuantity::speed:

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "core/plane_geometry.hpp"
 
@@ -25,8 +26,6 @@ using section::Side;
 using section::Stroke;
 using Polygon = CrossSection::Polygon;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kQuarter = 0.5 * kPi;
 // An arc always has at least this many chords in a quarter turn: fewer no longer look or behave round.
 constexpr double kLeastChordsPerQuarter = 3.0;
 
@@ -74,8 +73,8 @@ void require_thinner(double thickness, const std::string& name, double width) {
 void require_between(const std::string& name, Angle angle, Angle least, Angle most, const std::string& why,
                      const std::string& hint) {
   if (angle >= least && angle <= most) return;
-  throw InputError({"", name + ": " + angle_text(angle.radians()) + " is out of range",
-                    why + angle_text(least.radians()) + " to " + angle_text(most.radians()) + ".", hint});
+  throw InputError({"", name + ": " + angle_text(angle) + " is out of range",
+                    why + angle_text(least) + " to " + angle_text(most) + ".", hint});
 }
 
 void require_more(const std::string& name, double size, const std::string& bound_name, double bound,
@@ -319,11 +318,11 @@ Shape shape_of(const section::HalfPipe& trough) {
   const double outer = radius + trough.thickness;
   const double top = radius + trough.wall_height;
   Pen pen({-outer, radius});
-  pen.arc({0.0, -trough.thickness}, outer, -kQuarter, kQuarter, {outer, radius}, kUnder);
+  pen.arc({0.0, -trough.thickness}, outer, -kRightAngle, kRightAngle, {outer, radius}, kUnder);
   if (trough.wall_height > 0.0) pen.line({outer, top}, kUnder);
   pen.line({radius, top}, kRim);
   if (trough.wall_height > 0.0) pen.line({radius, radius}, kLeft);
-  pen.arc({0.0, 0.0}, radius, kQuarter, -kQuarter, {-radius, radius}, kFloor);
+  pen.arc({0.0, 0.0}, radius, kRightAngle, -kRightAngle, {-radius, radius}, kFloor);
   if (trough.wall_height > 0.0) pen.line({-radius, top}, kRight);
   pen.line({-outer, top}, kRim);
   return {{pen.close(kUnder)}, trough.thickness};
@@ -332,9 +331,9 @@ Shape shape_of(const section::HalfPipe& trough) {
 Outline circle(double bottom, double radius, double middle, Side side) {
   const Vec2 pole{0.0, bottom};
   Pen pen({-radius, middle});
-  pen.arc(pole, radius, -kQuarter, kQuarter, {radius, middle}, side)
-      .arc(pole, radius, kQuarter, kPi, {0.0, middle + radius}, side)
-      .arc(pole, radius, -kPi, -kQuarter, {-radius, middle}, side);
+  pen.arc(pole, radius, -kRightAngle, kRightAngle, {radius, middle}, side)
+      .arc(pole, radius, kRightAngle, std::numbers::pi, {0.0, middle + radius}, side)
+      .arc(pole, radius, -std::numbers::pi, -kRightAngle, {-radius, middle}, side);
   return pen.close(side);
 }
 
@@ -360,7 +359,7 @@ Shape shape_of(const section::VChannel& channel) {
   require_between("angle", channel.angle, CrossSection::kLeastVAngle, CrossSection::kMostVAngle,
                   "The walls of a v-channel open by ", "90 deg");
   // The walls rise by this angle from level, and the bottom's arc turns by it on either side.
-  const double rise = kQuarter - 0.5 * channel.angle.radians();
+  const double rise = kRightAngle - 0.5 * channel.angle.radians();
   const double sine = math::sin(rise);
   const double cosine = math::cos(rise);
   const double half_sine = math::sin(0.5 * rise);
@@ -503,7 +502,7 @@ double turn_of(const Arc& arc) {
 
 /// @param half_step  half the angle that a chord may turn through
 double chords_of(const Arc& arc, double half_step) {
-  return std::max(std::ceil(kLeastChordsPerQuarter * turn_of(arc) / kQuarter),
+  return std::max(std::ceil(kLeastChordsPerQuarter * turn_of(arc) / kRightAngle),
                   std::ceil(0.5 * turn_of(arc) / half_step));
 }
 
@@ -511,8 +510,10 @@ double chords_of(const Arc& arc, double half_step) {
 // image of the lower one: arcs that mirror each other get points that do, to the last digit.
 void put_arc(const Arc& arc, double half_step, Polygon& points) {
   const auto chords = static_cast<std::size_t>(chords_of(arc, half_step));
-  const bool upper = std::fabs(arc.from + arc.to) > kPi;
-  const auto from_pole = [&](double angle) { return upper ? std::copysign(kPi, angle) - angle : angle; };
+  const bool upper = std::fabs(arc.from + arc.to) > std::numbers::pi;
+  const auto from_pole = [&](double angle) {
+    return upper ? std::copysign(std::numbers::pi, angle) - angle : angle;
+  };
   const double from = from_pole(arc.from);
   const double to = from_pole(arc.to);
   const bool leaves = std::fabs(from) <= std::fabs(to);

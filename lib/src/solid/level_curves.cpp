@@ -1,6 +1,7 @@
 #include "solid/level_curves.hpp"
 
 #include "glissade/core/stop.hpp"
+#include "glissade/core/units.hpp"
 
 #include "core/plane_geometry.hpp"
 
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -17,7 +17,6 @@ namespace glissade::solid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
 constexpr std::size_t kLeaf = 8;
 // Whether the work is to end is asked once in so many stations.
 constexpr std::size_t kStationsBetweenPauses = 256;

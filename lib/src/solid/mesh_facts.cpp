@@ -288,7 +288,7 @@ void measure_shape(const TriangleMesh& mesh, const std::stop_token& stop, MeshFa
   facts.area = 0.5 * double_area.value();
   facts.shortest_edge = mesh.triangles.empty() ? 0.0 : std::sqrt(shortest_squared);
   const bool has_angle = !mesh.triangles.empty() && facts.degenerate_facets == 0;
-  facts.smallest_angle = has_angle ? math::atan2(1.0, cotangent) : 0.0;
+  facts.smallest_angle = Angle::from_radians(has_angle ? math::atan2(1.0, cotangent) : 0.0);
 }
 
 /// Volume of every piece by the divergence theorem about the middle of the bounding box, which keeps the

@@ -123,7 +123,7 @@ void Planner::require_room(double triangles) const {
   if (fitting > 0.0) {
     issue.hint = "a tolerance of " + length_text(fitting) + " or coarser";
   } else if (options_.largest_kink) {
-    issue.hint = "a larger largest_kink than " + angle_text(options_.largest_kink->radians());
+    issue.hint = "a larger largest_kink than " + angle_text(*options_.largest_kink);
   } else {
     issue.hint = "a higher limit: no tolerance makes this section and track fit";
   }
@@ -160,7 +160,7 @@ void check_options(const Centerline& centerline, const CrossSection& section, co
                       "0.5 mm for a sheet-metal chute"});
   }
   if (options.largest_kink && !(options.largest_kink->radians() > 0.0)) {
-    throw InputError({"", "largest_kink: " + angle_text(options.largest_kink->radians()) + " is not an angle",
+    throw InputError({"", "largest_kink: " + angle_text(*options.largest_kink) + " is not an angle",
                       "Facets that follow a curve meet at an angle above zero.", "0.25 deg"});
   }
   if (options.max_triangles < 1000) {

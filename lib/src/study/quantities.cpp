@@ -16,23 +16,39 @@ using report::Json;
 constexpr std::array<std::string_view, 4> kNoFigures = {"search.rounds", "search.evaluations",
                                                         "search.seconds", "gravity_m_per_s2"};
 
-/// Groups that are there only when something went wrong, with their names, so that every row has the same columns.
+/// Groups that are there only where a ride ends early, or only where it does not, with their figures, so that every
+/// row has the same columns whatever the first one met.
 struct Group {
   std::string_view name;
-  std::array<std::string_view, 3> members;
+  std::vector<std::string_view> members;
 };
-constexpr std::array<Group, 2> kGroups = {{
-    {"stall", {"arc_length_m", "missing_slope_deg", ""}},
-    {"lift_off", {"arc_length_m", "speed_m_per_s", "curvature_per_m"}},
-}};
+
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all = {
+      {"stall", {"arc_length_m", "missing_slope_deg"}},
+      {"lift_off", {"arc_length_m", "speed_m_per_s", "curvature_per_m"}},
+      {"law_end", {"arc_length_m", "speed_m_per_s", "value", "bound"}},
+      {"choke", {"arc_length_m", "speed_m_per_s", "depth_m", "bound_m"}},
+      {"discharge",
+       {"speed_along_belt_m_per_s", "speed_into_belt_m_per_s", "speed_across_belt_m_per_s",
+        "landing_speed_m_per_s", "speed_along_over_belt_speed", "belt_wear_factor", "belt_wear_w_per_m2",
+        "reach_m", "off_centre_m", "time_s"}},
+  };
+  return all;
+}
+
+/// @param name  of a quantity, with the groups that it is in: "rides.high.stream.choke"
+const Group* group_of(std::string_view name) {
+  for (const Group& group : groups()) {
+    if (name == group.name || name.ends_with("." + std::string(group.name))) return &group;
+  }
+  return nullptr;
+}
 
 void add(const std::string& name, const Json& value, std::vector<Quantity>& quantities) {
   if (std::find(kNoFigures.begin(), kNoFigures.end(), name) != kNoFigures.end()) return;
-  const auto group =
-      std::find_if(kGroups.begin(), kGroups.end(), [&](const Group& known) { return known.name == name; });
-  if (group != kGroups.end()) {
+  if (const Group* const group = group_of(name)) {
     for (const std::string_view member : group->members) {
-      if (member.empty()) continue;
       const bool there = value.is_object() && value.contains(std::string(member));
       add(name + "." + std::string(member), there ? value[std::string(member)] : Json(nullptr), quantities);
     }

@@ -1,19 +1,18 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace glissade {
 namespace {
 
-constexpr double kUpright = std::numbers::pi / 2.0;  // beyond, a track would run backwards
-constexpr double kFastest = 1e4;                     // [m/s]
-constexpr double kLongest = 1e6;                     // [m]
+constexpr double kFastest = 1e4;  // [m/s]
+constexpr double kLongest = 1e6;  // [m]
 constexpr double kAny = std::numeric_limits<double>::max();
 
 constexpr LimitEntry slope(LimitId id, std::string_view key, std::string_view label, Range Limits::*range,
@@ -23,8 +22,8 @@ constexpr LimitEntry slope(LimitId id, std::string_view key, std::string_view la
           LimitForm::range,
           Bound::exactly,
           Dimension::angle,
-          -kUpright,
-          kUpright,
+          -kRightAngle,
+          kRightAngle,
           false,
           fixable,
           label,
@@ -104,8 +103,8 @@ constexpr std::array kCatalogue = {
                LimitForm::value,
                Bound::lowest,
                Dimension::angle,
-               -kUpright,
-               kUpright,
+               -kRightAngle,
+               kRightAngle,
                false,
                false,
                "slope above the friction angle",

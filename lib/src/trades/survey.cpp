@@ -15,14 +15,14 @@ namespace {
 constexpr std::size_t kFewestPoints = 5;
 
 void require_options(const SurveyOptions& options) {
-  const auto positive = [](double value, const char* name) {
+  const auto positive = [](double value, const char* name, const std::string& text) {
     if (value > 0.0 && std::isfinite(value)) return;
-    throw InputError({name, std::string(name) + ": " + length_text(value) + " is not positive", "", ""});
+    throw InputError({name, std::string(name) + ": " + text + " is not positive", "", ""});
   };
-  positive(options.tolerance, "--tolerance");
-  positive(options.slope_tolerance, "--slope-tolerance");
-  positive(options.largest_gap, "--largest-gap");
-  positive(options.reach, "--reach");
+  positive(options.tolerance, "--tolerance", length_text(options.tolerance));
+  positive(options.slope_tolerance.radians(), "--slope-tolerance", angle_text(options.slope_tolerance));
+  positive(options.largest_gap, "--largest-gap", length_text(options.largest_gap));
+  positive(options.reach, "--reach", length_text(options.reach));
 }
 
 /// A point in the frame of the place of the profile nearest to it.
@@ -153,7 +153,7 @@ void add_worst(const SurveyOptions& options, Survey& survey) {
     sum += place.deviation;
     squares += place.deviation * place.deviation;
     if (std::fabs(place.deviation) > std::fabs(survey.places[survey.worst].deviation)) survey.worst = i;
-    if (std::fabs(place.slope_deviation) > std::fabs(survey.places[survey.worst_slope].slope_deviation)) {
+    if (abs(place.slope_deviation) > abs(survey.places[survey.worst_slope].slope_deviation)) {
       survey.worst_slope = i;
     }
   }
@@ -162,7 +162,7 @@ void add_worst(const SurveyOptions& options, Survey& survey) {
   survey.rms_deviation = std::sqrt(squares / count);
   survey.within_tolerance = std::fabs(survey.places[survey.worst].deviation) <= options.tolerance;
   survey.slope_within_tolerance =
-      std::fabs(survey.places[survey.worst_slope].slope_deviation) <= options.slope_tolerance;
+      abs(survey.places[survey.worst_slope].slope_deviation) <= options.slope_tolerance;
 }
 
 }  // namespace
@@ -185,7 +185,8 @@ Survey survey_of(const Centerline& design, const std::vector<SurveyPoint>& point
     SurveyPoint there{point.name, designed.x - first.x, designed.drop - first.y, 0.0};
     const CenterlinePoint as_built = survey.as_built->at(built.of(there).arc_length);
     survey.places.push_back({point.name, foot.arc_length, foot.above - options.height, point.aside,
-                             as_built.slope_angle, as_built.slope_angle - designed.slope_angle,
+                             Angle::from_radians(as_built.slope_angle),
+                             Angle::from_radians(as_built.slope_angle - designed.slope_angle),
                              as_built.curvature, designed.curvature});
   }
   add_gaps(design, options, survey);

@@ -24,6 +24,6 @@ int main() {
   write_png("consumer.png",
             figures_svg({ride_figure(RideQuantity::profile, {{"track", &built.track.motion}})}));
   const study::Plan plan({study::vary("body.friction_angle=10deg:20deg:11")});
-  std::cout << "friction angle " << angle_text(design.body.friction.angle().radians()) << ", "
-            << built.files.size() << " files, " << plan.count() << " points\n";
+  std::cout << "friction angle " << angle_text(design.body.friction.angle()) << ", " << built.files.size()
+            << " files, " << plan.count() << " points\n";
 }

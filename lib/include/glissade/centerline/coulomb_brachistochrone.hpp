@@ -42,18 +42,18 @@ struct CoulombShape {
 /// Identity: exit_speed^2 <= 2 g (H - mu L) e^(2 mu (exit_slope_angle - delta)); travel_time < straight_time
 ///   unless the track is vertical; exit_slope_angle > 2 delta - 90 deg.
 struct CoulombSolution {
-  double travel_time = 0.0;       ///< from start to finish [s]
-  double exit_speed = 0.0;        ///< at the finish [m/s]
-  double exit_slope_angle = 0.0;  ///< zeta_1 [rad]; negative where the track rises towards the finish
-  double straight_time = 0.0;     ///< travel time of the straight ramp between the same points [s]
-  double gravity = 0.0;           ///< [m/s^2]
+  double travel_time = 0.0;    ///< from start to finish [s]
+  double exit_speed = 0.0;     ///< at the finish [m/s]
+  Angle exit_slope_angle;      ///< zeta_1; negative where the track rises towards the finish
+  double straight_time = 0.0;  ///< travel time of the straight ramp between the same points [s]
+  double gravity = 0.0;        ///< [m/s^2]
   Endpoints endpoints;
   CoulombShape shape;
 
-  /// @param slope_angle  zeta [rad]; exit_slope_angle - kSlopeAngleRounding <= zeta <= pi/2
+  /// @param slope_angle  zeta; exit_slope_angle - kSlopeAngleRounding <= zeta <= 90 deg
   /// @return the body where the track has that slope; each slope occurs once
   /// @throws InputError if zeta lies outside that range, or the track is vertical (one slope everywhere)
-  [[nodiscard]] CoulombState at_slope_angle(double slope_angle) const;
+  [[nodiscard]] CoulombState at_slope_angle(Angle slope_angle) const;
 };
 
 /// Finds the fastest track from rest. Allocates nothing unless it throws.
@@ -102,10 +102,10 @@ class CoulombBrachistochrone final : public Centerline {
   [[nodiscard]] Direction direction(double s) const override;
   [[nodiscard]] bool unbounded_curvature_at_start() const noexcept override { return !pieces_.empty(); }
 
-  /// @param slope_angle  zeta [rad]; as for CoulombSolution::at_slope_angle
+  /// @param slope_angle  zeta; as for CoulombSolution::at_slope_angle
   /// @return arc length where the track has that slope [m]
   /// @throws InputError if zeta lies outside that range, or the track is vertical
-  [[nodiscard]] double arc_length_at_slope_angle(double slope_angle) const;
+  [[nodiscard]] double arc_length_at_slope_angle(Angle slope_angle) const;
 
   /// The body at arc length s, by the track's closed laws: no simulation.
   /// @param s  arc length [m]; 0 <= s <= length()

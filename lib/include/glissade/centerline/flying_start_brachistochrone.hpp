@@ -33,15 +33,15 @@ struct FlyingStartShape {
 /// Identity: travel_time is no longer than that of the straight line; (V4) holds between the slopes; the first
 ///   part is lossless, so that the speed at its end is sqrt(v0^2 + 2 g flight.drop).
 struct FlyingStartSolution {
-  double travel_time = 0.0;             ///< from start to finish [s]
-  double exit_speed = 0.0;              ///< at the finish [m/s]
-  double entry_slope_angle = 0.0;       ///< zeta_0 [rad]
-  double flight_end_slope_angle = 0.0;  ///< zeta_j [rad]; >= zeta_0
-  double exit_slope_angle = 0.0;        ///< zeta_1 [rad]; <= zeta_j
-  double flight_time = 0.0;             ///< of the first part [s]
-  Endpoints flight;                     ///< run and drop of the first part [m]
-  double entry_speed = 0.0;             ///< v0 [m/s]
-  double gravity = 0.0;                 ///< [m/s^2]
+  double travel_time = 0.0;      ///< from start to finish [s]
+  double exit_speed = 0.0;       ///< at the finish [m/s]
+  Angle entry_slope_angle;       ///< zeta_0
+  Angle flight_end_slope_angle;  ///< zeta_j; >= zeta_0
+  Angle exit_slope_angle;        ///< zeta_1; <= zeta_j
+  double flight_time = 0.0;      ///< of the first part [s]
+  Endpoints flight;              ///< run and drop of the first part [m]
+  double entry_speed = 0.0;      ///< v0 [m/s]
+  double gravity = 0.0;          ///< [m/s^2]
   Endpoints endpoints;
   FlyingStartShape shape;
 

@@ -41,12 +41,12 @@ struct Setting {
 [[nodiscard]] double travel_time_from_rest(const Centerline& track, Friction friction, double gravity);
 
 /// Eq. 15, the first-order form: d zeta/ds [rad/m].
-[[nodiscard]] double slope_angle_rate(double slope_angle, const Setting& setting);
+[[nodiscard]] double slope_angle_rate(Angle slope_angle, const Setting& setting);
 
 /// The constant that eq. 17 lacks, as its value at one point of the track fixes it: c = zeta - lambda (mu x -
 /// y). It is the entry slope angle where x and y count from the start; the paper's equation holds for an
 /// entry that is level.
-[[nodiscard]] double offset(double x, double y, double slope_angle, const Setting& setting);
+[[nodiscard]] double offset(double x, double y, Angle slope_angle, const Setting& setting);
 
 /// Eq. 17, with its constant: dy/dx = tan[lambda (mu x - y) + c].
 [[nodiscard]] double slope(double x, double y, double offset, const Setting& setting);

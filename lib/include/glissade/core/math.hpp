@@ -10,7 +10,7 @@
 /// std::sqrt, std::fma, std::remainder, std::floor and their like to the last bit, so those stay as they are.
 ///
 /// Angles are in radians. Domains, signs, infinities and NaN are those of the function of the same name in
-/// <cmath>; errno is never set.
+/// `<cmath>`; errno is never set.
 ///
 /// Accuracy: kMathAccuracyUlp over the whole domain, kHypotAccuracyUlp for the hypotenuse.
 ///

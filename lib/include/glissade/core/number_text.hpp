@@ -1,5 +1,7 @@
 #pragma once
 
+#include "glissade/core/units.hpp"
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -22,14 +24,16 @@ namespace glissade {
 [[nodiscard]] std::string length_text(double metres, int digits = 4);
 
 /// @return an angle for people: "17 deg"; "0 deg" below 1e-12 rad, which no drawing can tell from level
-[[nodiscard]] std::string angle_text(double radians, int digits = 4);
+[[nodiscard]] std::string angle_text(Angle angle, int digits = 4);
 
 /// Two values that a message holds against each other.
-/// @param text    how one of them is written with so many digits, e.g. &angle_text
+/// @param text    how one of them is written with so many digits, e.g. &length_text
 /// @param digits  how many are enough where the two differ anyhow
 /// @return both with the digits that it takes to tell them apart, at most 15; equal texts for equal values
 [[nodiscard]] std::pair<std::string, std::string> texts_apart(
     double a, double b, const std::function<std::string(double, int)>& text, int digits = 4);
+/// The same of two angles.
+[[nodiscard]] std::pair<std::string, std::string> texts_apart(Angle a, Angle b, int digits = 4);
 
 /// @return a size of memory or of a file for people: "512 bytes", "3.41 MB"
 [[nodiscard]] std::string size_text(double bytes, int digits = 3);

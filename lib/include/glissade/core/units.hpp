@@ -6,7 +6,12 @@
 
 namespace glissade {
 
-/// An angle as a type, so that degrees and radians cannot be mixed up.
+/// A quarter of a turn [rad], for numerics that count in bare radians; half a turn is std::numbers::pi.
+inline constexpr double kRightAngle = std::numbers::pi / 2.0;
+
+/// An angle as a type, so that degrees and radians cannot be mixed up: how public headers take and give one.
+/// Samples along a curve, plane geometry and the values of limits stay bare radians
+/// (docs/decisions/0008-angles-at-the-edges.md).
 ///
 /// Regular value; holds radians. Slope angles count from the horizontal, positive downhill.
 class Angle {
@@ -20,6 +25,13 @@ class Angle {
 
   [[nodiscard]] constexpr double radians() const { return radians_; }
   [[nodiscard]] constexpr double degrees() const { return radians_ * (180.0 / std::numbers::pi); }
+
+  friend constexpr Angle operator-(Angle a) { return Angle(-a.radians_); }
+  friend constexpr Angle operator+(Angle a, Angle b) { return Angle(a.radians_ + b.radians_); }
+  friend constexpr Angle operator-(Angle a, Angle b) { return Angle(a.radians_ - b.radians_); }
+  friend constexpr Angle operator*(double factor, Angle a) { return Angle(factor * a.radians_); }
+  /// @return its size, without its sign
+  friend constexpr Angle abs(Angle a) { return a.radians_ < 0.0 ? -a : a; }
 
   // The check takes the 0 that a defaulted <=> compares with for a null pointer.
   friend constexpr auto operator<=>(const Angle&, const Angle&) = default;  // NOLINT(modernize-use-nullptr)

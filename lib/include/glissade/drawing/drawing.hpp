@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/arc_path.hpp"
+#include "glissade/core/units.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -46,7 +47,7 @@ struct DrawnText {
   double height_mm = 2.5;  ///< of capital letters, on paper
   std::string text;        ///< UTF-8
   TextAnchor anchor = TextAnchor::left;
-  double angle = 0.0;  ///< of the base line, counter-clockwise [rad]
+  Angle angle;  ///< of the base line, counter-clockwise
 };
 
 /// What a dimension measures.
@@ -105,7 +106,7 @@ struct DimensionLines {
 /// Character set: printable ASCII and the letters of German and French; others become a box.
 /// @param height  of capital letters, in the unit of the drawing
 [[nodiscard]] std::vector<ArcPath> stroked_text(const std::string& text, Vec2 at, double height,
-                                                double angle = 0.0, TextAnchor anchor = TextAnchor::left);
+                                                Angle angle = {}, TextAnchor anchor = TextAnchor::left);
 /// @return how wide stroked_text() gets
 [[nodiscard]] double stroked_width(const std::string& text, double height);
 

@@ -16,7 +16,7 @@ struct DxfOptions {
 /// texts as TEXT, dimensions as lines and TEXT. Nothing is flattened, nothing is a spline.
 ///
 /// Bytes depend on the arguments alone. Numbers are the shortest decimals that read back as the same doubles; other
-/// characters than ASCII become \U+xxxx; control characters become spaces.
+/// characters than ASCII become `\U+xxxx`; control characters become spaces.
 /// @throws InputError if a coordinate is not finite, an entity names a layer that does not exist, two layers have one
 ///         name, or a layer's name has other characters than ASCII letters, digits, "_" and "-"
 [[nodiscard]] std::string dxf_text(const Drawing& drawing, const DxfOptions& options = {});

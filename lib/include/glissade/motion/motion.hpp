@@ -21,13 +21,13 @@ struct FrictionChange {
 /// A stream that comes down on the start of a track and slides on, without bounce.
 struct Landing {
   double speed = 0.0;  ///< V1, before the impact [m/s]; > 0
-  double angle = 0.0;  ///< of its way below the horizontal [rad]
+  Angle angle;         ///< of its way below the horizontal
 };
 
 /// @return V2 = V1 (cos(theta) - sin(theta) tan(phi)), theta the angle between the way and the track [m/s]; not
 ///         positive where friction takes all of it
 /// Source: Stuart-Dick & Royal 1991; docs/chutes.md, feed
-[[nodiscard]] double speed_after(const Landing& landing, double slope_angle, Friction friction);
+[[nodiscard]] double speed_after(const Landing& landing, Angle slope_angle, Friction friction);
 
 /// What slides, rolls or flows, and on what.
 struct Body {
@@ -61,9 +61,9 @@ struct MotionState {
 
 /// How a ride ended before the finish: the speed fell to zero.
 struct Stall {
-  double arc_length = 0.0;     ///< where the body comes to rest [m]
-  double missing_slope = 0.0;  ///< friction angle minus slope angle there: the slope it lacks to go on [rad];
-                               ///< >= 0, 0 where the slope angle is the friction angle
+  double arc_length = 0.0;  ///< where the body comes to rest [m]
+  Angle missing_slope;      ///< friction angle minus slope angle there: the slope it lacks to go on;
+                            ///< >= 0, 0 where the slope angle is the friction angle
 };
 
 /// How a ride ended before the finish: the body left the track.

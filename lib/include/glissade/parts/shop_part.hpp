@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/arc_path.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 
 #include <array>
@@ -47,8 +48,8 @@ struct TubeGore {
   double inner_radius = 0.0;  ///< [m]; > 0
   double thickness = 0.0;     ///< [m]; > 0
   double length = 0.0;        ///< along the axis, between the planes [m]
-  double start_tilt = 0.0;    ///< z of the first plane is x tan(start_tilt) [rad]
-  double end_tilt = 0.0;      ///< z of the second one is length + x tan(end_tilt) [rad]
+  Angle start_tilt;           ///< z of the first plane is x tan(start_tilt)
+  Angle end_tilt;             ///< z of the second one is length + x tan(end_tilt)
 };
 
 using PartBody = std::variant<Prism, SweptBody, TubeGore>;
@@ -57,7 +58,7 @@ using PartBody = std::variant<Prism, SweptBody, TubeGore>;
 struct BendLine {
   Vec2 from;
   Vec2 to;
-  double angle = 0.0;         ///< [rad]; > 0
+  Angle angle;                ///< > 0
   double inner_radius = 0.0;  ///< [m]
   bool up = true;             ///< towards the viewer of the pattern
 };
@@ -115,8 +116,8 @@ struct BendStep {
   double distance =
       0.0;  ///< of the bend's middle, or of the arc's start, from the upstream edge of the flat [m]
   double length = 0.0;       ///< of an arc on the flat; 0 of a hit [m]
-  double angle = 0.0;        ///< positive where the plate curls up [rad]
-  double sum = 0.0;          ///< of the angles so far [rad]
+  Angle angle;               ///< positive where the plate curls up
+  Angle sum;                 ///< of the angles so far
   double radius = 0.0;       ///< of the design there, infinity where flat; sign as of the angle [m]
   double chord_error = 0.0;  ///< between the facet before this hit and the design [m]
 };
@@ -128,7 +129,7 @@ struct SettingOutPoint {
   double x = 0.0;               ///< horizontal distance from the start [m]
   double z = 0.0;               ///< height above the start [m]
   Vec3 site;                    ///< in the frame of the site [m]
-  double slope_angle = 0.0;     ///< positive downhill [rad]
+  Angle slope_angle;            ///< positive downhill
   double radius = 0.0;          ///< positive in a valley, infinity where straight [m]
   double ordinate = 0.0;        ///< distance above the chord of its segment [m]
   std::vector<double> offsets;  ///< heights z of the lines that the table follows below the track [m]

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/units.hpp"
 #include "glissade/drawing/drawing.hpp"
 #include "glissade/drawing/sheet.hpp"
 #include "glissade/pipeline/solve.hpp"
@@ -35,7 +36,7 @@ struct ProfileStation {
   double arc_length = 0.0;      ///< [m]
   double to_edge = 0.0;         ///< along the track to the finish [m]
   Vec3 position;                ///< in the design's frame [m]
-  double slope_angle = 0.0;     ///< [rad]
+  Angle slope_angle;            ///< below the horizontal
   double curvature = 0.0;       ///< [1/m]; at a jump that just after it
   std::vector<Vec3> parallels;  ///< the places square above or below, in the order of the options [m]
 };

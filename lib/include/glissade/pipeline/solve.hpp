@@ -4,6 +4,7 @@
 #include "glissade/clearance/envelope.hpp"
 #include "glissade/core/friction_level.hpp"
 #include "glissade/core/progress.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
 #include "glissade/optimize/optimize.hpp"
@@ -64,7 +65,7 @@ struct Track {
   /// Smallest radius of curvature [m]: 0 where the curvature is unbounded at the start, infinity on a
   /// straight.
   double min_radius = 0.0;
-  double steepest_slope_angle = 0.0;  ///< largest slope angle anywhere [rad]
+  Angle steepest_slope_angle;  ///< largest slope angle anywhere
   /// How the search within the limits ended, of the kind fastest with limits; none otherwise. Limits have the
   /// names and the frame of the design file: finish.x, finish.z.
   std::optional<OptimizeReport> search;

@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/clearance/envelope.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
 #include "glissade/motion/probe.hpp"
@@ -94,7 +95,7 @@ struct ReportInput {
   std::optional<double> optimum_travel_time;  ///< by its closed form [s]; none: that of the ride on it
   /// Smallest radius of curvature, 0 where it vanishes at the start [m]; none: the smallest at the stations.
   std::optional<double> min_radius;
-  std::optional<double> steepest_slope_angle;  ///< anywhere [rad]; none: the steepest at the stations
+  std::optional<Angle> steepest_slope_angle;  ///< anywhere; none: the steepest at the stations
   ReportSolid solid;
   std::vector<ReportCheck> checks;
   std::vector<ReportLimit> limits;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
 
@@ -49,10 +50,10 @@ struct MeshFacts {
   /// pieces: every piece encloses positive volume.
   bool oriented_outward = false;
   long long euler_characteristic = 0;  ///< V - E + F; 2 for a sphere-like solid, 0 for a pipe
-  double volume = 0.0;  ///< enclosed [m^3], positive where oriented outward; meaningless unless closed
-  double area = 0.0;    ///< [m^2]
-  double smallest_angle = 0.0;  ///< of any facet [rad]; 0 if one is degenerate
-  double shortest_edge = 0.0;   ///< [m]
+  double volume = 0.0;         ///< enclosed [m^3], positive where oriented outward; meaningless unless closed
+  double area = 0.0;           ///< [m^2]
+  Angle smallest_angle;        ///< of any facet; 0 if one is degenerate
+  double shortest_edge = 0.0;  ///< [m]
   MeshFaultPlaces places;
   Vec3 lower;  ///< bounding box [m]
   Vec3 upper;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/clearance/envelope.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 
 #include <optional>
@@ -60,9 +61,9 @@ enum class ClearancesFrom {
 
 /// A belt whose speed a stream is to have along it when it lands.
 struct BeltMatch {
-  double speed = 0.0;      ///< of the belt [m/s]; > 0
-  double direction = 0.0;  ///< seen from above, from the track's own [rad]; within +-pi/2
-  double within = 0.1;     ///< share of the speed by which the stream may miss it; > 0, at most 1
+  double speed = 0.0;   ///< of the belt [m/s]; > 0
+  Angle direction;      ///< seen from above, from the track's own; within +-90 deg
+  double within = 0.1;  ///< share of the speed by which the stream may miss it; > 0, at most 1
 
   friend bool operator==(const BeltMatch&, const BeltMatch&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/motion/motion.hpp"
 
 #include <cstddef>
@@ -23,20 +24,20 @@ struct SurveyPoint {
 struct SurveyOptions {
   double height = 0.0;       ///< of the points above the track, square to it: prism, guide tube [m]
   double tolerance = 0.010;  ///< of the deviation square to the profile [m]; > 0
-  double slope_tolerance = 0.0017453292519943296;  ///< of the slope angle [rad]; > 0: 0.1 deg
-  double largest_gap = 5.0;                        ///< between neighbours along the track [m]; > 0
+  Angle slope_tolerance = Angle::from_degrees(0.1);  ///< of the slope angle; > 0
+  double largest_gap = 5.0;                          ///< between neighbours along the track [m]; > 0
   double reach = 1.0;  ///< a point farther from the profile does not belong to it [m]; > 0
 };
 
 /// A point against the design, at the place of the profile that is nearest to it.
 struct SurveyedPlace {
   std::string name;
-  double arc_length = 0.0;       ///< of the design there [m]
-  double deviation = 0.0;        ///< square to the profile, above it where positive, the height taken off [m]
-  double aside = 0.0;            ///< [m]
-  double slope_angle = 0.0;      ///< of the profile as built, by a smooth curve through the points [rad]
-  double slope_deviation = 0.0;  ///< that less the design's [rad]
-  double curvature = 0.0;        ///< as built [1/m]
+  double arc_length = 0.0;  ///< of the design there [m]
+  double deviation = 0.0;   ///< square to the profile, above it where positive, the height taken off [m]
+  double aside = 0.0;       ///< [m]
+  Angle slope_angle;        ///< of the profile as built, by a smooth curve through the points
+  Angle slope_deviation;    ///< that less the design's
+  double curvature = 0.0;   ///< as built [1/m]
   double designed_curvature = 0.0;  ///< [1/m]
 };
 

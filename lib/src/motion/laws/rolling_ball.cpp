@@ -16,8 +16,10 @@ constexpr double kSolidBall = 2.0 / 5.0;  // moment of inertia over m r^2
 double spread_of(const BallShape& shape) {
   const double angle = shape.groove_half_angle.radians();
   if (angle > 0.0 && angle <= 0.5 * std::numbers::pi) return math::sin(angle);
-  throw InputError({"", "groove_half_angle: " + angle_text(angle) + " is not above 0 and at most 90 deg",
-                    "Half of the angle between the walls of the groove; 90 deg is a flat floor.", ""});
+  throw InputError(
+      {"",
+       "groove_half_angle: " + angle_text(Angle::from_radians(angle)) + " is not above 0 and at most 90 deg",
+       "Half of the angle between the walls of the groove; 90 deg is a flat floor.", ""});
 }
 
 }  // namespace

@@ -65,10 +65,6 @@ Json number(const std::optional<double>& value) {
   return value ? number(*value) : Json(nullptr);
 }
 
-double degrees(double radians) {
-  return Angle::from_radians(radians).degrees();
-}
-
 Json position_json(Vec3 position) {
   return Json::array({position.x, position.y, position.z});
 }

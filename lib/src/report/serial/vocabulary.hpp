@@ -27,7 +27,12 @@ using Json = nlohmann::ordered_json;
 /// @return null where the value is infinite or no number: JSON has neither
 [[nodiscard]] Json number(double value);
 [[nodiscard]] Json number(const std::optional<double>& value);
-[[nodiscard]] double degrees(double radians);
+[[nodiscard]] inline double degrees(double radians) {
+  return Angle::from_radians(radians).degrees();
+}
+[[nodiscard]] inline double degrees(Angle angle) {
+  return angle.degrees();
+}
 [[nodiscard]] Json position_json(Vec3 position);
 /// friction_coefficient, friction_angle_deg
 void add_friction(Json& json, const Friction& friction);

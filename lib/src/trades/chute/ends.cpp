@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace glissade {
 namespace {
@@ -18,7 +17,7 @@ FeedFall flight(Vec2 velocity, double drop, double gravity) {
   fall.height = drop;
   fall.time = (down - velocity.y) / gravity;
   fall.reach = velocity.x * fall.time;
-  fall.landing = {math::hypot(velocity.x, down), math::atan2(down, velocity.x)};
+  fall.landing = {math::hypot(velocity.x, down), Angle::from_radians(math::atan2(down, velocity.x))};
   return fall;
 }
 
@@ -30,7 +29,7 @@ FeedFall fall_from_belt(const HeadPulley& pulley, double drop, double gravity) {
   const double leaves_at = hold >= math::cos(climb) ? -climb : math::acos(hold);
   const Vec2 velocity{pulley.belt_speed * math::cos(leaves_at), pulley.belt_speed * math::sin(leaves_at)};
   FeedFall fall = flight(velocity, drop, gravity);
-  fall.leaves_at = leaves_at;
+  fall.leaves_at = Angle::from_radians(leaves_at);
   fall.pulley = {-fall.reach - pulley.radius * math::sin(leaves_at),
                  drop - pulley.radius * math::cos(leaves_at)};
   return fall;
@@ -38,23 +37,23 @@ FeedFall fall_from_belt(const HeadPulley& pulley, double drop, double gravity) {
 
 FeedFall fall_from_outlet(double outlet_speed, double drop, double gravity) {
   FeedFall fall = flight({0.0, outlet_speed}, drop, gravity);
-  fall.landing.angle = 0.5 * std::numbers::pi;
+  fall.landing.angle = Angle::from_degrees(90.0);
   return fall;
 }
 
-Impact impact_on(const Landing& landing, double slope_angle, Friction friction, double bulk_density) {
+Impact impact_on(const Landing& landing, Angle slope_angle, Friction friction, double bulk_density) {
   Impact impact;
   impact.angle = landing.angle - slope_angle;
   impact.speed_ratio = speed_after(landing, slope_angle, friction) / landing.speed;
-  const double into = landing.speed * math::sin(impact.angle);
+  const double into = landing.speed * math::sin(impact.angle.radians());
   impact.pressure = bulk_density * into * into;
   return impact;
 }
 
-BeltLanding land_on_belt(double exit_speed, double slope_angle, const ReceivingBelt& belt,
-                         double bulk_density, double gravity) {
-  const double ahead = exit_speed * math::cos(slope_angle);
-  const double sinks = exit_speed * math::sin(slope_angle);
+BeltLanding land_on_belt(double exit_speed, Angle slope_angle, const ReceivingBelt& belt, double bulk_density,
+                         double gravity) {
+  const double ahead = exit_speed * math::cos(slope_angle.radians());
+  const double sinks = exit_speed * math::sin(slope_angle.radians());
   const double down = std::sqrt(std::max(0.0, sinks * sinks + 2.0 * gravity * belt.drop));
   const double turned = belt.direction.radians();
   const double climb = belt.slope.radians();

@@ -68,7 +68,7 @@ std::optional<Stall> stall_of(const Motion& motion, const BulkStream& stream) {
   if (!end || choke_of(motion, stream)) return {};
   const double rubs = motion.quantity(BulkStream::kEquivalentFriction, end->arc_length);
   const double missing = math::atan(rubs) - motion.centerline().slope_angle(end->arc_length);
-  return Stall{end->arc_length, std::max(0.0, missing)};
+  return Stall{end->arc_length, Angle::from_radians(std::max(0.0, missing))};
 }
 
 Body with_shape(Body body, const StreamShape& shape) {

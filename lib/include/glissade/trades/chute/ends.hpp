@@ -19,9 +19,9 @@ struct FeedFall {
   double reach = 0.0;   ///< horizontal way through the air [m]
   double time = 0.0;    ///< through the air [s]
   double height = 0.0;  ///< fallen [m]
-  /// Of a belt: how far round the pulley past its top the stream leaves it [rad]; minus the belt's angle where it
+  /// Of a belt: how far round the pulley past its top the stream leaves it; minus the belt's angle where it
   /// leaves at once because it is faster than the pulley can hold it.
-  double leaves_at = 0.0;
+  Angle leaves_at;
   Vec2 pulley;  ///< of a belt: its centre seen from the start of the track, run and height above it [m]
 };
 
@@ -36,12 +36,12 @@ struct FeedFall {
 
 /// What the impact of a feed does (docs/chutes.md, feed).
 struct Impact {
-  double angle = 0.0;        ///< theta, between the way of the stream and the floor [rad]
+  Angle angle;               ///< theta, between the way of the stream and the floor
   double speed_ratio = 0.0;  ///< V2/V1 = cos(theta + phi)/cos(phi); not positive: it stalls there
   double pressure = 0.0;     ///< rho V1^2 sin^2(theta) [Pa]
 };
 
-[[nodiscard]] Impact impact_on(const Landing& landing, double slope_angle, Friction friction,
+[[nodiscard]] Impact impact_on(const Landing& landing, Angle slope_angle, Friction friction,
                                double bulk_density);
 
 /// A belt that takes a stream away.
@@ -69,8 +69,8 @@ struct BeltLanding {
   double wear = 0.0;  ///< W_a = mu_b rho v_into^2 (v_b - v_along) [W/m^2]
 };
 
-/// @param slope_angle   of the track at its finish, downhill positive [rad]
-[[nodiscard]] BeltLanding land_on_belt(double exit_speed, double slope_angle, const ReceivingBelt& belt,
+/// @param slope_angle   of the track at its finish, downhill positive
+[[nodiscard]] BeltLanding land_on_belt(double exit_speed, Angle slope_angle, const ReceivingBelt& belt,
                                        double bulk_density, double gravity);
 
 }  // namespace glissade

@@ -1,0 +1,164 @@
+// Distances from obstacles and points, as rows of the search (docs/optimization.md, clearances).
+
+#include "glissade/core/math.hpp"
+
+#include "optimize/feet.hpp"
+#include "optimize/measure.hpp"
+#include "optimize/rows.hpp"
+
+namespace glissade::optimizer {
+namespace {
+
+Foot foot_of(const RowAt& at, Vec2 point) {
+  return at.track.foot(at.state.z, at.state.shape, point.x, point.y);
+}
+
+/// At a foot the distance changes with the track's position alone: to first order sliding along costs nothing.
+void foot_gradient(const RowAt& at, const Foot& foot, Vec2 corner, double side, double* out) {
+  Vector dx;
+  Vector dy;
+  at.track.foot_derivatives(at.state.z, at.state.shape, foot, dx, dy);
+  Vec2 away{-side * foot.sin, side * foot.cos};
+  if (foot.end) {
+    const double distance = math::hypot(corner.x - foot.x, corner.y - foot.y);
+    if (distance == 0.0) return;
+    away = {(corner.x - foot.x) / distance, (corner.y - foot.y) / distance};
+  }
+  const std::size_t n = at.track.layout().size();
+  add_scaled(out, -away.x, dx.data(), n);
+  add_scaled(out, -away.y, dy.data(), n);
+}
+
+void add_terms_at_foot(const RowAt& at, const Foot& foot, Vec2 corner, double side, double factor,
+                       Matrix& hessian) {
+  if (foot.end) return;
+  add_foot_terms(at.track, at.state, foot, corner_distance(foot, corner, side), side, factor, hessian);
+}
+
+/// From an obstacle: of stations from its edges, and of its corners from the track, each at its foot. Where clearances
+/// are measured from more than the centerline, EnvelopeRows has the rows.
+class Distance final : public Measure {
+ public:
+  [[nodiscard]] double value(const RowAt& at) const override {
+    const Obstacle& obstacle = obstacle_of(at);
+    if (has_envelope(at)) return at.envelope.measure(at.state, obstacle, at.row);
+    if (at.row.foot) {
+      const Vec2 corner = obstacle.corners[at.row.place];
+      return corner_distance(foot_of(at, corner), corner, obstacle.side);
+    }
+    const Vec2 station{at.state.shape.x[at.row.place], at.state.shape.y[at.row.place]};
+    return dot(obstacle.corners[at.row.edge] - station, forbidden(at));
+  }
+
+  void gradient(const RowAt& at, double* out) const override {
+    const Obstacle& obstacle = obstacle_of(at);
+    if (has_envelope(at)) return at.envelope.gradient(at.state, obstacle, at.row, out);
+    if (at.row.foot) {
+      const Vec2 corner = obstacle.corners[at.row.place];
+      return foot_gradient(at, foot_of(at, corner), corner, obstacle.side, out);
+    }
+    at.track.add(at.state.shape.dx, at.row.place, -forbidden(at).x, out);
+    at.track.add(at.state.shape.dy, at.row.place, -forbidden(at).y, out);
+  }
+
+  void add_weights(const RowAt& at, double factor, StationWeights& weights) const override {
+    const Obstacle& obstacle = obstacle_of(at);
+    if (has_envelope(at)) return at.envelope.add_weights(at.state, obstacle, at.row, factor, weights);
+    if (at.row.foot) {
+      return add_foot_weights(foot_of(at, obstacle.corners[at.row.place]), factor * obstacle.side, weights);
+    }
+    weights.x[at.row.place] -= factor * forbidden(at).x;
+    weights.y[at.row.place] -= factor * forbidden(at).y;
+  }
+
+  void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
+    const Obstacle& obstacle = obstacle_of(at);
+    if (has_envelope(at)) return at.envelope.add_direct_terms(at.state, obstacle, at.row, factor, hessian);
+    if (!at.row.foot) return;
+    const Vec2 corner = obstacle.corners[at.row.place];
+    add_terms_at_foot(at, foot_of(at, corner), corner, obstacle.side, factor, hessian);
+  }
+
+  void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
+    if (has_envelope(at)) {
+      const std::vector<Row> all = at.envelope.rows(at.state, at.row.limit);
+      rows.insert(rows.end(), all.begin(), all.end());
+      return;
+    }
+    const Obstacle& obstacle = obstacle_of(at);
+    Row row = at.row;
+    const std::vector<Station>& stations = at.track.stations();
+    const auto add_stations = [&](auto&& concerned) {
+      for (row.place = 0; row.place < stations.size(); ++row.place) {
+        if (!stations[row.place].watched) continue;
+        if (concerned(Vec2{at.state.shape.x[row.place], at.state.shape.y[row.place]})) rows.push_back(row);
+      }
+    };
+    if (obstacle.endless) return add_stations([](Vec2) { return true; });
+    for (row.edge = 0; row.edge + 1 < obstacle.corners.size(); ++row.edge) {
+      const Vec2 from = obstacle.corners[row.edge];
+      const Vec2 to = obstacle.corners[row.edge + 1];
+      add_stations([&](Vec2 station) { return concerns(station, from, to, obstacle.side); });
+    }
+    row.foot = true;
+    row.edge = 0;
+    for (row.place = 0; row.place < obstacle.corners.size(); ++row.place) rows.push_back(row);
+  }
+
+  [[nodiscard]] double place(const RowAt& at) const override {
+    if (!at.row.foot) return Measure::place(at);
+    const double length = at.state.z[at.track.layout().length()];
+    return foot_of(at, obstacle_of(at).corner(at.row.place)).at.arc_length(length);
+  }
+  [[nodiscard]] bool holds_along() const override { return true; }
+
+ private:
+  static const Obstacle& obstacle_of(const RowAt& at) { return at.problem.obstacles[at.limit.obstacle]; }
+  static bool has_envelope(const RowAt& at) { return at.problem.envelope_high > at.problem.envelope_low; }
+  static Vec2 forbidden(const RowAt& at) {
+    const Obstacle& obstacle = obstacle_of(at);
+    return obstacle.endless
+               ? obstacle.forbidden
+               : edge_normal(obstacle.corners[at.row.edge], obstacle.corners[at.row.edge + 1], obstacle.side);
+  }
+};
+
+/// Of the track from a point, at its foot; of several points, at their places in their order.
+class Waypoint final : public Measure {
+ public:
+  [[nodiscard]] double value(const RowAt& at) const override {
+    return corner_distance(foot(at), point(at), 1.0);
+  }
+  void gradient(const RowAt& at, double* out) const override {
+    foot_gradient(at, foot(at), point(at), 1.0, out);
+  }
+  void add_weights(const RowAt& at, double factor, StationWeights& weights) const override {
+    add_foot_weights(foot(at), factor, weights);
+  }
+  void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
+    add_terms_at_foot(at, foot(at), point(at), 1.0, factor, hessian);
+  }
+  void add_rows(const RowAt&, std::vector<Row>&) const override {}
+  void set_exact_row(Row& row) const override { row.foot = true; }
+  [[nodiscard]] double place(const RowAt& at) const override {
+    return foot(at).at.arc_length(at.state.z[at.track.layout().length()]);
+  }
+
+ private:
+  static Vec2 point(const RowAt& at) { return at.problem.waypoints[at.limit.obstacle]; }
+  static Foot foot(const RowAt& at) {
+    if (at.state.waypoint_stations.empty()) return foot_of(at, point(at));
+    return at.track.foot(at.state.z, at.state.shape, point(at).x, point(at).y,
+                         at.state.waypoint_stations[at.limit.obstacle]);
+  }
+};
+
+constinit const Distance kDistance{};
+constinit const Waypoint kWaypoint{};
+
+}  // namespace
+
+constinit const Measure* const Measure::distance = &kDistance;
+constinit const Measure* const Measure::waypoint = &kWaypoint;
+
+}  // namespace glissade::optimizer
