@@ -412,7 +412,7 @@ TEST_CASE("sweep: facets where the start face trims the walls are no slivers, ho
     const Solid solid = sweep(track, task.section, Placement(), options);
     CHECK(solid.trimmed);
     check_solid(solid, options);
-    CHECK(measure(solid.mesh).smallest_angle * 180.0 / std::numbers::pi > task.smallest_angle_deg);
+    CHECK(measure(solid.mesh).smallest_angle.degrees() > task.smallest_angle_deg);
   }
 }
 
@@ -574,7 +574,7 @@ TEST_CASE("sweep: a wide flat floor takes few facets across, none of them a sliv
         return lies_beyond(track.at(track.length()), 1.0) || lies_beyond(track.at(0.0), -1.0);
       });
       CHECK(sides.triangles.size() > solid.mesh.triangles.size() / 2);
-      CHECK(measure(sides).smallest_angle * 180.0 / std::numbers::pi > task.smallest_angle_deg);
+      CHECK(measure(sides).smallest_angle.degrees() > task.smallest_angle_deg);
       check_solid(solid, options);
     }
   }

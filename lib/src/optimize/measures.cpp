@@ -212,11 +212,11 @@ class Load final : public Measure {
     const Layout& layout = at.track.layout();
     const std::size_t at_length = layout.length();
     const double length = core_length(at);
-    const double curvature = at.state.shape.curvature[at.row.place];
+    const double bend = at.state.shape.curvature[at.row.place];
     Vector by_curvature(layout.size(), 0.0);
     by_curvature[layout.turn(station.piece)] = (1.0 - station.share) / length;
     by_curvature[layout.turn(station.piece + 1)] = station.share / length;
-    by_curvature[at_length] = -curvature / length;
+    by_curvature[at_length] = -bend / length;
     Vector dv(layout.size(), 0.0);
     at.track.add(at.state.flows[at.row.ride].dv, at.row.place, 1.0, dv.data());
     const Ride::CurvatureLoad parts = load(at);
@@ -225,7 +225,7 @@ class Load final : public Measure {
       add_symmetric(hessian, 0.5 * factor * parts.by_curvature_curvature, by_curvature, by_curvature);
     }
     add_curvature_terms(hessian, layout.turn(station.piece), 1.0 - station.share, station.share, at_length,
-                        curvature, length, factor * parts.by_curvature);
+                        bend, length, factor * parts.by_curvature);
   }
 
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override {

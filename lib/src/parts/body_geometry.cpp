@@ -98,8 +98,8 @@ BodyMoments moments_of(const TubeGore& gore) {
   const double area = std::numbers::pi * (outer * outer - inner * inner);
   const double second =
       0.25 * std::numbers::pi * (outer * outer * outer * outer - inner * inner * inner * inner);  // of x^2
-  const double start = math::tan(gore.start_tilt);
-  const double end = math::tan(gore.end_tilt);
+  const double start = math::tan(gore.start_tilt.radians());
+  const double end = math::tan(gore.end_tilt.radians());
   // The planes' x terms average out of the volume, not of its moments.
   const double x = second * (end - start);
   const double z = 0.5 * (area * gore.length * gore.length + second * (end * end - start * start));
@@ -162,8 +162,8 @@ std::vector<Vec3> points_of(const TubeGore& gore, double inset) {
     const auto [sine, cosine] = math::sine_cosine(2.0 * std::numbers::pi * k / kPoints);
     for (const double radius : {gore.inner_radius + inset, gore.inner_radius + gore.thickness - inset}) {
       const double x = radius * cosine;
-      const double low = x * math::tan(gore.start_tilt) + 2.0 * inset;
-      const double high = gore.length + x * math::tan(gore.end_tilt) - 2.0 * inset;
+      const double low = x * math::tan(gore.start_tilt.radians()) + 2.0 * inset;
+      const double high = gore.length + x * math::tan(gore.end_tilt.radians()) - 2.0 * inset;
       for (const double z : {low, 0.5 * (low + high), high}) points.push_back({x, radius * sine, z});
     }
   }
@@ -237,8 +237,10 @@ double depth_in(const SweptBody& body, Vec3 point) {
 
 double depth_in(const TubeGore& gore, Vec3 point) {
   const double radius = math::hypot(point.x, point.y);
-  const double start = (point.z - point.x * math::tan(gore.start_tilt)) * math::cos(gore.start_tilt);
-  const double end = (gore.length + point.x * math::tan(gore.end_tilt) - point.z) * math::cos(gore.end_tilt);
+  const double start =
+      (point.z - point.x * math::tan(gore.start_tilt.radians())) * math::cos(gore.start_tilt.radians());
+  const double end = (gore.length + point.x * math::tan(gore.end_tilt.radians()) - point.z) *
+                     math::cos(gore.end_tilt.radians());
   return std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end});
 }
 

@@ -24,6 +24,7 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr Angle kWholeTurn = Angle::from_radians(2.0 * kPi);
 constexpr double kLeastCrown = 15e-3;       // length of a tube where it is shortest: room for two welds [m]
 constexpr double kSeam = 20.0 * kPi / 180;  // of a seam from the crown, to either side in turn
 
@@ -122,7 +123,8 @@ Gore gore_of(const PipeJob& job, const Facets& facets, const Stretch& stretch) {
   Gore gore;
   gore.from = facets.corners[flat] + start * unit + radius * up_of(unit);
   gore.along = unit;
-  gore.body = {radius, job.pipe.thickness, end - start, before, -after};
+  gore.body = {radius, job.pipe.thickness, end - start, Angle::from_radians(before),
+               Angle::from_radians(-after)};
   gore.floor_length = stretch.to.value_or(whole) - stretch.from.value_or(0.0);
   return gore;
 }
@@ -255,8 +257,9 @@ ArcPath arcs_of(const SineLine& line) {
 FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
   const double mean = job.mean_radius();
   const double phase = gore.odd ? -kSeam : kSeam;
-  const ArcPath low = arcs_of({mean * math::tan(gore.body.start_tilt), mean, phase, 0.0});
-  const ArcPath high = arcs_of({mean * math::tan(gore.body.end_tilt), mean, phase, gore.body.length});
+  const ArcPath low = arcs_of({mean * math::tan(gore.body.start_tilt.radians()), mean, phase, 0.0});
+  const ArcPath high =
+      arcs_of({mean * math::tan(gore.body.end_tilt.radians()), mean, phase, gore.body.length});
   FlatPattern pattern;
   pattern.region.outline = low;
   for (const PathVertex& vertex : reversed(high).vertices) pattern.region.outline.vertices.push_back(vertex);
@@ -345,12 +348,15 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const W
     for (const Gore& gore : unit.gores) {
       proof.volume += moments(PartBody(gore.body)).volume;
       // By the lowest line and the mitres.
-      proof.exact_volume += area * (gore.floor_length - job.radius() * (math::tan(gore.body.start_tilt) -
-                                                                        math::tan(gore.body.end_tilt)));
+      proof.exact_volume +=
+          area * (gore.floor_length - job.radius() * (math::tan(gore.body.start_tilt.radians()) -
+                                                      math::tan(gore.body.end_tilt.radians())));
       const double mean = job.mean_radius();
       if (before != nullptr) {
-        const double one = length(arcs_of({mean * math::tan(before->body.end_tilt), mean, kSeam, 0.0}));
-        const double other = length(arcs_of({mean * math::tan(gore.body.start_tilt), mean, -kSeam, 0.0}));
+        const double one =
+            length(arcs_of({mean * math::tan(before->body.end_tilt.radians()), mean, kSeam, 0.0}));
+        const double other =
+            length(arcs_of({mean * math::tan(gore.body.start_tilt.radians()), mean, -kSeam, 0.0}));
         const Vec2 gap = before->from + before->body.length * before->along - gore.from;
         proof.edge_mismatch = std::max({proof.edge_mismatch, std::fabs(one - other), norm(gap)});
       }
@@ -379,9 +385,10 @@ std::vector<SettingOutPoint> mitres(const PipeJob& job, const Facets& facets) {
   std::vector<SettingOutPoint> rows;
   for (std::size_t i = 0; i < facets.bends(); ++i) {
     const double s = 0.5 * (facets.touches[i] + facets.touches[i + 1]);
-    rows.push_back(setting_out_point(
-        job.track, {0.0, job.track.length()}, job.placement,
-        "mitre " + std::to_string(i + 1) + ", " + angle_text(std::fabs(facets.kinks[i]), 4), s));
+    rows.push_back(setting_out_point(job.track, {0.0, job.track.length()}, job.placement,
+                                     "mitre " + std::to_string(i + 1) + ", " +
+                                         angle_text(Angle::from_radians(std::fabs(facets.kinks[i])), 4),
+                                     s));
   }
   return rows;
 }
@@ -396,7 +403,7 @@ void list_tubes(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop
       const int number = add_part(workshop, std::move(part), kWallColour);
       if (workshop.parts.size() == before) continue;
       workshop.bends.push_back(
-          {number, 1, 0.0, 2.0 * kPi * job.mean_radius(), 2.0 * kPi, 2.0 * kPi, job.radius(), 0.0});
+          {number, 1, 0.0, 2.0 * kPi * job.mean_radius(), kWholeTurn, kWholeTurn, job.radius(), 0.0});
     }
   }
 }

@@ -191,7 +191,8 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
     const double turned = level * arc.curvature * arc.length;
     sum += turned;
     radii.push_back(radius_of(curvature));
-    strip.steps.push_back({0, ++hit, reached, length, turned, sum, radii.back(), 0.0});
+    strip.steps.push_back({0, ++hit, reached, length, Angle::from_radians(turned), Angle::from_radians(sum),
+                           radii.back(), 0.0});
     reached += length;
   }
   if (level < 1e-9) {

@@ -22,11 +22,11 @@ enum class SegmentBend {
 ///   to_point, to_slope_angle     a clothoid
 ///   cubic: to_slope_angle and one of the curvatures
 struct SegmentDesign {
-  std::optional<double> length;         ///< [m]; > 0
-  double entry_curvature = 0.0;         ///< [1/m]
-  double exit_curvature = 0.0;          ///< [1/m]
-  std::optional<Angle> to_slope_angle;  ///< slope angle where it ends; -90 to 90 deg
-  std::optional<Vec2> to_point;         ///< where it ends, (x, z) as the points of limits [m]
+  std::optional<double> length;              ///< [m]; > 0
+  double entry_curvature = 0.0;              ///< [1/m]
+  double exit_curvature = 0.0;               ///< [1/m]
+  std::optional<Angle> to_slope_angle = {};  ///< slope angle where it ends; -90 to 90 deg
+  std::optional<Vec2> to_point = {};         ///< where it ends, (x, z) as the points of limits [m]
   SegmentBend bend = SegmentBend::clothoid;
 
   friend bool operator==(const SegmentDesign&, const SegmentDesign&) = default;

@@ -23,9 +23,9 @@ enum class FinishKind {
 
 struct Finish {
   FinishKind kind = FinishKind::point;
-  Range
-      free_range;  ///< of the coordinate that is free [m], of the run where both are; unlimited where left out
-  Range free_drop;  ///< of the drop where both are free [m]; unlimited where left out
+  Range free_range =
+      {};  ///< of the coordinate that is free [m], of the run where both are; unlimited where left out
+  Range free_drop = {};  ///< of the drop where both are free [m]; unlimited where left out
 };
 
 }  // namespace glissade
