@@ -11,6 +11,7 @@ namespace glissade {
 /// its paths LINE and ARC.
 enum class DxfVersion { r2000, r12 };
 
+/// How a DXF file is written.
 struct DxfOptions {
   DxfVersion version = DxfVersion::r2000;
 };

@@ -9,6 +9,7 @@
 
 namespace glissade {
 
+/// What plates are made of.
 struct StockMaterial {
   std::string name = "S235";
   double density = 7850.0;  ///< [kg/m^3]; > 0
@@ -28,6 +29,7 @@ enum class FacetRule {
   segment_angle     ///< greatest angle of a bend [rad]
 };
 
+/// How a bent floor is divided into facets, and how it is bent.
 struct BendOptions {
   FacetRule rule = FacetRule::speed_loss;
   double value = 0.01;
@@ -63,6 +65,7 @@ struct FlangeOptions {
   friend bool operator==(const FlangeOptions&, const FlangeOptions&) = default;
 };
 
+/// How a channel is made of plates.
 struct PlateOptions {
   StockMaterial material;
   FloorMake floor = FloorMake::rolled;

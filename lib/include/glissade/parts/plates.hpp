@@ -37,6 +37,7 @@ struct PartsProof {
   double edge_mismatch = 0.0;  ///< greatest difference of lengths between flat and finished edges [m]
 };
 
+/// A channel made of plates, with the curve that it follows and how a body rides it.
 struct PlateBuild {
   MasterCurve master;
   Workshop workshop;

@@ -11,6 +11,7 @@ enum class FinishKind {
   level           ///< at drop = Endpoints::drop, run within Finish::free_range
 };
 
+/// Where a track ends: in a point, or anywhere along a line.
 struct Finish {
   FinishKind kind = FinishKind::point;
   Range free_range;  ///< of the coordinate that is free [m]; unlimited where left out

@@ -15,6 +15,7 @@ enum class ObjectiveKind {
   blend  ///< least T - exit_speed_weight * u(S)
 };
 
+/// What is made least.
 struct Objective {
   ObjectiveKind kind = ObjectiveKind::travel_time;
   double exit_speed_weight = 0.0;  ///< of `blend`: seconds given for one m/s of exit speed [s/(m/s)]; >= 0
