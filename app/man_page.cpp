@@ -116,8 +116,7 @@ std::string man_page(const HelpPage& page, const std::vector<std::string>& also)
   const std::string name = man_name(page);
   std::string text = ".TH " + in_capitals(as_it_stands(name)) + " 1 \"\" \"Glissade " +
                      std::string(version()) + "\" \"Glissade\"\n.nh\n.ad l\n";
-  text +=
-      heading("Name") + as_it_stands(name) + " \\- " + as_it_stands(title_of(page.description)) + "\n";
+  text += heading("Name") + as_it_stands(name) + " \\- " + as_it_stands(title_of(page.description)) + "\n";
   text += heading("Synopsis") + ".B " + as_it_stands(page.usage) + "\n";
   text += heading("Description") + paragraphs(page.description);
   if (!page.commands.empty()) text += heading("Commands") + tagged(page.commands);

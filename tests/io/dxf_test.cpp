@@ -109,7 +109,8 @@ TEST_CASE("texts and dimensions of a drawing come back, letters beyond ASCII too
   const TempDir directory;
   Drawing drawing = plate(3, 1);
   drawing.text_scale = 20.0;
-  drawing.texts.push_back({0, {1.0, 2.0}, 2.5, "Länge Ø 12 °\nß", TextAnchor::centre, Angle::from_radians(0.5)});
+  drawing.texts.push_back(
+      {0, {1.0, 2.0}, 2.5, "Länge Ø 12 °\nß", TextAnchor::centre, Angle::from_radians(0.5)});
   drawing.dimensions.push_back({0, {0.0, 0.0}, {100.0, 50.0}, 8.0, DimensionKind::level, ""});
   const auto file = directory / "drawing.dxf";
   write_dxf(file, drawing);

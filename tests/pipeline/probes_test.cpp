@@ -102,3 +102,21 @@ TEST_CASE("a lowest speed that begins to hold behind the end is told") {
   CHECK_THAT(found[0].what,
              Contains("speed.lowest holds from 30 m on, but the track ends after 5 m: it never applies"));
 }
+
+TEST_CASE(
+    "a width or a friction that is given beyond the end of the track is told, one on the track is not") {
+  const Design design = parse_design(
+      "glissade: 1\n"
+      "track: {start: {x: 2 m, z: 5 m}, finish: {x: 6 m, z: 2 m}}\n"
+      "body: {friction: [{from: 0 m, angle: 10 deg}, {from: 4.9 m, angle: 12 deg}, {from: 6 m, angle: 9 "
+      "deg}]}\n"
+      "centerline: {kind: straight}\n"
+      "cross_section: {kind: u-channel, width: [{at: 0 m, width: 500 mm}, {at: 5 m, width: 400 mm}, "
+      "{at: 7 m, width: 300 mm}], wall_height: 200 mm, thickness: 3 mm}\n",
+      "d.yaml");
+  const std::vector<Issue> found = warnings(design, solve(design));
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].what == "a width is given at 7 m, but the track ends after 5 m");
+  CHECK_THAT(found[0].where, Contains("d.yaml:5:"));
+  CHECK(found[1].what == "friction changes at 6 m, but the track ends after 5 m");
+}

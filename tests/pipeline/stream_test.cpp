@@ -241,7 +241,8 @@ TEST_CASE("a stream of next to nothing stands where a sliding point stalls") {
   REQUIRE(facts.stall);
   CHECK_FALSE(facts.choke);
   CHECK(facts.stall->arc_length == Approx(slides.stall()->arc_length).epsilon(1e-5));
-  CHECK(facts.stall->missing_slope.radians() == Approx(slides.stall()->missing_slope.radians()).epsilon(1e-3));
+  CHECK(facts.stall->missing_slope.radians() ==
+        Approx(slides.stall()->missing_slope.radians()).epsilon(1e-3));
   const json document = json::parse(track_json(design, track));
   CHECK(document["status"] == "stalled");
   CHECK(document["stream"]["choked"] == false);

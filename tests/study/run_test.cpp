@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -44,6 +45,29 @@ std::vector<Row> rows_of(const std::filesystem::path& directory) {
 }
 
 }  // namespace
+
+TEST_CASE("columns are the same whether a stream arrives, chokes or stalls") {
+  const auto names_of = [](const std::string& flow, const std::string& angle) {
+    const Design design = parse_design(
+        "glissade: 1\n"
+        "track: {start: {x: 0 m, z: 3 m}, finish: {x: 2 m, z: 0 m}}\n"
+        "body: {friction_angle: 25 deg, entry_speed: 2 m/s}\n"
+        "stream: {mass_flow: 100 t/h, bulk_density: 800 kg/m^3}\n"
+        "discharge: {belt_speed: 3 m/s, drop: 200 mm}\n"
+        "centerline: {kind: straight}\n"
+        "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}\n",
+        "d.yaml", {{"stream.mass_flow", flow}, {"body.friction_angle", angle}});
+    std::vector<std::string> names;
+    for (const Quantity& quantity : quantities_of(design, solve(design))) names.push_back(quantity.first);
+    return names;
+  };
+  const std::vector<std::string> arrives = names_of("100 t/h", "25 deg");
+  CHECK(std::find(arrives.begin(), arrives.end(), "stream.choke.depth_m") != arrives.end());
+  CHECK(std::find(arrives.begin(), arrives.end(), "law_end.arc_length_m") != arrives.end());
+  CHECK(std::find(arrives.begin(), arrives.end(), "discharge.landing_speed_m_per_s") != arrives.end());
+  CHECK(names_of("300 t/h", "58 deg") == arrives);
+  CHECK(names_of("100 t/h", "70 deg") == arrives);
+}
 
 TEST_CASE("a row holds what solve() gives, to the last digit") {
   const TempDir place;

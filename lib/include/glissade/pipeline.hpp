@@ -67,6 +67,7 @@ struct Assembly {
   [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
 };
 
+/// A file that was written.
 struct WrittenFile {
   std::filesystem::path path;
   std::uintmax_t bytes = 0;
@@ -88,6 +89,7 @@ struct Build {
   [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
 };
 
+/// What a build writes beside the files that the design asks for.
 struct BuildOptions {
   bool report = true;  ///< write NAME.report.html beside the meshes
 };

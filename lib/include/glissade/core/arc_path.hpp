@@ -42,6 +42,7 @@ struct ArcPath {
   friend bool operator==(const ArcPath&, const ArcPath&) = default;
 };
 
+/// A circle in the plane.
 struct Circle {
   Vec2 centre;
   double radius = 0.0;

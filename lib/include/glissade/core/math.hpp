@@ -31,6 +31,7 @@ inline constexpr double kHypotAccuracyUlp = 1.25;
 [[nodiscard]] double atan(double value);
 [[nodiscard]] double atan2(double y, double x);
 
+/// Both of an angle.
 struct SineCosine {
   double sine = 0.0;
   double cosine = 1.0;

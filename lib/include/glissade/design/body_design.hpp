@@ -39,6 +39,7 @@ struct FrictionFrom {
   friend bool operator==(const FrictionFrom&, const FrictionFrom&) = default;
 };
 
+/// What moves down the track, as a design file gives it.
 struct BodyDesign {
   bool friction_given = true;             ///< false: the file leaves it to the material of its stream
   Friction friction;                      ///< the nominal one; of `rolling` its resistance to rolling

@@ -88,6 +88,7 @@ enum class CenterlineKind {
 /// @return every kind, in the order of the enumeration
 [[nodiscard]] const std::vector<CenterlineKind>& centerline_kinds();
 
+/// Which curve, and what its kind is given by.
 struct CenterlineDesign {
   CenterlineKind kind = CenterlineKind::fastest;
   std::optional<double> constant_speed_p;  ///< P of the constant-speed track [m^2/s^2]; none: the fastest P
@@ -126,6 +127,7 @@ struct DrawnSegments {
 /// A cross-section by its kind and measures: one struct a kind, see section/measures.hpp.
 using CrossSectionDesign = section::Measures;
 
+/// How closely the mesh follows the solid.
 struct MeshDesign {
   double tolerance = 0.5e-3;  ///< [m]; > 0
   /// The greatest angle at which facets that follow a curve meet; none: as the tolerance asks.
@@ -140,6 +142,7 @@ enum class MeshFrame {
   site    ///< where the design has it
 };
 
+/// Which files are asked for, in which unit and frame.
 struct ExportDesign {
   std::vector<ExportFormat> formats = {ExportFormat::stl, ExportFormat::off, ExportFormat::scad};
   LengthUnit unit = LengthUnit::millimetre;
@@ -159,6 +162,7 @@ struct ExportDesign {
   friend bool operator==(const ExportDesign&, const ExportDesign&) = default;
 };
 
+/// A design file: everything that is asked for, as values (docs/design-file.md).
 struct Design {
   std::string name;
   TrackDesign track;

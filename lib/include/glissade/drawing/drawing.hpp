@@ -27,6 +27,7 @@ struct DrawingLayer {
 /// Which point of a text lies at its place.
 enum class TextAnchor { left, centre, right };
 
+/// Lines and arcs on a layer.
 struct DrawnPath {
   std::size_t layer = 0;
   ArcPath path;
@@ -35,6 +36,7 @@ struct DrawnPath {
   bool filled = false;                  ///< on paper; DXF has outlines alone
 };
 
+/// A circle on a layer.
 struct DrawnCircle {
   std::size_t layer = 0;
   Circle circle;
@@ -64,6 +66,7 @@ struct DrawnDimension {
   std::string text;  ///< empty: the distance in millimetres, to a tenth
 };
 
+/// A figure in millimetres: shapes, texts and dimensions on layers.
 struct Drawing {
   std::string name;
   std::vector<DrawingLayer> layers;

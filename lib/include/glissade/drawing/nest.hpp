@@ -25,6 +25,7 @@ struct NestedPiece {
   PlaneMotion motion;    ///< from the pattern's frame to the sheet's, origin at its lower left corner [m]
 };
 
+/// One sheet of stock with the pieces that are cut from it.
 struct NestedSheet {
   std::string material;
   double thickness = 0.0;  ///< [m]

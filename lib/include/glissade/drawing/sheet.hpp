@@ -44,6 +44,7 @@ struct SheetTable {
   double text_height_mm = 2.5;
 };
 
+/// A sheet of paper with its views, tables and title block.
 struct Sheet {
   double width_mm = 297.0;
   double height_mm = 210.0;

@@ -8,6 +8,7 @@
 
 namespace glissade {
 
+/// How a DXF file is written.
 struct DxfOptions {
   DxfVersion version = DxfVersion::r2000;
 };

@@ -13,6 +13,7 @@ namespace glissade {
 
 enum class MeshFormat { stl_binary, stl_ascii, off };
 
+/// How a mesh is written: unit, frame, name.
 struct MeshFileOptions {
   LengthUnit unit = LengthUnit::millimetre;
   /// Where the file's origin lies in the frame of the site [m], for the header or comment that says so; none: the

@@ -12,6 +12,7 @@
 
 namespace glissade {
 
+/// How an OpenSCAD program is written: unit, name, frame.
 struct ScadFileOptions {
   LengthUnit unit = LengthUnit::millimetre;
   std::string name;  ///< of the design, for a comment; control characters become spaces

@@ -52,6 +52,7 @@ struct StepSolid {
   [[nodiscard]] std::size_t faces() const { return planes + cylinders + cones; }
 };
 
+/// What a STEP file holds, as it was read back.
 struct StepFacts {
   std::vector<StepSolid> solids;
   std::vector<std::string> occurrences;  ///< of parts in the assembly, by their names

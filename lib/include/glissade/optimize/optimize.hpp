@@ -14,6 +14,7 @@
 
 namespace glissade {
 
+/// How closely and for how long optimize() looks; the defaults suit tracks of a few metres to kilometres.
 struct OptimizeOptions {
   int pieces = 32;          ///< clothoids between the places where limits change over; 8 <= pieces <= 200
   double tolerance = 1e-6;  ///< of the first-order residual; 1e-12 <= tolerance <= 1e-3
@@ -71,6 +72,7 @@ struct Conflict {
 /// @return the limits that contradict each other and what would do, as one sentence
 [[nodiscard]] std::string conflict_text(const Conflict& conflict);
 
+/// How a search ended: what was reached, which limits hold the track back, and what each of them costs.
 struct OptimizeReport {
   OptimizeStatus status = OptimizeStatus::no_track_found;
   std::string message;  ///< one sentence on how the search ended
@@ -97,6 +99,7 @@ struct OptimizeReport {
   [[nodiscard]] std::string brief() const;
 };
 
+/// What optimize() found.
 struct Optimum {
   CenterlinePtr centerline;  ///< the track; empty where status is infeasible or no_track_found
   OptimizeReport report;

@@ -15,6 +15,7 @@ enum class FitSide {
   into_flow  ///< into that side, away from it by as little
 };
 
+/// How closely arcs follow a track, and on which side of it they may lie.
 struct MasterCurveOptions {
   double tolerance = 1e-4;  ///< greatest distance between the track and its arcs [m]; > 0
   FitSide side = FitSide::both;

@@ -10,6 +10,7 @@
 
 namespace glissade {
 
+/// What plates are made of.
 struct StockMaterial {
   std::string name = "S235";
   double density = 7850.0;  ///< [kg/m^3]; > 0
@@ -29,6 +30,7 @@ enum class FacetRule {
   segment_angle     ///< greatest angle of a bend [rad]
 };
 
+/// How a bent floor is divided into facets, and how it is bent.
 struct BendOptions {
   FacetRule rule = FacetRule::speed_loss;
   double value = 0.01;
@@ -130,10 +132,10 @@ struct SupportOptions {
   double spacing = 2.0;      ///< greatest distance along the track [m]
   double tube = 60e-3;       ///< outside of the square tubes [m]
   double wall = 4e-3;        ///< of the tubes [m]
-  double steepest = 1.0471975511965976;  ///< slope angle of the track beyond which none stands [rad]
-  double braced_from = 1.5;  ///< length of a leg from which a trestle is braced [m]
-  double grout = 25e-3;      ///< below the base plates [m]
-  int anchor = 12;           ///< [mm]
+  Angle steepest = Angle::from_degrees(60.0);  ///< slope angle of the track beyond which none stands
+  double braced_from = 1.5;                    ///< length of a leg from which a trestle is braced [m]
+  double grout = 25e-3;                        ///< below the base plates [m]
+  int anchor = 12;                             ///< [mm]
 
   friend bool operator==(const SupportOptions&, const SupportOptions&) = default;
 };
@@ -147,15 +149,16 @@ enum class CornerJoint {
 
 struct CornerOptions {
   CornerJoint joint = CornerJoint::butt;
-  double lap = 15e-3;        ///< by which the floor stands out [m]
-  double tab = 40e-3;        ///< length of a tab along the track [m]
-  double spacing = 0.3;      ///< greatest distance of tabs [m]
-  double clearance = 0.1e-3; ///< of a tab in its slot, each side [m]
-  double below = 10e-3;      ///< by which walls with slots reach below the floor [m]
+  double lap = 15e-3;         ///< by which the floor stands out [m]
+  double tab = 40e-3;         ///< length of a tab along the track [m]
+  double spacing = 0.3;       ///< greatest distance of tabs [m]
+  double clearance = 0.1e-3;  ///< of a tab in its slot, each side [m]
+  double below = 10e-3;       ///< by which walls with slots reach below the floor [m]
 
   friend bool operator==(const CornerOptions&, const CornerOptions&) = default;
 };
 
+/// How a channel is made of plates.
 struct PlateOptions {
   static constexpr std::string_view kProcess = "plate";
   static constexpr double kArcTolerance = 0.1e-3;
@@ -168,7 +171,7 @@ struct PlateOptions {
   FlangeOptions flanges;
   CornerOptions corners;
   RoundMake round = RoundMake::mitred;
-  double stave_tolerance = 2e-3;  ///< greatest distance of staves from a round section [m]; > 0
+  double stave_tolerance = 2e-3;    ///< greatest distance of staves from a round section [m]; > 0
   double polygon_thickness = 4e-3;  ///< of the plates round a section that has none itself [m]; > 0
   std::optional<RimOptions> rim;
   std::optional<StiffenerOptions> stiffeners;

@@ -135,8 +135,9 @@ struct SettingOutPoint {
   std::vector<double> offsets;  ///< heights z of the lines that the table follows below the track [m]
 };
 
-/// A rule of the shop held against one number.
+/// How a rule of the shop is kept.
 enum class ShopVerdict { pass, warn, fail };
+/// A rule of the shop held against one number.
 struct ShopCheck {
   std::string rule;
   ShopVerdict verdict = ShopVerdict::pass;

@@ -24,6 +24,7 @@ enum class CountedFrom {
   run          ///< horizontal, back from the finish: round metres of x where that is the origin
 };
 
+/// What stands in a coordinate table, and how closely.
 struct ProfileOptions {
   double step = 1.0;  ///< between stations [m]; > 0
   CountedFrom row = CountedFrom::arc_length;

@@ -7,6 +7,7 @@
 
 namespace glissade {
 
+/// A table of a page: headings, and rows of texts.
 struct PageTable {
   std::vector<std::string> headings;
   std::vector<std::vector<std::string>> rows;  ///< a row that is shorter ends with a remark over the rest

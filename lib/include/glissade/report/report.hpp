@@ -27,6 +27,7 @@ namespace glissade {
 /// What was found about one property; a property that nobody looked at is `not_checked`, never a pass.
 enum class Verdict { pass, fail, not_checked };
 
+/// One line of a report's list of checks.
 struct ReportCheck {
   std::string name;
   Verdict verdict = Verdict::not_checked;
@@ -55,6 +56,7 @@ struct ReportKeepOut {
   double clearance = 0.0;  ///< the band around it that is kept free too [m]
 };
 
+/// A file that a report lists.
 struct ReportFile {
   std::string name;
   std::uintmax_t bytes = 0;

@@ -13,6 +13,7 @@
 
 namespace glissade {
 
+/// How closely a mesh follows the swept solid, and how large it may become.
 struct SweepOptions {
   /// Greatest distance between the mesh and the ideal solid [m]; > 0.
   double tolerance = 0.5e-3;

@@ -75,6 +75,7 @@ struct Study {
   Quantities quantities = quantities_of;
 };
 
+/// Where a study writes, and which part of it this process computes.
 struct RunOptions {
   std::filesystem::path directory = {};
   Shard shard = {};

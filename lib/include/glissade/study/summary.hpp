@@ -80,6 +80,7 @@ struct Band {
       values;  ///< [quantity][cell]: lowest, mean, highest
 };
 
+/// The point of a study at which a quantity is best.
 struct BestPoint {
   std::uint64_t index = 0;
   double value = 0.0;

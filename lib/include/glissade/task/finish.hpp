@@ -21,6 +21,7 @@ enum class FinishKind {
   return kind == FinishKind::point || kind == FinishKind::level;
 }
 
+/// Where a track ends: in a point, or anywhere along a line.
 struct Finish {
   FinishKind kind = FinishKind::point;
   Range free_range =

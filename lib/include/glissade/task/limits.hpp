@@ -35,6 +35,7 @@ struct HalfPlane {
 /// A beam, a duct, a machine: the track passes wholly above or wholly below it.
 enum class Passage { either, above, below };
 
+/// A polygon that the track, or the solid round it, keeps out of.
 struct KeepOut {
   std::vector<Vec2> outline;          ///< simple polygon [m], either winding, at least 3 corners
   double clearance = 0.0;             ///< distance from the envelope to the polygon >= clearance [m]; >= 0

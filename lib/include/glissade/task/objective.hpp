@@ -26,6 +26,7 @@ enum class ObjectiveKind {
   return kind == ObjectiveKind::least_load || kind == ObjectiveKind::least_curvature_rate;
 }
 
+/// What is made least.
 struct Objective {
   ObjectiveKind kind = ObjectiveKind::travel_time;
   double exit_speed_weight = 0.0;  ///< of `blend`: seconds given for one m/s of exit speed [s/(m/s)]; >= 0

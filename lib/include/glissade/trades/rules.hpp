@@ -53,6 +53,7 @@ struct RuleCondition {
   friend bool operator==(const RuleCondition&, const RuleCondition&) = default;
 };
 
+/// A rule that tracks are held against, with its source and certainty.
 struct Rule {
   std::string id;        ///< unique, e.g. "fis.in-run.table-length"
   std::string sentence;  ///< what it asks, in one sentence
@@ -76,6 +77,7 @@ struct RuleSet {
 /// The values of a track that rules ask about, each with its place, or why it is not known.
 class Measurements {
  public:
+  /// What was measured of one quantity.
   struct Entry {
     std::optional<double> value;       ///< SI, rad; may be infinite
     std::optional<double> arc_length;  ///< where [m]

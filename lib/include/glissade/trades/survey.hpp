@@ -21,6 +21,7 @@ struct SurveyPoint {
   double aside = 0.0;  ///< to the left of that plane [m]
 };
 
+/// How a survey is held against its design.
 struct SurveyOptions {
   double height = 0.0;       ///< of the points above the track, square to it: prism, guide tube [m]
   double tolerance = 0.010;  ///< of the deviation square to the profile [m]; > 0

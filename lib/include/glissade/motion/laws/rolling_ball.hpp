@@ -7,6 +7,7 @@
 
 namespace glissade {
 
+/// A ball and the groove that it runs in.
 struct BallShape {
   double radius = 0.0;  ///< r [m]; > 0
   /// Half the opening angle of the groove that the ball runs in: it touches the walls r sin(angle) below its

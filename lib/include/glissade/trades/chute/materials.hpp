@@ -32,6 +32,7 @@ struct WallFriction {
   friend bool operator==(const WallFriction&, const WallFriction&) = default;
 };
 
+/// The bulk density of a material, with its source.
 struct MaterialDensity {
   double low = 0.0;  ///< [kg/m^3]
   double nominal = 0.0;
@@ -64,12 +65,14 @@ struct Material {
   friend bool operator==(const Material&, const Material&) = default;
 };
 
+/// What lines a chute.
 struct Liner {
   std::string word;        ///< "mild-steel"
   std::string name;        ///< for people
   std::string wall_class;  ///< empty: of none
 };
 
+/// What is known of bulk solids and liners.
 struct MaterialLibrary {
   std::vector<Material> materials;
   std::vector<Liner> liners;
