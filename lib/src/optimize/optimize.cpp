@@ -10,6 +10,7 @@
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/load_arcs.hpp"
+#include "optimize/prices.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
@@ -169,26 +170,6 @@ class Searcher {
     const Found found = minimise(*candidate.problem, mesh, z, margins_, control_);
     refine(candidate, found, false);
     return candidate;
-  }
-
-  /// The track that prices are taken from. A jump that lies a little beside its knots costs next to nothing, but
-  /// its first order shows in the prices: here pieces next to jumps are halved a few times, with ripples that
-  /// nobody should build.
-  [[nodiscard]] Found priced(const ScaledProblem& problem, Found found) {
-    constexpr int kRounds = 4;
-    MeshTrack finer{found.track->mesh(), found.z};
-    for (int round = 0; round < kRounds; ++round) {
-      const std::vector<bool> beside = beside_jumps(finer.mesh);
-      if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) return found;
-      finer = with_halved_pieces(Transcription(finer.mesh), finer.z, beside);
-    }
-    control_.tolerance = options_.tolerance;
-    control_.most_rounds = 0;
-    Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control_);
-    const bool use =
-        !next.stopped && next.residual <= options_.tolerance && next.feasible(options_.limit_tolerance);
-    if (use) return next;
-    return found;
   }
 
  private:
@@ -518,63 +499,6 @@ std::string none_found_text(const std::vector<std::string>& nearly) {
   return text;
 }
 
-/// Stretches of two lists in one, in order.
-std::vector<Stretch> joined(std::vector<Stretch> stretches, const std::vector<Stretch>& others) {
-  stretches.insert(stretches.end(), others.begin(), others.end());
-  std::sort(stretches.begin(), stretches.end(),
-            [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
-  std::vector<Stretch> result;
-  for (const Stretch& stretch : stretches) {
-    if (!result.empty() && stretch.from <= result.back().to) {
-      result.back().to = std::max(result.back().to, stretch.to);
-    } else {
-      result.push_back(stretch);
-    }
-  }
-  return result;
-}
-
-std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
-  // Seconds, or m/s where speed alone counts.
-  const double objective_si = problem.time_weight > 0.0 ? problem.time : problem.speed;
-  std::vector<ActiveLimit> result;
-  const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
-  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
-    const LimitSpec& limit = problem.limits[i];
-    ActiveLimit active;
-    active.limit = limit.name;
-    active.value = limit.bound_si;
-    double multiplier = 0.0;
-    for (std::size_t k = 0; k < found.active.size(); ++k) {
-      if (found.active[k].limit == i) multiplier += found.inequality[k];
-    }
-    if (limit.side == 0) {
-      for (std::size_t k = 0; k < found.equality.size(); ++k) {
-        const std::size_t* owner = found.rows->limit_of_equality(k);
-        if (owner != nullptr && *owner == i) multiplier += std::fabs(found.equality[k]);
-      }
-    }
-    if (multiplier <= 0.0) continue;
-    for (const Span& span : bindings[i]) {
-      active.where.push_back({span.from * problem.chord, span.to * problem.chord});
-    }
-    active.price = multiplier / limit.scale * limit.per_si * objective_si;
-    // A limit with two sides under one name, as that on the rate of curvature, gives way on both.
-    const auto same = std::find_if(result.begin(), result.end(),
-                                   [&](const ActiveLimit& known) { return known.limit == active.limit; });
-    if (same == result.end()) {
-      result.push_back(std::move(active));
-      continue;
-    }
-    same->price += active.price;
-    same->where = joined(std::move(same->where), active.where);
-  }
-  std::sort(result.begin(), result.end(), [](const ActiveLimit& a, const ActiveLimit& b) {
-    return a.limit == b.limit ? a.value < b.value : a.limit.key() < b.limit.key();
-  });
-  return result;
-}
-
 }  // namespace
 }  // namespace optimizer
 
@@ -648,7 +572,7 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     report.exit_speed = best->judgement.exit_speed;
     report.checks = best->judgement.checks;
     report.first_order_residual = found.residual;
-    report.active = active_limits(*best->problem, searcher.priced(*best->problem, found));
+    report.active = active_limits(*best->problem, priced(*best->problem, found, options, control));
     const bool converged = found.residual <= options.tolerance && !stopped;
     report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
     if (converged) {
