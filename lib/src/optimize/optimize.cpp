@@ -37,6 +37,8 @@ constexpr std::size_t kFinerPieces = 24;
 constexpr std::size_t kMovedLevels = 4;
 // By such a share a smoother track may be slower.
 constexpr double kDearer = 1e-7;
+// By less of a share nothing is won.
+constexpr double kWithoutEffect = 1e-8;
 // Pieces of the mesh on which a track is looked for that keeps the limits at all.
 constexpr std::size_t kRescuePieces = 20;
 constexpr double kCoarseTolerance = 1e-3;
@@ -52,10 +54,13 @@ constexpr int kGraceEffort = 2;
 // In the first of them limits are held at the places that the referee names; later they are tightened.
 constexpr int kHoldingRounds = 4;
 // In so many a curvature that follows the load more closely is tried where a body lifts off.
-constexpr int kFollowingRounds = 8;
+constexpr int kFollowingRounds = 3;
 // A track that then still breaks a limit at a station by more than kNearlyFeasible is given up: tighter
 // limits are no easier.
 constexpr int kPatientRounds = 3;
+// A load that falls below none by less between two stations is mended by a greater margin, a deeper fall by
+// holding the load there: next to a jump it is deep, and short.
+constexpr double kShallow = 1e-5;
 // By what is missing and a little more, since the track moves.
 constexpr double kTightening = 1.3;
 // A body that stalled between two stations is kept this much faster, squared, over free fall.
@@ -165,8 +170,7 @@ class Searcher {
   /// From a track that keeps the limits.
   [[nodiscard]] Candidate search_from(const Passages& passages, const Mesh& mesh, const Vector& z) {
     Candidate candidate = begun(passages);
-    control_.tolerance = kCoarseTolerance;
-    control_.most_rounds = 12;
+    aim_at(kCoarseTolerance, 12);
     const Found found = minimise(*candidate.problem, mesh, z, margins_, control_);
     refine(candidate, found, false);
     return candidate;
@@ -213,8 +217,7 @@ class Searcher {
   [[nodiscard]] std::optional<Found> from_exact(const ScaledProblem& problem, const GuessCurve& start) {
     const auto pieces = static_cast<std::size_t>(options_.pieces);
     const Mesh mesh = mesh_with(problem, graded_knots(start, pieces, 0.0), start.length);
-    control_.tolerance = options_.tolerance;
-    control_.most_rounds = 8;
+    aim_at(options_.tolerance, 8);
     Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
     return found;
   }
@@ -223,8 +226,7 @@ class Searcher {
     tell("coarse track", 0.0);
     const Mesh mesh = mesh_with(
         problem, graded_knots(start, kCoarsePieces, entry_share(problem, start.length)), start.length);
-    control_.tolerance = kCoarseTolerance;
-    control_.most_rounds = 5;
+    aim_at(kCoarseTolerance, 5);
     Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
     if (found.feasible(kNearlyFeasible) || found.stopped) return found;
     // The descent lost its way, or the mesh is too coarse: look for any track that keeps the limits first.
@@ -268,12 +270,15 @@ class Searcher {
       if (last_ones && settled(switches)) break;
       tell("finer track", done);
       done += 0.7 / static_cast<double>(levels.size());
-      control_.tolerance = levels[level] == levels.back() ? options_.tolerance : kCoarseTolerance;
-      control_.most_rounds = levels[level] == levels.back() ? 10 : 5;
+      if (levels[level] == levels.back()) {
+        aim_at(options_.tolerance, 10);
+      } else {
+        aim_at(kCoarseTolerance, 5);
+      }
       const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
                                   found.z[found.track->layout().length()]);
       const Vector beginning = fit(curve_of(*found.track, found.z), Transcription(mesh));
-      Found next = minimise(problem, mesh, beginning, margins_, control_);
+      Found next = minimise(problem, mesh, beginning, margins_, control_, &found);
       if (!next.stopped && !next.feasible(kNearlyFeasible) && found.feasible(kNearlyFeasible)) {
         std::optional<Found> other = rescued(problem, mesh, beginning);
         if (other) next = std::move(*other);
@@ -286,9 +291,13 @@ class Searcher {
         return track.residual <= options_.tolerance && track.feasible(options_.limit_tolerance);
       };
       const double dearer = next.objective - found.objective;
+      // Where the places at which limits change over move without effect they need not be followed.
+      const bool still = last_ones && converged(found) && converged(next) &&
+                         std::fabs(dearer) <= kWithoutEffect * std::fabs(found.objective);
       const bool pays = converged(next) && dearer <= kDearer * std::fabs(found.objective);
       if (last_ones && converged(found) && !pays) break;
       found = std::move(next);
+      if (still) break;
     }
     if (!unlimited && !found.stopped) found = followed(problem, std::move(found));
     if (!unlimited && !found.stopped) found = halved(problem, std::move(found));
@@ -320,21 +329,26 @@ class Searcher {
         return (place / problem.chord - problem.lead_in) / core_length;
       };
       // A curvature that follows the load more closely, rather than a load that keeps its distance everywhere.
+      std::vector<LiftOff> lifts;
+      if (judgement.lift_off) {
+        lifts = lift_offs_of(problem, found);
+        lifts.push_back({share_of(*judgement.lift_off), 0.0});
+      }
       if (judgement.lift_off && round < kFollowingRounds && !found.stopped) {
-        const std::optional<Mesh> closer = following_loads(problem, found, {share_of(*judgement.lift_off)});
+        Vector lifting;
+        for (const LiftOff& lift : lifts) lifting.push_back(lift.sigma);
+        const std::optional<Mesh> closer = following_loads(problem, found, lifting);
         if (closer && closer->fine.size() > found.track->mesh().fine.size()) {
-          control_.tolerance = options_.tolerance;
-          control_.most_rounds = 10;
-          Found next = minimise(problem, *closer, found.z, margins_, control_);
+          aim_at(options_.tolerance, 10);
+          Found next = minimise(problem, *closer, found.z, margins_, control_, &found);
           if (next.feasible(options_.limit_tolerance)) {
             found = std::move(next);
             continue;
           }
         }
       }
-      tighten(problem, judgement, round);
-      control_.tolerance = options_.tolerance;
-      control_.most_rounds = 10;
+      tighten(problem, judgement, lifts, round);
+      aim_at(options_.tolerance, 10);
       Mesh mesh = found.track->mesh();
       mesh.core_length = core_length;
       mesh.extra_breaks = breaks_of(problem, core_length);
@@ -342,10 +356,13 @@ class Searcher {
         const double sigma = share_of(place);
         if (sigma > 0.0 && sigma < 1.0) hold(sigma, mesh.knots, held);
       }
+      for (const LiftOff& lift : lifts) {
+        if (lift.depth > kShallow) hold(lift.sigma, mesh.knots, held);
+      }
       mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.begin(), held.end());
       if (found.stopped) control_.most_rounds = kGraceEffort;
       const bool stopped = found.stopped;
-      Found next = minimise(problem, mesh, found.z, margins_, control_);
+      Found next = minimise(problem, mesh, found.z, margins_, control_, &found);
       // A descent that lost its way would go on from nowhere.
       if (!next.stopped && !next.feasible(kNearlyFeasible) && found.feasible(kNearlyFeasible)) {
         std::optional<Found> other = rescued(problem, mesh, found.z);
@@ -361,13 +378,12 @@ class Searcher {
   /// The same track with a curvature that follows the load limits which it lies at.
   [[nodiscard]] Found followed(const ScaledProblem& problem, Found found) {
     constexpr int kMostRounds = 3;
-    constexpr double kPays = 3e-8;
+    constexpr double kPays = 1e-7;
     for (int round = 0; round < kMostRounds; ++round) {
       const std::optional<Mesh> mesh = following_loads(problem, found);
       if (!mesh) break;
-      control_.tolerance = options_.tolerance;
-      control_.most_rounds = 0;
-      Found next = minimise(problem, *mesh, found.z, margins_, control_);
+      aim_at(options_.tolerance, 0);
+      Found next = minimise(problem, *mesh, found.z, margins_, control_, &found);
       if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
         break;
       const double won = found.objective - next.objective;
@@ -383,17 +399,21 @@ class Searcher {
     // Under a limit on the rate of curvature no jump tells where knots belong: halving alone makes prices exact.
     const double left_at_most = is_smooth(problem) ? 1e-8 : 1e-6;
     constexpr std::size_t kMostPieces = 120;
+    constexpr double kKept = 0.1;
     for (int round = 0; round < kMostRounds; ++round) {
       const Remainder left = remainder_of(problem, found, control_);
       if (left.objective <= left_at_most * std::fabs(found.objective)) break;
       if (found.track->mesh().knots.size() > kMostPieces) break;
       const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
-      control_.tolerance = options_.tolerance;
-      control_.most_rounds = 0;
-      Found next = minimise(problem, finer.mesh, finer.z, margins_, control_);
+      aim_at(options_.tolerance, 0);
+      Found next = minimise(problem, finer.mesh, finer.z, margins_, control_, &found);
       if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance))
         break;
-      found = followed(problem, std::move(next));
+      next = followed(problem, std::move(next));
+      const double won = found.objective - next.objective;
+      found = std::move(next);
+      // What is promised but not won is not there.
+      if (won < kKept * left_at_most * std::fabs(found.objective)) break;
     }
     return found;
   }
@@ -435,13 +455,18 @@ class Searcher {
     held.push_back(sigma);
   }
 
-  void tighten(const ScaledProblem& problem, const referee::Judgement& judgement, int round) {
+  void tighten(const ScaledProblem& problem, const referee::Judgement& judgement, const std::vector<LiftOff>& lifts,
+               int round) {
     for (std::size_t i = 0; i < problem.limits.size(); ++i) {
       const LimitSpec& limit = problem.limits[i];
       if (limit.side == 0) continue;
       const bool contact = limit.measure == Measure::normal_load && limit.side < 0;
       if (contact && judgement.lift_off) {
-        margins_[i] *= 2.0;
+        double shallow = 0.0;
+        for (const LiftOff& lift : lifts) {
+          if (lift.depth <= kShallow) shallow = std::max(shallow, lift.depth);
+        }
+        margins_[i] = std::max(2.0 * margins_[i], margins_[i] + kTightening * shallow);
         continue;
       }
       const bool keeps_moving = limit.measure == Measure::arrival || limit.name.id == LimitId::no_choking;
@@ -455,6 +480,12 @@ class Searcher {
       if (check == nullptr || check->violation <= 0.5 * options_.limit_tolerance * check->scale) continue;
       margins_[i] += kTightening * check->violation / check->scale;
     }
+  }
+
+  /// What the next descents are to reach.
+  void aim_at(double tolerance, int most_rounds) {
+    control_.tolerance = tolerance;
+    control_.most_rounds = most_rounds;
   }
 
   void tell(std::string_view stage, double fraction) const {

@@ -53,7 +53,7 @@ Found priced(const ScaledProblem& problem, Found found, const OptimizeOptions& o
   }
   control.tolerance = options.tolerance;
   control.most_rounds = 0;
-  Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control);
+  Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control, &found);
   const bool use =
       !next.stopped && next.residual <= options.tolerance && next.feasible(options.limit_tolerance);
   return use ? next : found;
