@@ -556,7 +556,6 @@ class Minimiser {
   std::shared_ptr<Rows> rows_;
   std::size_t n_;
   Point point_;
-  int 
   bool is_guessed_ = false;  ///< the multipliers of the first point are of another mesh
   bool has_tried_lowering_ = false;
   bool stopped_ = false;
