@@ -143,8 +143,11 @@ class Minimiser {
 
   [[nodiscard]] Outlook look(const Vector& start, const Found& known) {
     Outlook outlook;
-    begin(start, &known);
-    // With the multipliers of this very mesh the curvature is that of the Lagrangian.
+    // The multipliers of the coarser mesh tell which rows to begin with. For the curvature they are not good enough:
+    // where they leave it indefinite, the step would be shortened, and less promised than there is.
+    point_ = linearised(rows_->state(start, true));
+    set_metric(point_, Multipliers{});
+    set_solution(point_, carried_over(known));
     point_ = point(std::move(point_.state), point_.next);
     outlook.step = point_.solution.step;
     outlook.force.assign(n_, 0.0);

@@ -324,7 +324,8 @@ Found Searcher::followed(const ScaledProblem& problem, Found found) {
 Found Searcher::halved(const ScaledProblem& problem, Found found) {
   constexpr int kMostRounds = 6;
   // Under a limit on the rate of curvature no jump tells where knots belong: halving alone makes prices exact.
-  const double left_at_most = is_smooth(problem) ? 1e-8 : 1e-6;
+  const bool smooth = is_smooth(problem);
+  const double left_at_most = smooth ? 1e-8 : 1e-6;
   constexpr std::size_t kMostPieces = 120;
   constexpr double kKept = 0.1;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -338,8 +339,8 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
     next = followed(problem, std::move(next));
     const double won = found.objective - next.objective;
     found = std::move(next);
-    // What is promised but not won is not there.
-    if (won < kKept * left_at_most * std::fabs(found.objective)) break;
+    // What is promised but not won is not there; prices may gain from it all the same.
+    if (!smooth && won < kKept * left_at_most * std::fabs(found.objective)) break;
   }
   return found;
 }
