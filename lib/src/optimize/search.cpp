@@ -251,9 +251,9 @@ class Minimiser {
     const std::vector<Station>& stations = track_->stations();
     const double unit = track_->mesh().core_length;
     const double s = station.arc_length(unit);
-    const auto above = std::lower_bound(stations.begin(), stations.end(), s, [&](const Station& at, double to) {
-      return at.arc_length(unit) < to;
-    });
+    const auto above =
+        std::lower_bound(stations.begin(), stations.end(), s,
+                         [&](const Station& at, double to) { return at.arc_length(unit) < to; });
     auto behind = static_cast<std::size_t>(above - stations.begin());
     while (behind < stations.size() && !stations[behind].watched) ++behind;
     if (behind == stations.size()) return behind - 1;
