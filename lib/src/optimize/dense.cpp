@@ -3,9 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+// Of processors that add four numbers at once these two take half the time, to the same bits: the order of the
+// additions stays, and no variant fuses them with the multiplications.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define GLISSADE_WIDE_VARIANT __attribute__((target_clones("avx2", "default")))
+#else
+#define GLISSADE_WIDE_VARIANT
+#endif
+
 namespace glissade::optimizer {
 
-double dot(const double* a, const double* b, std::size_t n) {
+GLISSADE_WIDE_VARIANT double dot(const double* a, const double* b, std::size_t n) {
   // Four sums side by side: the order is fixed, and the processor need not wait for each addition.
   double sum[4] = {};
   std::size_t i = 0;
@@ -16,7 +24,7 @@ double dot(const double* a, const double* b, std::size_t n) {
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-void add_scaled(double* y, double k, const double* a, std::size_t n) {
+GLISSADE_WIDE_VARIANT void add_scaled(double* y, double k, const double* a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) y[i] += k * a[i];
 }
 

@@ -12,9 +12,9 @@ namespace {
 // curvature leaves too early, is held only in part. So does one that stays this close to the bound, in scales.
 constexpr double kHeld = 0.05;
 constexpr double kNearBound = 0.02;
-// What fine knots may leave to win in a piece, as a share of the objective: with some ten pieces held, a tenth of
+// What fine knots may leave to win in a piece, as a share of the objective: with some ten pieces held, a third of
 // the accuracy that is stated for the whole.
-constexpr double kLeft = 1e-8;
+constexpr double kLeft = 3e-8;
 // Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong. And so many at least where a
 // body left the track.
 constexpr std::size_t kMostFine = 32;
@@ -155,7 +155,49 @@ bool moves(const State& state, const Transcription& track, std::size_t piece) {
   return true;
 }
 
+/// Further stations between those at which limits are held.
+Mesh with_denser_stations(const Transcription& track) {
+  Mesh mesh = track.mesh();
+  double before = 0.0;
+  for (const Station& station : track.stations()) {
+    if (station.part != Part::core || !station.watched) continue;
+    if (station.sigma > before) mesh.extra_breaks.push_back(0.5 * (before + station.sigma));
+    before = station.sigma;
+  }
+  return mesh;
+}
+
 }  // namespace
+
+std::vector<LiftOff> lift_offs_of(const ScaledProblem& problem, const Found& found) {
+  std::vector<LiftOff> lifts;
+  const auto limit = std::find_if(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& spec) {
+    return spec.measure == Measure::normal_load && spec.side < 0;
+  });
+  if (limit == problem.limits.end()) return lifts;
+  const Transcription track(with_denser_stations(*found.track));
+  const Rows rows(problem, track);
+  const State state = rows.state(found.z, false);
+  LiftOff lowest;
+  const auto end_stretch = [&] {
+    if (lowest.depth > 0.0) lifts.push_back(lowest);
+    lowest = {};
+  };
+  for (std::size_t i = 0; i < track.stations().size(); ++i) {
+    if (track.stations()[i].part != Part::core) continue;
+    double load = HUGE_VAL;
+    for (std::size_t ride = 0; ride < problem.rides.size(); ++ride) {
+      const Ride::CurvatureLoad bent =
+          problem.rides[ride].curvature_load(state.shape.curvature[i], state.flows[ride].v[i]);
+      load = std::min(load, state.shape.cos[i] + bent.value);
+    }
+    const double depth = -load / limit->scale;
+    if (depth <= 0.0) end_stretch();
+    if (depth > lowest.depth) lowest = {track.stations()[i].sigma, depth};
+  }
+  end_stretch();
+  return lifts;
+}
 
 std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found, const Vector& lifts) {
   const bool smooth = std::any_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {

@@ -6,6 +6,13 @@
 
 namespace glissade::optimizer {
 
+/// A stretch between two stations along which a body would leave the track.
+struct LiftOff {
+  double sigma = 0.0;  ///< its lowest load, of the core by its length
+  double depth = 0.0;  ///< how far that lies below none, in scales of the limit on the load
+};
+[[nodiscard]] std::vector<LiftOff> lift_offs_of(const ScaledProblem& problem, const Found& found);
+
 /// A mesh whose curvature follows a load limit wherever the track found lies at it for a stretch.
 ///
 /// There the curvature is that of constant load, kappa = (N - g cos(zeta))/v (a parabola in flight for N = 0),

@@ -64,7 +64,7 @@ Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchC
   std::vector<bool> halved(knots.size() - 1);
   for (std::size_t i = 0; i < halved.size(); ++i) halved[i] = knots[i + 1] - knots[i] > kShortest;
   const MeshTrack finer = with_halved_pieces(*found.track, found.z, halved);
-  const Outlook outlook = look_ahead(problem, finer.mesh, finer.z, found.rows->margins(), control);
+  const Outlook outlook = look_ahead(problem, finer.mesh, finer.z, found.rows->margins(), control, found);
   Remainder remainder;
   remainder.objective = std::max(0.0, outlook.won);
   remainder.by_piece.assign(halved.size(), 0.0);

@@ -18,6 +18,8 @@ constexpr std::size_t kCoarse = 18;
 constexpr double kMayMatter = 0.05;
 // ... those that a round without them broke by this much.
 constexpr double kBroken = 0.01;
+// Finer meshes than this are left to our own steps, ...
+constexpr std::size_t kMostForRounds = 48;
 // Newton steps go on until they are this share of what is asked for.
 constexpr double kArrived = 0.1;
 // Rows this close to their bound may carry a multiplier, ...
@@ -109,11 +111,9 @@ class Minimiser {
     rows_->set_margins(margins);
   }
 
-  [[nodiscard]] Found run(const Vector& start) {
+  [[nodiscard]] Found run(const Vector& start, const Found* known) {
     Found found;
-    point_ = point(rows_->state(start, true), Multipliers{});
-    // With the multipliers of the first program the curvature is that of the Lagrangian.
-    point_ = point(std::move(point_.state), point_.next);
+    begin(start, known);
     // So many rounds that do not come closer by this factor end the search.
     constexpr double kPays = 0.7;
     constexpr int kMostIdle = 3;
@@ -126,7 +126,7 @@ class Minimiser {
       const bool pays = found.residual + found.violation < kPays * least;
       least = std::min(least, found.residual + found.violation);
       idle = pays ? 0 : idle + 1;
-      if (round >= control_.most_rounds || idle >= kMostIdle || stopped_) break;
+      if (round >= control_.most_rounds || idle >= kMostIdle || stopped_ || !may_descend()) break;
       ++control_.rounds;
       const Vector before = point_.state.z;
       descend_once();
@@ -141,9 +141,13 @@ class Minimiser {
     return found;
   }
 
-  [[nodiscard]] Outlook look(const Vector& start) {
+  [[nodiscard]] Outlook look(const Vector& start, const Found& known) {
     Outlook outlook;
-    point_ = point(rows_->state(start, true), Multipliers{});
+    // The multipliers of the coarser mesh tell which rows to begin with. For the curvature they are not good enough:
+    // where they leave it indefinite, the step would be shortened, and less promised than there is.
+    point_ = linearised(rows_->state(start, true));
+    set_metric(point_, Multipliers{});
+    set_solution(point_, carried_over(known));
     point_ = point(std::move(point_.state), point_.next);
     outlook.step = point_.solution.step;
     outlook.force.assign(n_, 0.0);
@@ -179,6 +183,85 @@ class Minimiser {
     Multipliers next;       ///< of the solution
     double distance = 0.0;  ///< length of the step over that of the gradient, in the metric
   };
+
+  void begin(const Vector& start, const Found* known) {
+    is_guessed_ = known != nullptr;
+    if (known != nullptr) {
+      point_ = point(rows_->state(start, true), carried_over(*known));
+      return;
+    }
+    point_ = point(rows_->state(start, true), Multipliers{});
+    // With the multipliers of the first program the curvature is that of the Lagrangian.
+    point_ = point(std::move(point_.state), point_.next);
+  }
+
+  /// The multipliers of an optimum on another mesh, at the rows closest to theirs.
+  [[nodiscard]] Multipliers carried_over(const Found& known) const {
+    Multipliers multipliers{known.equality, {}, {}};
+    for (std::size_t i = 0; i < known.active.size(); ++i) {
+      if (!(known.inequality[i] > 0.0)) continue;
+      const Row row = counterpart(known, known.active[i]);
+      const auto same = std::find(multipliers.active.begin(), multipliers.active.end(), row);
+      if (same == multipliers.active.end()) {
+        multipliers.active.push_back(row);
+        multipliers.inequality.push_back(known.inequality[i]);
+      } else {
+        multipliers.inequality[static_cast<std::size_t>(same - multipliers.active.begin())] +=
+            known.inequality[i];
+      }
+    }
+    return multipliers;
+  }
+
+  /// The row of this mesh that lies closest to one of another.
+  [[nodiscard]] Row counterpart(const Found& known, Row row) const {
+    if (row.foot) return row;  // of a corner, whatever the mesh
+    const Measure measure = problem_.limits[row.limit].measure;
+    const Vector& knots = track_->mesh().knots;
+    if (measure == Measure::curvature) {
+      row.place = nearest_knot(knot_at(*known.track, row.place));
+    } else if (measure == Measure::curvature_rate) {
+      const Vector& before = known.track->mesh().knots;
+      const double middle = 0.5 * (before[row.place] + before[row.place + 1]);
+      const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, middle);
+      row.place = static_cast<std::size_t>(above - knots.begin()) - 1;
+    } else {
+      row.place = nearest_station(known.track->stations()[row.place]);
+    }
+    return row;
+  }
+
+  /// Place of a knot of either kind, of the core's length.
+  [[nodiscard]] static double knot_at(const Transcription& track, std::size_t index) {
+    const std::size_t own = track.layout().knots;
+    return index < own ? track.mesh().knots[index] : track.fine_knots()[index - own].sigma;
+  }
+
+  [[nodiscard]] std::size_t nearest_knot(double sigma) const {
+    std::size_t nearest = 0;
+    const std::size_t count = track_->layout().knots + track_->fine_knots().size();
+    for (std::size_t i = 1; i < count; ++i) {
+      if (std::fabs(knot_at(*track_, i) - sigma) < std::fabs(knot_at(*track_, nearest) - sigma)) nearest = i;
+    }
+    return nearest;
+  }
+
+  /// Of those at which limits are held.
+  [[nodiscard]] std::size_t nearest_station(const Station& station) const {
+    const std::vector<Station>& stations = track_->stations();
+    const double unit = track_->mesh().core_length;
+    const double s = station.arc_length(unit);
+    const auto above =
+        std::lower_bound(stations.begin(), stations.end(), s,
+                         [&](const Station& at, double to) { return at.arc_length(unit) < to; });
+    auto behind = static_cast<std::size_t>(above - stations.begin());
+    while (behind < stations.size() && !stations[behind].watched) ++behind;
+    if (behind == stations.size()) return behind - 1;
+    if (behind == 0) return 0;
+    std::size_t before = behind - 1;
+    while (before > 0 && !stations[before].watched) --before;
+    return s - stations[before].arc_length(unit) < stations[behind].arc_length(unit) - s ? before : behind;
+  }
 
   /// @param known  for the curvature of the Lagrangian, and for where the program's solution may begin
   [[nodiscard]] Point point(State state, const Multipliers& known) const {
@@ -238,6 +321,11 @@ class Minimiser {
            std::all_of(point.solution.active.begin(), point.solution.active.end(), is_tight);
   }
 
+  /// Whether a round of NLopt is worth what it costs: with the cube of the unknowns and all rows nearby.
+  [[nodiscard]] bool may_descend() const {
+    return track_->mesh().fine.empty() && track_->mesh().knots.size() <= kMostForRounds;
+  }
+
   [[nodiscard]] bool is_coarse() const { return track_->mesh().knots.size() < kCoarse; }
 
   /// Newton steps. From far away they are taken only if they arrive.
@@ -249,9 +337,16 @@ class Minimiser {
       take_steps();
       if (!solved(point_) || has_arrived(point_)) return;
     }
-    const Point begun = point_;
+    Point begun = point_;
     take_steps();
     if (has_arrived(point_)) return;
+    if (is_guessed_) {
+      // Multipliers of another mesh may be no good guess.
+      begin(begun.state.z, nullptr);
+      begun = point_;
+      take_steps();
+      if (has_arrived(point_)) return;
+    }
     point_ = begun;
     if (has_tried_lowering_) return;
     has_tried_lowering_ = true;
@@ -464,6 +559,7 @@ class Minimiser {
   std::shared_ptr<Rows> rows_;
   std::size_t n_;
   Point point_;
+  bool is_guessed_ = false;  ///< the multipliers of the first point are of another mesh
   bool has_tried_lowering_ = false;
   bool stopped_ = false;
 };
@@ -471,13 +567,13 @@ class Minimiser {
 }  // namespace
 
 Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& start, const Vector& margins,
-               SearchControl& control) {
-  return Minimiser(problem, mesh, margins, control).run(start);
+               SearchControl& control, const Found* known) {
+  return Minimiser(problem, mesh, margins, control).run(start, known);
 }
 
 Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z, const Vector& margins,
-                   SearchControl& control) {
-  return Minimiser(problem, mesh, margins, control).look(z);
+                   SearchControl& control, const Found& known) {
+  return Minimiser(problem, mesh, margins, control).look(z, known);
 }
 
 GuessCurve curve_of(const Transcription& track, const Vector& z) {

@@ -36,17 +36,19 @@ struct Found {
 };
 
 /// Minimises on one mesh from z. `margins` tighten the limits, one entry a limit.
+/// @param known  an optimum of the same problem on another mesh, close to z: its multipliers are the first guess
 [[nodiscard]] Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
-                             const Vector& margins, SearchControl& control);
+                             const Vector& margins, SearchControl& control, const Found* known = nullptr);
 
 /// One quadratic program at a point: what its step would change.
+/// `known` as for minimise().
 struct Outlook {
   Vector step;
   Vector force;      ///< the Lagrangian's gradient at the point, with the program's multipliers
   double won = 0.0;  ///< by which the step lowers the objective, to second order
 };
 [[nodiscard]] Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
-                                 const Vector& margins, SearchControl& control);
+                                 const Vector& margins, SearchControl& control, const Found& known);
 
 /// Slope angle over arc length of an iterate.
 [[nodiscard]] GuessCurve curve_of(const Transcription& track, const Vector& z);

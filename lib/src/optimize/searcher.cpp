@@ -1,0 +1,461 @@
+#include "optimize/searcher.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+
+#include "optimize/least_violation.hpp"
+#include "optimize/refinement.hpp"
+#include "optimize/starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace glissade::optimizer {
+namespace {
+
+// Pieces of the coarse levels before the finest.
+constexpr std::size_t kCoarsePieces = 12;
+constexpr std::size_t kMiddlePieces = 16;
+constexpr std::size_t kFinerPieces = 24;
+constexpr std::size_t kMovedLevels = 4;
+// By such a share a smoother track may be slower.
+constexpr double kDearer = 1e-7;
+// By less of a share nothing is won.
+constexpr double kWithoutEffect = 1e-8;
+// Pieces of the mesh on which a track is looked for that keeps the limits at all.
+constexpr std::size_t kRescuePieces = 20;
+constexpr double kCoarseTolerance = 1e-3;
+// A coarse track that breaks its limits by less is carried on to a finer mesh.
+constexpr double kNearlyFeasible = 1e-3;
+// The lowest load is kept this far above its bound, in g: a body that weighs nothing at all has left the
+// track.
+constexpr double kContactMargin = 1e-6;
+constexpr int kTighteningRounds = 12;
+// So many of them, short ones, once the search has been asked to end.
+constexpr int kGraceRounds = 6;
+constexpr int kGraceEffort = 2;
+// In the first of them limits are held at the places that the referee names; later they are tightened.
+constexpr int kHoldingRounds = 4;
+// In so many a curvature that follows the load more closely is tried where a body lifts off.
+constexpr int kFollowingRounds = 3;
+// A track that then still breaks a limit at a station by more than kHopeless is given up: tighter limits are no
+// easier.
+constexpr int kPatientRounds = 2;
+// So is one that twice breaks them by more than this, and on a finer mesh by hardly less.
+constexpr double kHopeless = 1e-5;
+// A load that falls below none by less between two stations is mended by a greater margin, a deeper fall by
+// holding the load there: next to a jump it is deep, and short.
+constexpr double kShallow = 1e-5;
+// By what is missing and a little more, since the track moves.
+constexpr double kTightening = 1.3;
+// A body that stalled between two stations is kept this much faster, squared, over free fall.
+constexpr double kStallMargin = 1e-5;
+
+CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
+  const Layout& layout = found.track->layout();
+  const Mesh& mesh = found.track->mesh();
+  const double length = found.z[layout.length()];
+  std::vector<ClothoidSegment> segments;
+  if (mesh.lead_in > 0.0) segments.push_back({mesh.lead_in * problem.chord, 0.0, 0.0});
+  const double scale = 1.0 / (length * problem.chord);
+  const std::vector<FineKnot>& fine = found.track->fine_knots();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i + 1 < layout.knots; ++i) {
+    double sigma = mesh.knots[i];
+    double turn = found.z[layout.turn(i)];
+    const auto add_up_to = [&](double to, double turn_there) {
+      segments.push_back({(to - sigma) * length * problem.chord, turn * scale, turn_there * scale});
+      sigma = to;
+      turn = turn_there;
+    };
+    for (; next < fine.size() && fine[next].piece == i; ++next) {
+      add_up_to(fine[next].sigma, found.track->fine_turn(found.z, next));
+    }
+    add_up_to(mesh.knots[i + 1], found.z[layout.turn(i + 1)]);
+  }
+  if (mesh.lead_out > 0.0) segments.push_back({mesh.lead_out * problem.chord, 0.0, 0.0});
+  return std::make_shared<ClothoidSpline>(Angle::from_radians(found.z[layout.angle()]), std::move(segments));
+}
+
+/// Whether the rate of curvature is limited: then nothing jumps.
+bool is_smooth(const ScaledProblem& problem) {
+  return std::any_of(problem.limits.begin(), problem.limits.end(),
+                     [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
+}
+
+/// Whether the fastest track would turn down at once from where a limit on the entry holds it: a body at rest
+/// loses nothing by that, the tighter the crest the better, and no crest is the tightest. How tight it may be is
+/// then up to the mesh, which has to be the same there for every such problem.
+bool starts_with_crest(const ScaledProblem& problem) {
+  if (problem.entry_speed2 > 0.0 || problem.lead_in > 0.0) return false;
+  bool held = false;
+  for (const LimitSpec& limit : problem.limits) {
+    if (limit.measure == Measure::curvature_rate) return false;
+    held = held || (limit.measure == Measure::entry_slope_angle && limit.side >= 0);
+  }
+  return held;
+}
+
+/// Knots in shares of the core that do not depend on the track found: from a hundred-millionth on, each this factor
+/// behind the one before.
+Vector with_crest_knots(const Vector& knots) {
+  constexpr double kFirst = 1e-8;
+  constexpr double kFactor = 4.0;
+  constexpr double kLast = 2e-3;
+  Vector result{0.0};
+  double next = kFirst;
+  for (; next < kLast; next *= kFactor) result.push_back(next);
+  for (const double knot : knots) {
+    if (knot > 0.75 * next) result.push_back(knot);
+  }
+  return result;
+}
+
+/// Where a limit begins to hold.
+Vector breaks_of(const ScaledProblem& problem, double core_length) {
+  if (!(problem.lowest_speed_from > problem.lead_in)) return {};
+  const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
+  return sigma < 1.0 ? Vector{sigma} : Vector{};
+}
+
+double entry_share(const ScaledProblem& problem, double core_length) {
+  return (problem.lead_in + 0.5 * problem.entry_speed2) / core_length;
+}
+
+double core_length_of(const Found& found) {
+  return found.z[found.track->layout().length()];
+}
+
+/// A track that follows such a limit breaks it a little in every piece, between any places where it is
+/// held, since a linear curvature does not follow it. Tightening takes less than that already leaves.
+bool is_highest_load(const LimitSpec& limit) {
+  const bool load = limit.measure == Measure::normal_load || limit.measure == Measure::curvature_load;
+  return load && limit.side > 0;
+}
+
+/// Places at which limits are held beside the stations, of the core's length.
+class HeldPlaces {
+ public:
+  /// A place close to one that is held already takes its part: limits are touched there now.
+  void add(double sigma, const Vector& knots) {
+    constexpr double kClose = 0.02;
+    if (!(sigma > 0.0 && sigma < 1.0)) return;
+    const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
+    const double piece = *above - *(above - 1);
+    for (double& place : places_) {
+      if (std::fabs(place - sigma) > kClose * piece) continue;
+      place = sigma;
+      return;
+    }
+    places_.push_back(sigma);
+  }
+  [[nodiscard]] const Vector& places() const { return places_; }
+
+ private:
+  Vector places_;
+};
+
+}  // namespace
+
+Candidate Searcher::search(const Passages& passages) {
+  Candidate candidate = begun(passages);
+  const ScaledProblem& scaled_problem = *candidate.problem;
+  const bool unlimited = is_unlimited();
+  // Clipped slopes are often the unclipped ones: what led nowhere is not tried twice.
+  std::vector<GuessCurve> lost;
+  for (const GuessCurve& start : starts(scaled_problem)) {
+    if (std::find(lost.begin(), lost.end(), start) != lost.end()) continue;
+    std::optional<Found> found =
+        unlimited ? from_exact(scaled_problem, start) : coarse(scaled_problem, start);
+    if (control_.stop()) candidate.stopped = true;
+    if (!found) lost.push_back(start);
+    if (!found) continue;
+    // It tightens the limits, with which a start must be tried anew.
+    lost.clear();
+    refine(candidate, *found, unlimited);
+    // A track that keeps the limits, but is no optimum, may have lost its way: the next start is tried too.
+    const bool converged = candidate.kept && candidate.found->residual <= options_.tolerance;
+    if (converged || candidate.stopped) break;
+  }
+  return candidate;
+}
+
+Candidate Searcher::search_from(const Passages& passages, const Mesh& mesh, const Vector& z) {
+  Candidate candidate = begun(passages);
+  aim_at(kCoarseTolerance, 12);
+  const Found found = minimise(*candidate.problem, mesh, z, margins_, control_);
+  refine(candidate, found, false);
+  return candidate;
+}
+
+Candidate Searcher::begun(const Passages& passages) {
+  Candidate candidate;
+  candidate.problem = std::make_shared<ScaledProblem>(scaled(problem_, passages));
+  const std::vector<LimitSpec>& limits = candidate.problem->limits;
+  margins_.assign(limits.size(), 0.0);
+  for (std::size_t i = 0; i < margins_.size(); ++i) {
+    if (limits[i].measure == Measure::normal_load && limits[i].side < 0) margins_[i] = kContactMargin;
+  }
+  return candidate;
+}
+
+bool Searcher::is_unlimited() const {
+  Limits limits;
+  return problem_.limits == limits && problem_.finish.kind == FinishKind::point &&
+         problem_.body.entry_speed == 0.0 && problem_.objective.kind == ObjectiveKind::travel_time &&
+         is_sliding_point(problem_.body);
+}
+
+Mesh Searcher::mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const {
+  if (starts_with_crest(problem)) knots = with_crest_knots(knots);
+  Mesh mesh = mesh_of(problem, std::move(knots), core_length);
+  mesh.extra_breaks = breaks_of(problem, core_length);
+  return mesh;
+}
+
+std::optional<Found> Searcher::from_exact(const ScaledProblem& problem, const GuessCurve& start) {
+  const auto pieces = static_cast<std::size_t>(options_.pieces);
+  const Mesh mesh = mesh_with(problem, graded_knots(start, pieces, 0.0), start.length);
+  aim_at(options_.tolerance, 8);
+  Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
+  return found;
+}
+
+std::optional<Found> Searcher::coarse(const ScaledProblem& problem, const GuessCurve& start) {
+  tell("coarse track", 0.0);
+  const Mesh mesh = mesh_with(problem, graded_knots(start, kCoarsePieces, entry_share(problem, start.length)),
+                              start.length);
+  aim_at(kCoarseTolerance, 5);
+  Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
+  if (found.feasible(kNearlyFeasible) || found.stopped) return found;
+  // The descent lost its way, or the mesh is too coarse: look for any track that keeps the limits first.
+  const Mesh finer = mesh_with(
+      problem, graded_knots(start, kRescuePieces, entry_share(problem, start.length)), start.length);
+  control_.most_rounds = 6;
+  return rescued(problem, finer, fit(start, Transcription(finer)));
+}
+
+std::optional<Found> Searcher::rescued(const ScaledProblem& problem, const Mesh& mesh,
+                                       const Vector& beginning) {
+  const Relaxed relaxed =
+      least_violation(problem, mesh, beginning, Elastic::all(problem.limits.size()), margins_, control_);
+  if (relaxed.t > kNearlyFeasible) return std::nullopt;
+  Found found = minimise(problem, mesh, relaxed.found.z, margins_, control_);
+  if (!found.feasible(kNearlyFeasible)) return std::nullopt;
+  return found;
+}
+
+void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
+  const ScaledProblem& problem = *candidate.problem;
+  if (!unlimited) {
+    found = on_finer_meshes(problem, std::move(found));
+    if (!found.stopped) found = followed(problem, std::move(found));
+    if (!found.stopped) found = halved(problem, std::move(found));
+  }
+  candidate.stopped = candidate.stopped || found.stopped;
+  tell("referee", 0.9);
+  mend(candidate, std::move(found));
+}
+
+Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
+                        const Found& known) {
+  Found next = minimise(problem, mesh, beginning, margins_, control_, &known);
+  if (next.stopped || next.feasible(kNearlyFeasible) || !known.feasible(kNearlyFeasible)) return next;
+  std::optional<Found> other = rescued(problem, mesh, beginning);
+  return other ? std::move(*other) : next;
+}
+
+Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
+  // A track that only a finer mesh could find is not taken back to a coarser one.
+  const std::size_t begun = found.track->mesh().knots.size();
+  const std::size_t pieces = std::max(static_cast<std::size_t>(options_.pieces), begun - 1);
+  std::vector<std::size_t> levels;
+  if (begun <= kMiddlePieces && pieces > kMiddlePieces) levels.push_back(kMiddlePieces);
+  if (pieces > kFinerPieces) levels.push_back(kFinerPieces);
+  levels.insert(levels.end(), 1 + kMovedLevels, pieces);
+  double done = 0.2;
+  int hopeless = 0;
+  for (std::size_t level = 0; level < levels.size() && !found.stopped; ++level) {
+    const std::vector<Switch> switches = switches_of(problem, found);
+    const bool last_ones = level + kMovedLevels >= levels.size();
+    if (last_ones && settled(switches)) break;
+    tell("finer track", done);
+    done += 0.7 / static_cast<double>(levels.size());
+    const bool finest = levels[level] == pieces;
+    aim_at(finest ? options_.tolerance : kCoarseTolerance, finest ? 10 : 5);
+    const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
+                                core_length_of(found));
+    Found next = on_mesh(problem, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)), found);
+    if (!next.feasible(kNearlyFeasible) && (next.stopped || found.feasible(kNearlyFeasible))) {
+      // A mesh on which the search gets lost is no reason to give a track away.
+      found.stopped = next.stopped;
+      continue;
+    }
+    constexpr double kLess = 0.7;
+    hopeless += !next.feasible(kHopeless) && next.violation > kLess * found.violation ? 1 : 0;
+    const double dearer = next.objective - found.objective;
+    const double size = std::fabs(found.objective);
+    const bool pays = is_optimum(next) && dearer <= kDearer * size;
+    if (last_ones && is_optimum(found) && !pays) break;
+    // Where the places at which limits change over move without effect they need not be followed.
+    const bool still = last_ones && is_optimum(found) && pays && std::fabs(dearer) <= kWithoutEffect * size;
+    found = std::move(next);
+    if (still || hopeless > 1) break;
+  }
+  return found;
+}
+
+Found Searcher::followed(const ScaledProblem& problem, Found found) {
+  constexpr int kMostRounds = 3;
+  constexpr double kPays = 1e-7;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::optional<Mesh> mesh = following_loads(problem, found);
+    if (!mesh) break;
+    aim_at(options_.tolerance, 0);
+    Found next = minimise(problem, *mesh, found.z, margins_, control_, &found);
+    if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
+    const double won = found.objective - next.objective;
+    found = std::move(next);
+    if (std::fabs(won) < kPays * std::fabs(found.objective)) break;
+  }
+  return found;
+}
+
+Found Searcher::halved(const ScaledProblem& problem, Found found) {
+  constexpr int kMostRounds = 6;
+  // Under a limit on the rate of curvature no jump tells where knots belong: halving alone makes prices exact.
+  const bool smooth = is_smooth(problem);
+  const double left_at_most = smooth ? 1e-8 : 1e-6;
+  constexpr std::size_t kMostPieces = 120;
+  constexpr double kKept = 0.1;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Remainder left = remainder_of(problem, found, control_);
+    if (left.objective <= left_at_most * std::fabs(found.objective)) break;
+    if (found.track->mesh().knots.size() > kMostPieces) break;
+    const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
+    aim_at(options_.tolerance, 0);
+    Found next = minimise(problem, finer.mesh, finer.z, margins_, control_, &found);
+    if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
+    next = followed(problem, std::move(next));
+    const double won = found.objective - next.objective;
+    found = std::move(next);
+    // What is promised but not won is not there; prices may gain from it all the same.
+    if (!smooth && won < kKept * left_at_most * std::fabs(found.objective)) break;
+  }
+  return found;
+}
+
+void Searcher::mend(Candidate& candidate, Found found) {
+  const ScaledProblem& problem = *candidate.problem;
+  const std::function<bool()> stop = control_.stop;
+  HeldPlaces held;
+  for (int round = 0; round < kTighteningRounds; ++round) {
+    const CenterlinePtr track = track_of(problem, found);
+    const referee::Judgement judgement = referee::judge_track(problem_, track, referee::kRefereeSamples);
+    const bool kept = judgement.arrived && judgement.worst <= options_.limit_tolerance;
+    const bool better = !candidate.found || (kept && !candidate.kept) ||
+                        (kept == candidate.kept && found.objective < candidate.found->objective);
+    if (better) {
+      candidate.found = found;
+      candidate.track = track;
+      candidate.judgement = judgement;
+      candidate.kept = kept;
+    }
+    if (kept) break;
+    if (found.stopped) {
+      // Asked to end on a track that all but keeps its limits: a little more work makes it one that does.
+      if (!found.feasible(kNearlyFeasible) || round >= kGraceRounds) break;
+      control_.stop = [] { return false; };
+    }
+    if (round >= kPatientRounds && !found.feasible(kHopeless)) break;
+    const double core_length = core_length_of(found);
+    const auto share_of = [&](double place) {
+      return (place / problem.chord - problem.lead_in) / core_length;
+    };
+    std::vector<LiftOff> lifts;
+    if (judgement.lift_off) {
+      lifts = lift_offs_of(problem, found);
+      lifts.push_back({share_of(*judgement.lift_off), 0.0});
+      if (round < kFollowingRounds && !found.stopped) {
+        if (std::optional<Found> next = following_closely(problem, found, lifts)) {
+          found = std::move(*next);
+          continue;
+        }
+      }
+    }
+    tighten(problem, judgement, lifts, round);
+    Mesh mesh = found.track->mesh();
+    mesh.core_length = core_length;
+    mesh.extra_breaks = breaks_of(problem, core_length);
+    for (const double place : places_to_hold(problem, judgement, round))
+      held.add(share_of(place), mesh.knots);
+    for (const LiftOff& lift : lifts) {
+      if (lift.depth > kShallow) held.add(lift.sigma, mesh.knots);
+    }
+    mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.places().begin(), held.places().end());
+    aim_at(options_.tolerance, found.stopped ? kGraceEffort : 10);
+    const bool stopped = found.stopped;
+    found = on_mesh(problem, mesh, found.z, found);
+    control_.stop = stop;
+    found.stopped = found.stopped || stopped;
+  }
+  candidate.stopped = candidate.stopped || found.stopped;
+}
+
+std::optional<Found> Searcher::following_closely(const ScaledProblem& problem, const Found& found,
+                                                 const std::vector<LiftOff>& lifts) {
+  Vector lifting;
+  for (const LiftOff& lift : lifts) lifting.push_back(lift.sigma);
+  const std::optional<Mesh> closer = following_loads(problem, found, lifting);
+  if (!closer || closer->fine.size() <= found.track->mesh().fine.size()) return std::nullopt;
+  aim_at(options_.tolerance, 10);
+  Found next = minimise(problem, *closer, found.z, margins_, control_, &found);
+  if (!next.feasible(options_.limit_tolerance)) return std::nullopt;
+  return next;
+}
+
+void Searcher::tighten(const ScaledProblem& problem, const referee::Judgement& judgement,
+                       const std::vector<LiftOff>& lifts, int round) {
+  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
+    const LimitSpec& limit = problem.limits[i];
+    if (limit.side == 0) continue;
+    const bool contact = limit.measure == Measure::normal_load && limit.side < 0;
+    if (contact && judgement.lift_off) {
+      double shallow = 0.0;
+      for (const LiftOff& lift : lifts) {
+        if (lift.depth <= kShallow) shallow = std::max(shallow, lift.depth);
+      }
+      margins_[i] = std::max(2.0 * margins_[i], margins_[i] + kTightening * shallow);
+      continue;
+    }
+    const bool keeps_moving = limit.measure == Measure::arrival || limit.name.id == LimitId::no_choking;
+    if (keeps_moving && judgement.stall) {
+      margins_[i] = std::max(kStallMargin, 2.0 * margins_[i]);
+      continue;
+    }
+    const bool load = is_highest_load(limit);
+    if (round < kHoldingRounds && !load) continue;
+    const LimitCheck* check = judgement.find(limit.name);
+    if (check == nullptr || check->violation <= 0.5 * options_.limit_tolerance * check->scale) continue;
+    margins_[i] += kTightening * check->violation / check->scale;
+  }
+}
+
+/// Where the referee found the ride ending, or in the first rounds limits broken the most: holding a limit
+/// exactly there costs nothing, other than tightening it as a whole.
+std::vector<double> Searcher::places_to_hold(const ScaledProblem& problem,
+                                             const referee::Judgement& judgement, int round) const {
+  std::vector<double> places;
+  if (judgement.lift_off) places.push_back(*judgement.lift_off);
+  if (judgement.stall) places.push_back(*judgement.stall);
+  if (round >= kHoldingRounds) return places;
+  for (const referee::Broken& broken : judgement.broken) {
+    const bool load = std::any_of(problem.limits.begin(), problem.limits.end(), [&](const LimitSpec& limit) {
+      return limit.name == broken.limit && is_highest_load(limit);
+    });
+    if (!load && broken.violation > 0.5 * options_.limit_tolerance) places.push_back(broken.where);
+  }
+  return places;
+}
+
+}  // namespace glissade::optimizer

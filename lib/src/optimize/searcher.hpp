@@ -1,0 +1,93 @@
+#pragma once
+
+#include "glissade/optimize/optimize.hpp"
+
+#include "optimize/load_arcs.hpp"
+#include "optimize/scaled_problem.hpp"
+#include "optimize/search.hpp"
+#include "optimize/switches.hpp"
+#include "referee/judgement.hpp"
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace glissade::optimizer {
+
+/// One way past the keep-outs, searched to its end.
+struct Candidate {
+  std::shared_ptr<ScaledProblem> problem;
+  std::optional<Found> found;  ///< none where no start came close to keeping the limits
+  CenterlinePtr track;
+  referee::Judgement judgement;
+  bool kept = false;  ///< the referee finds every limit kept
+  bool stopped = false;
+};
+
+/// Searches coarse to fine, and goes on until the referee finds the limits kept.
+class Searcher {
+ public:
+  Searcher(const Problem& problem, const OptimizeOptions& options, SearchControl& control,
+           const Progress& progress)
+      : problem_(problem), options_(options), control_(control), progress_(progress) {}
+
+  /// From the product's own starts.
+  [[nodiscard]] Candidate search(const Passages& passages);
+  /// From a track that keeps the limits.
+  [[nodiscard]] Candidate search_from(const Passages& passages, const Mesh& mesh, const Vector& z);
+
+ private:
+  [[nodiscard]] Candidate begun(const Passages& passages);
+  /// Only what every track obeys: the mesh can then be laid by the exact solution.
+  [[nodiscard]] bool is_unlimited() const;
+  [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const;
+  [[nodiscard]] std::optional<Found> from_exact(const ScaledProblem& problem, const GuessCurve& start);
+  [[nodiscard]] std::optional<Found> coarse(const ScaledProblem& problem, const GuessCurve& start);
+  /// By way of any track that keeps the limits. @return nothing where none comes close
+  [[nodiscard]] std::optional<Found> rescued(const ScaledProblem& problem, const Mesh& mesh,
+                                             const Vector& beginning);
+  /// Finer meshes, then tightening until the referee is content.
+  void refine(Candidate& candidate, Found found, bool unlimited);
+  /// Meshes of more and more pieces, the last of them only while the places at which limits change over move, and it
+  /// pays.
+  [[nodiscard]] Found on_finer_meshes(const ScaledProblem& problem, Found found);
+  /// The search on a mesh laid for a track, once more by way of any track that keeps the limits if it gets lost.
+  [[nodiscard]] Found on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
+                              const Found& known);
+  /// The same track with a curvature that follows the load limits which it lies at.
+  [[nodiscard]] Found followed(const ScaledProblem& problem, Found found);
+  /// Pieces are halved where a finer mesh has much left to win.
+  [[nodiscard]] Found halved(const ScaledProblem& problem, Found found);
+
+  /// Lets the referee judge and mends what it finds, round by round.
+  void mend(Candidate& candidate, Found found);
+  /// A curvature that follows the load more closely where a body lifts off.
+  /// @return nothing where that takes no further knots, or no optimum is found with them
+  [[nodiscard]] std::optional<Found> following_closely(const ScaledProblem& problem, const Found& found,
+                                                       const std::vector<LiftOff>& lifts);
+  void tighten(const ScaledProblem& problem, const referee::Judgement& judgement,
+               const std::vector<LiftOff>& lifts, int round);
+  [[nodiscard]] std::vector<double> places_to_hold(const ScaledProblem& problem,
+                                                   const referee::Judgement& judgement, int round) const;
+  [[nodiscard]] bool is_optimum(const Found& found) const {
+    return !found.stopped && found.residual <= options_.tolerance && found.feasible(options_.limit_tolerance);
+  }
+
+  /// What the next descents are to reach.
+  void aim_at(double tolerance, int most_rounds) {
+    control_.tolerance = tolerance;
+    control_.most_rounds = most_rounds;
+  }
+  void tell(std::string_view stage, double fraction) const {
+    if (progress_) progress_(stage, fraction);
+  }
+
+  const Problem& problem_;
+  const OptimizeOptions& options_;
+  SearchControl& control_;
+  const Progress& progress_;
+  Vector margins_;  ///< by which the limits are tightened, in scales
+};
+
+}  // namespace glissade::optimizer
