@@ -216,7 +216,7 @@ class Minimiser {
   /// The row of this mesh that lies closest to one of another.
   [[nodiscard]] Row counterpart(const Found& known, Row row) const {
     if (row.foot) return row;  // of a corner, whatever the mesh
-    const Measure measure = problem_.limits[row.limit].measure;
+    const Measure* const measure = problem_.limits[row.limit].measure;
     const Vector& knots = track_->mesh().knots;
     if (measure == Measure::curvature) {
       row.place = nearest_knot(knot_at(*known.track, row.place));

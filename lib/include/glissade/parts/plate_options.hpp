@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 
 #include <optional>
