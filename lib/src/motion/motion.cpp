@@ -68,6 +68,7 @@ Equation equation_of(const Centerline& centerline, const Body& body, double grav
   if (!body.law) return equation;
   equation.gain = 2.0 / body.law->inertia();
   equation.height = body.law->centre_height();
+  equation.side = body.law->side();
   if (body.law->depends_on_speed()) equation.law = body.law.get();
   return equation;
 }
@@ -288,11 +289,15 @@ double speed_after(const Landing& landing, Angle slope_angle, Friction friction)
   return landing.speed * (math::cos(theta) - math::sin(theta) * friction.coefficient());
 }
 
+std::optional<Landing> landing_of(const Body& body) {
+  return body.approach ? body.approach->landing(body) : body.landing;
+}
+
 bool is_sliding_point(const Body& body) {
   const bool point = !body.law || (body.law->inertia() == 1.0 && body.law->centre_height() == 0.0 &&
-                                   !body.law->depends_on_speed());
+                                   !body.law->depends_on_speed() && body.law->side() == 1.0);
   const bool calm = body.head_wind == 0.0 || body.drag_per_metre == 0.0;
-  return point && calm && body.friction_changes.empty() && !body.landing;
+  return point && calm && body.friction_changes.empty() && !body.landing && !body.approach;
 }
 
 Friction least_friction(const Body& body) {
@@ -303,6 +308,7 @@ Friction least_friction(const Body& body) {
 
 Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
   if (!centerline) throw InputError({"", "there is no centerline to ride on", "", ""});
+  body.landing = landing_of(body);
   if (body.landing) {
     // What friction stops at once is a stream without speed: it chokes where it lands.
     constexpr double kStopped = 1e-9;

@@ -48,13 +48,13 @@ double Equation::path_rate(const Direction& direction) const {
 
 double Equation::push(const Direction& direction, double friction) const {
   const auto [sine, cosine] = math::sine_cosine(direction.slope_angle);
-  const double along = gain * gravity * (sine - friction * cosine);
+  const double along = gain * gravity * (sine - side * friction * cosine);
   return height == 0.0 ? along : along * path_rate(direction);
 }
 
 double Equation::keep(double turn, double distance, double friction) const {
   // The centre's way is shorter by h where the track turns upwards by 1 rad.
-  return math::exp(gain * (friction * turn - k * (distance + height * turn)));
+  return math::exp(gain * (side * friction * turn - k * (distance + height * turn)));
 }
 
 double Equation::resistance(double s, double v) const {
@@ -75,9 +75,10 @@ Equation::Extra Equation::extra(const Direction& direction, double s, double fri
     // in which that happens is smooth.
     const double v_of_law = std::max(v, kContinued * law->least_v(s));
     const Resistance c = law->resistance(s, v_of_law);
-    const double pressing = path * gravity * math::cos(direction.slope_angle) + direction.curvature * v;
+    const double pressing =
+        side * (path * gravity * math::cos(direction.slope_angle) + direction.curvature * v);
     const double by_v = v_of_law > v ? 0.0 : c.by_v;
-    extra.rate = -gain * friction * (by_v * pressing + (c.factor - 1.0) * direction.curvature);
+    extra.rate = -gain * friction * (by_v * pressing + (c.factor - 1.0) * side * direction.curvature);
     extra.push = -gain * friction * (c.factor - 1.0) * pressing - extra.rate * v;
   }
   if (head_wind != 0.0) extra.push += gain * k * path * (v - dragged(v));
@@ -90,9 +91,9 @@ double Equation::slope_at_rest(const Direction& direction, double friction) cons
 }
 
 double Equation::load(const Direction& direction, double v) const {
-  const double weight = gravity * math::cos(direction.slope_angle);
+  const double weight = side * gravity * math::cos(direction.slope_angle);
   if (v == 0.0) return weight;
-  if (height == 0.0) return weight + direction.curvature * v;
+  if (height == 0.0) return weight + side * direction.curvature * v;
   return weight + direction.curvature * v / path_rate(direction);
 }
 

@@ -22,6 +22,7 @@ struct Equation {
   double gain = 2.0;         ///< 2/f
   double height = 0.0;       ///< h, of the centre of mass above the track [m]
   double head_wind = 0.0;    ///< [m/s]
+  double side = 1.0;         ///< -1 below a hood: the sign of the load
   const Law* law = nullptr;  ///< where c depends on the speed; none otherwise
   std::vector<FrictionChange> changes;
 
@@ -34,7 +35,7 @@ struct Equation {
   [[nodiscard]] bool closed() const { return law == nullptr && head_wind == 0.0; }
   /// @return mu on the stretch that holds s
   [[nodiscard]] double friction_at(double s) const;
-  /// @return (2/f) g (sin(zeta) - mu cos(zeta)) (1 - kappa h) [m/s^2]
+  /// @return (2/f) g (sin(zeta) - side mu cos(zeta)) (1 - kappa h) [m/s^2]
   [[nodiscard]] double push(const Direction& direction, double friction) const;
   /// @return what v keeps where the slope angle grows by `turn`
   [[nodiscard]] double keep(double turn, double distance, double friction) const;

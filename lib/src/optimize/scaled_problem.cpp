@@ -303,7 +303,10 @@ Ride scaled_ride(const Body& body, double friction, const ScaledProblem& units) 
   ride.drag = units.drag;
   // Without drag there is no air to feel.
   if (units.drag > 0.0) ride.head_wind = body.head_wind / units.speed;
-  if (body.landing) ride.landing = Landing{body.landing->speed / units.speed, body.landing->angle};
+  Body at_friction = body;
+  at_friction.friction = Friction::from_coefficient(friction);
+  if (const auto landing = landing_of(at_friction))
+    ride.landing = Landing{landing->speed / units.speed, landing->angle};
   if (!body.law) return ride;
   ride.gain = 2.0 / body.law->inertia();
   ride.height = body.law->centre_height() / units.chord;
@@ -347,8 +350,11 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   list.add_built_in(LimitId::arrival, Measure::arrival, kCreep);
   list.add_no_choking();
   // A stream flatter than the floor flies on over it.
-  if (problem.body.landing)
-    list.add_built_in(LimitId::landing, Measure::entry_slope_angle, problem.body.landing->angle.radians());
+  std::optional<Angle> flattest;
+  for (const Ride& ride : out.rides) {
+    if (ride.landing) flattest = std::min(flattest.value_or(ride.landing->angle), ride.landing->angle);
+  }
+  if (flattest) list.add_built_in(LimitId::landing, Measure::entry_slope_angle, flattest->radians());
 }
 
 }  // namespace
@@ -465,6 +471,10 @@ void require_searchable(const Problem& problem) {
     throw InputError({"", "body.friction_changes: friction that changes along the track",
                       "A search knows one friction for all of it.",
                       "one friction, or a track that is given"});
+  }
+  if (problem.body.law && problem.body.law->side() < 0.0) {
+    throw InputError({"", "body.law: a stream below a hood", "A search is for the track that a body lies on.",
+                      "the track below, with the hood as its approach"});
   }
   if (problem.limits.lowest_normal_load) return;
   throw InputError({"", "lowest_normal_load is lifted",

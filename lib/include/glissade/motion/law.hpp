@@ -51,7 +51,7 @@ using LawPtr = std::shared_ptr<const Law>;
 /// of motion):
 ///   dv/ds = (2/f) [(1 - kappa h) (g sin(zeta) - k D(v)) - c ((1 - kappa h) g cos(zeta) + kappa v)]
 ///   N     = g cos(zeta) + kappa v/(1 - kappa h),  dt/ds = (1 - kappa h)/sqrt(v),  c = mu resistance(s, v)
-/// where D(v) = v without wind. A law says what f, h and c are, where it ends, and which quantities it adds.
+/// where D(v) = v without wind; below a hood (side() = -1) the parenthesis after c and N change their sign. A law says what f, h and c are, where it ends, and which quantities it adds.
 /// Identity: f v/2 + losses = g (drop of the centre) + f v(0)/2.
 /// A new law is a class derived from this one; Motion and optimize() need not know it.
 class Law {
@@ -66,6 +66,10 @@ class Law {
   /// @return h, height of the centre of mass above the track [m]; >= 0. A valley whose radius is not larger
   ///         ends the ride.
   [[nodiscard]] virtual double centre_height() const noexcept { return 0.0; }
+
+  /// @return 1 of what lies on the track; -1 of what runs below it, pressed outwards against the concave underside of a
+  ///         hood: N is then -(g cos(zeta) + kappa v), and it leaves the track where that falls below 0
+  [[nodiscard]] virtual double side() const noexcept { return 1.0; }
 
   /// @return true if c depends on the speed: the equation is then not linear in v
   [[nodiscard]] virtual bool depends_on_speed() const noexcept { return false; }

@@ -29,6 +29,24 @@ struct Landing {
 /// Source: Stuart-Dick & Royal 1991; docs/chutes.md, feed
 [[nodiscard]] double speed_after(const Landing& landing, Angle slope_angle, Friction friction);
 
+struct Body;
+
+/// What a body does before it comes down on the start of a track, where that depends on the body: a stream under a hood.
+class Approach {
+ public:
+  virtual ~Approach() = default;
+  /// @param body  on its way down, with the friction and the law that it has on the track
+  /// @return how it comes down on the start
+  [[nodiscard]] virtual Landing landing(const Body& body) const = 0;
+
+ protected:
+  Approach() = default;
+  Approach(const Approach&) = default;
+  Approach(Approach&&) = default;
+  Approach& operator=(const Approach&) = default;
+  Approach& operator=(Approach&&) = default;
+};
+
 /// What slides, rolls or flows, and on what.
 struct Body {
   Friction friction;            ///< between body and track; of a rolling body its rolling resistance
@@ -41,7 +59,12 @@ struct Body {
   LawPtr law = nullptr;  ///< none: a sliding point
   /// How it comes down on the start; entry_speed is then what the impact leaves, of a Motion's body() known.
   std::optional<Landing> landing = {};
+  /// Where that depends on friction and law: it then says what `landing` is, of a Motion's body() known.
+  std::shared_ptr<const Approach> approach = nullptr;
 };
+
+/// @return how a body comes down on the start of its track; none of one that enters along it
+[[nodiscard]] std::optional<Landing> landing_of(const Body& body);
 
 /// Whether a body is the sliding point of Coulomb's law with one friction everywhere and no wind, whose
 /// optimum without limits, constant-speed track and reach have closed forms (docs/theory.md).

@@ -21,6 +21,8 @@ struct StreamShape {
   /// Slower than this a stream stands, however thin it is [m/s]; > 0. Without it a stream of next to nothing would
   /// change its law within less than the last digit of a place.
   double least_speed = 1e-3;
+  /// It runs on the concave underside of a hood, pressed outwards, instead of on a floor.
+  bool underside = false;
 };
 
 /// A stream of bulk solid that moves as one: Roberts' lumped model of a fast, thin stream.
@@ -55,6 +57,7 @@ class BulkStream final : public Law {
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "stream"; }
   [[nodiscard]] bool depends_on_speed() const noexcept override { return true; }
+  [[nodiscard]] double side() const noexcept override { return shape_.underside ? -1.0 : 1.0; }
   [[nodiscard]] Resistance resistance(double s, double v) const override;
   [[nodiscard]] std::vector<double> breaks() const override;
   [[nodiscard]] std::vector<LawQuantity> quantities() const override;
