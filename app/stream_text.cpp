@@ -52,21 +52,60 @@ std::string wear_lines(const Design& design, const Track& track) {
   return labelled("Wear", text);
 }
 
+/// How a stream comes down on something, and what is left of its speed.
+std::string impact_text(const Landing& landing, const Impact& impact, const char* onto) {
+  std::string text = "falls at " + speed_text(landing.speed) + ", " + angle_text(landing.angle, 3) +
+                     " below the horizontal, " + angle_text(impact.angle, 3) + " to the " + onto;
+  if (impact.speed_ratio > 0.0) {
+    return text + "\nenters at " + speed_text(impact.speed_ratio * landing.speed) + ", " +
+           rounded_text(100.0 * impact.speed_ratio, 3) + " % of that; presses with " +
+           rounded_text(impact.pressure / 1e3, 3) + " kPa";
+  }
+  return text + "\n" + emphasised("stalls", Emphasis::bad) + " where it lands: friction takes all of its speed";
+}
+
+std::string hood_lines(const Design& design, const Track& track) {
+  if (!design.hood) return "";
+  const HoodPassage passage = hood_passage(design, track.motion.body());
+  const HoodDesign& hood = *design.hood;
+  const Motion& below = passage.motion;
+  const Impact impact = impact_on(passage.landing, track.centerline->slope_angle(0.0),
+                                  track.motion.body().friction, design.stream->bulk_density);
+  std::string text = "radius " + length_text(*hood.radius.lowest) + ", turns the stream from " +
+                     angle_text(below.centerline().slope_angle(0.0), 3) + " to " +
+                     angle_text(*hood.exit_angle.lowest, 3) + " over " + length_text(below.centerline().length());
+  text += "\npressed on: v^2/(g R cos) is " + rounded_text(passage.contact, 3) + " where the feed meets it, " +
+          rounded_text(passage.least_contact, 3) + " at least";
+  text += "\nleaves at " + speed_text(below.exit_speed()) + ", " +
+          length_text(below.highest(BulkStream::kDepth).value) + " deep at most; wears " +
+          quantity_text(stream_state(below, below.highest_load().arc_length).floor_wear,
+                        Dimension::power_per_area) +
+          " at most";
+  text += "\n" + impact_text(passage.landing, impact, "floor of the spoon");
+  double least = 0.0;
+  double most = 0.0;
+  for (const LevelRide& ride : track.rides()) {
+    const double off = hood_passage(design, ride.motion->body()).start.x - passage.start.x;
+    least = std::min(least, off);
+    most = std::max(most, off);
+  }
+  if (most > least)
+    text += "\nover the range of friction it comes down " + length_text(-least, 2) + " before to " +
+            length_text(most, 2) + " behind the start";
+  text += "\n" + quantity_text(transfer_time(design, track.motion), Dimension::time) +
+          " from the pulley to the finish";
+  return labelled("Hood", text);
+}
+
 std::string feed_lines(const Design& design, const Track& track) {
   if (!design.feed) return "";
   const FeedFall fall = feed_fall(design);
   const Body& body = track.motion.body();
-  const Impact impact = impact_on(fall.landing, Angle::from_radians(track.centerline->slope_angle(0.0)),
-                                  body.friction, design.stream->bulk_density);
-  std::string text = "falls at " + speed_text(fall.landing.speed) + ", " + angle_text(fall.landing.angle, 3) +
-                     " below the horizontal, " + angle_text(impact.angle, 3) + " to the floor";
-  if (impact.speed_ratio > 0.0) {
-    text += "\nenters at " + speed_text(body.entry_speed) + ", " +
-            rounded_text(100.0 * impact.speed_ratio, 3) + " % of that; presses with " +
-            rounded_text(impact.pressure / 1e3, 3) + " kPa";
-  } else {
-    text += "\n" + emphasised("stalls", Emphasis::bad) + " where it lands: friction takes all of its speed";
-  }
+  const Impact impact = design.hood
+                            ? hood_passage(design, body).impact
+                            : impact_on(fall.landing, Angle::from_radians(track.centerline->slope_angle(0.0)), body.friction,
+                                        design.stream->bulk_density);
+  std::string text = impact_text(fall.landing, impact, design.hood ? "hood" : "floor");
   if (design.feed->kind == FeedKind::belt) {
     text += "\nhead pulley " + length_text(-fall.pulley.x) + (fall.pulley.x < 0.0 ? " before" : " beyond") +
             " the start and " + length_text(fall.pulley.y) + " above it";
@@ -90,7 +129,8 @@ std::string discharge_lines(const Design& design, const Track& track) {
 
 }  // namespace
 
-std::string stream_lines(const Design& design, const Track& track) {
+std::string stream_lines(const Design& given, const Track& track) {
+  const Design design = as_solved(given, track);
   std::string text = depth_text(design, track.motion);
   const auto most = choking_mass_flow(track.centerline, track.motion.body(), design.gravity);
   if (most && *most == 0.0) {
@@ -108,7 +148,7 @@ std::string stream_lines(const Design& design, const Track& track) {
             (facts.exit_depth ? ", " + length_text(*facts.exit_depth) + " at the finish" : ", chokes");
   }
   return labelled("Stream", text) + wear_lines(design, track) + feed_lines(design, track) +
-         discharge_lines(design, track);
+         hood_lines(design, track) + discharge_lines(design, track);
 }
 
 }  // namespace glissade::app

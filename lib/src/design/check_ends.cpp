@@ -1,9 +1,11 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
+#include "glissade/trades/chute/ends.hpp"
 
 #include "design/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,6 +17,8 @@ constexpr double kFastest = 100.0;                                 // [m/s]
 constexpr double kHighest = 1e3;                                   // [m]
 constexpr double kLargest = 10.0;                                  // [m], of a pulley's radius
 constexpr double kSteepest = Angle::from_degrees(45.0).radians();  // of a belt
+constexpr double kLargestHood = 100.0;                             // [m]
+constexpr double kUpright = Angle::from_degrees(90.0).radians();
 
 void check_between(double value, double least, double most, bool above_least, const std::string& key,
                    Dimension dimension, const std::string& why, const std::string& hint,
@@ -61,6 +65,94 @@ void check_feed(const Design& design, Collected& findings) {
                 "It is positive, and at most 10 m.", "400 mm, belt included", findings);
   check_between(feed.belt_angle.radians(), -kSteepest, kSteepest, false, "feed.belt_angle", Dimension::angle,
                 "A belt climbs or falls by at most 45 deg.", "12 deg", findings);
+}
+
+/// One measure of a hood, or the bounds that it is chosen within.
+void check_choice(const Range& range, double least, double most, bool above_least, const std::string& key,
+                  Dimension dimension, const std::string& why, const std::string& hint, Collected& findings) {
+  if (!range.lowest || !range.highest) return;  // the reader has said so
+  const std::string where = "hood." + key;
+  if (range.is_fixed()) {
+    check_between(*range.lowest, least, most, above_least, where, dimension, why, hint, findings);
+    return;
+  }
+  check_between(*range.lowest, least, most, above_least, where + ".lowest", dimension, why, hint, findings);
+  check_between(*range.highest, least, most, above_least, where + ".highest", dimension, why, hint, findings);
+  if (*range.lowest < *range.highest) return;
+  report(findings, {where},
+         {"",
+          key + ": lowest, " + quantity_text(*range.lowest, dimension) + ", is above highest, " +
+              quantity_text(*range.highest, dimension),
+          "", "lowest: " + quantity_text(*range.highest, dimension) + ", highest: " +
+                  quantity_text(*range.lowest, dimension)});
+}
+
+bool sound(const HoodDesign& hood) {
+  const auto within = [](const Range& range, double least, double most) {
+    return range.lowest && range.highest && *range.lowest >= least && *range.highest <= most &&
+           *range.lowest <= *range.highest;
+  };
+  return within(hood.radius, 1e-6, kLargestHood) && within(hood.impact_angle, 0.0, kSteepest) &&
+         within(hood.exit_angle, 0.0, kUpright);
+}
+
+/// Whether the stream can press on the hood where it meets it, at the friction that takes most of its speed.
+void check_contact(const Design& design, Collected& findings) {
+  const FeedDesign& feed = *design.feed;
+  const HoodDesign& hood = *design.hood;
+  const bool feed_is_sound = feed.kind == FeedKind::belt && feed.belt_speed > 0.0 && feed.pulley_radius > 0.0 &&
+                             feed.drop > 0.0 && std::fabs(feed.belt_angle.radians()) <= kSteepest;
+  if (!feed_is_sound || !sound(hood) || !(design.gravity > 0.0)) return;
+  const Landing falls =
+      fall_from_belt({feed.belt_speed, feed.pulley_radius, feed.belt_angle}, feed.drop, design.gravity).landing;
+  const double theta = *hood.impact_angle.lowest;
+  const double slope = falls.angle + theta;
+  if (!(slope < *hood.exit_angle.highest)) {
+    report(findings, {"hood.exit_angle", "hood"},
+           {"",
+            "exit_angle: " + angle_text(*hood.exit_angle.highest) + ", but the stream meets the hood at " +
+                angle_text(slope),
+            "A hood turns a stream down: the feed falls " + angle_text(falls.angle) +
+                " below the horizontal, and the hood is steeper than that by its impact_angle.",
+            "a larger exit_angle, a smaller impact_angle, or a shorter drop of the feed"});
+    return;
+  }
+  const Friction friction = design.body.high_friction.value_or(design.body.friction);
+  const double left = std::max(0.0, impact_on({falls.speed, theta}, 0.0, friction, 1.0).speed_ratio);
+  const double speed = left * falls.speed;
+  const double presses = speed * speed / (design.gravity * *hood.radius.lowest);
+  const double needed = math::cos(slope);
+  if (presses >= needed) return;
+  const double fits = speed * speed / (design.gravity * needed);
+  report(findings, {"hood.radius", "hood"},
+         {"",
+          "hood: no contact where the feed meets it: v^2/(g R) is " + rounded_text(presses, 3) +
+              ", at " + quantity_text(speed, Dimension::speed) + " and a radius of " +
+              length_text(*hood.radius.lowest),
+          "Below " + rounded_text(needed, 3) + ", the cosine of its slope of " + angle_text(slope, 3) +
+              ", the stream falls away from the underside before the hood has turned it.",
+          "a radius below " + length_text(fits, 3) + ", a faster belt, or a longer drop of the feed"});
+}
+
+void check_hood(const Design& design, Collected& findings) {
+  const HoodDesign& hood = *design.hood;
+  if (!design.feed || design.feed->kind != FeedKind::belt) {
+    report(findings, {"hood"},
+           {"", std::string("hood: without a feed from a belt"),
+            "A hood stands in front of a head pulley and turns down what comes from it.",
+            "feed: {kind: belt, belt_speed: 3.2 m/s, pulley_radius: 400 mm, drop: 200 mm}, its drop down to the "
+            "hood"});
+  }
+  check_choice(hood.radius, 0.0, kLargestHood, true, "radius", Dimension::length,
+               "That of its underside: above 0, at most 100 m.", "1.2 m", findings);
+  check_choice(hood.impact_angle, 0.0, kSteepest, false, "impact_angle", Dimension::angle,
+               "Between the way of the feed and the hood: 0 to 45 deg.", "10 deg", findings);
+  check_choice(hood.exit_angle, 0.0, kUpright, false, "exit_angle", Dimension::angle,
+               "Of the stream at the lower edge, below the horizontal: at most 90 deg, straight down.", "80 deg",
+               findings);
+  check_between(hood.drop, 0.0, kHighest, true, "hood.drop", Dimension::length,
+                "From its lower edge down to the start of the track: above 0, at most 1 km.", "500 mm", findings);
+  if (design.feed) check_contact(design, findings);
 }
 
 void check_discharge(const Design& design, Collected& findings) {
@@ -118,6 +210,7 @@ void check_match(const Design& design, Collected& findings) {
 
 void check_ends(const Design& design, Collected& findings) {
   if (design.feed) check_feed(design, findings);
+  if (design.hood) check_hood(design, findings);
   if (design.discharge) check_discharge(design, findings);
   check_match(design, findings);
 }

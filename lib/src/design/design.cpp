@@ -29,7 +29,8 @@ std::string Design::where(std::string_view key_path) const {
 
 bool Design::asks_the_same(const Design& other) const {
   return name == other.name && track == other.track && body == other.body && stream == other.stream &&
-         materials == other.materials && feed == other.feed && discharge == other.discharge &&
+         materials == other.materials && feed == other.feed && hood == other.hood &&
+         discharge == other.discharge &&
          gravity == other.gravity && centerline == other.centerline && limits == other.limits &&
          objective == other.objective && probes == other.probes && rules == other.rules &&
          hill == other.hill && gates == other.gates && cross_section == other.cross_section &&

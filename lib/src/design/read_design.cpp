@@ -396,7 +396,7 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
-  top.expect({"glissade", "name", "track", "body", "stream", "feed", "discharge", "materials", "gravity",
+  top.expect({"glissade", "name", "track", "body", "stream", "feed", "hood", "discharge", "materials", "gravity",
               "centerline", "limits", "probes", "hill", "gates", "rules", "cross_section", "fabrication",
               "mesh", "export"});
   for (const std::string_view key : body_keys()) {
@@ -413,6 +413,7 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.body = read_body(top, design.stream && design.stream->material, findings);
   follow_material(design, findings);
   design.feed = read_feed(top, findings);
+  design.hood = read_hood(top, findings);
   design.discharge = read_discharge(top, findings);
   design.gravity = top.quantity("gravity", Dimension::acceleration).value_or(kDefaultGravity);
   read_limits(top, design, findings);

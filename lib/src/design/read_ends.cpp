@@ -55,6 +55,50 @@ std::optional<FeedDesign> read_feed(MapReader& top, Findings& findings) {
   return feed;
 }
 
+namespace {
+
+/// A value, or the bounds within which the search chooses it.
+std::optional<Range> read_choice(MapReader& map, std::string_view key, Dimension dimension,
+                                 std::string_view example, Findings& findings) {
+  const auto value = map.find(key);
+  if (!value) return {};
+  if (value->node->kind != Node::Kind::map) {
+    const auto number = as_quantity(*value, dimension, findings);
+    return number ? std::optional(Range::fixed(*number)) : std::nullopt;
+  }
+  MapReader bounds(*value, "What a search chooses", example, findings);
+  const auto lowest = bounds.needed_quantity("lowest", dimension, example);
+  const auto highest = bounds.needed_quantity("highest", dimension, example);
+  bounds.refuse_unknown_keys();
+  return Range{lowest, highest};
+}
+
+}  // namespace
+
+std::optional<HoodDesign> read_hood(MapReader& top, Findings& findings) {
+  const auto value = top.find("hood");
+  if (!value) return {};
+  MapReader map(*value, "A hood", "{radius: 1.2 m, impact_angle: 10 deg, exit_angle: 75 deg, drop: 500 mm}",
+                findings);
+  map.expect({"radius", "impact_angle", "exit_angle", "drop"});
+  HoodDesign hood;
+  const bool given = map.need("radius", "radius: 1.2 m, or {lowest: 0.8 m, highest: 2 m}").has_value();
+  if (given) {
+    hood.radius =
+        read_choice(map, "radius", Dimension::length, "{lowest: 0.8 m, highest: 2 m}", findings).value_or(Range{});
+  }
+  hood.impact_angle =
+      read_choice(map, "impact_angle", Dimension::angle, "{lowest: 5 deg, highest: 20 deg}", findings)
+          .value_or(Range::fixed(Angle::from_degrees(10.0).radians()));
+  hood.exit_angle =
+      read_choice(map, "exit_angle", Dimension::angle, "{lowest: 60 deg, highest: 85 deg}", findings)
+          .value_or(Range::fixed(Angle::from_degrees(80.0).radians()));
+  hood.drop = map.needed_quantity("drop", Dimension::length, "drop: 500 mm, down to the start of the track")
+                  .value_or(0.0);
+  map.refuse_unknown_keys();
+  return hood;
+}
+
 std::optional<DischargeDesign> read_discharge(MapReader& top, Findings& findings) {
   const auto value = top.find("discharge");
   if (!value) return {};

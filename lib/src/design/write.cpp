@@ -225,6 +225,27 @@ std::string feed(const FeedDesign& design) {
   return group.lines();
 }
 
+/// A value, or the bounds of what a search chooses.
+void add_choice(Group& group, std::string_view key, const Range& range, Dimension dimension) {
+  if (range.is_fixed()) {
+    group.add(key, *range.lowest, dimension);
+    return;
+  }
+  Group bounds;
+  bounds.add("lowest", range.lowest, dimension);
+  bounds.add("highest", range.highest, dimension);
+  group.add(key, bounds.inlined());
+}
+
+std::string hood(const HoodDesign& design) {
+  Group group;
+  add_choice(group, "radius", design.radius, Dimension::length);
+  add_choice(group, "impact_angle", design.impact_angle, Dimension::angle);
+  add_choice(group, "exit_angle", design.exit_angle, Dimension::angle);
+  group.add("drop", design.drop, Dimension::length);
+  return group.lines();
+}
+
 std::string discharge(const DischargeDesign& design) {
   Group group;
   group.add("belt_speed", design.belt_speed, Dimension::speed);
@@ -589,6 +610,7 @@ std::string design_text(const Design& design) {
   text += "body:" + body(design.body);
   if (design.stream) text += "stream:" + stream(*design.stream);
   if (design.feed) text += "feed:" + feed(*design.feed);
+  if (design.hood) text += "hood:" + hood(*design.hood);
   if (design.discharge) text += "discharge:" + discharge(*design.discharge);
   if (!design.materials.empty()) text += "materials: " + list_of(design.materials, material) + "\n";
   if (design.gravity != kDefaultGravity) {

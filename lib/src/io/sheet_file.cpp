@@ -129,7 +129,10 @@ class Painter {
       const DrawingLayer& layer = ink.drawing.layers[drawn.layer];
       trace(context_, drawn.path);
       if (drawn.filled) {
+        const double grey = lightness(drawn.colour);
+        cairo_set_source_rgb(context_, grey, grey, grey);
         cairo_fill(context_);
+        cairo_set_source_rgb(context_, 0.0, 0.0, 0.0);
       } else {
         stroke(layer.width_mm, drawn.style.value_or(layer.style));
       }
@@ -144,6 +147,11 @@ class Painter {
   }
 
  private:
+  /// Of a filled area on paper: the greys of AutoCAD's index from 250 on, everything else is black.
+  static double lightness(int colour) {
+    static constexpr double kGreys[] = {0.2, 0.36, 0.52, 0.68, 0.84, 1.0};
+    return colour >= 250 && colour <= 255 ? kGreys[colour - 250] : 0.0;
+  }
   void stroke(double width, LineStyle style) {
     static constexpr double kDashes[] = {3.0, 1.5};
     static constexpr double kChain[] = {8.0, 1.5, 0.5, 1.5};

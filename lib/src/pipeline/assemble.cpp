@@ -3,11 +3,14 @@
 
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/gates_csv.hpp"
+#include "glissade/io/sheet_file.hpp"
 #include "glissade/pipeline.hpp"
 
 #include "pipeline/cross_section.hpp"
+#include "pipeline/data_sheet.hpp"
 #include "pipeline/fabricate.hpp"
 #include "pipeline/formats.hpp"
+#include "pipeline/hood.hpp"
 #include "pipeline/located.hpp"
 #include "pipeline/stations.hpp"
 #include "pipeline/steps.hpp"
@@ -241,6 +244,63 @@ std::vector<PendingFile> files_of(const Design& design, const std::string& stem,
   return files;
 }
 
+/// The solid of a hood in the frame of the mesh files: swept as the valley that it is upside down, and turned over.
+Solid hood_solid(const Design& design, const Track& track, const CrossSection& section, const Placement& frame,
+                 const SweepOptions& options) {
+  const CenterlinePtr valley = turned_over(shape_of(*design.hood), first_fall(design).landing);
+  const HoodPassage passage = hood_passage(design, track.motion.body());
+  Solid solid = sweep(*valley, section, track.placement.at_origin(), options);
+  const Vec3 entry = frame.to_space(-passage.start.x, -passage.start.y, 0.0);
+  for (Vec3& vertex : solid.mesh.vertices) vertex = Vec3{vertex.x, vertex.y, -vertex.z} + entry;
+  for (auto& triangle : solid.mesh.triangles) std::swap(triangle[1], triangle[2]);
+  solid.placement = Placement(entry, frame.azimuth());
+  return solid;
+}
+
+/// The underside of a hood in the frame of its mesh.
+std::vector<Vec3> hood_positions(const Design& design, const Solid& solid) {
+  const CenterlinePtr arc = hood_arc(shape_of(*design.hood), first_fall(design).landing);
+  std::vector<Vec3> positions;
+  for (const double s : solid.stations) {
+    const CenterlinePoint at = arc->at(std::min(s, arc->length()));
+    positions.push_back(solid.placement.to_space(at.x, at.drop, 0.0));
+  }
+  return positions;
+}
+
+/// A hood is a part of its own, with the files of its own that hold facets.
+void add_hood(const Design& given, const Track& track, const CrossSection& section, const Placement& frame,
+              const SweepOptions& options, const std::string& stem, Steps& steps, std::vector<Part>& parts,
+              std::vector<PendingFile>& files) {
+  if (!given.hood) return;
+  Design design = given;
+  std::erase_if(design.exports.formats, [](ExportFormat format) {
+    return file_format(format).content == FileContent::stations;
+  });
+  Solid solid = at_place(given.where("hood"),
+                         [&] { return hood_solid(design, track, section, frame, options); });
+  const std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
+  const MeasuredMesh& reference = least_precise(meshes);
+  const double max_deviation = solid.max_deviation + reference.moved;
+  require_within_tolerance(design, max_deviation);
+  const std::optional<Vec3> offset = offset_in_files(design, track);
+  auto material = std::make_shared<SolidForFiles>();
+  material->name = design.name.empty() ? "hood" : design.name + ", hood";
+  material->section = section_in_words(*design.cross_section) + ", upside down";
+  material->unit = design.exports.unit;
+  material->offset = offset;
+  material->exact = solid.mesh;
+  material->centerline = hood_positions(design, solid);
+  Part part{.name = "hood",
+            .solid = ProvenSolid{std::move(solid), reference.facts, max_deviation, offset},
+            .files = {}};
+  for (PendingFile& file : files_of(design, stem + ".hood", material, meshes)) {
+    part.files.push_back(file.name);
+    files.push_back(std::move(file));
+  }
+  parts.push_back(std::move(part));
+}
+
 /// The table of a hill's gates, beside the files of the solid.
 void add_gates(const Track& track, const std::string& stem, std::vector<PendingFile>& files) {
   if (!track.gates) return;
@@ -253,15 +313,32 @@ void add_gates(const Track& track, const std::string& stem, std::vector<PendingF
   files.push_back(std::move(file));
 }
 
+/// One page on a chute, for the file.
+void add_data_sheet(const Design& design, const Track& track, const std::string& stem,
+                    std::vector<PendingFile>& files) {
+  if (!design.stream) return;
+  PendingFile file;
+  file.name = stem + ".data-sheet.pdf";
+  file.cost = 0.05;
+  const auto sheet = std::make_shared<const Sheet>(chute_data_sheet(design, track));
+  const std::string title = design.name.empty() ? stem : design.name;
+  file.write = [sheet, title](const std::filesystem::path& path, const std::stop_token& /*stop*/) {
+    write_pdf(path, {*sheet}, title);
+  };
+  files.push_back(std::move(file));
+}
+
 }  // namespace
 
-Assembly assemble(const Design& design, Track track, const RunContext& context, const BuildOptions& options) {
+Assembly assemble(const Design& given, Track track, const RunContext& context, const BuildOptions& options) {
+  const Design design = as_solved(given, track);
   require_cross_section(design);
   if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
   if (const auto problem = limits_problem(design, track)) throw InfeasibleError(*problem);
 
   const std::vector<ExportFormat>& formats = design.exports.formats;
-  const double cost = cost_of_assembly(formats) + (design.fabrication ? kPartsCost : 0.0);
+  const double solids = design.hood ? 2.0 : 1.0;
+  const double cost = solids * cost_of_assembly(formats) + (design.fabrication ? kPartsCost : 0.0);
   const double total =
       cost + cost_of_files(formats, options) + (design.fabrication ? kWorkshopFilesCost : 0.0);
   Steps steps(context, total);
@@ -292,8 +369,14 @@ Assembly assemble(const Design& design, Track track, const RunContext& context, 
             .files = {}};
   for (const PendingFile& file : files) part.files.push_back(file.name);
   add_gates(track, stem, files);
+  add_data_sheet(design, track, stem, files);
   std::vector<Part> parts;
   parts.push_back(std::move(part));
+  add_hood(design, track, section, placement,
+           {.tolerance = design.mesh.tolerance - 2.0 * rounding,
+            .largest_kink = design.mesh.largest_kink,
+            .stop = context.stop},
+           stem, steps, parts, files);
   std::shared_ptr<const WorkshopBuild> fabrication;
   if (design.fabrication) {
     steps.enter("making parts", kPartsCost);

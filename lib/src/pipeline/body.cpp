@@ -9,6 +9,7 @@
 #include "glissade/motion/laws/rolling_ball.hpp"
 #include "glissade/pipeline/solve.hpp"
 
+#include "pipeline/hood.hpp"
 #include "pipeline/located.hpp"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ LawPtr law_of(const BodyDesign& design) {
 
 }  // namespace
 
-FeedFall feed_fall(const Design& design) {
+FeedFall pipeline::first_fall(const Design& design) {
   const FeedDesign& feed = design.feed.value();
   if (feed.kind != FeedKind::belt) return fall_from_outlet(feed.outlet_speed, feed.drop, design.gravity);
   return fall_from_belt({feed.belt_speed, feed.pulley_radius, feed.belt_angle}, feed.drop, design.gravity);
@@ -93,13 +94,20 @@ Body body_of(const Design& design) {
     if (change.from > 0.0) body.friction_changes.push_back({change.from, change.friction});
   }
   if (design.feed) {
-    body.landing = feed_fall(design).landing;
-    // Before the impact; what it leaves is known on a track.
-    body.entry_speed = body.landing->speed;
+    body.landing = first_fall(design).landing;
   }
   body.law = at_place(design.where(design.stream ? "stream" : "body"), [&] {
     return design.stream ? stream_law(*design.stream, design.cross_section.value()) : law_of(from);
   });
+  if (design.hood && design.feed) {
+    const Landing feed = *body.landing;
+    body.approach = at_place(design.where("hood"), [&] {
+      return std::make_shared<const HoodApproach>(shape_of(*design.hood), feed, design.gravity);
+    });
+    body.landing = at_place(design.where("hood"), [&] { return landing_of(body); });
+  }
+  // Before the impact; what it leaves is known on a track.
+  if (body.landing) body.entry_speed = body.landing->speed;
   return body;
 }
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -24,12 +25,13 @@ class WorstCase {
   /// @param sign  1: the highest is the worst, -1: the lowest
   explicit WorstCase(double sign) : sign_(sign) {}
 
-  void see(double value, std::optional<double> arc_length, const ChuteCase& of) {
+  /// @param part  where, if not along the track
+  void see(double value, std::optional<double> arc_length, const ChuteCase& of, const char* part = "") {
     // Of equals the last, which is the largest flow: at the start all are as fast as they enter.
     if (value_ && sign_ * value < sign_ * *value_) return;
     value_ = value;
     arc_length_ = arc_length;
-    place_ = std::string(to_text(of.friction)) + " friction, " + of.flow + " flow";
+    place_ = part + std::string(to_text(of.friction)) + " friction, " + of.flow + " flow";
   }
   void set_in(Measurements& measurements, std::string_view key) const {
     if (value_) measurements.set(key, *value_, arc_length_, place_);
@@ -41,6 +43,8 @@ class WorstCase {
   std::optional<double> arc_length_;
   std::string place_;
 };
+
+constexpr const char* kAtHood = "hood, ";
 
 double highest_friction_angle(const Design& design) {
   return design.body.high_friction.value_or(design.body.friction).angle().radians();
@@ -65,12 +69,24 @@ void measure_slopes(const Design& design, const Track& track, Measurements& meas
   if (const auto stops = stall_angle_of(track)) measurements.set("stall_margin", stops->radians() - high);
 }
 
+/// What the stream does below a hood, beside what it does on the track.
+void see_hood(const ChuteCase& run, double wall, WorstCase& slowest, WorstCase& deepest, WorstCase& thickest) {
+  const Motion& motion = run.hood->motion;
+  const double width = stream_of(motion.body())->width(0.0);
+  const double depth = motion.highest(BulkStream::kDepth).value;
+  deepest.see(depth / wall, {}, run, kAtHood);
+  thickest.see(depth / width, {}, run, kAtHood);
+  // With one width it is slowest where it is deepest.
+  slowest.see(stream_of(motion.body())->depth(0.0, 1.0) / depth, {}, run, kAtHood);
+}
+
 void measure_motion(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
   WorstCase slowest(-1.0);
   WorstCase lightest(-1.0);
   WorstCase deepest(1.0);
   WorstCase thickest(1.0);
   WorstCase peak(1.0);
+  WorstCase held(-1.0);
   const double wall = stream_channel(design.cross_section.value()).value().wall_height;
   for (const ChuteCase& run : cases) {
     const Motion& motion = run.motion;
@@ -89,6 +105,10 @@ void measure_motion(const Design& design, const std::vector<ChuteCase>& cases, M
     const Extreme thick =
         within([&](double s) { return stream.depth(s, motion.at(s).speed) / stream.width(s); });
     thickest.see(thick.value, thick.at, run);
+    if (run.hood) {
+      see_hood(run, wall, slowest, deepest, thickest);
+      held.see(run.hood->least_contact, {}, run, kAtHood);
+    }
     if (!motion.arrived()) continue;
     const MotionState heaviest = motion.highest_load();
     constexpr int kPlaces = 200;
@@ -100,6 +120,8 @@ void measure_motion(const Design& design, const std::vector<ChuteCase>& cases, M
   }
   slowest.set_in(measurements, "lowest_stream_speed");
   lightest.set_in(measurements, "contact_reserve");
+  held.set_in(measurements, "hood_contact");
+  measurements.set("hoods", design.hood ? 1.0 : 0.0);
   deepest.set_in(measurements, "depth_over_wall");
   thickest.set_in(measurements, "depth_over_width");
   peak.set_in(measurements, "wear_peak");
@@ -111,7 +133,7 @@ void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Mea
       measurements.set_missing(key, "feed: {kind: belt, ...}, how the stream comes down");
     return;
   }
-  measurements.set("feed_drop", design.feed->drop);
+  measurements.set("feed_drop", std::max(design.feed->drop, design.hood ? design.hood->drop : 0.0));
   WorstCase ratio(-1.0);
   WorstCase angle(1.0);
   for (const ChuteCase& run : cases) {
@@ -121,6 +143,9 @@ void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Mea
                   body.friction, design.stream->bulk_density);
     ratio.see(impact.speed_ratio, 0.0, run);
     angle.see(impact.angle.radians(), 0.0, run);
+    if (!run.hood) continue;
+    ratio.see(run.hood->impact.speed_ratio, {}, run, kAtHood);
+    angle.see(run.hood->impact.angle.radians(), {}, run, kAtHood);
   }
   ratio.set_in(measurements, "impact_speed_ratio");
   angle.set_in(measurements, "impact_angle");
@@ -180,6 +205,7 @@ void measure_speed(const Design& design, const std::vector<ChuteCase>& cases, Me
   for (const ChuteCase& run : cases) {
     const MotionState state = run.motion.highest_speed();
     fastest.see(state.speed / *cap, state.arc_length, run);
+    if (run.hood) fastest.see(run.hood->motion.highest_speed().speed / *cap, {}, run, kAtHood);
   }
   fastest.set_in(measurements, "speed_over_cap");
 }
@@ -218,6 +244,7 @@ std::vector<ChuteCase> chute_cases(const Design& design, const CenterlinePtr& ce
     body.friction = friction;
     const auto add = [&](const char* flow, const Body& with) {
       cases.push_back({level, flow, Motion(centerline, with, design.gravity)});
+      if (design.hood) cases.back().hood.emplace(hood_passage(design, with));
     };
     if (stream.trickle < 1.0) add("trickle", with_flow(body, stream.trickle));
     add("nominal", body);
@@ -225,6 +252,46 @@ std::vector<ChuteCase> chute_cases(const Design& design, const CenterlinePtr& ce
     if (stream.surge > 1.0) add("surge", with_flow(light, stream.surge));
   }
   return cases;
+}
+
+namespace {
+
+/// Evenly spread, with the nominal one in place of the one next to it.
+std::vector<double> spread_with(double low, double nominal, double high, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(low + (high - low) * i / (count - 1));
+  const auto nearest = std::min_element(values.begin(), values.end(), [&](double a, double b) {
+    return std::fabs(a - nominal) < std::fabs(b - nominal);
+  });
+  *nearest = nominal;
+  return values;
+}
+
+}  // namespace
+
+std::vector<WhatIfRide> what_if_rides(const Design& design, const CenterlinePtr& centerline) {
+  const BodyDesign& body = design.body;
+  const StreamDesign& stream = design.stream.value();
+  constexpr double kBeside = 3.0 * std::numbers::pi / 180.0;
+  constexpr int kFrictions = 5;
+  constexpr int kFlows = 7;
+  constexpr double kBeyondSurge = 4.0 / 3.0;
+  const double nominal = body.friction.angle().radians();
+  const bool range = body.low_friction || body.high_friction;
+  const double low = range ? body.low_friction.value_or(body.friction).angle().radians() : std::max(0.0, nominal - kBeside);
+  const double high = range ? body.high_friction.value_or(body.friction).angle().radians() : nominal + kBeside;
+  std::vector<WhatIfRide> rides;
+  for (const double angle : spread_with(low, nominal, high, kFrictions)) {
+    for (const double factor : spread_with(stream.trickle, 1.0, kBeyondSurge * stream.surge, kFlows)) {
+      Body one = body_of(design);
+      // The design's own friction may be a coefficient: its angle and back is not the same double.
+      one.friction = angle == nominal ? body.friction : Friction::from_angle(Angle::from_radians(angle));
+      if (factor != 1.0) one = with_flow(one, factor);
+      rides.push_back({factor * stream.mass_flow, factor == 1.0 && angle == nominal,
+                       Motion(centerline, one, design.gravity)});
+    }
+  }
+  return rides;
 }
 
 void measure_chute(const Design& design, const Track& track, Measurements& measurements) {

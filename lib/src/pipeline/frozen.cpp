@@ -26,7 +26,7 @@ const ClothoidSpline* clothoids_of(const Centerline& centerline) {
 
 /// The design with the finish where the track ends and nothing left of what its centerline was.
 Design emptied(const Design& design, const Track& track) {
-  Design frozen = design;
+  Design frozen = as_solved(design, track);
   const Endpoints end = track.centerline->endpoints();
   frozen.track.start = track.placement.start();
   frozen.track.finish = track.placement.to_space(end.run, end.drop, 0.0);

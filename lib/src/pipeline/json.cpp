@@ -10,6 +10,7 @@
 
 #include "pipeline/chute_rules.hpp"
 #include "pipeline/fabricate.hpp"
+#include "pipeline/hood.hpp"
 #include "pipeline/track_document.hpp"
 #include "report/serial/parts.hpp"
 #include "report/serial/stream.hpp"
@@ -148,6 +149,7 @@ Json cases_json(const Design& design, const CenterlinePtr& centerline) {
                  {"exit_speed_m_per_s", entry["exit_speed_m_per_s"]},
                  {"highest_speed_m_per_s", entry["highest_speed_m_per_s"]},
                  {"stream", entry["stream"]}};
+    if (run.hood) kept["hood"] = hood_passage_json(*run.hood);
     if (design.discharge && run.motion.arrived())
       kept["discharge"] = belt_landing_json(belt_landing(design, run.motion));
     list.push_back(std::move(kept));
@@ -183,20 +185,37 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   return json;
 }
 
+/// The feed then falls on the hood; what comes down on the track is the hood's.
+void add_hood(Json& json, const Design& design, const Track& track, const Impact& impact) {
+  const HoodPassage passage = hood_passage(design, track.motion.body());
+  json["feed"] = feed_json(feed_fall(design), passage.impact, passage.motion.body().entry_speed);
+  json["hood"] = hood_json(pipeline::shape_of(*design.hood), passage, impact);
+  json["hood"]["transfer_time_s"] = transfer_time(design, track.motion);
+  // How far the stream of each ride comes down from where the nominal one does.
+  double least = 0.0;
+  double most = 0.0;
+  for (const LevelRide& ride : track.rides()) {
+    const double off = hood_passage(design, ride.motion->body()).start.x - passage.start.x;
+    least = std::min(least, off);
+    most = std::max(most, off);
+  }
+  json["hood"]["landing_spread_m"] = {least, most};
+}
+
 }  // namespace
 
-Json pipeline::track_document(const Design& design, const Track& track, StallMargin margin) {
+Json pipeline::track_document(const Design& given, const Track& track, StallMargin margin) {
+  const Design design = as_solved(given, track);
   Json json = task_document(design, track.endpoints);
   json["centerline"] = word(design.centerline.kind);
   add_ride(json, track.motion);
   if (design.feed) {
     const Body& body = track.motion.body();
     json["entry_speed_m_per_s"] = body.entry_speed;
-    json["feed"] =
-        feed_json(feed_fall(design),
-                  impact_on(body.landing.value(), Angle::from_radians(track.centerline->slope_angle(0.0)),
-                            body.friction, design.stream->bulk_density),
-                  body.entry_speed);
+    const Impact impact = impact_on(body.landing.value(), Angle::from_radians(track.centerline->slope_angle(0.0)), body.friction,
+                                    design.stream->bulk_density);
+    json["feed"] = feed_json(feed_fall(design), impact, body.entry_speed);
+    if (design.hood) add_hood(json, design, track, impact);
   }
   if (design.discharge) {
     json["discharge"] =

@@ -22,12 +22,22 @@ namespace fs = std::filesystem;
 
 constexpr const char* kReportEnding = ".report.html";
 
+ReportWhatIf as_reported(const Design& design, const WhatIfRide& one) {
+  ReportWhatIf reported{one.mass_flow, one.motion.body().friction, one.nominal, &one.motion, {}, {}};
+  if (design.discharge && one.motion.arrived()) reported.landing = belt_landing(design, one.motion);
+  reported.flight = flight_to_belt(design, one.motion);
+  return reported;
+}
+
 void write_report(const fs::path& path, const Design& design, const BuildForReport& build) {
   AtomicFile file(path);
   const std::vector<ChuteCase> cases =
       design.stream ? chute_cases(design, build.track.centerline) : std::vector<ChuteCase>{};
   ReportInput input = report_input(design, build);
   for (const ChuteCase& run : cases) input.cases.push_back({run.friction, run.flow, &run.motion});
+  const std::vector<WhatIfRide> what_if =
+      design.stream ? what_if_rides(design, build.track.centerline) : std::vector<WhatIfRide>{};
+  for (const WhatIfRide& one : what_if) input.what_if.push_back(as_reported(design, one));
   file.write(report_html(input));
   file.commit();
 }
@@ -48,8 +58,9 @@ void named_as(const fs::path& staged, const fs::path& file, Write&& write) {
 
 }  // namespace
 
-Build publish(const Design& design, Assembly assembly, const fs::path& directory, const RunContext& context,
+Build publish(const Design& given, Assembly assembly, const fs::path& directory, const RunContext& context,
               const BuildOptions& options) {
+  const Design design = as_solved(given, assembly.track);
   Steps steps(context, assembly.total_cost, assembly.cost);
   Staging staging(directory, assembly.stem);
   std::vector<fs::path> made;

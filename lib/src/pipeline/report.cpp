@@ -157,6 +157,38 @@ ReportFlight flight_from(const char* name, Vec2 from, Vec2 velocity, double time
   return flight;
 }
 
+/// The underside of a hood, and the fall from it.
+void add_hood(const HoodPassage& hood, Vec2 met, double gravity, std::vector<ReportFlight>& flights) {
+  constexpr int kPieces = 48;
+  const Motion& ride = hood.motion;
+  const Centerline& arc = ride.centerline();
+  ReportFlight underside{"the hood", {}};
+  for (int i = 0; i <= kPieces; ++i) {
+    const CenterlinePoint at = arc.at(std::min(arc.length(), arc.length() * i / kPieces));
+    underside.points.push_back({met.x + at.x, met.y - at.drop});
+  }
+  flights.push_back(std::move(underside));
+  const CenterlinePoint leaves = arc.at(ride.distance());
+  const double speed = ride.exit_speed();
+  flights.push_back(flight_from("from the hood to the track", {met.x + leaves.x, met.y - leaves.drop},
+                                {speed * math::cos(leaves.slope_angle), speed * math::sin(leaves.slope_angle)},
+                                hood.fall_time, gravity));
+}
+
+}  // namespace
+
+std::vector<Vec2> flight_to_belt(const Design& design, const Motion& motion) {
+  if (!design.discharge || !motion.arrived()) return {};
+  const BeltLanding landing = belt_landing(design, motion);
+  const Centerline& centerline = motion.centerline();
+  const CenterlinePoint end = centerline.at(centerline.length());
+  const double speed = motion.exit_speed();
+  return flight_from("", {end.x, design.track.start.z - end.drop},
+                     {speed * math::cos(end.slope_angle), speed * math::sin(end.slope_angle)}, landing.time,
+                     design.gravity)
+      .points;
+}
+
 std::vector<ReportFlight> flights_of(const Design& design, const Track& track) {
   std::vector<ReportFlight> flights;
   const double height = track.placement.start().z;
@@ -165,21 +197,17 @@ std::vector<ReportFlight> flights_of(const Design& design, const Track& track) {
     const FeedFall fall = feed_fall(design);
     const double ahead = fall.time > 0.0 ? fall.reach / fall.time : 0.0;
     const double sinks = fall.time > 0.0 ? fall.height / fall.time - 0.5 * g * fall.time : 0.0;
+    const std::optional<HoodPassage> hood =
+        design.hood ? std::optional(hood_passage(design, track.motion.body())) : std::nullopt;
+    const Vec2 met = hood ? Vec2{-hood->start.x, height + hood->start.y} : Vec2{0.0, height};
     flights.push_back(
-        flight_from("the feed falls", {-fall.reach, height + fall.height}, {ahead, sinks}, fall.time, g));
+        flight_from("the feed falls", {met.x - fall.reach, met.y + fall.height}, {ahead, sinks}, fall.time, g));
+    if (hood) add_hood(*hood, met, g, flights);
   }
-  if (design.discharge && track.motion.arrived()) {
-    const BeltLanding landing = belt_landing(design, track.motion);
-    const CenterlinePoint end = track.centerline->at(track.centerline->length());
-    const double speed = track.motion.exit_speed();
-    flights.push_back(flight_from("the stream falls on the belt", {end.x, height - end.drop},
-                                  {speed * math::cos(end.slope_angle), speed * math::sin(end.slope_angle)},
-                                  landing.time, g));
-  }
+  std::vector<Vec2> to_belt = flight_to_belt(design, track.motion);
+  if (!to_belt.empty()) flights.push_back({"the stream falls on the belt", std::move(to_belt)});
   return flights;
 }
-
-}  // namespace
 
 ReportInput report_input(const Design& design, const BuildForReport& build) {
   const Track& track = build.track;

@@ -25,4 +25,11 @@ struct BuildForReport {
 ///         the numbers that stand beside it
 [[nodiscard]] ReportInput report_input(const Design& design, const BuildForReport& build);
 
+/// Where the stream of a ride flies from the finish down to the belt, as a line; empty if it does not.
+[[nodiscard]] std::vector<Vec2> flight_to_belt(const Design& design, const Motion& motion);
+
+/// The stream in the air and below its hood, as lines: x run from the start, y height of the site [m].
+/// @param design  solved
+[[nodiscard]] std::vector<ReportFlight> flights_of(const Design& design, const Track& track);
+
 }  // namespace glissade::pipeline

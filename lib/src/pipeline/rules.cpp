@@ -106,7 +106,7 @@ Measurements rule_measurements(const Design& design, const Track& track) {
   measure_shape(track, measurements);
   measure_rides(track, measurements);
   measure_in_run(design, track, measurements);
-  measure_chute(design, track, measurements);
+  measure_chute(as_solved(design, track), track, measurements);
   return measurements;
 }
 

@@ -19,10 +19,13 @@
 #include "pipeline/extremes.hpp"
 #include "pipeline/friction_range.hpp"
 #include "pipeline/gates.hpp"
+#include "pipeline/hood.hpp"
 #include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -292,8 +295,10 @@ std::optional<FastestWithin> fastest_within(Design design, const RunContext& con
 
 }  // namespace
 
-Track solve(const Design& design, const RunContext& context) {
-  require_sound(design);
+namespace {
+
+/// solve() of a sound design whose hood is known.
+Track solve_settled(const Design& design, const RunContext& context) {
   if (context.progress) context.progress("finding the track", {});
   // The closed form knows neither limits, nor a finish that it may choose, nor drag, nor bodies but the sliding
   // point.
@@ -305,6 +310,17 @@ Track solve(const Design& design, const RunContext& context) {
   Track track = ride(design, std::move(optimum.centerline));
   track.search = std::move(optimum.report);
   track.fastest_within = fastest_within(design, context);
+  return track;
+}
+
+}  // namespace
+
+Track solve(const Design& given, const RunContext& context) {
+  require_sound(given);
+  const Design design = settled(given, context);
+  if (auto problem = hood_problem(design)) throw InfeasibleError(*std::move(problem));
+  Track track = solve_settled(design, context);
+  if (design.hood != given.hood) track.hood = design.hood;
   return track;
 }
 
@@ -330,7 +346,8 @@ namespace {
 std::optional<Issue> feed_problem(const Design& design, const Track& track) {
   if (!design.feed) return {};
   const Angle slope = Angle::from_radians(track.centerline->slope_angle(0.0));
-  const Angle falls = feed_fall(design).landing.angle;
+  Angle falls = track.motion.body().landing->angle;
+  for (const LevelRide& ride : track.rides()) falls = std::min(falls, ride.motion->body().landing->angle);
   constexpr Angle kRounding = Angle::from_radians(1e-9);
   if (slope <= falls + kRounding) return {};
   return Issue{design.where("feed"),

@@ -5,6 +5,7 @@
 
 #include "report/ride_stations.hpp"
 #include "report/serial/parts.hpp"
+#include "report/serial/stream.hpp"
 #include "report/serial/vocabulary.hpp"
 #include "report/view_mesh.hpp"
 
@@ -28,7 +29,7 @@ constexpr std::array kRideColumns = {"time_s", "speed_m_per_s", "normal_load_m_p
                                      "friction_loss_j_per_kg", "drag_loss_j_per_kg"};
 
 constexpr std::array kStreamColumns = {"burden_depth_m", "equivalent_friction", "floor_pressure_pa",
-                                       "floor_wear_w_per_m2", "wall_wear_w_per_m2"};
+                                       "floor_wear_w_per_m2", "wall_wear_w_per_m2", "channel_width_m"};
 
 /// The columns of a ride, more of them where a stream flows.
 std::vector<std::string> ride_columns_of(const Motion& motion) {
@@ -46,6 +47,7 @@ void add_stream_state(Json& columns, const Motion& motion, double s) {
   columns["floor_pressure_pa"].push_back(state.floor_pressure);
   columns["floor_wear_w_per_m2"].push_back(state.floor_wear);
   columns["wall_wear_w_per_m2"].push_back(state.wall_wear);
+  columns["channel_width_m"].push_back(stream_of(motion.body())->width(s));
 }
 
 void add_state(Json& columns, const MotionState& state) {
@@ -322,6 +324,45 @@ Vec3 finish_of(const ReportInput& input) {
   return input.placement.to_space(input.endpoints.run, input.endpoints.drop, 0.0);
 }
 
+/// A ride of the flows and frictions that a reader may go through: few stations, what is drawn and told.
+Json what_if_ride(const ReportWhatIf& one) {
+  constexpr int kPieces = 40;
+  const Motion& motion = *one.motion;
+  Json ride;
+  add_ride(ride, motion);
+  Json line = {{"x_m", Json::array()},       {"z_m", Json::array()},           {"slope_angle_deg", Json::array()},
+               {"burden_depth_m", Json::array()}, {"speed_m_per_s", Json::array()}};
+  for (int i = 0; i <= kPieces; ++i) {
+    const double s = std::min(motion.distance(), motion.distance() * i / kPieces);
+    const CenterlinePoint at = motion.centerline().at(s);
+    line["x_m"].push_back(at.x);
+    line["z_m"].push_back(-at.drop);
+    line["slope_angle_deg"].push_back(degrees(at.slope_angle));
+    line["burden_depth_m"].push_back(motion.quantity(BulkStream::kDepth, s));
+    line["speed_m_per_s"].push_back(motion.at(s).speed);
+  }
+  Json flight = Json::array();
+  for (const Vec2& point : one.flight) flight.push_back({point.x, point.y});
+  return {{"mass_flow_kg_per_s", one.mass_flow},
+          {"friction_angle_deg", one.friction.angle().degrees()},
+          {"nominal", one.nominal},
+          {"status", ride["status"]},
+          {"travel_time_s", ride["travel_time_s"]},
+          {"exit_speed_m_per_s", ride["exit_speed_m_per_s"]},
+          {"max_depth_m", ride["stream"]["max_depth_m"]},
+          {"highest_filling", ride["stream"]["highest_filling"]},
+          {"choked", ride["stream"]["choked"]},
+          {"discharge", one.landing ? belt_landing_json(*one.landing) : Json(nullptr)},
+          {"line", std::move(line)},
+          {"flight_m", std::move(flight)}};
+}
+
+Json what_if_of(const ReportInput& input) {
+  Json list = Json::array();
+  for (const ReportWhatIf& one : input.what_if) list.push_back(what_if_ride(one));
+  return list;
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_document(const ReportInput& input) {
@@ -351,6 +392,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["fabrication"] = fabrication_of(input);
   document["flights"] = flights_of(input);
   document["cases"] = cases_of(input);
+  document["what_if"] = what_if_of(input);
   document["warnings"] = issues_json(input.warnings);
   document["checks"] = checks_of(input);
   document["limits"] = limits_of(input);

@@ -53,6 +53,8 @@ const std::vector<RuleQuantity>& rule_quantities() {
       {"impact_angle", angle, "angle at which the feed meets the floor"},
       {"feed_drop", length, "height from which the feed falls"},
       {"contact_reserve", number, "lowest load over that of gravity alone"},
+      {"hoods", number, "number of hoods"},
+      {"hood_contact", number, "least v^2/(g R cos(slope)) below the hood"},
       {"belt_match", number, "speed along the belt over the belt's"},
       {"speed_into_belt", speed, "speed into the belt"},
       {"depth_over_wall", number, "burden depth over the wall's height"},

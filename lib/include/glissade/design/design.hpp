@@ -169,6 +169,7 @@ struct Design {
   BodyDesign body;
   std::optional<StreamDesign> stream;        ///< none: a single body
   std::optional<FeedDesign> feed;            ///< of a stream; none: body.entry_speed says how fast it enters
+  std::optional<HoodDesign> hood;            ///< between feed and track; none: the feed falls on the track
   std::optional<DischargeDesign> discharge;  ///< of a stream; none: nothing takes it away
   std::vector<Material> materials;           ///< the file's own, beside those of the library
   double gravity = kDefaultGravity;          ///< [m/s^2]; > 0

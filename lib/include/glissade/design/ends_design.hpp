@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/units.hpp"
+#include "glissade/task/limits.hpp"
 
 namespace glissade {
 
@@ -16,6 +17,21 @@ struct FeedDesign {
   double outlet_speed = 0.0;   ///< of a hopper, straight down [m/s]; >= 0
 
   friend bool operator==(const FeedDesign&, const FeedDesign&) = default;
+};
+
+/// A hood between a belt's feed and the start of the track: what it is, or within which bounds the search chooses it.
+struct HoodDesign {
+  Range radius;        ///< of its underside [m]; > 0, both sides given
+  Range impact_angle;  ///< between the way of the feed and the hood [rad]; both sides given
+  Range exit_angle;    ///< of the stream at its lower edge, below the horizontal [rad]; both sides given
+  double drop = 0.0;   ///< from its lower edge down to the start of the track [m]; > 0
+
+  /// @return true if nothing of it is left to choose
+  [[nodiscard]] bool settled() const {
+    return radius.is_fixed() && impact_angle.is_fixed() && exit_angle.is_fixed();
+  }
+
+  friend bool operator==(const HoodDesign&, const HoodDesign&) = default;
 };
 
 /// The belt that takes a stream away.

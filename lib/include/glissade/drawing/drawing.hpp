@@ -33,7 +33,7 @@ struct DrawnPath {
   ArcPath path;
   int colour = 0;                       ///< instead of the layer's; 0: that of the layer
   std::optional<LineStyle> style = {};  ///< instead of the layer's
-  bool filled = false;                  ///< on paper; DXF has outlines alone
+  bool filled = false;                  ///< on paper, black or a grey of 250 to 255; DXF has outlines alone
 };
 
 /// A circle on a layer.

@@ -11,6 +11,7 @@
 #include "glissade/route/placement.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/trades/chute/ends.hpp"
+#include "glissade/trades/chute/hood.hpp"
 #include "glissade/trades/chute/wear.hpp"
 #include "glissade/trades/ski_jump/gates.hpp"
 
@@ -79,6 +80,8 @@ struct Track {
   std::vector<RangeRide> range;
   /// The rides from every gate of the design; none where it has none.
   std::optional<GateTable> gates = {};
+  /// The hood that the search chose together with the track; none where the design left nothing of one to choose.
+  std::optional<HoodDesign> hood = {};
 
   /// @return the rides at every friction that the design names, from low to high; the nominal one is always
   ///         among them. They live as long as the track.
@@ -104,10 +107,24 @@ class LimitsConflict : public InfeasibleError {
 [[nodiscard]] Endpoints endpoints_of(const Design& design);
 
 /// What slides or rolls, as Motion takes it.
-/// @throws InputError if a measure of the body breaks its bound
+/// @throws InputError if a measure of the body breaks its bound, or if something of the hood is still to be chosen
 [[nodiscard]] Body body_of(const Design& design);
 
-/// How the feed of a design comes down on its start.
+/// The design that a track is of: with the hood that its search chose. body_of(), feed_fall() and what stands on them
+/// take such a design.
+[[nodiscard]] Design as_solved(Design design, const Track& track);
+
+/// How the stream of a design passes its hood.
+/// @param design  with a hood, of which nothing is left to choose
+/// @param body    body_of() the design, or one with another friction or flow
+[[nodiscard]] HoodPassage hood_passage(const Design& design, const Body& body);
+
+/// From the pulley to the finish by all three ways: feed, hood, track [s].
+/// @param design  with a hood
+[[nodiscard]] double transfer_time(const Design& design, const Motion& motion);
+
+/// How the feed of a design comes down on its start, or on its hood where it has one; where it comes from is seen from
+/// the start in either case.
 /// @param design  with a feed
 [[nodiscard]] FeedFall feed_fall(const Design& design);
 

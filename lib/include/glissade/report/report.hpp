@@ -12,6 +12,7 @@
 #include "glissade/section/cross_section.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 #include "glissade/solid/sweep.hpp"
+#include "glissade/trades/chute/ends.hpp"
 #include "glissade/trades/rules.hpp"
 #include "glissade/trades/ski_jump/gates.hpp"
 
@@ -84,6 +85,16 @@ struct ReportCase {
   const Motion* motion = nullptr;
 };
 
+/// One of the rides that a reader goes through by flow and friction.
+struct ReportWhatIf {
+  double mass_flow = 0.0;  ///< [kg/s]
+  Friction friction;       ///< of the wall
+  bool nominal = false;    ///< the design's own
+  const Motion* motion = nullptr;
+  std::optional<BeltLanding> landing;  ///< none without a belt, or where it does not arrive
+  std::vector<Vec2> flight;            ///< to the belt: x run from the start, y height z [m]; may be empty
+};
+
 /// What a report is made from. Everything was computed elsewhere: a report measures nothing of its own.
 struct ReportInput {
   const Design* design = nullptr;
@@ -110,6 +121,7 @@ struct ReportInput {
   const WorkshopBuild* workshop = nullptr;  ///< what a workshop makes; null: nothing
   std::vector<ReportFlight> flights;        ///< of a stream
   std::vector<ReportCase> cases;            ///< of a stream: every friction with every flow
+  std::vector<ReportWhatIf> what_if;        ///< of a stream: every flow of a friction, friction after friction
   std::vector<Issue> warnings;              ///< what to hear of beside the answer
   std::vector<ReportKeepOut> keep_outs;
   Envelope envelope;  ///< what the keep-outs are kept clear of; all 0: the centerline

@@ -49,6 +49,48 @@ Json feed_json(const FeedFall& fall, const Impact& impact, double entry_speed) {
           {"pulley_height_m", fall.pulley.y}};
 }
 
+Json hood_passage_json(const HoodPassage& passage) {
+  const Motion& motion = passage.motion;
+  const MotionState heaviest = motion.highest_load();
+  return {{"holds", passage.holds()},
+          {"contact_at_entry", passage.contact},
+          {"least_contact", passage.least_contact},
+          {"impact_angle_deg", degrees(passage.impact.angle)},
+          {"impact_speed_ratio", passage.impact.speed_ratio},
+          {"impact_pressure_pa", passage.impact.pressure},
+          {"entry_speed_m_per_s", motion.body().entry_speed},
+          {"exit_speed_m_per_s", motion.exit_speed()},
+          {"max_depth_m", motion.highest(BulkStream::kDepth).value},
+          {"highest_wear_w_per_m2", stream_state(motion, heaviest.arc_length).floor_wear},
+          {"highest_wear_at_m", heaviest.arc_length},
+          {"friction_loss_j_per_kg", motion.at(motion.distance()).friction_loss},
+          {"travel_time_s", motion.travel_time()},
+          {"fall_time_s", passage.fall_time},
+          {"reach_m", passage.reach},
+          {"landing_speed_m_per_s", passage.landing.speed},
+          {"landing_angle_deg", degrees(passage.landing.angle)}};
+}
+
+Json hood_json(const HoodShape& hood, const HoodPassage& passage, const Impact& impact) {
+  Json json = hood_passage_json(passage);
+  const Centerline& arc = passage.motion.centerline();
+  json["radius_m"] = hood.radius;
+  json["entry_slope_angle_deg"] = degrees(arc.slope_angle(0.0));
+  json["exit_slope_angle_deg"] = hood.exit_slope.degrees();
+  json["arc_length_m"] = arc.length();
+  json["drop_m"] = hood.drop;
+  // Seen from the start of the track, upwards positive.
+  json["entry_run_m"] = -passage.start.x;
+  json["entry_height_m"] = passage.start.y;
+  const CenterlinePoint edge = arc.at(arc.length());
+  json["edge_run_m"] = edge.x - passage.start.x;
+  json["edge_height_m"] = passage.start.y - edge.drop;
+  json["landing"] = {{"impact_angle_deg", degrees(impact.angle)},
+                     {"speed_ratio", impact.speed_ratio},
+                     {"impact_pressure_pa", impact.pressure}};
+  return json;
+}
+
 Json belt_landing_json(const BeltLanding& landing) {
   return {{"speed_along_belt_m_per_s", landing.speed_along},
           {"speed_into_belt_m_per_s", landing.speed_into},

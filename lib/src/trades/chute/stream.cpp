@@ -126,6 +126,8 @@ std::optional<double> choking_mass_flow(const CenterlinePtr& centerline, const B
   // What stands without any depth is passed by no flow.
   Body point = body;
   point.law = nullptr;
+  point.landing = landing_of(body);
+  point.approach = nullptr;
   if (!Motion(centerline, point, gravity).arrived()) return 0.0;
   double clear = 0.0;
   double choked = 1.0;

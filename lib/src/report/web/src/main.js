@@ -11,6 +11,7 @@ import { summary } from "./summary.js";
 import { limitTable, stationTable } from "./tables.js";
 import { Units } from "./units.js";
 import { viewSection } from "./view3d.js";
+import { whatIfSection } from "./whatif.js";
 
 function header(doc, store, units, rides) {
   const theme = select("Theme", [["auto", "as the system"], ["light", "light"], ["dark", "dark"]], (value) => {
@@ -43,16 +44,17 @@ function start() {
   const rides = new Rides(doc);
   document.title = doc.design.name;
   const units = new Units();
-  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false, friction: "nominal" });
+  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false, friction: "nominal", whatIf: null });
   const profile = profileSection(doc, store, units);
   const plots = plotSection(doc, store, units, rides);
   const view = viewSection(doc, store, units);
+  const whatIf = whatIfSection(doc, store, units);
 
   const holder = element("div", {}, summary(doc, units));
   for (const key of ["units", "friction"]) store.on(key, () => holder.replaceChildren(summary(doc, units)));
   document.getElementById("page").replaceChildren(
     header(doc, store, units, rides),
-    element("main", {}, holder, limitTable(doc, store, units) ?? "", profile.node, view?.node ?? "", plots.node, gatesSection(doc, store, units) ?? "", stationTable(doc, store, units)),
+    element("main", {}, holder, limitTable(doc, store, units) ?? "", profile.node, view?.node ?? "", whatIf ?? "", plots.node, gatesSection(doc, store, units) ?? "", stationTable(doc, store, units)),
     element("footer", {}, element("p", {}, `Made by ${doc.generator.name} ${doc.generator.version}. Every number comes from the `
       + "document embedded in this page; the ride is re-integrated along the centerline that was built.")));
 

@@ -27,7 +27,7 @@ class Profile {
     this.svg.addEventListener("pointerdown", (event) => this.grab(event));
     this.svg.addEventListener("pointermove", (event) => this.hover(event));
     this.svg.addEventListener("keydown", (event) => this.key(event));
-    for (const key of ["units", "theme", "paper", "friction"]) store.on(key, () => this.draw());
+    for (const key of ["units", "theme", "paper", "friction", "whatIf"]) store.on(key, () => this.draw());
     store.on("station", () => this.moveCursor());
   }
 
@@ -99,9 +99,14 @@ class Profile {
 
   // The surface of a stream, its depth square to the floor, and its ways through the air.
   stream() {
-    const { stations, flights } = this.doc;
+    const { flights } = this.doc;
     const { px, pz } = this.at;
-    const nodes = flights.map((flight) => svgElement("path", { class: "line flight", d: this.path(flight) },
+    const other = this.store.get("whatIf");
+    const height = this.doc.stations.z_m[0];
+    const stations = other ? { ...other.line, z_m: other.line.z_m.map((z) => z + height) } : this.doc.stations;
+    const falls = other === null ? flights : [...flights.filter((flight) => flight.name !== "the stream falls on the belt"),
+      { name: "the stream falls on the belt", x_m: other.flight_m.map(([x]) => x), z_m: other.flight_m.map(([, z]) => z) }];
+    const nodes = falls.filter((flight) => flight.x_m.length > 0).map((flight) => svgElement("path", { class: flight.name === "the hood" ? "line hood" : "line flight", d: this.path(flight) },
       svgElement("title", {}, flight.name)));
     const depth = stations.burden_depth_m;
     if (!depth) return nodes;

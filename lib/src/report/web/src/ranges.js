@@ -1,7 +1,7 @@
 // The frictions of a design: which ride the page tells of, and between which curves the others lie.
 
 const COLUMNS = ["time_s", "speed_m_per_s", "normal_load_m_per_s2", "friction_loss_j_per_kg", "drag_loss_j_per_kg",
-  "burden_depth_m", "equivalent_friction", "floor_pressure_pa", "floor_wear_w_per_m2", "wall_wear_w_per_m2"];
+  "burden_depth_m", "equivalent_friction", "floor_pressure_pa", "floor_wear_w_per_m2", "wall_wear_w_per_m2", "channel_width_m"];
 
 export class Rides {
   constructor(doc) {

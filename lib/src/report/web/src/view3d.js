@@ -1,5 +1,5 @@
 import {
-  AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Mesh,
+  AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, Mesh,
   MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Scene, ShapeUtils, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -74,6 +74,7 @@ class View {
     this.lamp = new DirectionalLight(0xffffff, 1.9);
     this.scene.add(this.lamp);
     this.addObstacles();
+    this.addStream(null);
     this.controls = new OrbitControls(this.camera, canvas);
     // The wheel scrolls the page past the view unless the view is what the reader works with.
     canvas.addEventListener("wheel", (event) => {
@@ -85,6 +86,49 @@ class View {
       this.direction = null;
     });
     this.look("Three-quarter");
+  }
+
+  // The surface of a stream across its channel, and its ways through the air; of another ride where one is chosen.
+  addStream(other) {
+    const { doc } = this;
+    const { placement, view, stations } = doc;
+    this.stream?.removeFromParent();
+    if (!stations.burden_depth_m) return;
+    const [c, s] = [Math.cos(this.azimuth), Math.sin(this.azimuth)];
+    const middle = [0, 1, 2].map((axis) => (view.lower_m[axis] + view.upper_m[axis]) / 2);
+    const place = (x, left, z) => [
+      placement.start_m[0] + x * c - left * s - middle[0], placement.start_m[1] + x * s + left * c - middle[1], z - middle[2],
+    ];
+    const line = other ? { ...other.line, z_m: other.line.z_m.map((z) => z + stations.z_m[0]) } : stations;
+    const flowing = line.x_m.map((_, i) => i).filter((i) => line.burden_depth_m[i] !== null);
+    const corners = flowing.flatMap((i) => {
+      const slope = (line.slope_angle_deg[i] * Math.PI) / 180;
+      const depth = line.burden_depth_m[i];
+      const [x, z] = [line.x_m[i] + depth * Math.sin(slope), line.z_m[i] + depth * Math.cos(slope)];
+      const half = interpolate(stations.x_m, stations.channel_width_m, line.x_m[i]) / 2;
+      return [place(x, half, z), place(x, -half, z)];
+    });
+    const indices = flowing.slice(1).flatMap((_, k) => [2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 1, 2 * k + 3, 2 * k + 2]);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(corners.flat()), 3));
+    geometry.setIndex(indices);
+    geometry.computeVertexNormals();
+    this.stream = new Group();
+    this.stream.add(new Mesh(geometry, new MeshLambertMaterial({ color: 0x9a7b4f, transparent: true, opacity: 0.75, side: DoubleSide })));
+    const falls = doc.flights.filter((flight) => !other || flight.name !== "the stream falls on the belt").map((flight) => flight.x_m.map((x, i) => [x, flight.z_m[i]]));
+    if (other && other.flight_m.length > 0) falls.push(other.flight_m);
+    const material = new MeshLambertMaterial({ color: 0x9a7b4f, transparent: true, opacity: 0.35, side: DoubleSide });
+    const first = stations.channel_width_m[0] / 2;
+    const last = stations.channel_width_m[stations.channel_width_m.length - 1] / 2;
+    for (const points of falls) {
+      const half = points[0][0] > stations.x_m[0] + 1e-9 ? last : first;
+      const sheet = new BufferGeometry();
+      sheet.setAttribute("position", new BufferAttribute(new Float32Array(points.flatMap(([x, z]) => [...place(x, half, z), ...place(x, -half, z)])), 3));
+      sheet.setIndex(points.slice(1).flatMap((_, k) => [2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 1, 2 * k + 3, 2 * k + 2]));
+      sheet.computeVertexNormals();
+      this.stream.add(new Mesh(sheet, material));
+    }
+    this.scene.add(this.stream);
   }
 
   // Obstacles as translucent bodies across the track, a little wider than the solid; lines as sheets. They do not count
@@ -416,6 +460,11 @@ export function viewSection(doc, store, units) {
         button("Zoom out", () => view.key({ key: "-", preventDefault() {} })));
       canvas.addEventListener("keydown", (event) => view.key(event));
       store.on("station", (station) => view.mark(station));
+      const flow = () => {
+        view.addStream(store.get("whatIf"));
+        view.render();
+      };
+      for (const change of ["whatIf", "friction"]) store.on(change, flow);
       view.mark(store.get("station"));
       view.dimensions(labels);
       size.before(element("p", { class: "hint" }, "Drag to turn, right button to move; the wheel zooms once the view is selected. "
