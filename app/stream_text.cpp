@@ -61,7 +61,8 @@ std::string impact_text(const Landing& landing, const Impact& impact, const char
            rounded_text(100.0 * impact.speed_ratio, 3) + " % of that; presses with " +
            rounded_text(impact.pressure / 1e3, 3) + " kPa";
   }
-  return text + "\n" + emphasised("stalls", Emphasis::bad) + " where it lands: friction takes all of its speed";
+  return text + "\n" + emphasised("stalls", Emphasis::bad) +
+         " where it lands: friction takes all of its speed";
 }
 
 std::string hood_lines(const Design& design, const Track& track) {
@@ -69,13 +70,14 @@ std::string hood_lines(const Design& design, const Track& track) {
   const HoodPassage passage = hood_passage(design, track.motion.body());
   const HoodDesign& hood = *design.hood;
   const Motion& below = passage.motion;
-  const Impact impact = impact_on(passage.landing, track.centerline->slope_angle(0.0),
+  const Impact impact = impact_on(passage.landing, Angle::from_radians(track.centerline->slope_angle(0.0)),
                                   track.motion.body().friction, design.stream->bulk_density);
   std::string text = "radius " + length_text(*hood.radius.lowest) + ", turns the stream from " +
-                     angle_text(below.centerline().slope_angle(0.0), 3) + " to " +
-                     angle_text(*hood.exit_angle.lowest, 3) + " over " + length_text(below.centerline().length());
-  text += "\npressed on: v^2/(g R cos) is " + rounded_text(passage.contact, 3) + " where the feed meets it, " +
-          rounded_text(passage.least_contact, 3) + " at least";
+                     angle_text(Angle::from_radians(below.centerline().slope_angle(0.0)), 3) + " to " +
+                     angle_text(Angle::from_radians(*hood.exit_angle.lowest), 3) + " over " +
+                     length_text(below.centerline().length());
+  text += "\npressed on: v^2/(g R cos) is " + rounded_text(passage.contact, 3) +
+          " where the feed meets it, " + rounded_text(passage.least_contact, 3) + " at least";
   text += "\nleaves at " + speed_text(below.exit_speed()) + ", " +
           length_text(below.highest(BulkStream::kDepth).value) + " deep at most; wears " +
           quantity_text(stream_state(below, below.highest_load().arc_length).floor_wear,
@@ -103,8 +105,8 @@ std::string feed_lines(const Design& design, const Track& track) {
   const Body& body = track.motion.body();
   const Impact impact = design.hood
                             ? hood_passage(design, body).impact
-                            : impact_on(fall.landing, Angle::from_radians(track.centerline->slope_angle(0.0)), body.friction,
-                                        design.stream->bulk_density);
+                            : impact_on(fall.landing, Angle::from_radians(track.centerline->slope_angle(0.0)),
+                                        body.friction, design.stream->bulk_density);
   std::string text = impact_text(fall.landing, impact, design.hood ? "hood" : "floor");
   if (design.feed->kind == FeedKind::belt) {
     text += "\nhead pulley " + length_text(-fall.pulley.x) + (fall.pulley.x < 0.0 ? " before" : " beyond") +

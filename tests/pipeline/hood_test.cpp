@@ -1,12 +1,13 @@
 // Hood and spoon: what a design tells of its hood, the two chosen together, its solid, what it must keep clear of, and
 // input that makes no hood.
 
+#include "glissade/trades/chute/hood.hpp"
+
 #include "glissade/design/write.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/frozen.hpp"
 #include "glissade/pipeline/json.hpp"
 #include "glissade/pipeline/rules.hpp"
-#include "glissade/trades/chute/hood.hpp"
 
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
@@ -28,9 +29,10 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 const std::string kHood = "hood: {radius: 1 m, impact_angle: 12 deg, exit_angle: 78 deg, drop: 400 mm}\n";
 
 /// 400 t/h of ore from a fast belt; the spoon is straight unless told otherwise.
-std::string transfer(const std::string& hood = kHood, const std::string& more = "",
-                     const std::string& centerline = "centerline: {kind: straight}\n",
-                     const std::string& friction = "friction_angle: {low: 24 deg, nominal: 27 deg, high: 31 deg}") {
+std::string transfer(
+    const std::string& hood = kHood, const std::string& more = "",
+    const std::string& centerline = "centerline: {kind: straight}\n",
+    const std::string& friction = "friction_angle: {low: 24 deg, nominal: 27 deg, high: 31 deg}") {
   return "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 1.2 m, z: 1.4 m}}\nbody: {" + friction +
          "}\nstream: {mass_flow: 400 t/h, bulk_density: 1600 kg/m^3, lump_size: 60 mm}\n"
          "feed: {kind: belt, belt_speed: 3.6 m/s, pulley_radius: 400 mm, drop: 200 mm}\n" +
@@ -47,7 +49,9 @@ std::string problems(const std::string& text) {
   }
 }
 
-double number(const json& object, const char* key) { return object.at(key).get<double>(); }
+double number(const json& object, const char* key) {
+  return object.at(key).get<double>();
+}
 
 }  // namespace
 
@@ -69,17 +73,21 @@ TEST_CASE("a transfer by hand: feed, hood, fall and spoon hand over to one anoth
         Approx(enters * enters / (9.81 * std::cos(way + 12.0 * kDegree))).epsilon(1e-12));
   // The hood's end is where its fall begins, and that ends on the start of the spoon.
   const double leaves = number(hood, "exit_speed_m_per_s");
-  CHECK(number(hood, "landing_speed_m_per_s") == Approx(std::sqrt(leaves * leaves + 2.0 * 9.81 * 0.4)).epsilon(1e-12));
+  CHECK(number(hood, "landing_speed_m_per_s") ==
+        Approx(std::sqrt(leaves * leaves + 2.0 * 9.81 * 0.4)).epsilon(1e-12));
   CHECK(number(hood, "edge_height_m") == Approx(0.4).epsilon(1e-12));
   CHECK(number(hood, "edge_run_m") == Approx(-number(hood, "reach_m")).epsilon(1e-9));
   const double angle = number(hood, "landing_angle_deg") * kDegree - track.centerline->slope_angle(0.0);
   CHECK(number(document, "entry_speed_m_per_s") ==
-        Approx(number(hood, "landing_speed_m_per_s") * (std::cos(angle) - mu * std::sin(angle))).epsilon(1e-12));
+        Approx(number(hood, "landing_speed_m_per_s") * (std::cos(angle) - mu * std::sin(angle)))
+            .epsilon(1e-12));
   // The pulley lies behind the hood by the way of the feed.
-  CHECK(number(feed, "pulley_run_m") == Approx(number(hood, "entry_run_m") - number(feed, "reach_m")).epsilon(1e-12));
+  CHECK(number(feed, "pulley_run_m") ==
+        Approx(number(hood, "entry_run_m") - number(feed, "reach_m")).epsilon(1e-12));
   CHECK(number(hood, "transfer_time_s") ==
         Approx(number(feed, "time_s") + number(hood, "travel_time_s") + number(hood, "fall_time_s") +
-               number(document, "travel_time_s")).epsilon(1e-12));
+               number(document, "travel_time_s"))
+            .epsilon(1e-12));
   CHECK(hood["landing_spread_m"][0].get<double>() < 0.0);
   CHECK(hood["landing_spread_m"][1].get<double>() > 0.0);
 }
@@ -93,8 +101,9 @@ TEST_CASE("each friction of the range comes down on the spoon as it left the hoo
     body.friction = ride.motion->body().friction;
     const HoodPassage passage = hood_passage(design, body);
     CHECK(ride.motion->body().landing->speed == passage.landing.speed);
-    CHECK(ride.motion->body().entry_speed ==
-          speed_after(passage.landing, track.centerline->slope_angle(0.0), body.friction));
+    CHECK(
+        ride.motion->body().entry_speed ==
+        speed_after(passage.landing, Angle::from_radians(track.centerline->slope_angle(0.0)), body.friction));
     CHECK(ride.motion->exit_speed() < before);
     before = ride.motion->exit_speed();
   }
@@ -110,7 +119,8 @@ TEST_CASE("each friction of the range comes down on the spoon as it left the hoo
 
 TEST_CASE("what is left to choose is chosen no worse than any hood tried, and a wider choice is no slower") {
   const auto with_radius = [](const std::string& radius) {
-    return transfer("hood: {radius: " + radius + ", impact_angle: 12 deg, exit_angle: 78 deg, drop: 400 mm}\n");
+    return transfer("hood: {radius: " + radius +
+                    ", impact_angle: 12 deg, exit_angle: 78 deg, drop: 400 mm}\n");
   };
   const auto time_of = [](const std::string& text) {
     const Design design = parse_design(text, "d.yaml");
@@ -127,11 +137,13 @@ TEST_CASE("what is left to choose is chosen no worse than any hood tried, and a 
 
 TEST_CASE("hood and spoon are found together within limits") {
   const std::string limits =
-      "limits: {concave: true, smallest_valley_radius: 1 m, lowest_slope_margin: 5 deg, match_belt: {speed: 3 m/s, "
+      "limits: {concave: true, smallest_valley_radius: 1 m, lowest_slope_margin: 5 deg, match_belt: {speed: "
+      "3 m/s, "
       "within: 20 %}}\n";
-  const Design design = parse_design(
-      transfer("hood: {radius: {lowest: 0.7 m, highest: 1.1 m}, drop: 400 mm}\n", limits, "centerline: {kind: fastest}\n"),
-      "d.yaml");
+  const Design design =
+      parse_design(transfer("hood: {radius: {lowest: 0.7 m, highest: 1.1 m}, drop: 400 mm}\n", limits,
+                            "centerline: {kind: fastest}\n"),
+                   "d.yaml");
   const Track track = solve(design);
   REQUIRE(track.hood);
   CHECK(track.hood->settled());
@@ -158,7 +170,8 @@ TEST_CASE("a build makes a proven solid of the hood where the stream meets it") 
   const Part& hood = made.parts.back();
   CHECK(hood.name == "hood");
   CHECK(hood.files == std::vector<std::string>{"d.hood.stl", "d.hood.off", "d.hood.scad"});
-  for (const std::string& file : hood.files) CHECK(std::filesystem::file_size(directory.path() / file) > 1000);
+  for (const std::string& file : hood.files)
+    CHECK(std::filesystem::file_size(directory.path() / file) > 1000);
   const ProvenSolid& solid = hood.solid.value();
   CHECK(solid.facts.watertight());
   CHECK(solid.facts.oriented_outward);
@@ -186,13 +199,12 @@ TEST_CASE("a hood keeps clear of what the track keeps clear of") {
     const auto at = [&](double dx, double dz) {
       return "[" + std::to_string(x + dx) + " m, " + std::to_string(z + dz) + " m]";
     };
-    return "limits: {keep_outs: [{outline: [" + at(0, 0) + ", " + at(0.1, 0) + ", " + at(0.1, 0.1) + ", " + at(0, 0.1) +
-           "]}]}\n";
+    return "limits: {keep_outs: [{outline: [" + at(0, 0) + ", " + at(0.1, 0) + ", " + at(0.1, 0.1) + ", " +
+           at(0, 0.1) + "]}]}\n";
   };
   const Design design = parse_design(transfer(), "d.yaml");
   const HoodPassage passage = hood_passage(design, body_of(design));
-  const CenterlinePoint middle =
-      passage.motion.centerline().at(0.5 * passage.motion.centerline().length());
+  const CenterlinePoint middle = passage.motion.centerline().at(0.5 * passage.motion.centerline().length());
   const double x = middle.x - passage.start.x;
   const double z = 3.0 + passage.start.y - middle.drop;
   CHECK_THROWS_WITH(solve(parse_design(transfer(kHood, beam(x, z)), "d.yaml")),
@@ -220,9 +232,9 @@ TEST_CASE("no hood: each with place, value, bound and way out") {
 }
 
 TEST_CASE("where some of a choice has no contact, what is chosen has") {
-  const Design design = parse_design(
-      transfer("hood: {radius: {lowest: 0.9 m, highest: 4 m}, impact_angle: 12 deg, exit_angle: 78 deg, drop: 400 mm}\n"),
-      "d.yaml");
+  const Design design = parse_design(transfer("hood: {radius: {lowest: 0.9 m, highest: 4 m}, impact_angle: "
+                                              "12 deg, exit_angle: 78 deg, drop: 400 mm}\n"),
+                                     "d.yaml");
   const Track track = solve(design);
   REQUIRE(track.hood);
   for (const LevelRide& ride : track.rides())
@@ -232,7 +244,8 @@ TEST_CASE("where some of a choice has no contact, what is chosen has") {
 TEST_CASE("a hood is written back as it was read") {
   for (const char* const hood :
        {"hood: {radius: 1.1 m, impact_angle: 12 deg, exit_angle: 78 deg, drop: 400 mm}\n",
-        "hood: {radius: {lowest: 0.7 m, highest: 1.1 m}, impact_angle: {lowest: 5 deg, highest: 15 deg}, exit_angle: "
+        "hood: {radius: {lowest: 0.7 m, highest: 1.1 m}, impact_angle: {lowest: 5 deg, highest: 15 deg}, "
+        "exit_angle: "
         "{lowest: 70 deg, highest: 88 deg}, drop: 0.4 m}\n"}) {
     const Design design = parse_design(transfer(hood), "d.yaml");
     CHECK(parse_design(design_text(design), "d.yaml").asks_the_same(design));

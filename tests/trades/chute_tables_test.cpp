@@ -34,7 +34,9 @@ const json& tables() {
   return all;
 }
 
-double number(const json& object, const char* key) { return object.at(key).get<double>(); }
+double number(const json& object, const char* key) {
+  return object.at(key).get<double>();
+}
 
 Body point(double mu, double entry_speed) {
   Body body;
@@ -88,7 +90,8 @@ TEST_CASE("the textbook curve under full friction: times, speeds, and where it s
     // The table's rides begin with 0.1 mm/s instead of at rest, which takes v/g to reach.
     CHECK(motion.travel_time() == Approx(number(row, "t_full") + 1e-4 / kGravity).epsilon(1e-7));
     CHECK(motion.exit_speed() == Approx(number(row, "v_full")).epsilon(1e-6));
-    CHECK(curve->travel_time_without_curvature_load(kGravity) == Approx(number(row, "t_closed")).epsilon(1e-9));
+    CHECK(curve->travel_time_without_curvature_load(kGravity) ==
+          Approx(number(row, "t_closed")).epsilon(1e-9));
     const Motion line(std::make_shared<const StraightLine>(ends), point(mu, 0.0), kGravity);
     CHECK(line.travel_time() == Approx(number(row, "t_line")).epsilon(1e-9));
     CHECK(line.exit_speed() == Approx(number(row, "v_line")).epsilon(1e-9));
@@ -108,8 +111,9 @@ TEST_CASE("the textbook curve under full friction: times, speeds, and where it s
   CHECK(stalled.highest_speed().speed >= number(stall, "vmax"));
   // Each friction on the curve made for it: from here on none arrives.
   const auto arrives = [&](double mu) {
-    return Motion(std::make_shared<const NoCurvatureLoadCurve>(ends, Friction::from_coefficient(mu)), point(mu, 0.0),
-                  kGravity).arrived();
+    return Motion(std::make_shared<const NoCurvatureLoadCurve>(ends, Friction::from_coefficient(mu)),
+                  point(mu, 0.0), kGravity)
+        .arrived();
   };
   CHECK(arrives(number(stall, "mu_crit_4x3") - 1e-6));
   CHECK_FALSE(arrives(number(stall, "mu_crit_4x3") + 1e-6));
@@ -126,7 +130,7 @@ TEST_CASE("a chute made for one friction, run at others") {
 
 TEST_CASE("impacts and valleys of the facts") {
   for (const json& row : tables().at("impact")) {
-    const Impact impact = impact_on({3.0, number(row, "theta") * kDegree}, 0.0,
+    const Impact impact = impact_on({3.0, Angle::from_degrees(number(row, "theta"))}, Angle{},
                                     Friction::from_angle(Angle::from_degrees(number(row, "phi"))), 1000.0);
     CHECK(impact.speed_ratio == Approx(number(row, "V2_V1")).margin(1e-12));
   }
@@ -135,8 +139,9 @@ TEST_CASE("impacts and valleys of the facts") {
 TEST_CASE("Chiarella, Charlton and Roberts: twenty layers of the profile of least time") {
   // As printed by Burden and Faires: X = 2 ft, twenty layers of 0.2 ft, from rest, without resistance; angles from the
   // vertical [rad], of 5 digits, by a rule that passes each layer at the speed of its end.
-  constexpr std::array kAngles = {.14062, .19954, .24522, .28413, .31878, .35045, .37990, .40763, .43398, .45920,
-                                  .48348, .50697, .52979, .55205, .57381, .59516, .61615, .63683, .65726, .67746};
+  constexpr std::array kAngles = {.14062, .19954, .24522, .28413, .31878, .35045, .37990,
+                                  .40763, .43398, .45920, .48348, .50697, .52979, .55205,
+                                  .57381, .59516, .61615, .63683, .65726, .67746};
   constexpr double kLayer = 0.2;
   constexpr double kFeet = 32.17;  // [ft/s^2]
   double run = 0.0;

@@ -96,13 +96,13 @@ TEST_CASE("below a hood without walls: Roberts' closed form of the inverted curv
     const double exit = random.between(entry / kDegree + 5.0, 90.0) * kDegree;
     // Fast enough that it is pressed on the hood all along.
     const double speed = random.between(1.2, 3.0) * std::sqrt(kGravity * radius);
-    const Landing feed{speed, entry};
+    const Landing feed{speed, Angle::from_radians(entry)};
     const Body body = ore(mu, 0.0);
     const HoodPassage passage = pass_hood(hood_of(radius, 0.0, exit / kDegree), feed, body, kGravity);
     INFO("mu " << mu << ", radius " << radius << ", from " << entry / kDegree << " to " << exit / kDegree);
     if (!passage.holds()) continue;  // friction took its contact: the next test
-    const double expected = inverted_arc_v2(speed, radius, mu, 0.5 * std::numbers::pi - entry,
-                                            0.5 * std::numbers::pi - exit);
+    const double expected =
+        inverted_arc_v2(speed, radius, mu, 0.5 * std::numbers::pi - entry, 0.5 * std::numbers::pi - exit);
     const double found = passage.motion.exit_speed();
     CHECK(found * found == Approx(expected).epsilon(1e-11));
     CHECK(passage.contact == Approx(speed * speed / (kGravity * radius * std::cos(entry))).epsilon(1e-12));
@@ -123,7 +123,8 @@ TEST_CASE("below a hood with walls: an integrator of its own, speed and time") {
   for (int i = 0; i < 20; ++i) {
     const Body body = ore(random.between(0.2, 0.6));
     const double radius = random.between(0.6, 2.0);
-    const Landing feed{random.between(1.3, 2.0) * std::sqrt(kGravity * radius), random.between(0.0, 0.5)};
+    const Landing feed{random.between(1.3, 2.0) * std::sqrt(kGravity * radius),
+                       Angle::from_radians(random.between(0.0, 0.5))};
     const double impact = random.between(0.0, 20.0);
     const double exit = random.between(60.0, 90.0);
     const HoodPassage passage = pass_hood(hood_of(radius, impact, exit), feed, body, kGravity);
@@ -132,7 +133,7 @@ TEST_CASE("below a hood with walls: an integrator of its own, speed and time") {
     const double theta = impact * kDegree;
     const double enters = feed.speed * (std::cos(theta) - body.friction.coefficient() * std::sin(theta));
     CHECK(passage.impact.speed_ratio * feed.speed == Approx(enters).epsilon(1e-12));
-    const Ridden expected = integrated(enters, radius, feed.angle + theta, exit * kDegree, body);
+    const Ridden expected = integrated(enters, radius, feed.angle.radians() + theta, exit * kDegree, body);
     CHECK(passage.motion.exit_speed() == Approx(std::sqrt(expected.v)).epsilon(1e-9));
     CHECK(passage.motion.travel_time() == Approx(expected.time).epsilon(1e-9));
   }
@@ -141,7 +142,7 @@ TEST_CASE("below a hood with walls: an integrator of its own, speed and time") {
 
 TEST_CASE("v^2/(g R) = 0.544 on a level hood is no contact: the stream falls away at once") {
   // Vector E of the chute facts: v0 = 4, R = 3, mu = 0.4, phi = 90 deg.
-  const HoodPassage passage = pass_hood(hood_of(3.0, 0.0, 80.0), {4.0, 0.0}, ore(0.4), kGravity);
+  const HoodPassage passage = pass_hood(hood_of(3.0, 0.0, 80.0), {4.0, Angle{}}, ore(0.4), kGravity);
   CHECK(passage.contact == Approx(0.544).epsilon(1e-3));
   CHECK_FALSE(passage.holds());
   REQUIRE(passage.motion.lift_off());
@@ -158,7 +159,8 @@ TEST_CASE("contact ends where v^2/(g R) falls to the cosine of the slope, wherev
   for (int i = 0; i < 200; ++i) {
     const double radius = random.between(0.8, 3.0);
     // A rising stream: what is pressed on where it falls, is so from there on, as both gravity's share and the speed's grow.
-    const Landing feed{random.between(0.8, 1.3) * std::sqrt(kGravity * radius), random.between(-0.7, 0.0)};
+    const Landing feed{random.between(0.8, 1.3) * std::sqrt(kGravity * radius),
+                       Angle::from_radians(random.between(-0.7, 0.0))};
     const HoodPassage passage =
         pass_hood(hood_of(radius, 0.0, 85.0), feed, ore(random.between(0.3, 0.9)), kGravity);
     CHECK((passage.holds() ? passage.least_contact >= 1.0 - 1e-9 : passage.least_contact <= 1.0 + 1e-9));
@@ -176,7 +178,8 @@ TEST_CASE("on a hood that falls from its entry on, contact there is contact all 
   testing::Random random = testing::seeded_random();
   for (int i = 0; i < 200; ++i) {
     const double radius = random.between(0.5, 3.0);
-    const Landing feed{random.between(0.7, 2.0) * std::sqrt(kGravity * radius), random.between(0.0, 0.6)};
+    const Landing feed{random.between(0.7, 2.0) * std::sqrt(kGravity * radius),
+                       Angle::from_radians(random.between(0.0, 0.6))};
     const HoodPassage passage = pass_hood(hood_of(radius, random.between(0.0, 20.0), 88.0), feed,
                                           ore(random.between(0.0, 0.9), 0.0), kGravity);
     if (passage.motion.law_end()) continue;  // it came to a stand
@@ -186,22 +189,22 @@ TEST_CASE("on a hood that falls from its entry on, contact there is contact all 
 
 TEST_CASE("what leaves a hood keeps its level speed and its energy on its way down") {
   const Body body = ore(0.5);
-  const HoodPassage passage = pass_hood(hood_of(1.0, 8.0, 75.0, 0.7), {4.5, 0.2}, body, kGravity);
+  const HoodPassage passage =
+      pass_hood(hood_of(1.0, 8.0, 75.0, 0.7), {4.5, Angle::from_radians(0.2)}, body, kGravity);
   REQUIRE(passage.holds());
   const double left = passage.motion.exit_speed();
   CHECK(passage.landing.speed == Approx(std::sqrt(left * left + 2.0 * kGravity * 0.7)).epsilon(1e-12));
-  CHECK(passage.landing.speed * std::cos(passage.landing.angle) ==
+  CHECK(passage.landing.speed * std::cos(passage.landing.angle.radians()) ==
         Approx(left * std::cos(75.0 * kDegree)).epsilon(1e-12));
   CHECK(passage.reach == Approx(left * std::cos(75.0 * kDegree) * passage.fall_time).epsilon(1e-12));
   // Down by the arc's own drop and that below its edge.
   const double entry = 0.2 + 8.0 * kDegree;
-  CHECK(passage.start.x ==
-        Approx(std::sin(75.0 * kDegree) - std::sin(entry) + passage.reach).epsilon(1e-12));
+  CHECK(passage.start.x == Approx(std::sin(75.0 * kDegree) - std::sin(entry) + passage.reach).epsilon(1e-12));
   CHECK(passage.start.y == Approx(std::cos(entry) - std::cos(75.0 * kDegree) + 0.7).epsilon(1e-12));
 }
 
 TEST_CASE("the landing of a track below a hood is that of its friction") {
-  const Landing feed{4.5, 0.2};
+  const Landing feed{4.5, Angle::from_radians(0.2)};
   const HoodShape hood = hood_of(1.0, 8.0, 80.0, 0.6);
   Body body = ore(0.5);
   body.approach = std::make_shared<const HoodApproach>(hood, feed, kGravity);
@@ -214,15 +217,16 @@ TEST_CASE("the landing of a track below a hood is that of its friction") {
     REQUIRE(motion.body().landing);
     CHECK(motion.body().landing->speed == expected.speed);
     CHECK(motion.body().entry_speed ==
-          speed_after(expected, track->slope_angle(0.0), body.friction));
+          speed_after(expected, Angle::from_radians(track->slope_angle(0.0)), body.friction));
     CHECK(expected.speed < before);  // more friction, less speed
     before = expected.speed;
   }
 }
 
 TEST_CASE("a hood that does not turn its stream down is refused") {
-  CHECK_THROWS_WITH(hood_arc(hood_of(1.0, 20.0, 60.0), {4.0, 50.0 * kDegree}),
+  CHECK_THROWS_WITH(hood_arc(hood_of(1.0, 20.0, 60.0), {4.0, Angle::from_degrees(50.0)}),
                     Contains("exit_angle: 60 deg, the stream meets the hood at 70 deg"));
-  CHECK_THROWS_WITH(hood_arc(hood_of(1.0, 20.0, 100.0), {4.0, 50.0 * kDegree}), Contains("straight down"));
-  CHECK_THROWS_WITH(hood_arc(hood_of(-1.0, 20.0, 80.0), {4.0, 0.0}), Contains("radius"));
+  CHECK_THROWS_WITH(hood_arc(hood_of(1.0, 20.0, 100.0), {4.0, Angle::from_degrees(50.0)}),
+                    Contains("straight down"));
+  CHECK_THROWS_WITH(hood_arc(hood_of(-1.0, 20.0, 80.0), {4.0, Angle{}}), Contains("radius"));
 }

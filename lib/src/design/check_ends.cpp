@@ -83,8 +83,9 @@ void check_choice(const Range& range, double least, double most, bool above_leas
          {"",
           key + ": lowest, " + quantity_text(*range.lowest, dimension) + ", is above highest, " +
               quantity_text(*range.highest, dimension),
-          "", "lowest: " + quantity_text(*range.highest, dimension) + ", highest: " +
-                  quantity_text(*range.lowest, dimension)});
+          "",
+          "lowest: " + quantity_text(*range.highest, dimension) +
+              ", highest: " + quantity_text(*range.lowest, dimension)});
 }
 
 bool sound(const HoodDesign& hood) {
@@ -100,35 +101,36 @@ bool sound(const HoodDesign& hood) {
 void check_contact(const Design& design, Collected& findings) {
   const FeedDesign& feed = *design.feed;
   const HoodDesign& hood = *design.hood;
-  const bool feed_is_sound = feed.kind == FeedKind::belt && feed.belt_speed > 0.0 && feed.pulley_radius > 0.0 &&
-                             feed.drop > 0.0 && std::fabs(feed.belt_angle.radians()) <= kSteepest;
+  const bool feed_is_sound = feed.kind == FeedKind::belt && feed.belt_speed > 0.0 &&
+                             feed.pulley_radius > 0.0 && feed.drop > 0.0 &&
+                             std::fabs(feed.belt_angle.radians()) <= kSteepest;
   if (!feed_is_sound || !sound(hood) || !(design.gravity > 0.0)) return;
   const Landing falls =
-      fall_from_belt({feed.belt_speed, feed.pulley_radius, feed.belt_angle}, feed.drop, design.gravity).landing;
-  const double theta = *hood.impact_angle.lowest;
-  const double slope = falls.angle + theta;
-  if (!(slope < *hood.exit_angle.highest)) {
+      fall_from_belt({feed.belt_speed, feed.pulley_radius, feed.belt_angle}, feed.drop, design.gravity)
+          .landing;
+  const Angle theta = Angle::from_radians(*hood.impact_angle.lowest);
+  const Angle slope = falls.angle + theta;
+  if (!(slope.radians() < *hood.exit_angle.highest)) {
     report(findings, {"hood.exit_angle", "hood"},
            {"",
-            "exit_angle: " + angle_text(*hood.exit_angle.highest) + ", but the stream meets the hood at " +
-                angle_text(slope),
+            "exit_angle: " + angle_text(Angle::from_radians(*hood.exit_angle.highest)) +
+                ", but the stream meets the hood at " + angle_text(slope),
             "A hood turns a stream down: the feed falls " + angle_text(falls.angle) +
                 " below the horizontal, and the hood is steeper than that by its impact_angle.",
             "a larger exit_angle, a smaller impact_angle, or a shorter drop of the feed"});
     return;
   }
   const Friction friction = design.body.high_friction.value_or(design.body.friction);
-  const double left = std::max(0.0, impact_on({falls.speed, theta}, 0.0, friction, 1.0).speed_ratio);
+  const double left = std::max(0.0, impact_on({falls.speed, theta}, Angle{}, friction, 1.0).speed_ratio);
   const double speed = left * falls.speed;
   const double presses = speed * speed / (design.gravity * *hood.radius.lowest);
-  const double needed = math::cos(slope);
+  const double needed = math::cos(slope.radians());
   if (presses >= needed) return;
   const double fits = speed * speed / (design.gravity * needed);
   report(findings, {"hood.radius", "hood"},
          {"",
-          "hood: no contact where the feed meets it: v^2/(g R) is " + rounded_text(presses, 3) +
-              ", at " + quantity_text(speed, Dimension::speed) + " and a radius of " +
-              length_text(*hood.radius.lowest),
+          "hood: no contact where the feed meets it: v^2/(g R) is " + rounded_text(presses, 3) + ", at " +
+              quantity_text(speed, Dimension::speed) + " and a radius of " + length_text(*hood.radius.lowest),
           "Below " + rounded_text(needed, 3) + ", the cosine of its slope of " + angle_text(slope, 3) +
               ", the stream falls away from the underside before the hood has turned it.",
           "a radius below " + length_text(fits, 3) + ", a faster belt, or a longer drop of the feed"});
@@ -137,21 +139,23 @@ void check_contact(const Design& design, Collected& findings) {
 void check_hood(const Design& design, Collected& findings) {
   const HoodDesign& hood = *design.hood;
   if (!design.feed || design.feed->kind != FeedKind::belt) {
-    report(findings, {"hood"},
-           {"", std::string("hood: without a feed from a belt"),
-            "A hood stands in front of a head pulley and turns down what comes from it.",
-            "feed: {kind: belt, belt_speed: 3.2 m/s, pulley_radius: 400 mm, drop: 200 mm}, its drop down to the "
-            "hood"});
+    report(
+        findings, {"hood"},
+        {"", std::string("hood: without a feed from a belt"),
+         "A hood stands in front of a head pulley and turns down what comes from it.",
+         "feed: {kind: belt, belt_speed: 3.2 m/s, pulley_radius: 400 mm, drop: 200 mm}, its drop down to the "
+         "hood"});
   }
   check_choice(hood.radius, 0.0, kLargestHood, true, "radius", Dimension::length,
                "That of its underside: above 0, at most 100 m.", "1.2 m", findings);
   check_choice(hood.impact_angle, 0.0, kSteepest, false, "impact_angle", Dimension::angle,
                "Between the way of the feed and the hood: 0 to 45 deg.", "10 deg", findings);
   check_choice(hood.exit_angle, 0.0, kUpright, false, "exit_angle", Dimension::angle,
-               "Of the stream at the lower edge, below the horizontal: at most 90 deg, straight down.", "80 deg",
-               findings);
+               "Of the stream at the lower edge, below the horizontal: at most 90 deg, straight down.",
+               "80 deg", findings);
   check_between(hood.drop, 0.0, kHighest, true, "hood.drop", Dimension::length,
-                "From its lower edge down to the start of the track: above 0, at most 1 km.", "500 mm", findings);
+                "From its lower edge down to the start of the track: above 0, at most 1 km.", "500 mm",
+                findings);
   if (design.feed) check_contact(design, findings);
 }
 

@@ -84,8 +84,8 @@ std::optional<HoodDesign> read_hood(MapReader& top, Findings& findings) {
   HoodDesign hood;
   const bool given = map.need("radius", "radius: 1.2 m, or {lowest: 0.8 m, highest: 2 m}").has_value();
   if (given) {
-    hood.radius =
-        read_choice(map, "radius", Dimension::length, "{lowest: 0.8 m, highest: 2 m}", findings).value_or(Range{});
+    hood.radius = read_choice(map, "radius", Dimension::length, "{lowest: 0.8 m, highest: 2 m}", findings)
+                      .value_or(Range{});
   }
   hood.impact_angle =
       read_choice(map, "impact_angle", Dimension::angle, "{lowest: 5 deg, highest: 20 deg}", findings)

@@ -245,8 +245,8 @@ std::vector<PendingFile> files_of(const Design& design, const std::string& stem,
 }
 
 /// The solid of a hood in the frame of the mesh files: swept as the valley that it is upside down, and turned over.
-Solid hood_solid(const Design& design, const Track& track, const CrossSection& section, const Placement& frame,
-                 const SweepOptions& options) {
+Solid hood_solid(const Design& design, const Track& track, const CrossSection& section,
+                 const Placement& frame, const SweepOptions& options) {
   const CenterlinePtr valley = turned_over(shape_of(*design.hood), first_fall(design).landing);
   const HoodPassage passage = hood_passage(design, track.motion.body());
   Solid solid = sweep(*valley, section, track.placement.at_origin(), options);
@@ -274,11 +274,10 @@ void add_hood(const Design& given, const Track& track, const CrossSection& secti
               std::vector<PendingFile>& files) {
   if (!given.hood) return;
   Design design = given;
-  std::erase_if(design.exports.formats, [](ExportFormat format) {
-    return file_format(format).content == FileContent::stations;
-  });
-  Solid solid = at_place(given.where("hood"),
-                         [&] { return hood_solid(design, track, section, frame, options); });
+  std::erase_if(design.exports.formats,
+                [](ExportFormat format) { return file_format(format).content == FileContent::stations; });
+  Solid solid =
+      at_place(given.where("hood"), [&] { return hood_solid(design, track, section, frame, options); });
   const std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
   const MeasuredMesh& reference = least_precise(meshes);
   const double max_deviation = solid.max_deviation + reference.moved;

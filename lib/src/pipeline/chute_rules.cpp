@@ -70,7 +70,8 @@ void measure_slopes(const Design& design, const Track& track, Measurements& meas
 }
 
 /// What the stream does below a hood, beside what it does on the track.
-void see_hood(const ChuteCase& run, double wall, WorstCase& slowest, WorstCase& deepest, WorstCase& thickest) {
+void see_hood(const ChuteCase& run, double wall, WorstCase& slowest, WorstCase& deepest,
+              WorstCase& thickest) {
   const Motion& motion = run.hood->motion;
   const double width = stream_of(motion.body())->width(0.0);
   const double depth = motion.highest(BulkStream::kDepth).value;
@@ -278,8 +279,10 @@ std::vector<WhatIfRide> what_if_rides(const Design& design, const CenterlinePtr&
   constexpr double kBeyondSurge = 4.0 / 3.0;
   const double nominal = body.friction.angle().radians();
   const bool range = body.low_friction || body.high_friction;
-  const double low = range ? body.low_friction.value_or(body.friction).angle().radians() : std::max(0.0, nominal - kBeside);
-  const double high = range ? body.high_friction.value_or(body.friction).angle().radians() : nominal + kBeside;
+  const double low =
+      range ? body.low_friction.value_or(body.friction).angle().radians() : std::max(0.0, nominal - kBeside);
+  const double high =
+      range ? body.high_friction.value_or(body.friction).angle().radians() : nominal + kBeside;
   std::vector<WhatIfRide> rides;
   for (const double angle : spread_with(low, nominal, high, kFrictions)) {
     for (const double factor : spread_with(stream.trickle, 1.0, kBeyondSurge * stream.surge, kFlows)) {

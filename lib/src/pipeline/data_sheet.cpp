@@ -102,7 +102,8 @@ void add_surroundings(const Design& design, const Track& track, Drawing& view) {
     view.add(flight.name == "the hood" ? thick : air, chain(in_millimetres(points)));
   }
   if (design.feed && design.feed->kind == FeedKind::belt) {
-    view.add(around, Circle{kMillimetres * feed_fall(design).pulley, kMillimetres * design.feed->pulley_radius});
+    view.add(around,
+             Circle{kMillimetres * feed_fall(design).pulley, kMillimetres * design.feed->pulley_radius});
   }
   if (design.discharge && track.motion.arrived()) {
     const BeltLanding landing = belt_landing(design, track.motion);
@@ -206,10 +207,12 @@ Drawing chart_of(const Chart& chart, const Track& track, const PlaneBox& room) {
 }
 
 std::vector<Chart> charts() {
-  return {{"depth [mm]", 1e3, [](const Motion& m, double s) { return stream_state(m, s).depth; }},
-          {"speed [m/s]", 1.0, [](const Motion& m, double s) { return m.at(s).speed; }},
-          {"floor pressure [kPa]", 1e-3, [](const Motion& m, double s) { return stream_state(m, s).floor_pressure; }},
-          {"floor wear [W/m^2]", 1.0, [](const Motion& m, double s) { return stream_state(m, s).floor_wear; }}};
+  return {
+      {"depth [mm]", 1e3, [](const Motion& m, double s) { return stream_state(m, s).depth; }},
+      {"speed [m/s]", 1.0, [](const Motion& m, double s) { return m.at(s).speed; }},
+      {"floor pressure [kPa]", 1e-3,
+       [](const Motion& m, double s) { return stream_state(m, s).floor_pressure; }},
+      {"floor wear [W/m^2]", 1.0, [](const Motion& m, double s) { return stream_state(m, s).floor_wear; }}};
 }
 
 // --- tables
@@ -226,7 +229,8 @@ std::string friction_range_text(const BodyDesign& body) {
 std::string feed_text(const FeedDesign& feed) {
   switch (feed.kind) {
     case FeedKind::belt:
-      return "belt " + quantity_text(feed.belt_speed, Dimension::speed, 3) + ", drop " + length_text(feed.drop, 3);
+      return "belt " + quantity_text(feed.belt_speed, Dimension::speed, 3) + ", drop " +
+             length_text(feed.drop, 3);
     case FeedKind::hopper:
       return "hopper, drop " + length_text(feed.drop, 3);
     case FeedKind::free_fall:
@@ -247,18 +251,23 @@ Rows task_rows(const Design& design, const Track& track) {
   rows.push_back({"bulk density", quantity_text(stream.bulk_density, Dimension::density)});
   if (stream.lump_size) rows.push_back({"largest lump", length_text(*stream.lump_size, 3)});
   rows.push_back({"wall friction", friction_range_text(design.body)});
-  rows.push_back({"ends", "run " + length_text(track.endpoints.run) + ", drop " + length_text(track.endpoints.drop)});
+  rows.push_back(
+      {"ends", "run " + length_text(track.endpoints.run) + ", drop " + length_text(track.endpoints.drop)});
   rows.push_back({"length", length_text(track.centerline->length())});
-  rows.push_back({"slope", rounded_text(Angle::from_radians(track.centerline->slope_angle(0.0)).degrees(), 3) + " to " +
-                               rounded_text(Angle::from_radians(track.centerline->slope_angle(
-                                                track.centerline->length())).degrees(), 3) + " deg"});
-  rows.push_back({"least radius", std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)});
+  rows.push_back(
+      {"slope",
+       rounded_text(Angle::from_radians(track.centerline->slope_angle(0.0)).degrees(), 3) + " to " +
+           rounded_text(
+               Angle::from_radians(track.centerline->slope_angle(track.centerline->length())).degrees(), 3) +
+           " deg"});
+  rows.push_back(
+      {"least radius", std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)});
   rows.push_back({"section", section_in_words(*design.cross_section)});
   if (design.feed) rows.push_back({"feed", feed_text(*design.feed)});
   if (design.hood) {
     rows.push_back({"hood", "radius " + length_text(*design.hood->radius.lowest, 3) + ", to " +
-                                angle_text(*design.hood->exit_angle.lowest, 3) + ", drop " +
-                                length_text(design.hood->drop, 3)});
+                                angle_text(Angle::from_radians(*design.hood->exit_angle.lowest), 3) +
+                                ", drop " + length_text(design.hood->drop, 3)});
   }
   if (design.discharge) {
     rows.push_back({"belt", quantity_text(design.discharge->belt_speed, Dimension::speed, 3) + ", " +
@@ -282,8 +291,10 @@ Rows ride_rows(const Design& design, const Track& track) {
   add("travel time [s]", arrived([](const Motion& m) { return rounded_text(m.travel_time(), 4); }));
   add("enters at [m/s]", [](const Motion& m) { return rounded_text(m.body().entry_speed, 3); });
   add("leaves at [m/s]", arrived([](const Motion& m) { return rounded_text(m.exit_speed(), 3); }));
-  add("deepest [mm]", [&](const Motion& m) { return rounded_text(kMillimetres * facts(m).deepest.value, 3); });
-  add("fullest [% of what chokes]", [&](const Motion& m) { return rounded_text(100.0 * facts(m).filling.value, 3); });
+  add("deepest [mm]",
+      [&](const Motion& m) { return rounded_text(kMillimetres * facts(m).deepest.value, 3); });
+  add("fullest [% of what chokes]",
+      [&](const Motion& m) { return rounded_text(100.0 * facts(m).filling.value, 3); });
   add("floor wear, peak [W/m^2]", [](const Motion& m) { return rounded_text(wear_of({&m}).floor.value, 3); });
   if (design.hood) {
     add("hood: v^2/(g R cos), least",
@@ -334,7 +345,8 @@ double add_facts(const Design& design, const Track& track, Vec2 at, double width
   for (const LevelRide& ride : rides) header.emplace_back(to_text(ride.level));
   std::vector<double> widths(header.size(), (half - 40.0) / static_cast<double>(rides.size()));
   widths.front() = 40.0;
-  sheet.tables.push_back(table_of(at, "What it is made for", {24.0, half - 24.0}, {"", ""}, task_rows(design, track)));
+  sheet.tables.push_back(
+      table_of(at, "What it is made for", {24.0, half - 24.0}, {"", ""}, task_rows(design, track)));
   const double left = table_height(sheet.tables.back());
   sheet.tables.push_back(table_of(at + Vec2{half + kGap, 0.0}, "What the stream does", std::move(widths),
                                   std::move(header), ride_rows(design, track)));
@@ -348,15 +360,17 @@ void add_verdicts(const std::vector<Judgement>& judgements, const PlaneBox& room
   const double half = 0.5 * (room.width() - kGap);
   const Rows rows = verdict_rows(judgements);
   const std::size_t first = (rows.size() + 1) / 2;
-  const double text = std::clamp((room.height() - 7.0) / (1.9 * (static_cast<double>(first) + 1.0)), 1.0, kText);
+  const double text =
+      std::clamp((room.height() - 7.0) / (1.9 * (static_cast<double>(first) + 1.0)), 1.0, kText);
   const std::vector<double> widths{0.4 * half, 0.13 * half, 0.2 * half, 0.27 * half};
   const std::vector<std::string> header{"rule", "verdict", "worst", "bound"};
   const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(first);
-  sheet.tables.push_back(table_of({room.low.x, room.high.y},
-                                  "Verdicts, the worst over every friction and flow; \"look\": nothing to compute",
-                                  widths, header, {rows.begin(), middle}, text));
   sheet.tables.push_back(
-      table_of({room.low.x + half + kGap, room.high.y - 6.0}, "", widths, header, {middle, rows.end()}, text));
+      table_of({room.low.x, room.high.y},
+               "Verdicts, the worst over every friction and flow; \"look\": nothing to compute", widths,
+               header, {rows.begin(), middle}, text));
+  sheet.tables.push_back(table_of({room.low.x + half + kGap, room.high.y - 6.0}, "", widths, header,
+                                  {middle, rows.end()}, text));
 }
 
 /// A view as large as its room allows at a round scale: between those of ISO 5455 a page of this size wants others too.
@@ -380,7 +394,8 @@ Sheet chute_data_sheet(const Design& design, const Track& track) {
   sheet.title.title = "Data sheet of a chute";
   sheet.title.owner = design.name;
   sheet.title.material = section_in_words(*design.cross_section);
-  sheet.title.note = judgements.empty() ? "no rules in force" : "rules: " + std::string(to_text(worst(judgements)));
+  sheet.title.note =
+      judgements.empty() ? "no rules in force" : "rules: " + std::string(to_text(worst(judgements)));
   sheet.title.sheet = "1/1";
   const PlaneBox room = drawing_area(sheet);
   constexpr double kView = 88.0;

@@ -80,21 +80,23 @@ Issue no_contact(const Design& design, const HoodPassage& passage, const std::st
   const double slope = ride.centerline().slope_angle(place);
   const double presses = ride.exit_speed() * ride.exit_speed() / (design.gravity * radius);
   const std::string how = "v^2/(g R) is " + rounded_text(presses, 3) + " there, at " +
-                          quantity_text(ride.exit_speed(), Dimension::speed) + ", and the cosine of its slope of " +
-                          angle_text(slope, 3) + " is " + rounded_text(math::cos(slope), 3) + ".";
+                          quantity_text(ride.exit_speed(), Dimension::speed) +
+                          ", and the cosine of its slope of " + angle_text(Angle::from_radians(slope), 3) +
+                          " is " + rounded_text(math::cos(slope), 3) + ".";
   return {design.where("hood"),
           when + (place == 0.0 ? "no contact where the feed meets the hood"
-                               : "the stream leaves the hood after " + length_text(place) + ", before its lower edge at " +
-                                     length_text(ride.centerline().length())),
+                               : "the stream leaves the hood after " + length_text(place) +
+                                     ", before its lower edge at " + length_text(ride.centerline().length())),
           how, "a smaller radius, a faster belt, or less impact_angle"};
 }
 
 Issue stands(const Design& design, const HoodPassage& passage, const std::string& when) {
-  return {design.where("hood"),
-          when + "the stream comes to a stand below the hood, after " + length_text(passage.motion.distance()),
-          "The impact leaves " + rounded_text(100.0 * std::max(0.0, passage.impact.speed_ratio), 3) +
-              " % of its speed, and there it is as deep as its channel.",
-          "a smaller impact_angle, a wider channel, or less flow or friction"};
+  return {
+      design.where("hood"),
+      when + "the stream comes to a stand below the hood, after " + length_text(passage.motion.distance()),
+      "The impact leaves " + rounded_text(100.0 * std::max(0.0, passage.impact.speed_ratio), 3) +
+          " % of its speed, and there it is as deep as its channel.",
+      "a smaller impact_angle, a wider channel, or less flow or friction"};
 }
 
 std::optional<Issue> problem_at(const Design& design, FrictionLevel level, const Friction& friction) {
@@ -103,9 +105,8 @@ std::optional<Issue> problem_at(const Design& design, FrictionLevel level, const
   const HoodPassage passage = hood_passage(design, body);
   if (passage.holds()) return {};
   const bool range = design.body.low_friction || design.body.high_friction;
-  const std::string when = !range ? ""
-                                  : "at " + std::string(to_text(level)) + " friction, " +
-                                        angle_text(friction.angle().radians()) + ", ";
+  const std::string when =
+      !range ? "" : "at " + std::string(to_text(level)) + " friction, " + angle_text(friction.angle()) + ", ";
   return passage.motion.lift_off() ? no_contact(design, passage, when) : stands(design, passage, when);
 }
 
@@ -191,7 +192,7 @@ namespace {
 class Choices {
  public:
   explicit Choices(const HoodDesign& hood) : hood_(hood) {
-    for (Range HoodDesign::* const range :
+    for (Range HoodDesign::*const range :
          {&HoodDesign::radius, &HoodDesign::impact_angle, &HoodDesign::exit_angle}) {
       if (!(hood.*range).is_fixed()) free_.push_back(range);
     }
@@ -269,8 +270,8 @@ Design pipeline::settled(const Design& design, const RunContext& context) {
   const auto best = optimizer::least_in_box(choices.size(), cost, out_of_time);
   if (!best) {
     if (failure) std::rethrow_exception(failure);
-    throw InfeasibleError({design.where("hood"), "no hood within these bounds leads the stream to the finish", "",
-                           "wider bounds"});
+    throw InfeasibleError({design.where("hood"), "no hood within these bounds leads the stream to the finish",
+                           "", "wider bounds"});
   }
   Design chosen = design;
   chosen.hood = choices.at(best->at);

@@ -212,8 +212,9 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
   if (design.feed) {
     const Body& body = track.motion.body();
     json["entry_speed_m_per_s"] = body.entry_speed;
-    const Impact impact = impact_on(body.landing.value(), Angle::from_radians(track.centerline->slope_angle(0.0)), body.friction,
-                                    design.stream->bulk_density);
+    const Impact impact =
+        impact_on(body.landing.value(), Angle::from_radians(track.centerline->slope_angle(0.0)),
+                  body.friction, design.stream->bulk_density);
     json["feed"] = feed_json(feed_fall(design), impact, body.entry_speed);
     if (design.hood) add_hood(json, design, track, impact);
   }

@@ -170,9 +170,10 @@ void add_hood(const HoodPassage& hood, Vec2 met, double gravity, std::vector<Rep
   flights.push_back(std::move(underside));
   const CenterlinePoint leaves = arc.at(ride.distance());
   const double speed = ride.exit_speed();
-  flights.push_back(flight_from("from the hood to the track", {met.x + leaves.x, met.y - leaves.drop},
-                                {speed * math::cos(leaves.slope_angle), speed * math::sin(leaves.slope_angle)},
-                                hood.fall_time, gravity));
+  flights.push_back(
+      flight_from("from the hood to the track", {met.x + leaves.x, met.y - leaves.drop},
+                  {speed * math::cos(leaves.slope_angle), speed * math::sin(leaves.slope_angle)},
+                  hood.fall_time, gravity));
 }
 
 }  // namespace
@@ -200,8 +201,8 @@ std::vector<ReportFlight> flights_of(const Design& design, const Track& track) {
     const std::optional<HoodPassage> hood =
         design.hood ? std::optional(hood_passage(design, track.motion.body())) : std::nullopt;
     const Vec2 met = hood ? Vec2{-hood->start.x, height + hood->start.y} : Vec2{0.0, height};
-    flights.push_back(
-        flight_from("the feed falls", {met.x - fall.reach, met.y + fall.height}, {ahead, sinks}, fall.time, g));
+    flights.push_back(flight_from("the feed falls", {met.x - fall.reach, met.y + fall.height}, {ahead, sinks},
+                                  fall.time, g));
     if (hood) add_hood(*hood, met, g, flights);
   }
   std::vector<Vec2> to_belt = flight_to_belt(design, track.motion);

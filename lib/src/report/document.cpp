@@ -28,8 +28,8 @@ constexpr std::array kTrackColumns = {"arc_length_m",   "x_m", "z_m", "drop_m", 
 constexpr std::array kRideColumns = {"time_s", "speed_m_per_s", "normal_load_m_per_s2",
                                      "friction_loss_j_per_kg", "drag_loss_j_per_kg"};
 
-constexpr std::array kStreamColumns = {"burden_depth_m", "equivalent_friction", "floor_pressure_pa",
-                                       "floor_wear_w_per_m2", "wall_wear_w_per_m2", "channel_width_m"};
+constexpr std::array kStreamColumns = {"burden_depth_m",      "equivalent_friction", "floor_pressure_pa",
+                                       "floor_wear_w_per_m2", "wall_wear_w_per_m2",  "channel_width_m"};
 
 /// The columns of a ride, more of them where a stream flows.
 std::vector<std::string> ride_columns_of(const Motion& motion) {
@@ -330,8 +330,11 @@ Json what_if_ride(const ReportWhatIf& one) {
   const Motion& motion = *one.motion;
   Json ride;
   add_ride(ride, motion);
-  Json line = {{"x_m", Json::array()},       {"z_m", Json::array()},           {"slope_angle_deg", Json::array()},
-               {"burden_depth_m", Json::array()}, {"speed_m_per_s", Json::array()}};
+  Json line = {{"x_m", Json::array()},
+               {"z_m", Json::array()},
+               {"slope_angle_deg", Json::array()},
+               {"burden_depth_m", Json::array()},
+               {"speed_m_per_s", Json::array()}};
   for (int i = 0; i <= kPieces; ++i) {
     const double s = std::min(motion.distance(), motion.distance() * i / kPieces);
     const CenterlinePoint at = motion.centerline().at(s);

@@ -121,8 +121,8 @@ struct ReportInput {
   const WorkshopBuild* workshop = nullptr;  ///< what a workshop makes; null: nothing
   std::vector<ReportFlight> flights;        ///< of a stream
   std::vector<ReportCase> cases;            ///< of a stream: every friction with every flow
-  std::vector<ReportWhatIf> what_if;        ///< of a stream: every flow of a friction, friction after friction
-  std::vector<Issue> warnings;              ///< what to hear of beside the answer
+  std::vector<ReportWhatIf> what_if;  ///< of a stream: every flow of a friction, friction after friction
+  std::vector<Issue> warnings;        ///< what to hear of beside the answer
   std::vector<ReportKeepOut> keep_outs;
   Envelope envelope;  ///< what the keep-outs are kept clear of; all 0: the centerline
   std::vector<ReportFile> files;

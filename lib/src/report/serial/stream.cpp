@@ -55,7 +55,7 @@ Json hood_passage_json(const HoodPassage& passage) {
   return {{"holds", passage.holds()},
           {"contact_at_entry", passage.contact},
           {"least_contact", passage.least_contact},
-          {"impact_angle_deg", degrees(passage.impact.angle)},
+          {"impact_angle_deg", passage.impact.angle.degrees()},
           {"impact_speed_ratio", passage.impact.speed_ratio},
           {"impact_pressure_pa", passage.impact.pressure},
           {"entry_speed_m_per_s", motion.body().entry_speed},
@@ -68,7 +68,7 @@ Json hood_passage_json(const HoodPassage& passage) {
           {"fall_time_s", passage.fall_time},
           {"reach_m", passage.reach},
           {"landing_speed_m_per_s", passage.landing.speed},
-          {"landing_angle_deg", degrees(passage.landing.angle)}};
+          {"landing_angle_deg", passage.landing.angle.degrees()}};
 }
 
 Json hood_json(const HoodShape& hood, const HoodPassage& passage, const Impact& impact) {
@@ -85,7 +85,7 @@ Json hood_json(const HoodShape& hood, const HoodPassage& passage, const Impact& 
   const CenterlinePoint edge = arc.at(arc.length());
   json["edge_run_m"] = edge.x - passage.start.x;
   json["edge_height_m"] = passage.start.y - edge.drop;
-  json["landing"] = {{"impact_angle_deg", degrees(impact.angle)},
+  json["landing"] = {{"impact_angle_deg", impact.angle.degrees()},
                      {"speed_ratio", impact.speed_ratio},
                      {"impact_pressure_pa", impact.pressure}};
   return json;

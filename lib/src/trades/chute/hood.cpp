@@ -13,7 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 namespace glissade {
@@ -21,18 +20,18 @@ namespace {
 
 // What a stand leaves is the slowest stream there is: it chokes where it lands.
 constexpr double kStopped = 1e-9;  // [m/s]
-constexpr double kUpright = 0.5 * std::numbers::pi;
 
 void require_shape(const HoodShape& hood) {
   if (!(hood.radius > 0.0 && std::isfinite(hood.radius)))
-    throw InputError({"", "radius: " + length_text(hood.radius), "A hood is bent: its radius is positive.", ""});
-  if (!(hood.exit_slope.radians() <= kUpright))
-    throw InputError({"", "exit_angle: " + angle_text(hood.exit_slope.radians()),
+    throw InputError(
+        {"", "radius: " + length_text(hood.radius), "A hood is bent: its radius is positive.", ""});
+  if (!(hood.exit_slope.radians() <= kRightAngle))
+    throw InputError({"", "exit_angle: " + angle_text(hood.exit_slope),
                       "A hood turns its stream no further than straight down, 90 deg.", "80 deg"});
   if (!(hood.drop >= 0.0 && std::isfinite(hood.drop)))
     throw InputError({"", "drop: " + length_text(hood.drop), "The track begins below its hood.", ""});
-  if (!(hood.impact_angle.radians() >= 0.0 && hood.impact_angle.radians() < kUpright))
-    throw InputError({"", "impact_angle: " + angle_text(hood.impact_angle.radians()),
+  if (!(hood.impact_angle.radians() >= 0.0 && hood.impact_angle.radians() < kRightAngle))
+    throw InputError({"", "impact_angle: " + angle_text(hood.impact_angle),
                       "The feed meets the underside at 0 to 90 deg.", "10 deg"});
 }
 
@@ -40,7 +39,8 @@ void require_shape(const HoodShape& hood) {
 Body below_hood(const Body& body, double entry_speed) {
   const BulkStream* const stream = stream_of(body);
   if (stream == nullptr)
-    throw InputError({"", "the body is no stream", "Only a stream passes a hood.", "a body whose law is BulkStream"});
+    throw InputError(
+        {"", "the body is no stream", "Only a stream passes a hood.", "a body whose law is BulkStream"});
   StreamShape shape = stream->shape();
   shape.width = WidthLaw(stream->width(0.0));
   shape.underside = true;
@@ -62,7 +62,8 @@ double least_contact(const Motion& motion, double radius) {
   constexpr int kPlaces = 200;
   double least = contact_at(motion, radius, 0.0);
   for (int i = 1; i <= kPlaces; ++i)
-    least = std::min(least, contact_at(motion, radius, std::min(motion.distance(), motion.distance() * i / kPlaces)));
+    least = std::min(
+        least, contact_at(motion, radius, std::min(motion.distance(), motion.distance() * i / kPlaces)));
   return least;
 }
 
@@ -70,27 +71,26 @@ double least_contact(const Motion& motion, double radius) {
 
 CenterlinePtr hood_arc(const HoodShape& hood, const Landing& feed) {
   require_shape(hood);
-  const double entry = feed.angle + hood.impact_angle.radians();
-  const double turn = hood.exit_slope.radians() - entry;
+  const Angle entry = feed.angle + hood.impact_angle;
+  const double turn = (hood.exit_slope - entry).radians();
   if (!(turn > 0.0)) {
-    throw InputError({"",
-                      "exit_angle: " + angle_text(hood.exit_slope.radians()) + ", the stream meets the hood at " +
-                          angle_text(entry),
-                      "A hood turns a stream down: the feed falls " + angle_text(feed.angle) +
-                          " below the horizontal, and meets the hood at impact_angle.",
-                      "a larger exit_angle, a smaller impact_angle, or a feed that falls less before the hood"});
+    throw InputError(
+        {"",
+         "exit_angle: " + angle_text(hood.exit_slope) + ", the stream meets the hood at " + angle_text(entry),
+         "A hood turns a stream down: the feed falls " + angle_text(feed.angle) +
+             " below the horizontal, and meets the hood at impact_angle.",
+         "a larger exit_angle, a smaller impact_angle, or a feed that falls less before the hood"});
   }
   const double curvature = -1.0 / hood.radius;
   return std::make_shared<const ClothoidSpline>(
-      Angle::from_radians(entry),
-      std::vector<ClothoidSegment>{{hood.radius * turn, curvature, curvature}});
+      entry, std::vector<ClothoidSegment>{{hood.radius * turn, curvature, curvature}});
 }
 
 HoodPassage pass_hood(const HoodShape& hood, const Landing& feed, const Body& body, double gravity) {
   const CenterlinePtr arc = hood_arc(hood, feed);
-  const double theta = hood.impact_angle.radians();
   // The impact is that on a floor at the same angle to the way.
-  Impact impact = impact_on({feed.speed, theta}, 0.0, body.friction, stream_of(body)->shape().bulk_density);
+  Impact impact = impact_on({feed.speed, hood.impact_angle}, Angle{}, body.friction,
+                            stream_of(body)->shape().bulk_density);
   const double entry_speed = std::max(impact.speed_ratio * feed.speed, kStopped);
   Motion motion(arc, below_hood(body, entry_speed), gravity);
 
@@ -110,8 +110,8 @@ HoodPassage pass_hood(const HoodShape& hood, const Landing& feed, const Body& bo
   passage.fall_time = (down - sinks) / gravity;
   passage.reach = ahead * passage.fall_time;
   passage.start.x = leaves.x + passage.reach;
-  passage.landing = stands ? Landing{kStopped, kUpright}
-                           : Landing{math::hypot(ahead, down), math::atan2(down, ahead)};
+  passage.landing = stands ? Landing{kStopped, Angle::from_radians(kRightAngle)}
+                           : Landing{math::hypot(ahead, down), Angle::from_radians(math::atan2(down, ahead))};
   return passage;
 }
 

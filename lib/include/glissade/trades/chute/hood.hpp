@@ -23,13 +23,14 @@ struct HoodShape {
 /// while u^2/(g R) >= cos(zeta) (docs/theory.md, laws of motion; Roberts 2003). Roberts' depth and the friction of the
 /// side walls hold as on a floor. From the lower edge, or where contact is lost, it falls without air.
 struct HoodPassage {
-  Impact impact;       ///< of the feed on the hood
-  Motion motion;       ///< along the hood from where the feed meets it; its ride ends early where contact is lost
-  double contact = 0.0;  ///< u^2/(g R cos(zeta)) where the feed meets the hood; in contact from 1 on
+  Impact impact;  ///< of the feed on the hood
+  Motion motion;  ///< along the hood from where the feed meets it; its ride ends early where contact is lost
+  double contact = 0.0;        ///< u^2/(g R cos(zeta)) where the feed meets the hood; in contact from 1 on
   double least_contact = 0.0;  ///< the least of it along the ride
   /// Where it comes down on the level of the track's start, seen from where the feed meets the hood: run and drop [m].
   Vec2 start;
-  double reach = 0.0;  ///< horizontal way of the fall from the hood down to the level of the track's start [m]
+  double reach =
+      0.0;  ///< horizontal way of the fall from the hood down to the level of the track's start [m]
   double fall_time = 0.0;  ///< of that fall [s]
   /// How it comes down there; at a stand where the stream comes to one on the hood.
   Landing landing;
