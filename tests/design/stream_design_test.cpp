@@ -66,6 +66,12 @@ TEST_CASE(
              Contains("not in ascending order"));
 }
 
+TEST_CASE("a material that nobody knows is one problem, with the nearest name: what would follow from it is none") {
+  const std::string text = problems("mass_flow: 40 t/h, material: wheet, liner: mild-steel");
+  CHECK_THAT(text, Contains("material: wheet is none that is known") && Contains("wheat"));
+  CHECK_THAT(text, !Contains("bulk_density"));
+}
+
 TEST_CASE("every problem of a stream is told at once") {
   const std::string all = problems(
       "mass_flow: 0 t/h, bulk_density: 780 kg/m^3, lump_size: 200 mm, lateral_pressure_ratio: -1, "

@@ -37,6 +37,8 @@ void check_between(double value, double least, double most, const std::string& k
 }
 
 void check_densities(const StreamDesign& stream, Collected& findings) {
+  // Of a material that nobody knows there is none, and that has been said.
+  if (stream.material && stream.material->density_follows && stream.bulk_density == 0.0) return;
   const double low = stream.low_density.value_or(stream.bulk_density);
   const double high = stream.high_density.value_or(stream.bulk_density);
   for (const double density : {low, stream.bulk_density, high}) {

@@ -101,8 +101,9 @@ enum class RuleVerdict { pass, warn, fail, cannot_be_judged };
 /// @return "pass", "warn", "fail", "cannot be judged"
 [[nodiscard]] std::string_view to_text(RuleVerdict verdict);
 
-/// A value as near to a bound as this, relative, keeps it; of a bound below 0.01 (SI) this times 0.01.
-inline constexpr double kRuleAccuracy = 1e-9;
+/// A value as near to a bound as this, relative, keeps it; of a bound below 0.01 (SI) this times 0.01. A search keeps its
+/// limits as well as that: what it holds at a limit is not to fail a rule of the same bound.
+inline constexpr double kRuleAccuracy = 1e-6;
 
 /// What one rule says of one track.
 struct Judgement {
