@@ -146,7 +146,7 @@ TEST_CASE("mitred pipe: tubes add up to the pipe along their axes, and both edge
 }
 
 TEST_CASE("mitred pipe: a tube's moments are those of points strewn through it") {
-  const TubeGore gore{0.1, 0.02, 0.5, 0.2, -0.15};
+  const TubeGore gore{0.1, 0.02, 0.5, Angle::from_radians(0.2), Angle::from_radians(-0.15)};
   const parts::BodyMoments moments = parts::moments(gore);
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

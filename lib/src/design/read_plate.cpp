@@ -182,7 +182,8 @@ SupportOptions read_supports(const Value& value, Findings& findings) {
   set_length(map, "spacing", supports.spacing);
   set_length(map, "tube", supports.tube);
   set_length(map, "wall", supports.wall);
-  supports.steepest = map.quantity("steepest", Dimension::angle).value_or(supports.steepest);
+  if (const auto steepest = map.quantity("steepest", Dimension::angle))
+    supports.steepest = Angle::from_radians(*steepest);
   set_length(map, "braced_from", supports.braced_from);
   set_length(map, "grout", supports.grout);
   set_bolt(map, "anchor", supports.anchor, findings);

@@ -258,7 +258,8 @@ struct Source {
 const std::vector<Source>& sources() {
   static const std::vector<Source> all = {
       {{"chute", "a U-channel for bulk material, the fastest track"}, kChute},
-      {{"chute-in-plates", "the same as a sheet-metal shop makes it: parts, patterns, drawings"}, kChuteInPlates},
+      {{"chute-in-plates", "the same as a sheet-metal shop makes it: parts, patterns, drawings"},
+       kChuteInPlates},
       {{"ramp", "a flat ramp with curbs, such as a ski in-run"}, kRamp},
       {{"toboggan", "a half-pipe between two points in space"}, kToboggan},
       {{"in-run", "a ski jump's in-run from its certificate, with gates; --hill-size"}, in_run_of_template()},

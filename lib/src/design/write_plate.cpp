@@ -112,7 +112,7 @@ std::string supports(const SupportOptions& options) {
   group.add("spacing", options.spacing, Dimension::length);
   group.add("tube", options.tube, Dimension::length);
   group.add("wall", options.wall, Dimension::length);
-  group.add("steepest", options.steepest, Dimension::angle);
+  group.add("steepest", options.steepest.radians(), Dimension::angle);
   group.add("braced_from", options.braced_from, Dimension::length);
   group.add("grout", options.grout, Dimension::length);
   group.add("anchor", bolt(options.anchor));

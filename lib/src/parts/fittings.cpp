@@ -27,10 +27,28 @@ double outside(const Job& job) {
   return 0.5 * job.channel.width + job.channel.wall();
 }
 
+/// The place nearest to an end of a unit whose whole plane, up to a height, is clear of the frame there.
+/// @param sense  +1 from the upstream end, -1 from the downstream one
+double beyond_frame(const Job& job, double end, double sense, double high) {
+  const double taken = job.options.flanges.thickness + kAside;
+  const TrackFrame frame = frame_at(job.track, end);
+  constexpr double kStep = 0.5e-3;
+  double s = end + sense * taken;
+  for (int k = 0; k < 400; ++k, s += sense * kStep) {
+    const TrackFrame here = frame_at(job.track, s);
+    const double floor = sense * dot(here.at - frame.at, frame.along);
+    const double top = sense * dot(here.at + high * here.up - frame.at, frame.along);
+    // Where the wall folds its top is cut off at the frame's plane, whatever s is.
+    if (std::min(floor, top) >= taken - 1e-9) break;
+  }
+  return s;
+}
+
 /// What frames leave of a unit.
 Span between_frames(const Job& job, const Span& unit) {
-  const double taken = job.options.flanges.wanted ? job.options.flanges.thickness + kAside : 0.0;
-  return {unit.from + taken, unit.to - taken};
+  if (!job.options.flanges.wanted) return unit;
+  const double high = job.channel.wall_height + (job.options.cover ? job.options.cover->thickness : 0.0);
+  return {beyond_frame(job, unit.from, 1.0, high), beyond_frame(job, unit.to, -1.0, high)};
 }
 
 std::string suffix(const Fitting& fitting, std::size_t unit) {

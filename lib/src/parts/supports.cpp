@@ -222,6 +222,20 @@ double base_side(const SupportOptions& supports) {
   return std::max(150e-3, supports.tube + 90e-3);
 }
 
+namespace {
+
+/// How far from a trestle along the track frames must stay: below a slope they lean back over its beam.
+double clear_of(const Job& job, double at) {
+  const PlateOptions& options = job.options;
+  const double width = std::max(options.flanges.width, options.stiffeners ? options.stiffeners->width : 0.0);
+  const double high = width + options.flanges.gap - underside(job);
+  const auto [sine, cosine] = math::sine_cosine(job.track.at(at).slope_angle);
+  const double reach = (0.5 * options.supports->tube + high * std::fabs(sine)) / std::max(0.1, cosine);
+  return std::max(kSaddleHalf, reach) + 10e-3;
+}
+
+}  // namespace
+
 void add_supports(const Fitting& fitting, std::vector<SettingOutPoint>& rows) {
   const Job& job = fitting.job;
   if (!job.options.supports) return;
@@ -232,17 +246,17 @@ void add_supports(const Fitting& fitting, std::vector<SettingOutPoint>& rows) {
   int number = 0;
   for (double k = 0.0; k <= gaps; k += 1.0) {
     const double about = kApart + room * k / gaps;
-    const auto at = fitting.below.free_place(about, kSaddleHalf + 10e-3, {0.0, whole});
-    if (!at || job.track.at(*at).slope_angle > supports.steepest) continue;
+    const auto at = fitting.below.free_place(about, clear_of(job, about), {0.0, whole});
+    if (!at || job.track.at(*at).slope_angle > supports.steepest.radians()) continue;
     const Trestle trestle = trestle_at(job, *at);
     const double leg = trestle.leg(supports);
+    const double under = trestle.beam + kSaddleLeast;
     if (leg < kLeastLeg) {
       throw InputError(
           {"supports.ground",
            "ground: at " + length_text(*at, 3) + " along the track it lies " +
-               length_text(trestle.beam + kSaddleLeast - trestle.ground, 3) +
-               (trestle.beam + kSaddleLeast > trestle.ground ? " below" : " below (above is negative)") +
-               " the underside of the track",
+               length_text(std::fabs(under - trestle.ground), 3) +
+               (under > trestle.ground ? " below" : " above") + " the underside of the track",
            "Saddle, beam, base plate and the least leg of " + length_text(kLeastLeg) + " take " +
                length_text(kSaddleLeast + supports.tube + kPlate + supports.grout + kLeastLeg, 3) + ".",
            "a lower ground, or a ground line that is lower there"});
@@ -251,7 +265,7 @@ void add_supports(const Fitting& fitting, std::vector<SettingOutPoint>& rows) {
     add_saddles(fitting, trestle, text);
     add_legs(fitting, trestle, text);
     add_braces(fitting, trestle, text);
-    fitting.below.add(*at - kSaddleHalf, *at + kSaddleHalf);
+    fitting.below.add(*at - clear_of(job, *at), *at + clear_of(job, *at));
     rows.push_back(setting_out_point(job.track, {0.0, whole}, job.placement, "support " + text, *at));
   }
   if (number == 0) {
