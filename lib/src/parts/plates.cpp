@@ -80,11 +80,12 @@ void add_fittings(const Job& job, const std::vector<Unit>& units, Workshop& work
   add_liner(fitting);
   add_rims(fitting);
   add_openings(fitting);
-  add_supports(fitting, workshop.setting_out);
-  in_order(workshop.setting_out);
   add_stiffeners(fitting);
   add_covers(fitting);
   add_lugs(fitting);
+  // What is lifted stands on none of them.
+  add_supports(fitting, workshop.setting_out);
+  in_order(workshop.setting_out);
 }
 
 AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const Motion& design,
