@@ -88,8 +88,123 @@ FlangeOptions read_flanges(const Value& value, Findings& findings) {
   return flanges;
 }
 
+/// A group that stands for its defaults where it is `true`, and for nothing where it is `none`.
+template <typename Options, typename Read>
+std::optional<Options> optional_group(MapReader& map, std::string_view key, Findings& findings, Read read) {
+  const auto value = map.find(key);
+  if (!value || (value->node->kind != Node::Kind::map && is_word(*value, "none", findings)))
+    return std::nullopt;
+  return read(*value);
+}
+
 void set_length(MapReader& map, std::string_view key, double& value) {
   value = map.quantity(key, Dimension::length).value_or(value);
+}
+
+void set_bolt(MapReader& map, std::string_view key, int& bolt, Findings& findings) {
+  if (const auto value = map.find(key)) bolt = read_bolt(*value, findings).value_or(bolt);
+}
+
+RimOptions read_rim(const Value& value, Findings& findings) {
+  MapReader map(value, "A rim", "{width: 40 mm, thickness: 5 mm}", findings);
+  RimOptions rim;
+  set_length(map, "width", rim.width);
+  set_length(map, "thickness", rim.thickness);
+  map.refuse_unknown_keys();
+  return rim;
+}
+
+StiffenerOptions read_stiffeners(const Value& value, Findings& findings) {
+  MapReader map(value, "A set of stiffeners", "{spacing: 800 mm, width: 40 mm, thickness: 6 mm}", findings);
+  StiffenerOptions stiffeners;
+  set_length(map, "spacing", stiffeners.spacing);
+  set_length(map, "width", stiffeners.width);
+  set_length(map, "thickness", stiffeners.thickness);
+  map.refuse_unknown_keys();
+  return stiffeners;
+}
+
+LinerOptions read_liner(const Value& value, Findings& findings) {
+  MapReader map(value, "A liner", "{thickness: 6 mm, tile_length: 600 mm, tile_width: 200 mm}", findings);
+  LinerOptions liner;
+  if (const auto material = map.find("material"))
+    liner.material = read_material(*material, liner.material, findings);
+  set_length(map, "thickness", liner.thickness);
+  set_length(map, "tile_length", liner.tile_length);
+  set_length(map, "tile_width", liner.tile_width);
+  set_length(map, "gap", liner.gap);
+  liner.heaviest = map.quantity("heaviest", Dimension::mass).value_or(liner.heaviest);
+  set_bolt(map, "bolt", liner.bolt, findings);
+  map.refuse_unknown_keys();
+  return liner;
+}
+
+CoverOptions read_cover(const Value& value, Findings& findings) {
+  MapReader map(value, "A cover", "{thickness: 2 mm, bolt: M8, pitch: 300 mm}", findings);
+  CoverOptions cover;
+  set_length(map, "thickness", cover.thickness);
+  set_bolt(map, "bolt", cover.bolt, findings);
+  set_length(map, "pitch", cover.pitch);
+  map.refuse_unknown_keys();
+  return cover;
+}
+
+InspectionOptions read_opening(const Value& value, Findings& findings) {
+  MapReader map(value, "An opening", "{at: 2 m, length: 200 mm, height: 150 mm}", findings);
+  InspectionOptions opening;
+  opening.at = map.needed_quantity("at", Dimension::length, "at: 2 m").value_or(opening.at);
+  set_length(map, "length", opening.length);
+  set_length(map, "height", opening.height);
+  set_bolt(map, "bolt", opening.bolt, findings);
+  map.refuse_unknown_keys();
+  return opening;
+}
+
+LiftingOptions read_lifting(const Value& value, Findings& findings) {
+  MapReader map(value, "A set of lifting points", "{thickness: 10 mm, hole: 22 mm}", findings);
+  LiftingOptions lifting;
+  set_length(map, "thickness", lifting.thickness);
+  set_length(map, "hole", lifting.hole);
+  map.refuse_unknown_keys();
+  return lifting;
+}
+
+SupportOptions read_supports(const Value& value, Findings& findings) {
+  MapReader map(value, "A set of supports", "{ground: 0 m, spacing: 2 m}", findings);
+  SupportOptions supports;
+  if (const auto ground = map.need("ground", "ground: 0 m")) {
+    if (ground->node->kind == Node::Kind::sequence) {
+      supports.ground = as_points(*ground, "[[0 m, 0 m], [6 m, 0.2 m]]", findings);
+    } else if (const auto level = as_quantity(*ground, Dimension::length, findings)) {
+      supports.ground = {{0.0, *level}};
+    }
+  }
+  set_length(map, "spacing", supports.spacing);
+  set_length(map, "tube", supports.tube);
+  set_length(map, "wall", supports.wall);
+  if (const auto steepest = map.quantity("steepest", Dimension::angle))
+    supports.steepest = Angle::from_radians(*steepest);
+  set_length(map, "braced_from", supports.braced_from);
+  set_length(map, "grout", supports.grout);
+  set_bolt(map, "anchor", supports.anchor, findings);
+  map.refuse_unknown_keys();
+  return supports;
+}
+
+void read_fittings(MapReader& map, PlateOptions& plate, Findings& findings) {
+  const auto with = [&](auto read) {
+    return [&findings, read](const Value& value) { return read(value, findings); };
+  };
+  plate.rim = optional_group<RimOptions>(map, "rim", findings, with(read_rim));
+  plate.stiffeners = optional_group<StiffenerOptions>(map, "stiffeners", findings, with(read_stiffeners));
+  plate.liner = optional_group<LinerOptions>(map, "liner", findings, with(read_liner));
+  plate.cover = optional_group<CoverOptions>(map, "cover", findings, with(read_cover));
+  if (const auto openings = map.find("inspection")) {
+    for (const Value& value : as_list(*openings, "[{at: 2 m}]", findings))
+      plate.inspection.push_back(read_opening(value, findings));
+  }
+  plate.lifting = optional_group<LiftingOptions>(map, "lifting", findings, with(read_lifting));
+  plate.supports = optional_group<SupportOptions>(map, "supports", findings, with(read_supports));
 }
 
 }  // namespace
@@ -108,6 +223,7 @@ PlateOptions read_plate(MapReader& map, Findings& findings) {
                                   {{"mitred", RoundMake::mitred}, {"staves", RoundMake::staves}});
   set_length(map, "stave_tolerance", plate.stave_tolerance);
   set_length(map, "thickness", plate.polygon_thickness);
+  read_fittings(map, plate, findings);
   plate.joint_step = map.quantity("joint_step", Dimension::length).value_or(plate.joint_step);
   return plate;
 }

@@ -33,8 +33,39 @@ cross_section:                         # or slab, trapezoid, half-pipe, pipe, v-
   width: 400 mm                        # inside
   wall_height: 250 mm                  # inside
   thickness: 4 mm
+# fabrication:                         # what a workshop makes of it: parts, patterns, drawings, lists
+#   process: plate
+#   material: {name: S235, density: 7850 kg/m^3}
+#   floor: rolled                      # or bent
+#   split: {longest: 2.9 m, sheet: [3 m, 1.5 m]}
+#   flanges: {width: 50 mm, thickness: 6 mm, bolt: M10, pitch: 150 mm}
+#   supports: {ground: 0 m, spacing: 2 m}
 mesh: {tolerance: 0.5 mm}              # how far the mesh may depart from the exact shape
-export: [stl, off, scad]               # also stl-ascii and csv
+export: [stl, off, scad]               # also stl-ascii and csv; of parts dxf, step, pdf, ..., or workshop
+)";
+
+constexpr std::string_view kChuteInPlates = R"(name: Grain chute in plates
+track:
+  start: {x: 0 m, z: 6.2 m}
+  finish: {x: 5.4 m, z: 1.1 m}
+body:
+  friction_angle: 17 deg
+centerline: {kind: fastest}
+cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}
+fabrication:                           # {process: plate} alone will do; docs/design-file.md has all keys
+  process: plate
+  material: {name: S235, density: 7850 kg/m^3}
+  arc_tolerance: 0.1 mm                # between the track and the arcs that are cut
+  floor: bent                          # or rolled
+  bend: {speed_loss: 1 %}              # as many bends as cost no more of the exit speed
+  split: {longest: 2.9 m, sheet: [3 m, 1.5 m]}
+  flanges: {width: 50 mm, thickness: 6 mm, bolt: M10, pitch: 150 mm}
+  rim: {width: 40 mm, thickness: 5 mm}
+  # liner: {thickness: 6 mm}           # tiles; with floor: rolled
+  # lifting: {hole: 22 mm}
+  supports: {ground: 0 m, spacing: 2 m}
+mesh: {tolerance: 0.5 mm}
+export: workshop                       # the solid, and all that the shop gets
 )";
 
 constexpr std::string_view kRamp = R"(name: Ski ramp
@@ -227,6 +258,8 @@ struct Source {
 const std::vector<Source>& sources() {
   static const std::vector<Source> all = {
       {{"chute", "a U-channel for bulk material, the fastest track"}, kChute},
+      {{"chute-in-plates", "the same as a sheet-metal shop makes it: parts, patterns, drawings"},
+       kChuteInPlates},
       {{"ramp", "a flat ramp with curbs, such as a ski in-run"}, kRamp},
       {{"toboggan", "a half-pipe between two points in space"}, kToboggan},
       {{"in-run", "a ski jump's in-run from its certificate, with gates; --hill-size"}, in_run_of_template()},

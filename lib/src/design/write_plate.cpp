@@ -47,6 +47,78 @@ std::string flanges(const FlangeOptions& options) {
   return group.inlined();
 }
 
+std::string bolt(int size) {
+  return "M" + std::to_string(size);
+}
+
+std::string rim(const RimOptions& options) {
+  Group group;
+  group.add("width", options.width, Dimension::length);
+  group.add("thickness", options.thickness, Dimension::length);
+  return group.inlined();
+}
+
+std::string stiffeners(const StiffenerOptions& options) {
+  Group group;
+  group.add("spacing", options.spacing, Dimension::length);
+  group.add("width", options.width, Dimension::length);
+  group.add("thickness", options.thickness, Dimension::length);
+  return group.inlined();
+}
+
+std::string liner(const LinerOptions& options) {
+  Group group;
+  group.add("material", written_material(options.material));
+  group.add("thickness", options.thickness, Dimension::length);
+  group.add("tile_length", options.tile_length, Dimension::length);
+  group.add("tile_width", options.tile_width, Dimension::length);
+  group.add("gap", options.gap, Dimension::length);
+  group.add("heaviest", options.heaviest, Dimension::mass);
+  group.add("bolt", bolt(options.bolt));
+  return group.inlined();
+}
+
+std::string cover(const CoverOptions& options) {
+  Group group;
+  group.add("thickness", options.thickness, Dimension::length);
+  group.add("bolt", bolt(options.bolt));
+  group.add("pitch", options.pitch, Dimension::length);
+  return group.inlined();
+}
+
+std::string opening(const InspectionOptions& options) {
+  Group group;
+  group.add("at", options.at, Dimension::length);
+  group.add("length", options.length, Dimension::length);
+  group.add("height", options.height, Dimension::length);
+  group.add("bolt", bolt(options.bolt));
+  return group.inlined();
+}
+
+std::string lifting(const LiftingOptions& options) {
+  Group group;
+  group.add("thickness", options.thickness, Dimension::length);
+  group.add("hole", options.hole, Dimension::length);
+  return group.inlined();
+}
+
+std::string supports(const SupportOptions& options) {
+  Group group;
+  if (options.ground.size() == 1) {
+    group.add("ground", options.ground.front().y, Dimension::length);
+  } else {
+    group.add("ground", list_of(options.ground, point));
+  }
+  group.add("spacing", options.spacing, Dimension::length);
+  group.add("tube", options.tube, Dimension::length);
+  group.add("wall", options.wall, Dimension::length);
+  group.add("steepest", options.steepest.radians(), Dimension::angle);
+  group.add("braced_from", options.braced_from, Dimension::length);
+  group.add("grout", options.grout, Dimension::length);
+  group.add("anchor", bolt(options.anchor));
+  return group.inlined();
+}
+
 }  // namespace
 
 void add_process(Group& group, const PlateOptions& plate) {
@@ -58,6 +130,13 @@ void add_process(Group& group, const PlateOptions& plate) {
   group.add("round", plate.round == RoundMake::staves ? "staves" : "mitred");
   group.add("stave_tolerance", plate.stave_tolerance, Dimension::length);
   group.add("thickness", plate.polygon_thickness, Dimension::length);
+  if (plate.rim) group.add("rim", rim(*plate.rim));
+  if (plate.stiffeners) group.add("stiffeners", stiffeners(*plate.stiffeners));
+  if (plate.liner) group.add("liner", liner(*plate.liner));
+  if (plate.cover) group.add("cover", cover(*plate.cover));
+  if (!plate.inspection.empty()) group.add("inspection", list_of(plate.inspection, opening));
+  if (plate.lifting) group.add("lifting", lifting(*plate.lifting));
+  if (plate.supports) group.add("supports", supports(*plate.supports));
   group.add("joint_step", plate.joint_step, Dimension::length);
 }
 

@@ -6,6 +6,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/fittings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +112,9 @@ void check_holes(const Workshop& workshop, std::vector<ShopCheck>& checks) {
       }
       if (holes.size() < 2) continue;
       pitch.see(nearest, kLeastPitch * hole, part.name, as_length);
-      wide.see(nearest, 0.15, part.name, as_length);
+      const bool frame =
+          part.name.find("frame") != std::string::npos || part.name.find("flange") != std::string::npos;
+      if (frame) wide.see(nearest, 0.15, part.name, as_length);
     }
   }
   for (const Worst* worst : {&diameter, &edge, &pitch, &wide}) worst->add_to(checks);
@@ -269,6 +272,18 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
   object_to_split(options.split, objections);
   object_to_bolts(options.flanges, objections);
   object_to_step(options.joint_step, objections);
+  const auto only_on_channels = [&](bool wanted, const char* key) {
+    if (!wanted) return;
+    objections.add(key, std::string(key) + ": it goes with a flat floor and upright walls alone",
+                   "Other sections have no place that it fits.", "a cross_section of kind: u-channel");
+  };
+  only_on_channels(options.rim.has_value(), "rim");
+  only_on_channels(options.stiffeners.has_value(), "stiffeners");
+  only_on_channels(options.liner.has_value(), "liner");
+  only_on_channels(options.cover.has_value(), "cover");
+  only_on_channels(!options.inspection.empty(), "inspection");
+  only_on_channels(options.lifting.has_value(), "lifting");
+  only_on_channels(options.supports.has_value(), "supports");
   return std::move(objections).all();
 }
 
@@ -296,7 +311,9 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
     }
   }
   object_to_step(options.joint_step, objections);
-  return std::move(objections).all();
+  std::vector<Issue> issues = std::move(objections).all();
+  for (Issue& issue : fitting_problems(channel, options)) issues.push_back(std::move(issue));
+  return issues;
 }
 
 }  // namespace glissade

@@ -49,7 +49,8 @@ Unit make_unit(const Job& job, const Span& span, double largest_kink) {
   Unit unit{span,
             {},
             {},
-            bent ? bent_floor_face(job, facets_of(job, span, largest_kink)) : rolled_face(job.track, span),
+            bent ? bent_floor_face(job, facets_of(job, span, largest_kink))
+                 : rolled_face(job.track, span, floor_depth(job)),
             {}};
   unit.floor = floor_plate(job, unit.face, unit.steps);
   if (job.channel.wall_height == 0.0) return unit;

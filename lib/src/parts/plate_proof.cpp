@@ -95,7 +95,7 @@ double least_frame_gap(const Job& job, const std::vector<Unit>& units) {
       const double s = at + sense * flange.thickness * k / kPlaces;
       const TrackFrame floor = frame_at(unit.face.line, s);
       const Vec2 under = floor.at + unit.face.origin - job.channel.thickness * floor.up;
-      const double drop = -job.channel.thickness - dot(under - frame.at, frame.up);
+      const double drop = -floor_depth(job) - job.channel.thickness - dot(under - frame.at, frame.up);
       least = std::min(least, flange.gap - drop);
     }
   };
@@ -124,7 +124,7 @@ double largest_edge_mismatch(const Job& job, const std::vector<Unit>& units) {
     most = std::max(most, std::fabs(bounds(unit.floor.pattern->region.outline).width() - developed));
     if (bent || !unit.wall || job.options.walls != WallSeat::beside_floor) continue;
     // Lower edges of floor and wall.
-    const auto wall = offset_line(job.track, unit.span, -job.channel.thickness);
+    const auto wall = offset_line(job.track, unit.span, -floor_depth(job) - job.channel.thickness);
     const auto floor = offset_line(unit.face.line, {0.0, unit.face.line.length()}, -job.channel.thickness);
     most = std::max(most, std::fabs(length(*wall) - length(*floor)));
   }

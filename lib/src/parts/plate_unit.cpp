@@ -87,7 +87,11 @@ double neutral_fibre(const Job& job) {
 
 Span wall_heights(const Job& job) {
   const bool beside = job.options.walls == WallSeat::beside_floor;
-  return {beside ? -job.channel.thickness : 0.0, job.channel.wall_height};
+  return {-floor_depth(job) - (beside ? job.channel.thickness : 0.0), job.channel.wall_height};
+}
+
+double floor_depth(const Job& job) {
+  return job.options.liner ? job.options.liner->thickness : 0.0;
 }
 
 double floor_width(const Job& job) {
@@ -119,8 +123,8 @@ ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
   return part;
 }
 
-FloorFace rolled_face(const ArcSpline& track, const Span& span) {
-  ArcPath line = *offset_line(track, span, 0.0);
+FloorFace rolled_face(const ArcSpline& track, const Span& span, double depth) {
+  ArcPath line = *offset_line(track, span, -depth);
   const Vec2 origin = line.vertices.front().at;
   for (PathVertex& vertex : line.vertices) vertex.at = vertex.at - origin;
   return {ArcSpline(std::move(line)), origin, std::nullopt};
@@ -205,21 +209,30 @@ Frame frame_place(const Job& job, double s, bool downstream) {
   return {in_space(job.placement, at.at) + shift * tangent, across(job.placement), up, tangent};
 }
 
-ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& places) {
-  const FlangeOptions& flange = job.options.flanges;
-  const double inner = 0.5 * job.channel.width + job.channel.wall() + flange.gap;
-  const double low = -job.channel.thickness - flange.gap;
-  const double outer = inner + flange.width;
-  const double bottom = low - flange.width;
-  const double top = job.channel.wall_height;
+PlaneRegion frame_region(const Job& job, double width, double top) {
+  const double gap = job.options.flanges.gap;
+  const double inner = 0.5 * job.channel.width + job.channel.wall() + gap;
+  const double low = -floor_depth(job) - job.channel.thickness - gap;
+  const double outer = inner + width;
+  const double bottom = low - width;
   PlaneRegion region;
   region.outline.closed = true;
-  const bool walls = top > 0.0;
+  const bool walls = job.channel.wall_height > 0.0;
   const std::vector<Vec2> corners =
       walls ? std::vector<Vec2>{{-outer, bottom}, {outer, bottom}, {outer, top},  {inner, top},
                                 {inner, low},     {-inner, low},   {-inner, top}, {-outer, top}}
             : std::vector<Vec2>{{-outer, bottom}, {outer, bottom}, {outer, low}, {-outer, low}};
   for (const Vec2 corner : corners) region.outline.vertices.push_back({corner, 0.0});
+  return region;
+}
+
+ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& places) {
+  const FlangeOptions& flange = job.options.flanges;
+  const double inner = 0.5 * job.channel.width + job.channel.wall() + flange.gap;
+  const double low = -floor_depth(job) - job.channel.thickness - flange.gap;
+  const double top = job.channel.wall_height;
+  const bool walls = top > 0.0;
+  PlaneRegion region = frame_region(job, flange.width, top);
 
   const double radius = 0.5 * clearance_hole(flange.bolt, fit);
   const double side = inner + 0.5 * flange.width;

@@ -34,6 +34,8 @@ struct Job {
 /// @return heights between which the walls stand
 [[nodiscard]] Span wall_heights(const Job& job);
 [[nodiscard]] double floor_width(const Job& job);
+/// @return how far the floor plate's upper face lies below the track: by its liner
+[[nodiscard]] double floor_depth(const Job& job);
 
 /// @return the plane (x, height) of the track, moved across: z of the frame counts to the right of the body
 /// @param shift  to the right [m]
@@ -61,13 +63,19 @@ struct FloorFace {
   Vec2 origin;
   std::optional<Facets> facets;
 };
-[[nodiscard]] FloorFace rolled_face(const ArcSpline& track, const Span& span);
+/// @param depth  below the track
+[[nodiscard]] FloorFace rolled_face(const ArcSpline& track, const Span& span, double depth = 0.0);
 [[nodiscard]] FloorFace bent_floor_face(const Job& job, Facets facets);
 
 /// The floor of a unit, its pattern and the steps that make it.
 [[nodiscard]] ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep>& steps);
 /// @return none where the wall folds away: its length at the top is nothing
 [[nodiscard]] std::optional<ShopPart> wall_plate(const Job& job, const Span& span);
+
+/// What goes round the channel from the top of one wall to that of the other; without holes.
+/// @param width  from the channel outwards
+/// @param top    height to which it reaches; no more than 0: a bar below the floor
+[[nodiscard]] PlaneRegion frame_region(const Job& job, double width, double top);
 
 /// A frame round the end of a unit, of one plate.
 /// @param fit     of its holes

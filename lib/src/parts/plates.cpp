@@ -8,6 +8,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/fittings.hpp"
 #include "parts/mitred_pipe.hpp"
 #include "parts/plate_checks.hpp"
 #include "parts/plate_joints.hpp"
@@ -67,6 +68,26 @@ void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& j
   add_joint_bolts(workshop, job.options.flanges, holes, joints.size() - 2);
 }
 
+/// What is set on the channel, in the order in which each leaves room for the next.
+void add_fittings(const Job& job, const std::vector<Unit>& units, Workshop& workshop) {
+  TakenUp below;
+  const double frame = job.options.flanges.wanted ? job.options.flanges.thickness : 0.0;
+  for (const Unit& unit : units) {
+    below.add(unit.span.from, unit.span.from + frame);
+    below.add(unit.span.to - frame, unit.span.to);
+  }
+  const Fitting fitting{job, units, workshop, below};
+  add_liner(fitting);
+  add_rims(fitting);
+  add_openings(fitting);
+  add_stiffeners(fitting);
+  add_covers(fitting);
+  add_lugs(fitting);
+  // What is lifted stands on none of them.
+  add_supports(fitting, workshop.setting_out);
+  in_order(workshop.setting_out);
+}
+
 AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const Motion& design,
                           const Body& body, double gravity) {
   AsBuiltRide ride;
@@ -83,7 +104,9 @@ AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const 
     found = ride_facets(facets, body, gravity, job.options.joint_step);
   } else {
     std::vector<std::shared_ptr<const ArcSpline>> lines;
-    for (const Unit& unit : units) lines.push_back(std::make_shared<ArcSpline>(unit.face.line));
+    // On the liner where there is one.
+    for (const Unit& unit : units)
+      lines.push_back(std::make_shared<ArcSpline>(rolled_face(job.track, unit.span).line));
     found = ride_lines(lines, body, gravity, job.options.joint_step);
   }
   ride.arrives = found.arrives;
@@ -119,13 +142,15 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
                                 },
                                 body, gravity, smooth.exit_speed())
                           : 1.0;
-  const std::vector<Unit> units = split_units(job, kink);
+  std::vector<Unit> units = split_units(job, kink);
+  drill_floors(job, units);
   build.joints.push_back(0.0);
   for (const Unit& unit : units) build.joints.push_back(unit.span.to);
   Workshop& workshop = build.workshop;
   add_units(workshop, units);
   add_frames(job, workshop, build.joints);
   workshop.setting_out = setting_out(job.track, build.joints, placement);
+  add_fittings(job, units, workshop);
   build.ride = ride_as_built(job, units, smooth, body, gravity);
   workshop.checks = shop_checks(job, units, workshop);
   build.proof = prove(job, units, workshop);

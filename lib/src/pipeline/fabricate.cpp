@@ -7,8 +7,10 @@
 #include "pipeline/located.hpp"
 #include "pipeline/workshop_files.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace glissade::pipeline {
 namespace {
@@ -28,8 +30,20 @@ auto at_keys(const Design& design, Make&& make) {
   }
 }
 
-WorkshopBuild make(const Design& design, const Track& track, const Placement& frame,
-                   const PlateOptions& options) {
+/// A ground line in the plane of the track: horizontal distance from the start, height above it.
+std::vector<Vec2> in_plane(const TrackDesign& track, const std::vector<Vec2>& ground) {
+  if (ground.size() == 1) return {{0.0, ground.front().y - track.start.z}};
+  std::vector<Vec2> line;
+  for (const Vec2 point : ground) {
+    const Vec2 plane = in_track_plane(track, point);
+    line.push_back({plane.x, -plane.y});
+  }
+  if (line.size() > 1 && line.front().x > line.back().x) std::reverse(line.begin(), line.end());
+  return line;
+}
+
+WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PlateOptions options) {
+  if (options.supports) options.supports->ground = in_plane(design.track, options.supports->ground);
   return make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
                      frame, body_of(design), design.gravity);
 }

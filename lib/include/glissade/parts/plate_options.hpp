@@ -141,24 +141,6 @@ struct SupportOptions {
   friend bool operator==(const SupportOptions&, const SupportOptions&) = default;
 };
 
-/// How walls and floor are joined.
-enum class CornerJoint {
-  butt,         ///< edge to face, to be welded
-  lap,          ///< the floor goes on outside the walls, which stand on it
-  tab_and_slot  ///< tabs of the floor through slots of the walls
-};
-
-struct CornerOptions {
-  CornerJoint joint = CornerJoint::butt;
-  double lap = 15e-3;         ///< by which the floor stands out [m]
-  double tab = 40e-3;         ///< length of a tab along the track [m]
-  double spacing = 0.3;       ///< greatest distance of tabs [m]
-  double clearance = 0.1e-3;  ///< of a tab in its slot, each side [m]
-  double below = 10e-3;       ///< by which walls with slots reach below the floor [m]
-
-  friend bool operator==(const CornerOptions&, const CornerOptions&) = default;
-};
-
 /// How a channel is made of plates.
 struct PlateOptions {
   static constexpr std::string_view kProcess = "plate";
@@ -170,7 +152,6 @@ struct PlateOptions {
   WallSeat walls = WallSeat::beside_floor;
   SplitOptions split;
   FlangeOptions flanges;
-  CornerOptions corners;
   RoundMake round = RoundMake::mitred;
   double stave_tolerance = 2e-3;    ///< greatest distance of staves from a round section [m]; > 0
   double polygon_thickness = 4e-3;  ///< of the plates round a section that has none itself [m]; > 0

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "parts/plate_joints.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace glissade::parts {
+
+/// Stretches of the track that something below or beside the channel takes up already.
+class TakenUp {
+ public:
+  void add(double from, double to) { spans_.push_back({from, to}); }
+  /// @return the place nearest to `about` with nothing within `half` of it, inside a span; none if there is none
+  [[nodiscard]] std::optional<double> free_place(double about, double half, const Span& within) const;
+
+ private:
+  std::vector<Span> spans_;
+};
+
+/// What is set on the channel of a job, unit by unit, and listed in its workshop.
+struct Fitting {
+  const Job& job;
+  const std::vector<Unit>& units;
+  Workshop& workshop;
+  TakenUp& below;  ///< by frames, bolts and stiffeners
+};
+
+/// @return distance along a flat that develops an offset of the track, from its downstream end [m]
+/// @param height  of the neutral line above the floor line
+[[nodiscard]] double flat_from_end(const ArcSpline& track, const Span& span, double height, double s);
+
+/// Flat bars along the outsides of the walls' tops.
+void add_rims(const Fitting& fitting);
+/// Plates round the channel between its ends.
+void add_stiffeners(const Fitting& fitting);
+/// Lids over the rims, bolted to them.
+void add_covers(const Fitting& fitting);
+/// Openings in the left walls, with lids.
+void add_openings(const Fitting& fitting);
+/// Lugs beside the centre of gravity of each unit.
+void add_lugs(const Fitting& fitting);
+/// Holes of the liner's bolts in the floors' patterns, before they are listed.
+void drill_floors(const Job& job, std::vector<Unit>& units);
+/// Tiles on the floor, their upper faces the track.
+void add_liner(const Fitting& fitting);
+/// @return side of a square base plate
+[[nodiscard]] double base_side(const SupportOptions& supports);
+/// Trestles from the ground.
+void add_supports(const Fitting& fitting, std::vector<SettingOutPoint>& rows);
+
+/// What no shop can make of fittings, whatever the track is.
+[[nodiscard]] std::vector<Issue> fitting_problems(const ChannelMeasures& channel,
+                                                  const PlateOptions& options);
+
+}  // namespace glissade::parts

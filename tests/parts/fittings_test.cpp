@@ -1,0 +1,267 @@
+// What is set on a channel: liner, rims, covers, openings, lugs, stiffeners, trestles. Every build of these proves that no two
+// parts clash.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/parts/plates.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
+constexpr ChannelMeasures kChannel{0.4, 0.25, 4e-3};
+
+CoulombBrachistochrone chute() {
+  return {{5.4, 5.1}, kFriction};
+}
+
+WorkshopBuild plates(const Centerline& track, const PlateOptions& options,
+                     const ChannelMeasures& channel = kChannel) {
+  return make_plates(track, channel, {1e-4}, options, Placement(), {.friction = kFriction});
+}
+
+std::vector<const ShopPart*> named(const WorkshopBuild& build, const std::string& word) {
+  std::vector<const ShopPart*> found;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.find(word) != std::string::npos) found.push_back(&part);
+  }
+  return found;
+}
+
+std::string refusal(const PlateOptions& options, const ChannelMeasures& channel = kChannel) {
+  try {
+    (void)plates(chute(), options, channel);
+  } catch (const InputError& error) {
+    std::string text;
+    for (const Issue& issue : error.issues())
+      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
+    return text;
+  }
+  return "";
+}
+
+PlateOptions with_everything() {
+  PlateOptions options;
+  options.split.longest = 2.9;
+  options.rim.emplace();
+  options.stiffeners.emplace();
+  options.liner.emplace();
+  options.cover.emplace();
+  options.inspection = {{4.5, 0.2, 0.12, 8}};
+  options.lifting.emplace();
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -6.2}};
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("liner: its face is the track, the floor lies below it, and tiles and floors have the same holes") {
+  PlateOptions options;
+  options.liner.emplace();
+  options.liner->heaviest = 5.0;
+  const WorkshopBuild build = plates(chute(), options);
+  const WorkshopBuild plain = plates(chute(), {});
+  CHECK(std::fabs(build.ride.exit_speed / plain.ride.exit_speed - 1.0) < 1e-9);
+  std::size_t tile_holes = 0;
+  double tile_length = 0.0;
+  for (const ShopPart* tile : named(build, "tile")) {
+    CHECK(tile->mass <= 5.0);
+    CHECK(tile->material == "400 HB");
+    const PlaneBox box = bounds(tile->pattern->region.outline);
+    CHECK(box.width() <= 0.6 + 1e-3);
+    CHECK(box.height() <= 0.2);
+    tile_holes += tile->pattern->region.holes.size() * tile->quantity();
+    if (tile->name.find("half") == std::string::npos) tile_length += box.width();
+  }
+  std::size_t floor_holes = 0;
+  for (const ShopPart* floor : named(build, "floor"))
+    floor_holes += floor->pattern->region.holes.size() * floor->quantity();
+  CHECK(tile_holes == floor_holes);
+  CHECK(tile_holes > 50);
+  // Each course holds full tiles of one number; end to end they are the track, shortened by gaps of 2 mm.
+  CHECK(std::fabs(tile_length / build.master.spline->length() - 1.0) < 0.01);
+  std::size_t bolts = 0;
+  for (const BoughtInItem& item : build.workshop.items) {
+    if (item.name.starts_with("countersunk")) bolts = item.quantity;
+  }
+  CHECK(bolts == tile_holes);
+}
+
+TEST_CASE("liner: seams of one course lie in the middle of the next one's tiles") {
+  PlateOptions options;
+  options.liner.emplace();
+  const WorkshopBuild build = plates(chute(), options);
+  // Places across of the left edges of tiles, by course.
+  const auto seams = [&](const std::string& course) {
+    std::vector<double> places;
+    for (const ShopPart& part : build.workshop.parts) {
+      if (part.name != "tile_" + course && part.name != "tile_" + course + "_half") continue;
+      for (const Frame& place : part.places) places.push_back(place.origin.y);
+    }
+    std::sort(places.begin(), places.end());
+    return places;
+  };
+  const std::vector<double> even = seams("1");
+  const std::vector<double> odd = seams("2");
+  REQUIRE(even.size() == 2);
+  REQUIRE(odd.size() == 3);
+  for (const double a : even) {
+    for (const double b : odd) {
+      if (std::fabs(std::fabs(a) - 0.2) < 0.01 || std::fabs(std::fabs(b) - 0.2) < 0.01) continue;
+      CHECK(std::fabs(a - b) > 0.04);
+    }
+  }
+}
+
+TEST_CASE("trestles: legs stand from their base plates to the beam, saddles fit the underside") {
+  PlateOptions options;
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -7.0}, {6.0, -6.0}};
+  const WorkshopBuild build = plates(chute(), options);
+  const std::vector<const ShopPart*> plates_below = named(build, "base_plate");
+  REQUIRE(plates_below.size() == 1);
+  const std::vector<const ShopPart*> saddles = named(build, "saddle");
+  CHECK(plates_below.front()->quantity() == 2 * saddles.size());
+  CHECK(plates_below.front()->pattern->region.holes.size() == 4);
+  for (const Frame& place : plates_below.front()->places) {
+    // Grout of at least 25 mm on a ground that rises from -7 m to -6 m.
+    const double ground = -7.0 + place.origin.x / 6.0;
+    CHECK(place.origin.z - ground >= 25e-3 - 1e-9);
+    CHECK(place.origin.z - ground < 60e-3);
+  }
+  const ArcSpline& line = *build.master.spline;
+  for (const ShopPart* saddle : saddles) {
+    // Each point of its upper edge is a plate's thickness below the track.
+    const Prism& body = std::get<Prism>(saddle->body);
+    double nearest = 1.0;
+    for (const PathVertex& vertex : body.region.outline.vertices) {
+      const Vec3 at = saddle->places.front().to_space({vertex.at.x, vertex.at.y, 0.0});
+      double least = 1e9;
+      for (int k = 0; k <= 20000; ++k) {
+        const CenterlinePoint point = line.at(std::min(line.length(), line.length() * k / 20000.0));
+        least = std::min(least, std::hypot(point.x - at.x, -point.drop - at.z));
+      }
+      nearest = std::min(nearest, least);
+    }
+    CHECK(std::fabs(nearest - 4e-3) < 1e-4);
+  }
+  std::size_t set_out = 0;
+  for (const SettingOutPoint& row : build.workshop.setting_out)
+    set_out += row.what.starts_with("support") ? 1 : 0;
+  CHECK(set_out == saddles.size());
+  CHECK_FALSE(named(build, "brace").empty());
+}
+
+TEST_CASE("lugs: plumb above the centre of gravity of what they lift, where the unit allows") {
+  PlateOptions options = with_everything();
+  options.supports.reset();
+  const WorkshopBuild build = plates(chute(), options);
+  const std::vector<const ShopPart*> lugs = named(build, "lug");
+  CHECK(lugs.size() == build.joints.size() - 1);
+  // Of the last unit, which is the flattest, by all parts that lie on it.
+  Vec3 moment;
+  double mass = 0.0;
+  const double from = build.master.spline->at(build.joints[build.joints.size() - 2]).x;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.starts_with("lug")) continue;
+    for (const Frame& place : part.places) {
+      const Vec3 shift = place.origin - part.places.front().origin;
+      const Vec3 centre = part.centre_of_gravity + shift;  // equal parts lie parallel here
+      if (centre.x < from) continue;
+      mass += part.mass;
+      moment = moment + part.mass * centre;
+    }
+  }
+  const Vec3 centre = (1.0 / mass) * moment;
+  CHECK(std::fabs(lugs.back()->centre_of_gravity.x - centre.x) < 0.12);
+  for (const ShopPart* lug : lugs) CHECK(lug->quantity() == 2);
+}
+
+TEST_CASE("covers and rims: as many holes in one as in the other; lids cover their openings") {
+  const WorkshopBuild build = plates(chute(), with_everything());
+  std::size_t rim_holes = 0;
+  std::size_t cover_holes = 0;
+  for (const ShopPart* part : named(build, "rim"))
+    rim_holes += part->pattern->region.holes.size() * part->quantity();
+  for (const ShopPart* part : named(build, "cover"))
+    cover_holes += part->pattern->region.holes.size() * part->quantity();
+  CHECK(rim_holes == cover_holes);
+  CHECK(rim_holes > 20);
+  const std::vector<const ShopPart*> left = named(build, "left_wall");
+  REQUIRE(left.size() == 1);
+  REQUIRE(left.front()->pattern->region.cutouts.size() == 1);
+  const std::vector<const ShopPart*> lids = named(build, "lid");
+  REQUIRE(lids.size() == 1);
+  CHECK(lids.front()->pattern->region.holes.size() == left.front()->pattern->region.holes.size());
+  CHECK(std::fabs(moments({left.front()->pattern->region.cutouts.front(), {}, {}}).area - 0.2 * 0.12) < 1e-9);
+}
+
+TEST_CASE("fittings: random ones on random tracks fit without a clash") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 8; ++run) {
+    const double size = random.between(4.0, 10.0);
+    std::vector<ClothoidSegment> segments;
+    for (int i = random.integer(1, 3); i > 0; --i) {
+      const double curvature = random.between(-0.1, 0.9) / size;
+      segments.push_back({random.between(0.2, 0.4) * size, curvature, curvature});
+    }
+    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 50.0)), segments);
+    PlateOptions options;
+    const auto maybe = [&] { return random.integer(0, 2) > 0; };
+    options.split.longest = random.between(1.2, 2.9);
+    options.rim.emplace();
+    if (maybe()) options.stiffeners.emplace();
+    if (maybe()) options.liner.emplace();
+    if (maybe()) options.cover.emplace();
+    if (maybe()) options.lifting.emplace();
+    options.supports.emplace();
+    options.supports->ground = {{0.0, -1.2 * size}};
+    options.supports->spacing = random.between(0.8, 2.5);
+    const ChannelMeasures channel{random.between(0.3, 0.8), random.between(0.15, 0.3),
+                                  random.between(3e-3, 6e-3)};
+    const WorkshopBuild build = plates(track, options, channel);
+    CHECK(build.proof.pairs > 50);
+    for (const ShopPart& part : build.workshop.parts) {
+      CHECK(part.mass > 0.0);
+      if (part.pattern) CHECK(faults_of(part.pattern->region).empty());
+    }
+  }
+}
+
+TEST_CASE("fittings: what cannot be made is refused with place, value, bound and way out") {
+  PlateOptions above;
+  above.supports.emplace();
+  above.supports->ground = {{0.0, -3.0}};
+  CHECK(refusal(above).find("supports.ground|ground: at ") == 0);
+  CHECK(refusal(above).find("a lower ground") != std::string::npos);
+  PlateOptions cover;
+  cover.cover.emplace();
+  CHECK(refusal(cover).find("cover|cover: it is bolted to a rim, and there is none") == 0);
+  PlateOptions bent;
+  bent.floor = FloorMake::bent;
+  bent.liner.emplace();
+  CHECK(refusal(bent).find("liner|liner: tiles would lie on the bends of a bent floor") == 0);
+  PlateOptions high;
+  high.inspection = {{3.0, 0.2, 0.24, 8}};
+  CHECK(refusal(high).find("inspection|height: 240 mm leaves too little of the wall, 250 mm|") == 0);
+  CHECK(refusal(high).find("height: 190 mm") != std::string::npos);
+  PlateOptions joint;
+  joint.split.longest = 2.9;
+  joint.inspection = {{0.02, 0.2, 0.12, 8}};
+  CHECK(refusal(joint).find("inspection|at: an opening at 20 mm reaches over the end of a unit|") == 0);
+  PlateOptions slab;
+  slab.rim.emplace();
+  CHECK(refusal(slab, {0.4, 0.0, 4e-3}).find("rim|rim: there are no walls to set it on") == 0);
+}

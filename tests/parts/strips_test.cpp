@@ -1,0 +1,234 @@
+// Sections that lean or are round, as strips and as mitred tubes: developed exactly, adding up to the section.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/parts/plates.hpp"
+#include "glissade/section/cross_section.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
+
+CoulombBrachistochrone chute() {
+  return {{5.4, 5.1}, kFriction};
+}
+
+WorkshopBuild plates(const Centerline& track, const section::Measures& measures,
+                     const PlateOptions& options = {}) {
+  return make_plates(track, measures, {1e-4}, options, Placement(), {.friction = kFriction});
+}
+
+section::Trapezoid trapezoid(double lean_deg) {
+  return {WidthLaw(0.4), 0.25, Angle::from_degrees(lean_deg), 4e-3};
+}
+
+const ShopPart& part_of(const WorkshopBuild& build, const std::string& name) {
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.starts_with(name)) return part;
+  }
+  FAIL("no part " << name);
+  throw 0;
+}
+
+/// Length of the line at a height above the track.
+double space_length(const ArcSpline& line, double height) {
+  double sum = 0.0;
+  for (const TrackArc& arc : line.arcs()) sum += arc.length * (1.0 - arc.curvature * height);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("strips: those of a trapezoid add up to the section that is swept, A S - M phi") {
+  const WorkshopBuild build = plates(chute(), trapezoid(25.0));
+  const CrossSection section{section::Measures(trapezoid(25.0))};
+  const ArcSpline& line = *build.master.spline;
+  const double turned = line.slope_angle(0.0) - line.slope_angle(line.length());
+  const double exact = section.area() * line.length() - section.first_moment() * turned;
+  CHECK(std::fabs(build.proof.volume / exact - 1.0) < kPartsVolumeAccuracy);
+  CHECK(build.proof.edge_mismatch < 1e-9);
+  CHECK(build.proof.pairs > 10);
+}
+
+TEST_CASE(
+    "strips: a wall that leans develops along a curve of curvature kappa cos b, its edges as long as in "
+    "space") {
+  PlateOptions options;
+  options.split.sheet = {20.0, 8.0};
+  const WorkshopBuild build = plates(chute(), trapezoid(35.0), options);
+  const ArcSpline& line = *build.master.spline;
+  const ShopPart& wall = part_of(build, "left_wall");
+  const std::vector<PathPiece> pieces = pieces_of(wall.pattern->region.outline);
+  const std::size_t arcs = line.arcs().size();
+  REQUIRE(pieces.size() == 2 * arcs + 2);
+  // Middle of the thickness at the mitre and at the level rim.
+  const double t = 4e-3;
+  const double low = -0.5 * t;
+  const double high = 0.25;
+  double base = 0.0;
+  double rim = 0.0;
+  for (std::size_t i = 0; i < arcs; ++i) {
+    base += length(pieces[i]);
+    rim += length(pieces[arcs + 1 + i]);
+    const double sweep = 4.0 * math::atan(pieces[i].bulge);
+    CHECK(std::fabs(sweep - line.arcs()[i].curvature * line.arcs()[i].length *
+                                math::cos(Angle::from_degrees(35.0).radians())) < 1e-12);
+  }
+  CHECK(std::fabs(base - space_length(line, low)) < 1e-9);
+  CHECK(std::fabs(rim - space_length(line, high)) < 1e-9);
+}
+
+TEST_CASE("strips: upright walls come out as the plates of a channel do") {
+  PlateOptions options;
+  options.flanges.wanted = false;
+  const WorkshopBuild leaning = plates(chute(), trapezoid(1e-7), options);
+  const WorkshopBuild upright = plates(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}, options);
+  CHECK(std::fabs(leaning.proof.volume / upright.proof.volume - 1.0) < 1e-6);
+  CHECK(leaning.joints == upright.joints);
+}
+
+TEST_CASE(
+    "strips: staves touch a round section at its floor and depart from it by no more than their tolerance") {
+  for (const double tolerance : {0.5e-3, 2e-3, 8e-3}) {
+    PlateOptions options;
+    options.stave_tolerance = tolerance;
+    const WorkshopBuild build = plates(chute(), section::HalfPipe{0.4, 0.05, 4e-3}, options);
+    const ShopPart& floor = part_of(build, "floor");
+    const auto& body = std::get<SweptBody>(floor.body);
+    double highest = -1.0;
+    for (const Vec2 corner : body.section) highest = std::max(highest, corner.x);
+    CHECK(std::fabs(highest) < 1e-15);
+    double widest = 0.0;
+    for (const Vec2 corner : body.section) widest = std::max(widest, std::fabs(corner.y));
+    // Half a stave from its middle, at most as far as the round departs by the tolerance there.
+    CHECK(widest > 0.0);
+    CHECK(build.workshop.notes.size() >= 2);
+    const WorkshopBuild again = plates(chute(), section::HalfPipe{0.4, 0.05, 4e-3}, options);
+    CHECK(again.workshop.parts.size() == build.workshop.parts.size());
+  }
+}
+
+TEST_CASE("mitred pipe: tubes add up to the pipe along their axes, and both edges of a mitre are one curve") {
+  PlateOptions options;
+  options.bend = {FacetRule::segment_angle, Angle::from_degrees(7.5).radians(), {}, {}};
+  const WorkshopBuild build = plates(chute(), section::Pipe{0.15, 2e-3}, options);
+  double volume = 0.0;
+  std::size_t tubes = 0;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (!part.name.starts_with("tube")) continue;
+    ++tubes;
+    const auto& gore = std::get<TubeGore>(part.body);
+    const double mean = 0.076;
+    // The developed area is the circumference times the length of the axis: the sines cancel.
+    const double area = moments(part.pattern->region).area;
+    CHECK(std::fabs(area / (2.0 * std::numbers::pi * mean * gore.length) - 1.0) < 1e-5);
+    CHECK(std::fabs(bounds(part.pattern->region.outline).width() - 2.0 * std::numbers::pi * mean) < 1e-9);
+    CHECK(faults_of(part.pattern->region).empty());
+    volume += part.volume * static_cast<double>(part.quantity());
+  }
+  CHECK(tubes == build.ride.bends + 1);
+  CHECK(std::fabs(volume / build.proof.volume - 1.0) < 1e-12);
+  CHECK(build.proof.edge_mismatch < 1e-9);
+}
+
+TEST_CASE("mitred pipe: a tube's moments are those of points strewn through it") {
+  const TubeGore gore{0.1, 0.02, 0.5, Angle::from_radians(0.2), Angle::from_radians(-0.15)};
+  const parts::BodyMoments moments = parts::moments(gore);
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  double inside = 0.0;
+  Vec3 sum;
+  constexpr int kPoints = 200000;
+  const Vec3 low{-0.12, -0.12, -0.05};
+  const Vec3 size{0.24, 0.24, 0.6};
+  for (int k = 0; k < kPoints; ++k) {
+    const Vec3 point{low.x + size.x * random.between(0.0, 1.0), low.y + size.y * random.between(0.0, 1.0),
+                     low.z + size.z * random.between(0.0, 1.0)};
+    if (parts::depth_inside(gore, point) <= 0.0) continue;
+    inside += 1.0;
+    sum = sum + point;
+  }
+  CHECK(std::fabs(inside / kPoints * size.x * size.y * size.z / moments.volume - 1.0) < 0.03);
+  CHECK(std::fabs(sum.x / inside - moments.centroid.x) < 2e-3);
+  CHECK(std::fabs(sum.z / inside - moments.centroid.z) < 5e-3);
+}
+
+TEST_CASE("strips: random tracks and sections make plates that add up, with no clash") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 10; ++run) {
+    const double size = random.between(3.0, 12.0);
+    std::vector<ClothoidSegment> segments;
+    for (int i = random.integer(1, 4); i > 0; --i) {
+      const double curvature = random.between(-0.8, 1.2) / size;
+      segments.push_back({random.between(0.1, 0.4) * size, curvature, curvature});
+    }
+    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
+    const double t = random.between(2e-3, 8e-3);
+    const double high = random.between(0.1, 0.3);
+    const std::vector<section::Measures> kinds = {
+        section::Trapezoid{WidthLaw(random.between(0.2, 0.8)), high,
+                           Angle::from_degrees(random.between(2.0, 40.0)), t},
+        section::VChannel{Angle::from_degrees(random.between(60.0, 120.0)), 0.03, high, t},
+        section::HalfPipe{random.between(0.2, 0.6), 0.0, t},
+        section::Slab{WidthLaw(0.5), t, 0.06, 0.01},
+        section::Polygon{{{-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.0}, {0.0, 0.0}, {-0.2, 0.0}}},
+    };
+    PlateOptions options;
+    options.split.longest = random.between(0.8, 3.0);
+    for (const section::Measures& measures : kinds) {
+      INFO(section::kind(measures));
+      const WorkshopBuild build =
+          plates(track, measures, options);  // throws where parts clash or do not add up
+      for (const ShopPart& part : build.workshop.parts) {
+        CHECK(part.mass > 0.0);
+        CHECK(faults_of(part.pattern->region).empty());
+      }
+    }
+    PlateOptions pipe = options;
+    pipe.bend = {FacetRule::segment_angle, Angle::from_degrees(random.between(4.0, 15.0)).radians(), {}, {}};
+    CHECK(plates(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
+    pipe.round = RoundMake::staves;
+    CHECK(plates(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
+  }
+}
+
+TEST_CASE("strips: what cannot be made is refused with place, value and bound") {
+  const auto refusal = [](const section::Measures& measures, const PlateOptions& options,
+                          const Centerline& track) {
+    try {
+      (void)plates(track, measures, options);
+    } catch (const InputError& error) {
+      const Issue& issue = error.issues().front();
+      return issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint;
+    }
+    return std::string();
+  };
+  PlateOptions bent;
+  bent.floor = FloorMake::bent;
+  CHECK(refusal(trapezoid(20.0), bent, chute()).find("floor|floor: bent goes with upright walls") == 0);
+  // A hollow of 0.3 m in the middle, walls of 0.4 m.
+  const ClothoidSpline hollow(Angle::from_degrees(60.0),
+                              {{1.0, 0.0, 0.0}, {0.2, 1.0 / 0.3, 1.0 / 0.3}, {1.0, 0.0, 0.0}});
+  const section::Trapezoid high{WidthLaw(0.4), 0.4, Angle::from_degrees(20.0), 4e-3};
+  const std::string fold = refusal(high, {}, hollow);
+  CHECK(fold.find("cross_section|the left_wall folds over at 1 m along the track|") == 0);
+  CHECK(fold.find("the radius there 300 mm") != std::string::npos);
+  CHECK(fold.find("a section of at most 294 mm") != std::string::npos);
+  const section::Polygon thin{{{-0.2, -6e-3}, {0.2, -6e-3}, {0.2, 0.0}, {0.0, 0.0}, {-0.2, 0.0}}};
+  CHECK(refusal(thin, {}, chute()).find("thickness|thickness: ") == 0);
+}
