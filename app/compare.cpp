@@ -4,6 +4,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
+#include "glissade/pipeline/rules.hpp"
 #include "glissade/report/figure_page.hpp"
 
 #include "app/command_line.hpp"
@@ -51,6 +52,7 @@ constexpr const char* kFooter =
     "11deg,13deg,15deg,17deg,20deg,25deg,40deg\n"
     "  glissade compare designs/grain_chute.yaml --html chute.html     figures too, for a browser or paper\n"
     "  glissade compare designs/marble_run.yaml designs/grain_chute.yaml --svg both.svg\n"
+    "  glissade compare designs/hills/garmisch_hs142.yaml designs/hills/kulm_hs235.yaml --html hills.html\n"
     "  glissade compare designs/grain_chute.yaml --csv curves.csv      the curves themselves";
 
 struct Options {
@@ -128,7 +130,53 @@ Table kinds_table(const std::vector<Entry>& entries) {
   return rides_table("Centerline", entries, kinds);
 }
 
+std::string letters_text(const InRunDesign& in_run) {
+  return angle_text(in_run.gamma.radians(), 4) + ", " + angle_text(in_run.alpha.radians(), 4);
+}
+
+/// "22.71 to 26.84 m/s" from the lowest and the highest gate
+std::string gate_speeds_text(const GateTable& gates) {
+  const std::vector<GateRide>& rides = gates.conditions.front().rides;
+  const auto speed = [](const GateRide& ride) {
+    return ride.arrived ? fixed_text(ride.speed_at_measuring_place, 2) : std::string("-");
+  };
+  return speed(rides.front()) + " to " + speed(rides.back()) + " m/s";
+}
+
+std::string rules_text(const Design& design, const Track& track) {
+  const std::vector<Judgement> judgements = judge_rules(design, track);
+  const auto count = [&](RuleVerdict verdict) {
+    return std::count_if(judgements.begin(), judgements.end(),
+                         [&](const Judgement& one) { return one.verdict == verdict; });
+  };
+  return std::to_string(count(RuleVerdict::fail)) + " fail, " + std::to_string(count(RuleVerdict::warn)) +
+         " warn";
+}
+
+/// Hills by what a planner chooses them by.
+Table hills_table(const std::vector<Entry>& entries) {
+  Table table({"Hill", "HS", "gamma, alpha", "r1", "t", "drop", "length", "gates", "speed by gates",
+               "highest load", "rules"});
+  const std::vector<std::string> names = names_of(entries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Design& design = entries[i].design;
+    if (!entries[i].track) {
+      table.add({names[i], entries[i].problem});
+      continue;
+    }
+    const Track& track = *entries[i].track;
+    const InRunDesign& in_run = design.centerline.in_run;
+    table.add({names[i], design.hill.size ? length_text(*design.hill.size, 4) : "-", letters_text(in_run),
+               length_text(in_run.r1, 4), length_text(in_run.t, 4), length_text(track.endpoints.drop, 4),
+               length_text(track.centerline->length(), 5), std::to_string(track.gates->gates.size()),
+               gate_speeds_text(*track.gates), acceleration_text(track.motion.highest_load().normal_load),
+               rules_text(design, track)});
+  }
+  return table;
+}
+
 Table designs_table(const std::vector<Entry>& entries) {
+  if (are_hills(entries)) return hills_table(entries);
   return rides_table("Design", entries, names_of(entries));
 }
 
@@ -247,10 +295,13 @@ void write_figures(const Options& options, const Design& design, const Compariso
   if (!options.svg.empty()) write_text(options.svg, figures_svg(figures));
   if (options.html.empty()) return;
   const auto& rows = comparison.table.rows();
-  write_text(
-      options.html,
-      figure_page_html(
-          {comparison.heading, comparison.task, figures, {rows.front(), {rows.begin() + 1, rows.end()}}}));
+  std::vector<std::string> choices;
+  if (!options.others.empty()) choices = names_of(comparison.entries);
+  write_text(options.html, figure_page_html({comparison.heading,
+                                             comparison.task,
+                                             figures,
+                                             {rows.front(), {rows.begin() + 1, rows.end()}},
+                                             std::move(choices)}));
 }
 
 ExitCode compare(const Options& options) {

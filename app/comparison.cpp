@@ -218,12 +218,71 @@ std::vector<Figure> sweep_figures(const std::vector<Entry>& entries) {
   return figures;
 }
 
+namespace {
+
+/// Every profile with its take-off edge at the origin.
+Figure profiles_to_edge(const std::vector<Entry>& entries) {
+  Figure figure{"Profile, from the edge", "x [m]", "z [m]", {}, {}, true};
+  constexpr int kPoints = 200;
+  for (const Entry& entry : entries) {
+    if (!entry.track) continue;
+    FigureLine line;
+    line.name = design_name(entry);
+    const Centerline& track = *entry.track->centerline;
+    const Endpoints end = track.endpoints();
+    for (int i = 0; i <= kPoints; ++i) {
+      const CenterlinePoint point = track.at(track.length() * i / kPoints);
+      line.xs.push_back(point.x - end.run);
+      line.ys.push_back(end.drop - point.drop);
+    }
+    figure.lines.push_back(std::move(line));
+  }
+  return figure;
+}
+
+Figure speeds_by_gate(const std::vector<Entry>& entries) {
+  Figure figure{"Speed at the measuring place", "gate, from the lowest", "speed [m/s]", {}, {}, false};
+  for (const Entry& entry : entries) {
+    if (!entry.track) continue;
+    FigureLine line;
+    line.name = design_name(entry);
+    for (const GateRide& ride : entry.track->gates->conditions.front().rides) {
+      line.xs.push_back(ride.gate.number);
+      line.ys.push_back(ride.arrived ? ride.speed_at_measuring_place
+                                     : std::numeric_limits<double>::quiet_NaN());
+    }
+    figure.lines.push_back(std::move(line));
+  }
+  return figure;
+}
+
+}  // namespace
+
+bool are_hills(const std::vector<Entry>& entries) {
+  const auto has_track = [](const Entry& entry) { return entry.track.has_value(); };
+  if (std::none_of(entries.begin(), entries.end(), has_track)) return false;
+  return std::all_of(entries.begin(), entries.end(), [](const Entry& entry) {
+    return !entry.track || (entry.track->gates && entry.design.centerline.kind == CenterlineKind::in_run);
+  });
+}
+
 std::vector<Figure> design_figures(const std::vector<Entry>& entries) {
   const std::vector<FigureRide> rides = rides_of(entries, design_name);
   std::vector<Figure> figures;
   for (const RideQuantity quantity :
        {RideQuantity::profile, RideQuantity::slope, RideQuantity::speed, RideQuantity::load}) {
     figures.push_back(ride_figure(quantity, rides));
+  }
+  if (are_hills(entries)) {
+    figures.front() = profiles_to_edge(entries);
+    figures.push_back(speeds_by_gate(entries));
+  }
+  // Each figure has one line a design that has a track.
+  for (Figure& figure : figures) {
+    std::size_t line = 0;
+    for (std::size_t i = 0; i < entries.size() && line < figure.lines.size(); ++i) {
+      if (entries[i].track) figure.lines[line++].choice = static_cast<int>(i) + 1;
+    }
   }
   return figures;
 }

@@ -41,7 +41,10 @@ struct Entry {
 /// The curves of a friction sweep, drawn as the paper draws its figure 1.
 [[nodiscard]] std::vector<Figure> sweep_figures(const std::vector<Entry>& entries);
 
-/// Profile, slope angle, speed and load of several designs.
+/// @return whether every design that has a track is an in-run with gates
+[[nodiscard]] bool are_hills(const std::vector<Entry>& entries);
+
+/// Profile, slope angle, speed and load of several designs; of hills the speeds from their gates, too.
 [[nodiscard]] std::vector<Figure> design_figures(const std::vector<Entry>& entries);
 
 }  // namespace glissade::app

@@ -34,6 +34,8 @@ constexpr const char* kFooter =
     "  glissade gates designs/hills/garmisch_hs142.yaml --speed 90km/h            the gate for that speed\n"
     "  glissade gates designs/hills/garmisch_hs142.yaml --head-wind-change 1m/s   how many gates make up for "
     "it\n"
+    "  glissade gates designs/hills/garmisch_hs142.yaml --slopes                  what friction and drag "
+    "cost\n"
     "  glissade gates designs/hills/garmisch_hs142.yaml --csv gates.csv";
 
 struct Options {
@@ -42,6 +44,7 @@ struct Options {
   std::string speed;
   std::string wind_change;
   std::string csv;
+  bool slopes = false;
   bool json = false;
 };
 
@@ -130,7 +133,8 @@ ExitCode show_gates(const Options& options) {
     const std::string heading = design.name.empty() ? std::string("Gates") : design.name;
     print(emphasised(heading, Emphasis::heading) + "\n  speed v " +
           length_text(track.gates->measuring_place) + " before the edge\n\n" +
-          gates_table(*track.gates).text() + (asked.empty() ? "" : "\n" + asked));
+          (options.slopes ? slopes_table(*track.gates) : gates_table(*track.gates)).text() +
+          (asked.empty() ? "" : "\n" + asked));
   }
   if (!options.csv.empty()) write_gates_csv(options.csv, *track.gates);
   require_arrivals(design, *track.gates);
@@ -152,6 +156,8 @@ void add_gates(CLI::App& program, Action& action) {
       ->type_name("SPEED");
   command.add_option("--csv", options->csv, "Write the table, SI, with the derivatives of the speed")
       ->type_name("FILE");
+  command.add_flag("--slopes", options->slopes,
+                   "Tell how the speed answers to friction, drag and length of in-run instead");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
   command.callback([options, &action] { action = [options] { return show_gates(*options); }; });
 }

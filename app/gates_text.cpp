@@ -66,6 +66,31 @@ std::string gates_lines(const Track& track) {
   return labelled("Gates", text);
 }
 
+Table slopes_table(const GateTable& table) {
+  std::vector<std::string> headings = {"gate"};
+  for (const GateCondition& condition : table.conditions) {
+    const std::string name = table.conditions.size() > 1 ? condition.name + " " : "";
+    headings.push_back(name + "per 0.01 of friction [m/s]");
+    headings.emplace_back("per 0.0001 1/m of drag");
+    headings.emplace_back("per m of in-run");
+  }
+  Table text(std::move(headings));
+  constexpr double kFriction = 0.01;
+  constexpr double kDrag = 1e-4;  // [1/m]
+  for (std::size_t i = 0; i < table.gates.size(); ++i) {
+    std::vector<std::string> row = {std::to_string(table.gates[i].number)};
+    for (const GateCondition& condition : table.conditions) {
+      const GateRide& ride = condition.rides[i];
+      for (const double value :
+           {kFriction * ride.slopes.by_friction, kDrag * ride.slopes.by_drag, ride.slopes.by_length}) {
+        row.push_back(ride.arrived ? fixed_text(value, 3) : "-");
+      }
+    }
+    text.add(std::move(row));
+  }
+  return text;
+}
+
 Table gates_table(const GateTable& table) {
   std::vector<std::string> headings = {"gate", "to edge [m]", "x [m]", "z [m]"};
   for (const GateCondition& condition : table.conditions) {

@@ -15,6 +15,9 @@ namespace glissade::app {
 /// Gates for a summary: how many, how far apart, and the speeds from the lowest and the highest; empty without gates.
 [[nodiscard]] std::string gates_lines(const Track& track);
 
+/// How the speed from every gate answers to friction, drag and length, in steps that one meets.
+[[nodiscard]] Table slopes_table(const GateTable& table);
+
 /// Every gate with its place and its rides, for people.
 [[nodiscard]] Table gates_table(const GateTable& table);
 

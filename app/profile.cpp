@@ -29,7 +29,8 @@ namespace {
 constexpr const char* kDescription =
     "Draw the longitudinal section: DXF at 1:1, PDF sheets with the section, the parameters in English, "
     "German and\n"
-    "French, gates and coordinates, and the coordinate table as CSV.";
+    "French, gates and coordinates, the coordinate table as CSV, and the cross-section with its grooves as "
+    "DXF.";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -96,7 +97,8 @@ ExitCode draw_profile(const Options& options) {
                                            : std::filesystem::path(options.directory);
   const std::vector<std::filesystem::path> files = write_profile(folder, design, track, wanted);
   print(labelled("Section", files[0].generic_string()) + labelled("Sheets", files[1].generic_string()) +
-        labelled("Coordinates", files[2].generic_string() + ", " + std::to_string(stations) + " stations"));
+        labelled("Coordinates", files[2].generic_string() + ", " + std::to_string(stations) + " stations") +
+        (files.size() > 3 ? labelled("Cross-section", files[3].generic_string()) : ""));
   return ExitCode::done;
 }
 

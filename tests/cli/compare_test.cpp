@@ -119,3 +119,25 @@ TEST_CASE("compare shows the fastest track within limits beside the others, each
   CHECK(tracks[3]["centerline"] == "straight");
   CHECK_FALSE(tracks[3]["limits"].empty());
 }
+
+TEST_CASE("hills side by side tell what a planner chooses them by, and a page lets each be taken away") {
+  const TempDir place;
+  const std::string page = (place / "hills.html").string();
+  const Outcome outcome = glissade_run({"compare", designs_path("hills/garmisch_hs142.yaml"),
+                                        designs_path("hills/rasnov_hs38.yaml"), "--html", page});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output,
+             Contains("gamma, alpha") && Contains("35 deg, 11 deg") && Contains("30 deg, 9.4 deg"));
+  CHECK_THAT(outcome.output, Contains("22.71 to 26.84 m/s"));
+  const std::string html = bytes_of(page);
+  CHECK_THAT(html, Contains("id=\"choose-2\"") && !Contains("id=\"choose-3\"") && !Contains("<script"));
+  // A line and its mark in the legend in each of five figures, and a row of the table.
+  std::size_t found = 0;
+  for (std::size_t at = html.find("line choice-2\""); at != std::string::npos;
+       at = html.find("line choice-2\"", at + 1)) {
+    ++found;
+  }
+  CHECK(found == 10);
+  CHECK_THAT(html, Contains("<tr class=\"choice-2\">"));
+}

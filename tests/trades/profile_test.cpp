@@ -2,6 +2,7 @@
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/sheet_file.hpp"
 #include "glissade/pipeline/profile_drawing.hpp"
+#include "glissade/section/cross_section.hpp"
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
@@ -131,4 +132,53 @@ TEST_CASE("the sheets hold the section, the certificate in three languages, gate
   CHECK(rows >= 106 + 49 + 10);
   const std::string pdf = pdf_text(sheets, "Garmisch");
   CHECK(pdf.starts_with("%PDF"));
+}
+
+TEST_CASE("the cross-section is drawn as it is swept: its area, its grooves and their measures") {
+  for (const char* const file : {"hills/garmisch_hs142.yaml", "grain_chute.yaml", "toboggan_run.yaml"}) {
+    INFO(file);
+    const Design design = read_design(designs_path(file));
+    const std::optional<Drawing> drawing = cross_section_drawing(design);
+    REQUIRE(drawing.has_value());
+    const CrossSection section = CrossSection(*design.cross_section).at(0.0);
+    double area = 0.0;
+    for (const DrawnPath& path : drawing->paths) {
+      if (path.path.closed) area += signed_area(path.path);
+    }
+    // Mirrored: what runs counter-clockwise in the section runs clockwise on paper.
+    CHECK(std::fabs(-area * 1e-6 / section.area() - 1.0) < 1e-9);
+    const TempDir folder;
+    write_dxf(folder / "c.dxf", *drawing);
+    CHECK_NOTHROW(require_same_dxf(folder / "c.dxf", *drawing));
+  }
+  const std::optional<Drawing> track = cross_section_drawing(garmisch());
+  const auto measured = [&](double millimetres) {
+    return std::count_if(track->dimensions.begin(), track->dimensions.end(), [&](const DrawnDimension& one) {
+      const Vec2 way = one.to - one.from;
+      const double length = one.kind == DimensionKind::level ? std::fabs(way.x) : std::fabs(way.y);
+      return std::fabs(length - millimetres) < 1e-9;
+    });
+  };
+  CHECK(measured(2800.0) == 1);
+  CHECK(measured(320.0) == 1);
+  CHECK(measured(135.0) == 2);
+  CHECK(measured(30.0) == 1);
+  Design bare = garmisch();
+  bare.cross_section.reset();
+  CHECK_FALSE(cross_section_drawing(bare).has_value());
+}
+
+TEST_CASE("the files of a profile appear together, or none does") {
+  const Design design = garmisch();
+  const Track track = solve(design);
+  const TempDir folder;
+  const auto files = write_profile(folder / "out", design, track);
+  REQUIRE(files.size() == 4);
+  for (const auto& file : files) CHECK(std::filesystem::exists(file));
+  const TempDir other;
+  // A directory where the coordinates should be.
+  std::filesystem::create_directories(other / "garmisch_hs142.coordinates.csv");
+  CHECK_THROWS_AS(write_profile(other.path(), design, track), FileError);
+  CHECK_FALSE(std::filesystem::exists(other / "garmisch_hs142.section.dxf"));
+  CHECK_FALSE(std::filesystem::exists(other / "garmisch_hs142.section.pdf"));
 }

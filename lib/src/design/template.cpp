@@ -237,9 +237,14 @@ std::string in_run_text(const InRunSizes& sizes) {
   text += with_remark("  measuring_place: 10 m", "before the edge");
   text += "  slow: {friction_coefficient: " + rounded_text(kSlowFriction, 2) + "}\n";
   text += "  fast: {friction_coefficient: 0.02}\n";
-  text +=
-      "cross_section: {kind: slab, width: 2.8 m, thickness: 200 mm, curb_height: 500 mm, curb_width: 100 "
-      "mm}\n";
+  constexpr double kLargeHill = 110.0;  // [m], from which on grooves are deeper
+  text += "cross_section:\n  kind: track-groove\n";
+  text += with_remark("  width: 2.8 m", "of the bed that is prepared");
+  text += with_remark("  groove_width: 135 mm", "13 to 13.5 cm");
+  text += with_remark(std::string("  groove_depth: ") + (sizes.hill_size < kLargeHill ? "20 mm" : "30 mm"),
+                      "at least 2 cm, of large hills 3 cm");
+  text += with_remark("  groove_spacing: 320 mm", "30 to 33 cm");
+  text += with_remark("  thickness: 200 mm", "under the grooves");
   return text + "mesh: {tolerance: 5 mm}\nexport: [stl, csv]\n";
 }
 

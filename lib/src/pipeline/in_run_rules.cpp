@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 
 namespace glissade::pipeline {
 namespace {
@@ -86,6 +87,24 @@ void measure_certificate(const Design& design, const Track& track, Measurements&
 
 }  // namespace
 
+namespace {
+
+void measure_grooves(const Design& design, Measurements& measurements) {
+  const auto* const grooves =
+      design.cross_section ? std::get_if<section::TrackGroove>(&*design.cross_section) : nullptr;
+  if (grooves == nullptr) {
+    for (const char* const key : {"track_spacing", "track_groove_width", "track_groove_depth"}) {
+      measurements.set_missing(key, "cross_section: {kind: track-groove}, the grooves that skis run in");
+    }
+    return;
+  }
+  measurements.set("track_spacing", grooves->groove_spacing);
+  measurements.set("track_groove_width", grooves->groove_width);
+  measurements.set("track_groove_depth", grooves->groove_depth);
+}
+
+}  // namespace
+
 void measure_in_run(const Design& design, const Track& track, Measurements& measurements) {
   const HillDesign& hill = design.hill;
   if (design.centerline.kind == CenterlineKind::in_run || hill.size) {
@@ -95,6 +114,7 @@ void measure_in_run(const Design& design, const Track& track, Measurements& meas
     set_or_ask(measurements, "hill_height", hill.height, "hill: {height: 62 m}, zU of the certificate");
   }
   if (design.centerline.kind == CenterlineKind::in_run) measure_certificate(design, track, measurements);
+  if (design.centerline.kind == CenterlineKind::in_run || hill.size) measure_grooves(design, measurements);
   if (track.gates) {
     measure_gates(*track.gates, measurements);
   } else {

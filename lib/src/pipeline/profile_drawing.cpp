@@ -227,6 +227,20 @@ Sheet section_sheet(const Design& design, const Track& track, const ProfileOptio
   return sheet;
 }
 
+std::optional<Sheet> cross_section_sheet(const Design& design) {
+  std::optional<Drawing> drawing = cross_section_drawing(design);
+  if (!drawing) return {};
+  Sheet sheet = blank_sheet(PaperSize::a3);
+  sheet.title = title_of(design, "Cross-section / Querschnitt / profil en travers");
+  sheet.title.note = "Millimetres; as seen downhill, the centerline at the cross";
+  PlaneBox room = drawing_area(sheet);
+  constexpr double kMargin = 40.0;  // [mm] for dimension lines
+  room.low = room.low + Vec2{kMargin, kMargin};
+  room.high = room.high - Vec2{kMargin, kMargin};
+  sheet.views.push_back(fitted_view(*std::move(drawing), room));
+  return sheet;
+}
+
 SheetTable gates_sheet_table(const GateTable& gates) {
   SheetTable table;
   table.caption = "Gates, speed " + rounded_text(gates.measuring_place, 4) + " m before the edge";
@@ -283,6 +297,7 @@ std::vector<Sheet> profile_sheets(const Design& design, const Track& track, cons
       sheets.push_back(std::move(sheet));
     }
   };
+  if (std::optional<Sheet> sheet = cross_section_sheet(design)) sheets.push_back(*std::move(sheet));
   if (const auto* const in_run = dynamic_cast<const InRun*>(track.centerline.get())) {
     SheetTable table;
     table.header = {"", "English", "Deutsch", "français", ""};

@@ -4,6 +4,7 @@
 
 #include "pipeline/staging.hpp"
 
+#include <optional>
 #include <string>
 
 namespace glissade {
@@ -21,6 +22,8 @@ std::vector<std::filesystem::path> write_profile(const std::filesystem::path& di
   write_dxf(staging.path_for(stem + ".section.dxf"), drawing);
   write_pdf(staging.path_for(stem + ".section.pdf"), sheets, design.name.empty() ? stem : design.name);
   write_coordinates_csv(staging.path_for(stem + ".coordinates.csv"), stations, options);
+  if (const std::optional<Drawing> section = cross_section_drawing(design))
+    write_dxf(staging.path_for(stem + ".cross-section.dxf"), *section);
   return staging.publish().files;
 }
 

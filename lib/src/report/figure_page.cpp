@@ -53,8 +53,10 @@ std::string cell_text(std::string text) {
   return escaped_markup(text);
 }
 
-std::string row_of(const std::vector<std::string>& cells, std::size_t columns) {
-  std::string row = "<tr><th scope=\"row\">" + escaped_markup(cells.empty() ? "" : cells.front()) + "</th>";
+/// @param choice  the number of the row's choice; 0: none
+std::string row_of(const std::vector<std::string>& cells, std::size_t columns, std::size_t choice) {
+  std::string row = choice > 0 ? "<tr class=\"choice-" + std::to_string(choice) + "\">" : std::string("<tr>");
+  row += "<th scope=\"row\">" + escaped_markup(cells.empty() ? "" : cells.front()) + "</th>";
   for (std::size_t i = 1; i < cells.size(); ++i) {
     const bool remark = i + 1 == cells.size() && cells.size() < columns;
     row += remark ? R"(<td class="remark" colspan=")" + std::to_string(columns - i) + "\">"
@@ -64,15 +66,37 @@ std::string row_of(const std::vector<std::string>& cells, std::size_t columns) {
   return row + "</tr>\n";
 }
 
-std::string table_of(const PageTable& table) {
+std::string table_of(const PageTable& table, bool chosen) {
   std::string text =
       R"(<div class="scroll" tabindex="0" role="region" aria-label="Comparison"><table><thead><tr>)";
   for (const std::string& heading : table.headings) {
     text += "<th scope=\"col\">" + escaped_markup(heading) + "</th>";
   }
   text += "</tr></thead><tbody>\n";
-  for (const auto& row : table.rows) text += row_of(row, table.headings.size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    text += row_of(table.rows[i], table.headings.size(), chosen ? i + 1 : 0);
   return text + "</tbody></table></div>\n";
+}
+
+/// Boxes that take lines and rows away by style alone: the page has no script.
+std::string choices_of(const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  std::string boxes;
+  std::string rules;
+  std::string labels;
+  for (std::size_t i = 1; i <= names.size(); ++i) {
+    const std::string n = std::to_string(i);
+    boxes += "<input type=\"checkbox\" class=\"choice\" id=\"choose-" + n + "\" checked aria-label=\"" +
+             escaped_markup(names[i - 1]) + "\">";
+    rules += "#choose-" + n + ":not(:checked)~main .choice-" + n + "{display:none}#choose-" + n +
+             ":not(:checked)~.choices label[for=choose-" + n + "]{opacity:.45}#choose-" + n +
+             ":focus-visible~.choices label[for=choose-" + n + "]{outline:2px solid}";
+    labels += "<label for=\"choose-" + n + "\">" + escaped_markup(names[i - 1]) + "</label>";
+  }
+  return "<style>.choice{position:absolute;opacity:0}.choices label{display:inline-block;margin:0 8px 8px "
+         "0;padding:2px "
+         "10px;border:1px solid var(--grid);border-radius:99px;background:var(--panel);cursor:pointer}" +
+         rules + "</style>\n" + boxes + "\n<div class=\"choices\">" + labels + "</div>\n";
 }
 
 }  // namespace
@@ -86,8 +110,8 @@ std::string figure_page_html(const FigurePage& page) {
   text +=
       "<title>" + escaped_markup(page.title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
   text += "<h1>" + escaped_markup(page.title) + "</h1>\n<p>" + escaped_markup(page.subtitle) + "</p>\n";
-  text += "<main>\n";
-  if (!page.table.rows.empty()) text += table_of(page.table);
+  text += choices_of(page.choices) + "<main>\n";
+  if (!page.table.rows.empty()) text += table_of(page.table, !page.choices.empty());
   text += "<div class=\"figures\">\n";
   for (const Figure& figure : page.figures) text += "<figure>" + figures_svg({figure}, 540.0) + "</figure>\n";
   text += "</div>\n</main>\n<p>Made by Glissade " + std::string(version()) + ".</p>\n</body>\n</html>\n";

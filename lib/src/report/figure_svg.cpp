@@ -118,8 +118,8 @@ class Panel {
     }
     for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
       const FigureLine& line = figure_.lines[i];
-      text += fmt::format("<path class=\"line\" {} d=\"{}\"><title>{}</title></path>\n", stroke(i),
-                          points_text(line.xs, line.ys, to_x, to_y), escaped_markup(line.name));
+      text += fmt::format("<path class=\"line{}\" {} d=\"{}\"><title>{}</title></path>\n", choice_class(line),
+                          stroke(i), points_text(line.xs, line.ys, to_x, to_y), escaped_markup(line.name));
     }
     return text + "</svg>\n" + legend() + "</g>\n";
   }
@@ -204,6 +204,10 @@ class Panel {
                        style == 0 ? "" : fmt::format(" stroke-dasharray=\"{}\"", kDashes[style]));
   }
 
+  static std::string choice_class(const FigureLine& line) {
+    return line.choice > 0 ? " choice-" + std::to_string(line.choice) : "";
+  }
+
   /// What a legend names: a line, or all areas of one name.
   struct LegendEntry {
     const std::string* name;
@@ -252,9 +256,10 @@ class Panel {
     const double top = kTop + inner_height_ + kBottom + 12.0;
     lay_out_legend([&](const LegendEntry& entry, double x, int row) {
       const double y = top + kLegendLine * row;
-      text += entry.line ? fmt::format(R"(<path class="line" {} d="M{:.2f} {:.2f}h28"/>)",
-                                       stroke(*entry.line), x, y - 4.0)
-                         : fmt::format(R"(<path class="area" d="M{:.2f} {:.2f}h28v10h-28Z"/>)", x, y - 9.0);
+      text += entry.line
+                  ? fmt::format(R"(<path class="line{}" {} d="M{:.2f} {:.2f}h28"/>)",
+                                choice_class(figure_.lines[*entry.line]), stroke(*entry.line), x, y - 4.0)
+                  : fmt::format(R"(<path class="area" d="M{:.2f} {:.2f}h28v10h-28Z"/>)", x, y - 9.0);
       text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", x + 34.0, y,
                           escaped_markup(*entry.name));
     });

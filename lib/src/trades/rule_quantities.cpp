@@ -40,6 +40,9 @@ const std::vector<RuleQuantity>& rule_quantities() {
       {"table_height_ratio", number, "height of the table over w, s/w"},
       {"start_area_ratio", number, "length of the start area over that of the in-run, es/e1"},
       {"gate_step_height", length, "height from one gate to the next"},
+      {"track_spacing", length, "distance between the middles of the grooves"},
+      {"track_groove_width", length, "width of a groove"},
+      {"track_groove_depth", length, "depth of the grooves"},
       {"highest_take_off_speed", speed, "take-off speed from the highest gate"},
       {"lowest_take_off_speed", speed, "take-off speed from the lowest gate"},
       // chutes: the worst over low, nominal and high friction, and over trickle, nominal and surge flow

@@ -6,6 +6,7 @@
 #include "glissade/pipeline/solve.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,12 +54,18 @@ struct ProfileStation {
 [[nodiscard]] Drawing longitudinal_section(const Design& design, const Track& track,
                                            const ProfileOptions& options = {});
 
-/// The section, the parameters in English, German and French as a certificate has them, the gates and the coordinates, on
+/// The cross-section at 1:1, millimetres, as a body sees it that looks towards the finish, the centerline at the origin: its
+/// outline and the dimensions of its grooves, walls and plates.
+/// @return none for a design without a cross_section
+[[nodiscard]] std::optional<Drawing> cross_section_drawing(const Design& design);
+
+/// The section, the cross-section, the parameters in English, German and French as a certificate has them, the gates and the coordinates, on
 /// sheets of A3.
 [[nodiscard]] std::vector<Sheet> profile_sheets(const Design& design, const Track& track,
                                                 const ProfileOptions& options = {});
 
-/// The longitudinal section as DXF, the sheets as PDF and the coordinate table as CSV: all three appear together, or none.
+/// The longitudinal section as DXF, the sheets as PDF, the coordinate table as CSV, and the cross-section as DXF where the
+/// design has one: all of them appear together, or none.
 /// @param directory  made if missing
 /// @return their paths, in this order
 /// @throws InputError as coordinate_table(), FileError if a file cannot be written; what was there is then as it was

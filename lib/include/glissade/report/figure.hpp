@@ -11,6 +11,8 @@ struct FigureLine {
   std::vector<double> xs;  ///< in the unit that the figure's label names
   std::vector<double> ys;  ///< as many as xs
   bool dashed = false;
+  /// On a page that lets its reader choose what is shown: the number of the choice, from 1; 0: always shown.
+  int choice = 0;
 };
 
 /// A closed area, filled, or an open line; for keep-outs.

@@ -19,6 +19,9 @@ struct FigurePage {
   std::string subtitle;
   std::vector<Figure> figures;
   PageTable table;
+  /// Names that a reader may take away and bring back: lines of that FigureLine::choice, counted from 1, and the row of
+  /// the table with that number. Empty: everything is shown.
+  std::vector<std::string> choices = {};
 };
 
 /// The page as one self-contained file: drawings inside, no script, no request to anywhere. Text is escaped.

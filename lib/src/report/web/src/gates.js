@@ -1,7 +1,7 @@
 // Start gates of a ski jump: speed and load against the gate, and the table.
 import { element, scrollable, section, svgElement } from "./dom.js";
 import { exportButtons, standAlone } from "./export.js";
-import { number } from "./units.js";
+import { columnText, number } from "./units.js";
 
 const COLOURS = ["--series-1", "--series-3", "--series-2"];
 const SIZE = { width: 640, height: 260, left: 64, right: 16, top: 26, bottom: 44 };
@@ -52,25 +52,32 @@ function drawn(doc, units, [title, quantity, key]) {
     text({ transform: `translate(14 ${0.5 * SIZE.height}) rotate(-90)`, "text-anchor": "middle" }, `[${units.unit(quantity)}]`));
 }
 
+const PER_CONDITION = [
+  ["Speed", "speed", "speed_at_measuring_place_m_per_s"],
+  ["At the edge", "speed", "speed_at_edge_m_per_s"],
+  ["Time", "time", "travel_time_s"],
+  ["Load", "load", "max_normal_load_m_per_s2"],
+];
+
 function table(doc, units) {
   const { list, conditions } = doc.gates;
-  const several = conditions.length > 1;
-  const heads = ["Gate", "To the edge", "z", ...conditions.flatMap((condition) => ["Speed", "At the edge", "Time", "Load"].map((head) => (several ? `${head}, ${condition}` : head)))];
-  return scrollable("Table of gates", element("table", { class: "gates" },
-    element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
-    element("tbody", {}, list.map((gate) => element("tr", {},
-      element("th", { scope: "row" }, String(gate.gate)),
-      element("td", {}, units.text("length", gate.distance_to_edge_m, 5)),
-      element("td", {}, units.text("length", gate.z_m, 5)),
-      conditions.map((condition) => {
-        const ride = ridden(gate, condition, conditions[0]);
-        return [
-          element("td", {}, units.text("speed", ride.speed_at_measuring_place_m_per_s, 4)),
-          element("td", {}, units.text("speed", ride.speed_at_edge_m_per_s, 4)),
-          element("td", {}, units.text("time", ride.travel_time_s, 4)),
-          element("td", {}, units.text("load", ride.max_normal_load_m_per_s2, 4)),
-        ];
-      }))))));
+  const columns = [
+    ["To the edge", "length", list.map((gate) => gate.distance_to_edge_m)],
+    ["z", "length", list.map((gate) => gate.z_m)],
+    ...conditions.flatMap((condition) => PER_CONDITION.map(([head, quantity, key]) => [
+      conditions.length > 1 ? `${head}, ${condition}` : head, quantity,
+      list.map((gate) => ridden(gate, condition, conditions[0])[key]),
+    ])),
+  ].map(([head, quantity, values]) => {
+    const shown = values.map((value) => units.convert(quantity, value));
+    const text = columnText(shown, 4);
+    return [head, units.unit(quantity), shown.map((value) => (value === null ? "\u2013" : text(value)))];
+  });
+  return scrollable("Table of gates", element("table", { class: "gates stations" },
+    element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "Gate"), columns.map(([head, unit]) =>
+      element("th", { scope: "col" }, head, element("span", { class: "unit" }, ` [${unit}]`))))),
+    element("tbody", {}, list.map((gate, i) => element("tr", {},
+      element("th", { scope: "row" }, String(gate.gate)), columns.map(([, , texts]) => element("td", {}, texts[i])))))));
 }
 
 // Null for a design without gates.

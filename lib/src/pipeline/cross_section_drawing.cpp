@@ -1,0 +1,105 @@
+// What the sweep sweeps, as a drawing: lines and arcs of the outline, and the measures that a workshop asks for.
+
+#include "glissade/core/math.hpp"
+#include "glissade/pipeline/profile_drawing.hpp"
+#include "glissade/section/cross_section.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <variant>
+
+namespace glissade {
+namespace {
+
+constexpr double kMillimetres = 1000.0;
+/// What the text of a DXF is sized for: a bed of some metres on an A3 sheet.
+constexpr double kTextScale = 10.0;
+
+/// The section's x counts to the left of a body that looks towards the finish; on paper left is left.
+Vec2 on_paper(Vec2 point) {
+  return {-kMillimetres * point.x, kMillimetres * point.y};
+}
+
+ArcPath path_of(const section::Outline& outline) {
+  ArcPath path;
+  path.closed = true;
+  for (const section::Stroke& stroke : outline) {
+    // Mirrored, an arc that turns left turns right.
+    const double bulge = stroke.arc ? -math::tan(0.25 * (stroke.arc->to - stroke.arc->from)) : 0.0;
+    path.vertices.push_back({on_paper(stroke.from), bulge});
+  }
+  return path;
+}
+
+class Dimensions {
+ public:
+  explicit Dimensions(Drawing& drawing)
+      : drawing_(drawing), layer_(drawing.layer({"dimensions", LineStyle::continuous, 0.18, 5})) {}
+
+  /// @param offset_mm  of the dimension line on paper, above where positive
+  void level(double from_x, double to_x, double height, double offset_mm) {
+    add({from_x, height}, {to_x, height}, offset_mm, DimensionKind::level);
+  }
+  void upright(double x, double low, double high, double offset_mm) {
+    add({x, low}, {x, high}, offset_mm, DimensionKind::upright);
+  }
+
+ private:
+  /// In metres of the paper's frame: x to the right.
+  void add(Vec2 from, Vec2 to, double offset_mm, DimensionKind kind) {
+    drawing_.dimensions.push_back({layer_, kMillimetres * from, kMillimetres * to, offset_mm, kind, ""});
+  }
+
+  Drawing& drawing_;
+  std::size_t layer_;
+};
+
+void add_grooves(const section::TrackGroove& track, Dimensions& dimensions) {
+  const double middle = 0.5 * track.groove_spacing;
+  const double half = 0.5 * track.groove_width;
+  const double top = track.groove_depth;
+  dimensions.level(-middle, middle, top, 22.0);
+  dimensions.level(-middle - half, -middle + half, top, 12.0);
+  dimensions.level(middle - half, middle + half, top, 12.0);
+  dimensions.upright(middle + half, 0.0, top, -14.0);
+}
+
+}  // namespace
+
+std::optional<Drawing> cross_section_drawing(const Design& design) {
+  if (!design.cross_section) return {};
+  const CrossSection section = CrossSection(*design.cross_section).at(0.0);
+  Drawing drawing;
+  drawing.name = design.name;
+  drawing.text_scale = kTextScale;
+  const std::size_t outline = drawing.layer({"outline", LineStyle::continuous, 0.5, 7});
+  Vec2 low{0.0, section.lowest()};
+  Vec2 high{0.0, section.highest()};
+  for (const section::Outline& loop : section.loops()) {
+    drawing.add(outline, path_of(loop));
+    for (const section::Stroke& stroke : loop) {
+      // A round side may reach beyond its corners.
+      constexpr int kPlaces = 64;
+      for (int i = 0; i < (stroke.arc ? kPlaces : 1); ++i) {
+        const Vec2 at =
+            stroke.arc ? stroke.arc->at(stroke.arc->from + (stroke.arc->to - stroke.arc->from) * i / kPlaces)
+                       : stroke.from;
+        low.x = std::fmin(low.x, -at.x);
+        high.x = std::fmax(high.x, -at.x);
+      }
+    }
+  }
+  Dimensions dimensions(drawing);
+  dimensions.level(low.x, high.x, low.y, -14.0);
+  dimensions.upright(low.x, low.y, high.y, 14.0);
+  if (low.y < 0.0 && high.y > 0.0) dimensions.upright(high.x, low.y, 0.0, -14.0);
+  if (const auto* const grooves = std::get_if<section::TrackGroove>(&*design.cross_section))
+    add_grooves(*grooves, dimensions);
+  const std::size_t centre = drawing.layer({"centerline", LineStyle::chain, 0.18, 1});
+  constexpr double kReach = 40.0;  // [mm]
+  drawing.line(centre, {0.0, -kReach}, {0.0, kReach});
+  drawing.line(centre, {-kReach, 0.0}, {kReach, 0.0});
+  return drawing;
+}
+
+}  // namespace glissade
