@@ -97,11 +97,22 @@ inline Problem resized(Problem problem, double size) {
   scale(limits.arc_length.highest, size);
   limits.lead_in *= size;
   limits.lead_out *= size;
-  for (HalfPlane& plane : limits.half_planes) plane.point = size * plane.point;
-  for (Profile& profile : limits.stay_above) {
-    profile.clearance *= size;
-    for (Vec2& point : profile.line) point = size * point;
+  for (HalfPlane& plane : limits.half_planes) {
+    plane.clearance *= size;
+    plane.point = size * plane.point;
   }
+  for (KeepOut& area : limits.keep_outs) {
+    area.clearance *= size;
+    for (Vec2& point : area.outline) point = size * point;
+  }
+  for (std::vector<Profile>* profiles : {&limits.stay_above, &limits.stay_below}) {
+    for (Profile& profile : *profiles) {
+      profile.clearance *= size;
+      for (Vec2& point : profile.line) point = size * point;
+    }
+  }
+  const Envelope& envelope = limits.envelope;
+  limits.envelope = {size * envelope.below, size * envelope.above, size * envelope.headroom};
   return problem;
 }
 
@@ -110,8 +121,13 @@ inline Problem lifted(Problem problem, double height) {
   const auto move = [&](double& drop) { drop = height - (height - drop); };
   move(problem.endpoints.drop);
   for (HalfPlane& plane : problem.limits.half_planes) move(plane.point.y);
-  for (Profile& profile : problem.limits.stay_above) {
-    for (Vec2& point : profile.line) move(point.y);
+  for (KeepOut& area : problem.limits.keep_outs) {
+    for (Vec2& point : area.outline) move(point.y);
+  }
+  for (std::vector<Profile>* profiles : {&problem.limits.stay_above, &problem.limits.stay_below}) {
+    for (Profile& profile : *profiles) {
+      for (Vec2& point : profile.line) move(point.y);
+    }
   }
   return problem;
 }

@@ -4,6 +4,8 @@
 
 #include "glissade/centerline/clothoid_spline.hpp"
 
+#include "clearance/random_case.hpp"
+#include "optimize/changed_bound.hpp"
 #include "optimize/random_limits.hpp"
 #include "referee/judgement.hpp"
 #include "support/catch.hpp"
@@ -12,9 +14,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 using namespace glissade;
+using optimizer::with_bound;
 using testing_problems::random_limited;
 
 namespace {
@@ -85,24 +89,63 @@ double least_found(const Problem& problem, testing::Random& random) {
   return least;
 }
 
+/// How many of a test's problems are searched; the whole of it takes minutes: continuous integration does that.
+int problems_of(int quick) {
+  const int most = testing_problems::problem_count();
+  return testing::thorough() ? most : std::min(most, quick);
+}
+
+/// What would do is enough: each bound, put in alone, has a track.
+void check_needed(const Problem& problem, const OptimizeReport& report) {
+  for (const Relaxation& relaxation : report.conflict.relaxations) {
+    CAPTURE(relaxation.limit.key(), relaxation.value, relaxation.needed);
+    const bool moves = entry_of(relaxation.limit.id).form == LimitForm::list && relaxation.needed < 0.0;
+    if (moves || relaxation.limit.id == LimitId::match_belt) continue;
+    const auto changed = with_bound(problem, relaxation.limit, relaxation.needed);
+    REQUIRE(changed);
+    CHECK(optimize(*changed).centerline);
+  }
+}
+
 }  // namespace
 
-TEST_CASE("an independent search finds no track where limits are said to contradict each other") {
+TEST_CASE(
+    "an independent search finds no track where limits are said to contradict each other, and what they "
+    "would take "
+    "does") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   // Its own numbers: the problems are those of the other test of random limits.
   testing::Random steps(random.seed());
   int infeasible = 0;
-  // The whole of it takes minutes: continuous integration does that.
-  const int most = testing_problems::problem_count();
-  const int problems = testing::thorough() ? most : std::min(most, 150);
-  for (int i = 0; i < problems; ++i) {
+  for (int i = problems_of(100); i > 0; --i) {
     const Problem problem = random_limited(random);
     const Optimum optimum = optimize(problem);
+    if (optimum.centerline) continue;
+    CAPTURE(i, optimum.report.message);
+    check_needed(problem, optimum.report);
     if (optimum.report.status != OptimizeStatus::infeasible) continue;
     ++infeasible;
-    CAPTURE(i, optimum.report.message);
     CHECK(least_found(problem, steps) > 1e-5);
+  }
+  CAPTURE(infeasible);
+  CHECK(infeasible > 0);
+}
+
+TEST_CASE("an independent search finds no room for a whole solid where clearances are said to leave none") {
+  testing::Random random = testing::seeded_random(20250303);
+  INFO("GLISSADE_SEED=" << random.seed());
+  testing::Random steps(random.seed());
+  int infeasible = 0;
+  for (int i = problems_of(12); i > 0; --i) {
+    const RandomCase made = random_case(random);
+    const Optimum optimum = optimize(made.problem);
+    if (optimum.centerline) continue;
+    CAPTURE(i, made.words, optimum.report.message);
+    check_needed(made.problem, optimum.report);
+    if (optimum.report.status != OptimizeStatus::infeasible) continue;
+    ++infeasible;
+    CHECK(least_found(made.problem, steps) > 1e-5);
   }
   CAPTURE(infeasible);
   CHECK(infeasible > 0);
@@ -116,4 +159,33 @@ TEST_CASE("the independent search does find tracks where there are some") {
   problem.limits.slope_angle.highest = 0.8;
   problem.limits.smallest_valley_radius = 3.0;
   CHECK(least_found(problem, random) < 0.05);
+}
+
+TEST_CASE(
+    "a cap on the speed takes the same bound whatever it is, and is called infeasible only where that is "
+    "proven") {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  Problem problem;
+  problem.endpoints = {8.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.25);
+  problem.limits.slope_angle = {9.0 * kDegree, 60.0 * kDegree};
+  problem.limits.smallest_valley_radius = 1.0;
+  problem.limits.smallest_crest_radius = 1.0;
+  const auto needed_speed = [&](double cap, OptimizeStatus status) {
+    problem.limits.speed.highest = cap;
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(cap, report.message);
+    CHECK(report.status == status);
+    for (const Relaxation& relaxation : report.conflict.relaxations) {
+      if (relaxation.limit.id == LimitId::speed) return relaxation.needed;
+    }
+    FAIL("no speed would do: " << report.message);
+    return 0.0;
+  };
+  const double needed = needed_speed(6.4, OptimizeStatus::no_track_found);
+  CHECK(needed_speed(6.0, OptimizeStatus::no_track_found) == Approx(needed).epsilon(5e-4));
+  // The energy equation alone leaves 5.85 m/s.
+  CHECK(needed_speed(5.8, OptimizeStatus::infeasible) == Approx(needed).epsilon(5e-4));
+  problem.limits.speed.highest = needed;
+  CHECK(optimize(problem).centerline);
 }

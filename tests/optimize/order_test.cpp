@@ -1,13 +1,17 @@
 // One thing of a problem is changed, and the order of the answers is held: a limit that gives way, a narrower range of
 // friction, a mirror, another size, another height.
 
+#include "clearance/random_case.hpp"
+#include "optimize/changed_bound.hpp"
 #include "optimize/drawn_problems.hpp"
 #include "optimize/random_limits.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <vector>
 
 using namespace glissade;
 
@@ -82,6 +86,113 @@ TEST_CASE("mirrored, of another size and at another height a problem has the sam
     for (const double size : {1e-2, 1e3}) {
       compare("resized", testing_problems::resized(problem, size), objective, std::sqrt(size), true);
     }
+  }
+}
+
+TEST_CASE(
+    "mirrored, of another size and at another height clearances of a whole solid have the same answer") {
+  testing::Random random = testing::seeded_random(20250304);
+  INFO("GLISSADE_SEED=" << random.seed());
+  int solved = 0;
+  for (int i = std::max(4, testing_problems::problem_count() / 50); i > 0; --i) {
+    const RandomCase made = random_case(random);
+    const Optimum optimum = optimize(made.problem);
+    if (!optimum.centerline) continue;
+    ++solved;
+    CAPTURE(i, made.words, optimum.report.brief());
+    const double objective = objective_of(made.problem, optimum.report);
+    Problem mirrored = made.problem;
+    mirrored.endpoints.run = -mirrored.endpoints.run;
+    compare("mirrored", mirrored, objective, 1.0, true);
+    compare("lifted", testing_problems::lifted(made.problem, 4000.0), objective, 1.0, true);
+    for (const double size : {1e-2, 1e3}) {
+      const Problem resized = testing_problems::resized(made.problem, size);
+      compare("resized", resized, objective, std::sqrt(size), true);
+    }
+  }
+  CHECK(solved > 0);
+}
+
+namespace {
+
+/// A problem in which one limit binds, that limit, and a bound of it that asks for less.
+struct OneLimit {
+  LimitName limit;
+  double looser = 0.0;
+  Problem problem;
+};
+
+std::vector<OneLimit> one_of_each_limit() {
+  Problem base;
+  base.endpoints = {10.0, 5.0};
+  base.body.friction = Friction::from_coefficient(0.2);
+  std::vector<OneLimit> cases;
+  const auto add = [&](LimitName limit, double bound, double looser,
+                       const std::function<void(Problem&)>& prepare = {}) {
+    Problem problem = base;
+    if (prepare) prepare(problem);
+    cases.push_back({limit, looser, optimizer::with_bound(problem, limit, bound).value()});
+  };
+  using enum LimitId;
+  using enum Bound;
+  add({entry_slope_angle, highest}, 50.0 * kDegree, 52.0 * kDegree);
+  add({entry_slope_angle, lowest}, 85.0 * kDegree, 83.0 * kDegree,
+      [](Problem& p) { p.limits.smallest_valley_radius = 6.0; });
+  add({exit_slope_angle, highest}, -30.0 * kDegree, -28.0 * kDegree);
+  add({exit_slope_angle, lowest}, 25.0 * kDegree, 22.0 * kDegree);
+  add({slope_angle, highest}, 40.0 * kDegree, 42.0 * kDegree);
+  add({slope_angle, lowest}, 15.0 * kDegree, 13.0 * kDegree);
+  add({smallest_valley_radius, lowest}, 8.0, 7.5);
+  const auto short_crest = [](Problem& p) {
+    p.limits.exit_slope_angle = Range::fixed(35.0 * kDegree);
+    p.limits.smallest_valley_radius = 4.0;
+  };
+  add({smallest_crest_radius, lowest}, 6.0, 5.0, short_crest);
+  add({highest_curvature_rate, highest}, 0.08, 0.1);
+  add({highest_normal_load, highest}, 14.0, 14.5);
+  add({lowest_normal_load, lowest}, 7.0, 6.0);
+  add({highest_curvature_load, highest}, 4.0, 4.5);
+  add({lowest_slope_margin, lowest}, 2.0 * kDegree, 1.0 * kDegree);
+  add({speed, highest}, 7.0, 7.1);
+  const auto from_two_metres = [](Problem& p) { p.limits.lowest_speed_from = 2.0; };
+  add({speed, lowest}, 5.6, 5.4, from_two_metres);
+  add({exit_speed, highest}, 5.6, 5.7);
+  add({exit_speed, lowest}, 7.4, 7.35);
+  add({arc_length, highest}, 11.4, 11.5);
+  add({arc_length, lowest}, 13.0, 12.8);
+  add({lead_in, lowest}, 1.0, 0.8);
+  add({lead_out, lowest}, 2.0, 1.8);
+  add({half_planes, lowest, 0}, 0.1, 0.05, [](Problem& p) {
+    p.limits.half_planes = {{{0.0, 1.0}, {-0.5, 1.0}, 0.0}};
+  });
+  const KeepOut beam{{{4.0, 4.5}, {5.0, 4.5}, {5.0, 5.0}, {4.0, 5.0}}, 0.0, Passage::above};
+  add({keep_outs, lowest, 0}, 0.3, 0.2, [&](Problem& p) { p.limits.keep_outs = {beam}; });
+  const Profile ground{{{0.0, 0.5}, {3.0, 3.0}, {6.0, 4.5}, {10.0, 5.5}}, 0.0};
+  add({stay_above, lowest, 0}, 0.3, 0.2, [&](Problem& p) { p.limits.stay_above = {ground}; });
+  const Profile roof{{{3.0, 3.6}, {6.0, 4.9}}, 0.0};
+  add({stay_below, lowest, 0}, 0.2, 0.1, [&](Problem& p) { p.limits.stay_below = {roof}; });
+  const auto free_drop = [](Problem& p) { p.finish.kind = FinishKind::vertical_line; };
+  add({finish_drop, highest}, 5.0, 5.5, free_drop);
+  const auto free_run = [](Problem& p) { p.finish.kind = FinishKind::level; };
+  add({finish_run, lowest}, 8.0, 7.0, free_run);
+  return cases;
+}
+
+}  // namespace
+
+TEST_CASE("each kind of limit, made to bind and then given way, leaves the track no slower") {
+  for (const OneLimit& one : one_of_each_limit()) {
+    CAPTURE(one.limit.key(), one.looser);
+    const Optimum optimum = optimize(one.problem);
+    INFO(optimum.report.brief());
+    CHECK(optimum.centerline);
+    if (!optimum.centerline) continue;
+    const auto names_it = [&](const ActiveLimit& active) { return active.limit == one.limit; };
+    const std::vector<ActiveLimit>& active = optimum.report.active;
+    const bool is_length = one.limit.id == LimitId::lead_in || one.limit.id == LimitId::lead_out;
+    CHECK((is_length || std::any_of(active.begin(), active.end(), names_it)));
+    const double time = optimum.report.travel_time;
+    compare("looser", optimizer::with_bound(one.problem, one.limit, one.looser).value(), time, 1.0, false);
   }
 }
 

@@ -73,6 +73,18 @@ double objective_of(const Problem& problem, const referee::Judgement& verdict) {
   return verdict.travel_time - problem.objective.exit_speed_weight * verdict.exit_speed;
 }
 
+/// Whether a track would have to be slower or longer than those that were found: more and other bends might do, of which
+/// no search tries all (docs/optimization.md).
+bool asks_for_bends(const OptimizeReport& report) {
+  const std::vector<StatedLimit>& limits = report.conflict.limits;
+  return std::any_of(limits.begin(), limits.end(), [](const StatedLimit& stated) {
+    const LimitName& name = stated.limit;
+    const bool speed = name.id == LimitId::speed || name.id == LimitId::exit_speed;
+    return (speed && name.bound != Bound::lowest) ||
+           (name.id == LimitId::arc_length && name.bound != Bound::highest);
+  });
+}
+
 /// What the distance costs at which the search keeps from limits that would else be broken between its
 /// stations, above all from losing contact: the price of each limit times how far the referee finds the track
 /// from it, in the unit of the objective.
@@ -106,7 +118,8 @@ TEST_CASE("random limited problems: every limit is kept, and no admissible neigh
     const Problem problem = random_limited(random);
     const Optimum optimum = optimize(problem);
     CAPTURE(i, optimum.report.brief());
-    undecided += optimum.report.status == OptimizeStatus::no_track_found ? 1 : 0;
+    const bool none = optimum.report.status == OptimizeStatus::no_track_found;
+    undecided += none && !asks_for_bends(optimum.report) ? 1 : 0;
     if (!optimum.centerline) continue;
     ++solved;
     const referee::Judgement verdict = referee::judge_track(problem, optimum.centerline, kReferee);

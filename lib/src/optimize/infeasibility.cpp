@@ -3,7 +3,10 @@
 #include "glissade/centerline/reach.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
+#include "optimize/changed_bound.hpp"
+#include "optimize/energy_left.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/starts.hpp"
 #include "optimize/switches.hpp"
@@ -169,19 +172,112 @@ Vector shares_of(const Attempt& attempt) {
 // A limit with less of a share in the least violation has none.
 constexpr double kPartOf = 1e-4;
 
-/// Whether the limits in conflict ask for energy to be worn down, or for length: then winding tracks may do.
-bool asks_for_bends(const Attempt& attempt) {
+/// Of the limits in conflict that one which asks the most for energy to be worn down, or for length: then winding
+/// tracks may do.
+std::optional<std::size_t> asking_for_bends(const Attempt& attempt) {
   const Vector share = shares_of(attempt);
   const std::vector<LimitSpec>& limits = attempt.problem->limits;
+  std::optional<std::size_t> most;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     if (share[i] <= kPartOf || limits[i].built_in) continue;
     const bool slows = limits[i].measure == Measure::exit_run_speed || limits[i].measure == Measure::speed ||
                        limits[i].measure == Measure::exit_speed;
-    if (slows && limits[i].side >= 0) return true;
-    if (limits[i].measure == Measure::arc_length && limits[i].side <= 0) return true;
+    const bool asks =
+        (slows && limits[i].side >= 0) || (limits[i].measure == Measure::arc_length && limits[i].side <= 0);
+    if (asks && (!most || share[i] > share[*most])) most = i;
   }
-  return false;
+  return most;
 }
+
+/// That one limit alone gives way.
+Elastic alone_of(const std::vector<LimitSpec>& limits, const LimitName& name) {
+  Elastic elastic;
+  elastic.equalities = false;
+  for (const LimitSpec& limit : limits) elastic.limits.push_back(limit.name == name);
+  return elastic;
+}
+
+using Curves = std::vector<GuessCurve> (*)(const ScaledProblem&);
+
+/// The tracks that have one limit alone give way, from curves of every kind and on every way past the keep-outs. What
+/// its bound is has no part in which of them has it give way least.
+class Winding {
+ public:
+  Winding(const std::vector<std::shared_ptr<ScaledProblem>>& ways, const LimitName& limit,
+          SearchControl& control)
+      : limit_(limit), control_(control) {
+    for (std::size_t way = 0; way < ways.size(); ++way) {
+      for (const Curves curves : {&starts, &constant_speed_starts, &winding_starts, &stepped_starts}) {
+        for (const GuessCurve& curve : curves(*ways[way])) descend(way, ways[way], curve);
+      }
+    }
+    const auto gives_less = [](const End& a, const End& b) {
+      return a.attempt.relaxed.t < b.attempt.relaxed.t;
+    };
+    std::stable_sort(ends_.begin(), ends_.end(), gives_less);
+    constexpr std::size_t kFollowed = 2;
+    for (std::size_t i = 0; i < std::min(kFollowed, ends_.size()); ++i) follow(ends_[i]);
+    std::stable_sort(ends_.begin(), ends_.end(), gives_less);
+  }
+
+  /// Those that need it not give way at all, the best first.
+  [[nodiscard]] std::vector<Foothold> footholds() const {
+    constexpr std::size_t kMost = 3;
+    std::vector<const End*> keeping;
+    for (const End& end : ends_) {
+      if (end.attempt.relaxed.t <= kContradiction) keeping.push_back(&end);
+    }
+    std::stable_sort(keeping.begin(), keeping.end(), [](const End* a, const End* b) {
+      return a->attempt.relaxed.found.objective < b->attempt.relaxed.found.objective;
+    });
+    std::vector<Foothold> result;
+    for (const End* end : keeping) {
+      if (result.size() < kMost)
+        result.push_back({end->way, end->attempt.mesh, end->attempt.relaxed.found.z});
+    }
+    return result;
+  }
+
+  struct End {
+    std::size_t way = 0;
+    Attempt attempt;
+  };
+  /// The one that has it give way least.
+  [[nodiscard]] const End* least() const { return ends_.empty() ? nullptr : &ends_.front(); }
+
+ private:
+  static constexpr double kKept = 1e-6;
+
+  [[nodiscard]] Relaxed relaxed(const ScaledProblem& problem, const Mesh& mesh,
+                                const GuessCurve& curve) const {
+    const Vector margins(problem.limits.size(), 0.0);
+    return least_violation(problem, mesh, fit(curve, Transcription(mesh)), alone_of(problem.limits, limit_),
+                           margins, control_);
+  }
+
+  void descend(std::size_t way, const std::shared_ptr<ScaledProblem>& problem, const GuessCurve& curve) {
+    if (control_.stop()) return;
+    End end{way, {problem, mesh_of(*problem, graded_knots(curve, kPieces, 1.0), curve.length), {}}};
+    end.attempt.relaxed = relaxed(*problem, end.attempt.mesh, curve);
+    if (end.attempt.relaxed.found.violation <= kKept) ends_.push_back(std::move(end));
+  }
+
+  void follow(End& end) {
+    constexpr std::size_t kFiner = 40;
+    if (control_.stop()) return;
+    const Found& found = end.attempt.relaxed.found;
+    const Mesh mesh = mesh_of(*end.attempt.problem, refined_knots(*found.track, found.z, {}, kFiner),
+                              found.z[found.track->layout().length()]);
+    Relaxed finer = relaxed(*end.attempt.problem, mesh, curve_of(*found.track, found.z));
+    if (finer.found.violation > kKept || finer.t >= end.attempt.relaxed.t) return;
+    end.attempt.mesh = mesh;
+    end.attempt.relaxed = std::move(finer);
+  }
+
+  LimitName limit_;
+  SearchControl& control_;
+  std::vector<End> ends_;
+};
 
 /// The search for the least violation on every way past the keep-outs, from one start after the other.
 class LeastViolation {
@@ -193,7 +289,7 @@ class LeastViolation {
   }
 
   /// @return whether a track was found that keeps all limits
-  bool from(std::vector<GuessCurve> (*curves_of)(const ScaledProblem&)) {
+  bool from(Curves curves_of) {
     for (std::size_t way = 0; way < ways_.size(); ++way) {
       const std::vector<GuessCurve> curves = curves_of(*ways_[way]);
       for (auto start = curves.begin(); start != curves.end(); ++start) {
@@ -239,6 +335,8 @@ class LeastViolation {
   [[nodiscard]] bool kept() const { return best_->relaxed.t <= kContradiction; }
   [[nodiscard]] const Attempt& best() const { return *best_; }
   [[nodiscard]] std::size_t way() const { return way_; }
+  [[nodiscard]] const std::vector<std::shared_ptr<ScaledProblem>>& ways() const { return ways_; }
+  [[nodiscard]] Foothold foothold() const { return {way_, best_->mesh, best_->relaxed.found.z}; }
 
  private:
   SearchControl& control_;
@@ -261,12 +359,25 @@ double measured_on(const Found& found, const LimitSpec& limit, std::size_t index
   return measured;
 }
 
-/// The bound that would do, a little beyond the least that a local search finds: it has to be found again.
-std::optional<double> needed_bound(const LimitSpec& limit, std::size_t index, const Relaxed& alone) {
-  constexpr double kBeyond = 1e-4;
-  constexpr double kAtLeast = 2e-6;
-  const double t = alone.t * (1.0 + kBeyond) + kAtLeast;
-  const double measured = limit.side == 0 ? measured_on(alone.found, limit, index) : 0.0;
+/// A limit that may give way alone, and the track on which it does.
+struct GivingWay {
+  std::size_t limit = 0;
+  Relaxed alone;
+  Foothold foothold;  ///< of that track
+};
+
+/// The bound that would do, beyond the least that a local search finds by a share of the way there: it has to be
+/// found again.
+std::optional<double> needed_bound(const LimitSpec& limit, std::size_t index, const Relaxed& alone,
+                                   double beyond) {
+  constexpr double kAtLeast = 1e-2;
+  const double t = alone.t * (1.0 + beyond) + kAtLeast * beyond;
+  double measured = 0.0;
+  if (limit.side == 0) {
+    const double least = measured_on(alone.found, limit, index);
+    const bool squared = limit.measure == Measure::exit_speed;
+    measured = least + beyond * (least - (squared ? limit.bound * limit.bound : limit.bound));
+  }
   const double needed = relaxed_bound(limit, t, measured);
   // A beam cannot be closer than touched: then it is the beam that would have to move.
   if (limit.name.id == LimitId::keep_outs && needed < 0.0) return std::nullopt;
@@ -274,73 +385,173 @@ std::optional<double> needed_bound(const LimitSpec& limit, std::size_t index, co
   return needed;
 }
 
-/// What stands against each other at the track that breaks all limits least; empty if nothing that the user set.
-Conflict conflict_at(LeastViolation& search, SearchControl& control) {
+/// The bound as messages tell it, to few digits: rounded away from what it is now, so that it still does.
+double as_told(double needed, double now, Dimension dimension) {
+  constexpr int kMostNudges = 20;
+  constexpr double kNudge = 1e-4;
+  for (int i = 0; i <= kMostNudges; ++i) {
+    const double nudged = needed + (needed > now ? kNudge : -kNudge) * i * std::fabs(needed);
+    const double told = parse_quantity(quantity_text(nudged, dimension), dimension, "needed");
+    if (needed > now ? told >= needed : told <= needed) return told;
+  }
+  return needed;
+}
+
+/// What stands against each other at the track that breaks all limits least.
+struct Opposition {
+  std::vector<StatedLimit> limits;  ///< empty if nothing that the user set
+  std::vector<GivingWay> giving;    ///< what could give way alone
+};
+
+/// @param winding  of the limit that asks for bends, where there is one
+Opposition opposition_at(LeastViolation& search, const std::optional<GivingWay>& winding,
+                         SearchControl& control) {
   const Attempt attempt = search.best();
   const std::vector<LimitSpec>& limits = attempt.problem->limits;
   const Vector share = shares_of(attempt);
-  Conflict conflict;
+  Opposition opposition;
   bool set_by_user = false;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     if (share[i] <= kPartOf) continue;
     const LimitSpec& limit = limits[i];
     const auto same = [&](const StatedLimit& known) { return known.limit == limit.name; };
-    if (std::any_of(conflict.limits.begin(), conflict.limits.end(), same)) continue;
+    if (std::any_of(opposition.limits.begin(), opposition.limits.end(), same)) continue;
     set_by_user = set_by_user || !limit.built_in;
-    conflict.limits.push_back({limit.name, limit.built_in ? std::nullopt : std::optional(limit.bound_si)});
+    const bool has_value = !limit.built_in && entry_of(limit.name.id).form != LimitForm::flag;
+    opposition.limits.push_back({limit.name, has_value ? std::optional(limit.bound_si) : std::nullopt});
     if (limit.built_in || (limit.measure == Measure::curvature && limit.bound == 0.0)) continue;
-    Elastic elastic;
-    elastic.equalities = false;
-    elastic.limits.assign(limits.size(), false);
-    for (std::size_t k = 0; k < limits.size(); ++k) elastic.limits[k] = limits[k].name == limit.name;
-    const std::optional<Relaxed> alone = relaxed_alone(attempt, elastic, control);
+    if (winding && limits[winding->limit].name == limit.name) {
+      opposition.giving.push_back(*winding);
+      continue;
+    }
+    std::optional<Relaxed> alone = relaxed_alone(attempt, alone_of(limits, limit.name), control);
     if (!alone) continue;
     // A track that breaks one limit alone is another beginning: from there all of them may be kept after all.
     const Transcription& track = *alone->found.track;
-    if (search.from(search.way(), track.mesh(), curve_of(track, alone->found.z))) return conflict;
-    if (const auto needed = needed_bound(limit, i, *alone)) {
-      conflict.relaxations.push_back({limit.name, limit.bound_si, *needed});
+    if (search.from(search.way(), track.mesh(), curve_of(track, alone->found.z))) return opposition;
+    Foothold foothold{search.way(), Mesh(track.mesh()), alone->found.z};
+    opposition.giving.push_back({i, std::move(*alone), std::move(foothold)});
+  }
+  if (share.back() > kPartOf && !set_by_user && !opposition.limits.empty()) {
+    opposition.limits.insert(opposition.limits.begin(),
+                             {LimitName{LimitId::finish, Bound::exactly}, std::nullopt});
+  }
+  return opposition;
+}
+
+/// The bounds that do, each alone: the least for which a track is found again.
+std::vector<Relaxation> relaxations_of(const Problem& problem, const std::vector<LimitSpec>& limits,
+                                       const std::vector<GivingWay>& giving, bool winding,
+                                       const Resolve& resolve, SearchControl& control) {
+  constexpr double kBeyond[] = {1e-4, 1e-3, 1e-2, 5e-2};
+  std::vector<Relaxation> relaxations;
+  for (const GivingWay& way : giving) {
+    const LimitSpec& limit = limits[way.limit];
+    for (const double beyond : kBeyond) {
+      if (control.stop()) return relaxations;
+      const auto least = needed_bound(limit, way.limit, way.alone, beyond);
+      if (!least) break;
+      const double needed = as_told(*least, limit.bound_si, limit.name.dimension());
+      const auto changed = with_bound(problem, limit.name, needed);
+      if (!changed) break;
+      // Where tracks wind, all starts have been tried for the one that has the limit give way least.
+      if (!(winding ? resolve.from(*changed, way.foothold) : resolve.anew(*changed))) continue;
+      relaxations.push_back({limit.name, limit.bound_si, needed});
+      break;
     }
   }
-  if (share.back() > kPartOf && !set_by_user && !conflict.limits.empty()) {
-    conflict.limits.insert(conflict.limits.begin(),
-                           {LimitName{LimitId::finish, Bound::exactly}, std::nullopt});
-  }
-  return conflict;
+  return relaxations;
 }
+
+/// Whether no track can be as slow as a limit asks, however it winds.
+std::optional<std::string> too_fast(const Problem& problem) {
+  const std::optional<double> left = least_speed_left(problem);
+  if (!left) return std::nullopt;
+  const Limits& limits = problem.limits;
+  for (const std::optional<double>& highest : {limits.speed.highest, limits.exit_speed.highest}) {
+    if (!highest || *left <= *highest) continue;
+    return "However a track winds within these slopes, " + rounded_text(*left, 4) +
+           " m/s or more are left at the finish: so the energy equation says.";
+  }
+  return std::nullopt;
+}
+
+/// The search for what keeps all limits, and what it ends with where there is nothing.
+class Footing {
+ public:
+  Footing(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control)
+      : control_(control), search_(problem, passages, control) {
+    if (search_.from(&starts) || control.stop()) return;
+    if (search_.closely() || search_.from(&constant_speed_starts) || control.stop()) return;
+    const std::optional<std::size_t> asking = asking_for_bends(search_.best());
+    if (!asking) return;
+    asks_for_bends_ = true;
+    const LimitName name = search_.best().problem->limits[*asking].name;
+    const Winding winding(search_.ways(), name, control);
+    footholds_ = winding.footholds();
+    const Winding::End* const least = winding.least();
+    if (!footholds_.empty() || least == nullptr) return;
+    const Transcription& track = *least->attempt.relaxed.found.track;
+    winding_ = GivingWay{
+        *asking, least->attempt.relaxed, {least->way, Mesh(track.mesh()), least->attempt.relaxed.found.z}};
+    (void)search_.from(least->way, track.mesh(), curve_of(track, least->attempt.relaxed.found.z));
+  }
+
+  [[nodiscard]] std::vector<Foothold> footholds() const {
+    if (!footholds_.empty() || control_.stop() || !search_.kept()) return footholds_;
+    return {search_.foothold()};
+  }
+  [[nodiscard]] bool asks_for_bends() const { return asks_for_bends_; }
+  [[nodiscard]] const std::optional<GivingWay>& winding() const { return winding_; }
+  [[nodiscard]] LeastViolation& search() { return search_; }
+
+ private:
+  SearchControl& control_;
+  LeastViolation search_;
+  bool asks_for_bends_ = false;
+  std::vector<Foothold> footholds_;
+  std::optional<GivingWay> winding_;
+};
 
 }  // namespace
 
-Explanation explain(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control) {
+std::vector<Foothold> footholds_of(const Problem& problem, const std::vector<Passages>& passages,
+                                   SearchControl& control) {
+  return Footing(problem, passages, control).footholds();
+}
+
+Explanation explain(const Problem& problem, const std::vector<Passages>& passages, const Resolve& resolve,
+                    SearchControl& control) {
   // From a better track the reasons are others; how often they are looked for anew.
   constexpr int kMostRounds = 3;
   constexpr double kBetter = 0.98;
   Explanation explanation;
-  LeastViolation search(problem, passages, control);
-  bool found = search.from(starts);
-  if (control.stop()) return explanation;
-  found = found || search.closely();
-  if (!found && asks_for_bends(search.best())) found = search.from(winding_starts) || search.closely();
-  Conflict conflict;
-  for (int round = 0; !found && round < kMostRounds; ++round) {
+  Footing footing(problem, passages, control);
+  explanation.footholds = footing.footholds();
+  if (!explanation.footholds.empty() || control.stop()) return explanation;
+  LeastViolation& search = footing.search();
+  Opposition opposition;
+  for (int round = 0; round < kMostRounds; ++round) {
     const double before = search.best().relaxed.t;
-    conflict = conflict_at(search, control);
+    opposition = opposition_at(search, footing.winding(), control);
     if (control.stop()) return explanation;
-    found = search.kept();
+    if (search.kept()) {
+      explanation.footholds = {search.foothold()};
+      return explanation;
+    }
     if (search.best().relaxed.t > kBetter * before) break;
   }
-  explanation.passages = search.way();
-  if (found) {
-    explanation.mesh = search.best().mesh;
-    explanation.z = search.best().relaxed.found.z;
-    return explanation;
-  }
-  if (conflict.limits.empty() || !search.confirmed()) {
-    for (const StatedLimit& stated : conflict.limits) explanation.nearly.push_back(stated.limit.key());
-    return explanation;
-  }
-  conflict.text = conflict_text(conflict);
-  explanation.conflict = std::move(conflict);
+  const bool settled = !opposition.limits.empty() && search.confirmed();
+  Conflict& conflict = explanation.conflict;
+  conflict.limits = std::move(opposition.limits);
+  conflict.relaxations = relaxations_of(problem, search.best().problem->limits, opposition.giving,
+                                        footing.asks_for_bends(), resolve, control);
+  // A local search that ends above zero confirms that limits stand against each other; but for those that more and
+  // other bends might keep, of which it has tried few.
+  const std::optional<std::string> proof = too_fast(problem);
+  explanation.certain = settled && (!footing.asks_for_bends() || proof);
+  if (proof) conflict.why = *proof;
+  if (explanation.certain) conflict.text = conflict_text(conflict);
   return explanation;
 }
 

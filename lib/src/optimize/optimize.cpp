@@ -2,6 +2,9 @@
 
 #include "glissade/optimize/optimize.hpp"
 
+#include "glissade/core/quantity.hpp"
+#include "glissade/core/words.hpp"
+
 #include "optimize/end_conflict.hpp"
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_bound.hpp"
@@ -43,12 +46,15 @@ std::vector<Passages> all_passages(const Limits& limits) {
   return all;
 }
 
-std::string none_found_text(const std::vector<std::string>& nearly) {
+std::string none_found_text(const Conflict& nearest) {
   std::string text = "no track was found that keeps every limit, and no conflict between them is certain";
-  for (std::size_t i = 0; i < nearly.size(); ++i) {
-    if (i == 0) text += "; the closest one breaks ";
-    if (i > 0) text += i + 1 == nearly.size() ? " and " : ", ";
-    text += nearly[i];
+  std::vector<std::string> names;
+  for (const StatedLimit& stated : nearest.limits) names.push_back(stated.limit.key());
+  if (!names.empty()) text += "; the closest one breaks " + listed(names);
+  for (std::size_t i = 0; i < nearest.relaxations.size(); ++i) {
+    const Relaxation& relaxation = nearest.relaxations[i];
+    text += (i == 0 ? "; one was found for " : ", or ") + relaxation.limit.key() + " " +
+            quantity_text(relaxation.needed, relaxation.limit.dimension());
   }
   return text;
 }
@@ -63,6 +69,87 @@ const char* better_text(const Objective& objective) {
     default:
       return "faster";
   }
+}
+
+/// The better one of two ends.
+bool is_better(const Candidate& candidate, const std::optional<Candidate>& best) {
+  if (!best) return true;
+  if (candidate.kept != best->kept) return candidate.kept;
+  return candidate.kept && candidate.found->objective < best->found->objective;
+}
+
+/// One problem's search, from its own starts and from tracks that keep its limits.
+class Course {
+ public:
+  Course(const Problem& problem, const OptimizeOptions& options, SearchControl& control,
+         const Progress& progress)
+      : problem_(problem), control_(control), searcher_(problem, options, control, progress) {}
+
+  void from_starts() {
+    for (const Passages& way : ways_) {
+      if (stopped_) return;
+      take(searcher_.search(way));
+    }
+  }
+
+  void from(const std::vector<Foothold>& footholds) {
+    for (const Foothold& foothold : footholds) {
+      if (stopped_) return;
+      take(searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
+    }
+  }
+
+  /// Where the limits lead none of the starts to a track that keeps them: tracks that do, if there are any.
+  void from_footholds() {
+    control_.most_rounds = kFarRounds;
+    from(footholds_of(problem_, ways_, control_));
+  }
+
+  /// @return what stands in the way, if no track keeps all limits
+  [[nodiscard]] Conflict explained(const Resolve& resolve, bool& certain) {
+    control_.most_rounds = kFarRounds;
+    Explanation explanation = explain(problem_, ways_, resolve, control_);
+    from(explanation.footholds);
+    stopped_ = stopped_ || control_.stop();
+    certain = explanation.certain && !best_->kept && !stopped_;
+    return std::move(explanation.conflict);
+  }
+
+  [[nodiscard]] const Candidate& best() const { return *best_; }
+  [[nodiscard]] bool kept() const { return best_ && best_->kept; }
+  [[nodiscard]] bool stopped() const { return stopped_; }
+
+ private:
+  static constexpr int kFarRounds = 10;
+
+  void take(Candidate candidate) {
+    stopped_ = stopped_ || candidate.stopped;
+    if (is_better(candidate, best_)) best_ = std::move(candidate);
+  }
+
+  const Problem& problem_;
+  SearchControl& control_;
+  Searcher searcher_;
+  std::vector<Passages> ways_ = all_passages(problem_.limits);
+  std::optional<Candidate> best_;
+  bool stopped_ = false;
+};
+
+/// How a problem with another bound is solved.
+Resolve resolve_with(const OptimizeOptions& options, SearchControl& control) {
+  static const Progress quiet;
+  const auto anew = [&](const Problem& problem) {
+    Course course(problem, options, control, quiet);
+    course.from_starts();
+    if (!course.kept() && !course.stopped()) course.from_footholds();
+    return course.kept();
+  };
+  const auto from = [&](const Problem& problem, const Foothold& foothold) {
+    Course course(problem, options, control, quiet);
+    course.from({foothold});
+    return course.kept();
+  };
+  return {anew, from};
 }
 
 }  // namespace
@@ -107,39 +194,23 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     return optimum;
   }
 
-  Searcher searcher(problem, options, control, progress);
-  std::optional<Candidate> best;
-  const std::vector<Passages> all = all_passages(problem.limits);
-  for (const Passages& passages : all) {
-    Candidate candidate = searcher.search(passages);
-    stopped = stopped || candidate.stopped;
-    const bool better = !best || (candidate.kept && !best->kept) ||
-                        (candidate.kept && best->kept && candidate.found->objective < best->found->objective);
-    if (better) best = std::move(candidate);
-    if (stopped) break;
-  }
+  Course course(problem, options, control, progress);
+  course.from_starts();
+  Conflict conflict;
+  bool certain = false;
+  if (!course.kept() && !course.stopped())
+    conflict = course.explained(resolve_with(options, control), certain);
+  stopped = course.stopped();
 
-  std::optional<Conflict> conflict;
-  std::vector<std::string> nearly;
-  if (!best->kept && !stopped) {
-    control.most_rounds = 10;
-    Explanation explanation = explain(problem, all, control);
-    conflict = std::move(explanation.conflict);
-    nearly = std::move(explanation.nearly);
-    if (!conflict && !explanation.z.empty()) {
-      best = searcher.search_from(all[explanation.passages], explanation.mesh, explanation.z);
-    }
-    stopped = best->stopped || control.stop();
-  }
-
-  if (best->kept) {
-    const Found& found = *best->found;
-    optimum.centerline = best->track;
-    report.travel_time = best->judgement.travel_time;
-    report.exit_speed = best->judgement.exit_speed;
-    report.checks = best->judgement.checks;
+  if (course.kept()) {
+    const Candidate& best = course.best();
+    const Found& found = *best.found;
+    optimum.centerline = best.track;
+    report.travel_time = best.judgement.travel_time;
+    report.exit_speed = best.judgement.exit_speed;
+    report.checks = best.judgement.checks;
     report.first_order_residual = found.residual;
-    report.active = active_limits(*best->problem, priced(*best->problem, found, options, control));
+    report.active = active_limits(*best.problem, priced(*best.problem, found, options, control));
     const bool converged = found.residual <= options.tolerance && !stopped;
     report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
     if (converged) {
@@ -151,18 +222,13 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     } else {
       report.message = "every limit holds, but the first-order residual stayed above its tolerance";
     }
-  } else if (stopped && !conflict) {
+  } else if (stopped) {
     report.status = OptimizeStatus::no_track_found;
     report.message = "ended early, before any track kept every limit";
   } else {
-    if (conflict) {
-      report.status = OptimizeStatus::infeasible;
-      report.conflict = *conflict;
-      report.message = conflict->text;
-    } else {
-      report.status = OptimizeStatus::no_track_found;
-      report.message = none_found_text(nearly);
-    }
+    report.status = certain ? OptimizeStatus::infeasible : OptimizeStatus::no_track_found;
+    report.message = certain ? conflict.text : none_found_text(conflict);
+    report.conflict = std::move(conflict);
   }
   finish();
   return optimum;

@@ -45,7 +45,7 @@ std::string conflict_text(const Conflict& conflict) {
     if (stated.value) word += " " + quantity_text(*stated.value, stated.limit.dimension());
     words.push_back(std::move(word));
   }
-  std::string text = listed(words) + " cannot be met together";
+  std::string text = listed(words) + (words.size() == 1 ? " cannot be met" : " cannot be met together");
   for (std::size_t i = 0; i < conflict.relaxations.size(); ++i) {
     const Relaxation& relaxation = conflict.relaxations[i];
     text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit.key() + " " +

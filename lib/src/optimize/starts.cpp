@@ -135,6 +135,112 @@ std::vector<GuessCurve> winding_starts(const ScaledProblem& problem) {
   return curves;
 }
 
+std::vector<GuessCurve> constant_speed_starts(const ScaledProblem& problem) {
+  constexpr int kSteps = 128;
+  constexpr int kHalvings = 40;
+  constexpr double kSteepest = 1.3;  // [rad], at the start
+  const Vec2 finish = expected_finish(problem);
+  const double mu = problem.rides[problem.objective_ride].friction;
+  const double delta = math::atan(mu);
+  const double along = finish.x * math::cos(delta) + finish.y * math::sin(delta);
+  const double across = finish.y * math::cos(delta) - finish.x * math::sin(delta);
+  if (!(mu > 0.0) || !(across > 0.0)) return {};
+  // docs/theory.md (C3), (C4), (C7): psi = zeta - delta, by the rate k at which tan(psi/2) falls.
+  const auto entry = [&](double rate) {
+    return math::atan2(math::sin(rate * across), math::cos(rate * across) - math::exp(-rate * along));
+  };
+  double low = 0.0;
+  double high = std::numbers::pi / across;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double rate = 0.5 * (low + high);
+    (entry(rate) + delta < kSteepest ? low : high) = rate;
+  }
+  const double first = entry(low);
+  if (!(first > 0.0)) return {};
+  GuessCurve curve;
+  const double last = first - low * across;
+  const double whole = math::log(math::tan(0.5 * first) / math::tan(0.5 * last)) / low;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    const double psi = 2.0 * math::atan(math::tan(0.5 * first) * math::exp(-low * share * whole));
+    curve.sigma.push_back(share);
+    curve.zeta.push_back(psi + delta);
+  }
+  curve.length = std::max(whole - problem.lead_in - problem.lead_out, 0.2 * whole);
+  return {curve};
+}
+
+namespace {
+
+/// A piece of a staircase.
+struct Step {
+  double length = 0.0;
+  double slope_angle = 0.0;
+};
+
+GuessCurve staircase(const std::vector<Step>& steps, double ends) {
+  constexpr int kSteps = 256;
+  GuessCurve curve;
+  double whole = 0.0;
+  for (const Step& step : steps) whole += step.length;
+  double done = 0.0;
+  auto step = steps.begin();
+  for (int i = 0; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    while (step + 1 != steps.end() && share * whole > done + step->length) done += (step++)->length;
+    curve.sigma.push_back(share);
+    curve.zeta.push_back(step->slope_angle);
+  }
+  curve.length = std::max(whole - ends, 0.2 * whole);
+  return curve;
+}
+
+}  // namespace
+
+std::vector<GuessCurve> stepped_starts(const ScaledProblem& problem) {
+  constexpr double kSteepest = 1.3;   // [rad]
+  constexpr double kFlattest = -0.6;  // [rad]
+  const Vec2 finish = expected_finish(problem);
+  double steep = kSteepest;
+  double flat = kFlattest;
+  for (const LimitSpec& limit : problem.limits) {
+    if (limit.measure != Measure::slope_angle) continue;
+    if (limit.side > 0) steep = std::min(steep, limit.bound);
+    if (limit.side < 0) flat = std::max(flat, limit.bound);
+  }
+  const double mean = math::atan2(finish.y, finish.x);
+  if (!(flat < mean && mean < steep)) return {};
+  const auto steps_of = [&](const std::vector<double>& runs, double softness) {
+    // Each share of the run in two: steep, then flat.
+    const double down = mean + softness * (steep - mean);
+    const double level = mean + softness * (flat - mean);
+    const double part = (finish.y / finish.x - math::tan(level)) / (math::tan(down) - math::tan(level));
+    std::vector<Step> steps;
+    for (const double run : runs) {
+      steps.push_back({run * finish.x * part / math::cos(down), down});
+      steps.push_back({run * finish.x * (1.0 - part) / math::cos(level), level});
+    }
+    return steps;
+  };
+  // One long ledge, early on: shares of all that is steep, and of all that is flat, in front of its end.
+  const auto ledge = [&](double before, double flat_share) {
+    std::vector<Step> steps = steps_of({1.0, 1.0}, 1.0);
+    steps[0].length *= before;
+    steps[1].length *= flat_share;
+    steps[2].length *= 1.0 - before;
+    steps[3].length *= 1.0 - flat_share;
+    return steps;
+  };
+  const double ends = problem.lead_in + problem.lead_out;
+  std::vector<GuessCurve> curves;
+  curves.push_back(staircase(ledge(0.1, 0.7), ends));
+  curves.push_back(staircase(ledge(0.2, 0.5), ends));
+  curves.push_back(staircase(steps_of({1.0 / 3, 1.0 / 3, 1.0 / 3}, 0.5), ends));
+  curves.push_back(staircase(steps_of({0.25, 0.25, 0.25, 0.25}, 1.0), ends));
+  curves.push_back(staircase(steps_of({1.0 / 7, 2.0 / 7, 4.0 / 7}, 0.5), ends));
+  return curves;
+}
+
 std::optional<double> unlimited_travel_time(const Problem& problem) {
   const Body& body = problem.body;
   const bool applies = problem.finish.kind == FinishKind::point && is_sliding_point(body) &&

@@ -15,6 +15,14 @@ namespace glissade::optimizer {
 /// Curves that wind about the straight line, from few bends to many: ways to wear energy down, or to be long.
 [[nodiscard]] std::vector<GuessCurve> winding_starts(const ScaledProblem& problem);
 
+/// Staircases between the steepest and the flattest slope that the limits allow, one long ledge first: the body is
+/// braked where a steep piece meets a flat one, most of all where it is fast.
+[[nodiscard]] std::vector<GuessCurve> stepped_starts(const ScaledProblem& problem);
+
+/// The track on which a body of some speed keeps it (docs/theory.md); none without friction, or where the mean slope
+/// is not steeper than the friction angle.
+[[nodiscard]] std::vector<GuessCurve> constant_speed_starts(const ScaledProblem& problem);
+
 /// Exact least travel time without limits, from rest, without drag, to a point [s]; none where that theory
 /// does not apply.
 [[nodiscard]] std::optional<double> unlimited_travel_time(const Problem& problem);

@@ -26,7 +26,8 @@ enum class OptimizeStatus {
   optimal,                 ///< every limit holds, first-order conditions met
   feasible_not_converged,  ///< every limit holds, but the search ended early (message says why)
   infeasible,              ///< the limits contradict each other; see conflict
-  no_track_found           ///< no track held every limit: the search ended early, or confirmed no conflict
+  no_track_found           ///< no track held every limit: the search ended early, or confirmed no conflict;
+                           ///< conflict then tells what the closest track breaks
 };
 
 /// @return "optimal", "feasible, not converged", "infeasible", "no track found"
@@ -48,11 +49,13 @@ struct ActiveLimit {
   double price = 0.0;
 };
 
-/// The smallest change of one limit, all others kept, that would make the problem solvable.
+/// The smallest change of one limit, all others kept, that was found to make the problem solvable.
 struct Relaxation {
   LimitName limit;
-  double value = 0.0;   ///< the bound now, SI
-  double needed = 0.0;  ///< the bound that would do, SI
+  double value = 0.0;  ///< the bound now, SI
+  /// The bound that would do, SI: the search has solved the problem with it. It is a number of four digits in the
+  /// unit that messages give it in, rounded away from the least that a local search found.
+  double needed = 0.0;
 };
 
 /// A limit as the problem states it.
@@ -88,7 +91,9 @@ struct OptimizeReport {
   double first_order_residual = 0.0;
   std::vector<LimitCheck> checks;   ///< one for each limit, sampled by the referee ten times finer
   std::vector<ActiveLimit> active;  ///< by name
-  Conflict conflict;                ///< of an infeasible problem
+  /// Of a problem without a track. Where it is not called infeasible: what the closest track breaks, and what
+  /// would do; without text.
+  Conflict conflict;
 
   bool ended_early = false;  ///< asked to, or the time budget ran out
   int iterations = 0;        ///< outer rounds: meshes, working sets, restarts

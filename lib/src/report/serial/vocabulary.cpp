@@ -155,6 +155,7 @@ Json active_json(const ActiveLimit& active, const Objective& objective) {
 Json search_json(const OptimizeReport& report) {
   const bool found = report.travel_time > 0.0;
   const bool contradictory = report.status == OptimizeStatus::infeasible;
+  const bool told = contradictory || !report.conflict.relaxations.empty();
   Json json;
   json["status"] = to_text(report.status);
   json["message"] = report.message;
@@ -170,7 +171,7 @@ Json search_json(const OptimizeReport& report) {
   json["evaluations"] = report.evaluations;
   json["seconds"] = report.seconds;
   json["conflict"] = contradictory ? conflict_json(report.conflict) : Json(nullptr);
-  json["relaxations"] = contradictory ? relaxations_json(report.conflict) : Json(nullptr);
+  json["relaxations"] = told ? relaxations_json(report.conflict) : Json(nullptr);
   return json;
 }
 

@@ -1,0 +1,93 @@
+// The bound that the energy equation sets to slowness, against rides on random tracks.
+
+#include "optimize/energy_left.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/motion/motion.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+using namespace glissade;
+using optimizer::least_speed_left;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Slope angles that wander within bounds, as arcs.
+std::shared_ptr<ClothoidSpline> wandering(testing::Random& random, double flattest, double steepest) {
+  double slope = random.between(flattest, steepest);
+  const double entry = slope;
+  std::vector<ClothoidSegment> segments;
+  for (int i = random.integer(2, 12); i > 0; --i) {
+    const double next = random.between(flattest, steepest);
+    const double length = random.between(0.3, 3.0);
+    const double curvature = (slope - next) / length;
+    segments.push_back({length, curvature, curvature});
+    slope = next;
+  }
+  return std::make_shared<ClothoidSpline>(Angle::from_radians(entry), std::move(segments));
+}
+
+}  // namespace
+
+TEST_CASE("no ride within slopes leaves less speed than the energy equation says") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int arrived = 0;
+  int close = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Problem problem;
+    const double flattest = random.between(-40.0, 20.0) * kDegree;
+    const double steepest = random.between(30.0, 89.0) * kDegree;
+    const auto track = wandering(random, flattest, steepest);
+    const CenterlinePoint end = track->at(track->length());
+    problem.endpoints = {end.x, end.drop};
+    problem.body.friction = Friction::from_coefficient(random.between(0.0, 0.5));
+    if (random.integer(0, 1) == 1) problem.body.entry_speed = random.between(0.5, 4.0);
+    problem.limits.slope_angle = {flattest, steepest};
+    const Motion motion(track, problem.body, problem.gravity);
+    if (!motion.arrived()) continue;
+    ++arrived;
+    const std::optional<double> least = least_speed_left(problem);
+    if (!least) continue;
+    CAPTURE(i, flattest, steepest, problem.body.friction.coefficient());
+    const double left = motion.exit_speed();
+    CHECK(left >= *least * (1.0 - 1e-6));
+    close += left < 1.1 * *least ? 1 : 0;
+  }
+  CAPTURE(arrived, close);
+  CHECK(arrived > 300);
+  // It says something.
+  CHECK(close > arrived / 20);
+}
+
+TEST_CASE("without friction the speed at the finish is known; with it two slopes rub off the most") {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  CHECK(least_speed_left(problem).value() == Approx(std::sqrt(2.0 * problem.gravity * 5.0)).epsilon(1e-14));
+  // h of docs/optimization.md is concave between the two: its envelope there is the chord.
+  problem.endpoints = {8.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.25);
+  problem.limits.slope_angle = {9.0 * kDegree, 60.0 * kDegree};
+  const auto h = [&](double q) { return 2.0 * problem.gravity * (q - 0.25) * std::exp(-0.5 * std::atan(q)); };
+  const double flat = std::tan(9.0 * kDegree);
+  const double steep = std::tan(60.0 * kDegree);
+  const double chord = h(flat) + (5.0 / 8.0 - flat) / (steep - flat) * (h(steep) - h(flat));
+  const double speed = std::sqrt(8.0 * chord * std::exp(0.5 * 9.0 * kDegree));
+  CHECK(least_speed_left(problem).value() == Approx(speed).epsilon(1e-4));
+  CHECK(*least_speed_left(problem) < speed);
+  // Where a track may climb as steeply as it likes there is no bound, nor with drag.
+  problem.limits.slope_angle.lowest.reset();
+  CHECK(!least_speed_left(problem));
+  problem.limits.slope_angle.lowest = 9.0 * kDegree;
+  problem.body.drag_per_metre = 0.01;
+  CHECK(!least_speed_left(problem));
+}
