@@ -35,17 +35,24 @@ LawPtr stream_law(const StreamDesign& design, const CrossSectionDesign& section)
   return std::make_shared<const BulkStream>(shape);
 }
 
-LawPtr law_of(const BodyDesign& design) {
-  if (design.rolling) {
-    BallShape shape;
-    shape.radius = design.rolling->radius;
-    shape.groove_half_angle = design.rolling->groove_half_angle;
-    shape.centre_height = design.centre_height;
-    shape.grip = design.rolling->grip;
-    return std::make_shared<const RollingBall>(shape);
-  }
-  const double height = design.centre_height.value_or(0.0);
+// The law of each kind of body.
+
+LawPtr law_of(const SlidingDesign&, const BodyDesign& body) {
+  const double height = body.centre_height.value_or(0.0);
   return height == 0.0 ? nullptr : std::make_shared<const Rider>(height);
+}
+
+LawPtr law_of(const RollingDesign& ball, const BodyDesign& body) {
+  BallShape shape;
+  shape.radius = ball.radius;
+  shape.groove_half_angle = ball.groove_half_angle;
+  shape.centre_height = body.centre_height;
+  shape.grip = ball.grip;
+  return std::make_shared<const RollingBall>(shape);
+}
+
+LawPtr law_of(const BodyDesign& body) {
+  return std::visit([&](const auto& kind) { return law_of(kind, body); }, body.kind);
 }
 
 }  // namespace
@@ -108,9 +115,8 @@ std::string pipeline::friction_text(const Body& body, const Stall& stall) {
   for (const FrictionChange& change : body.friction_changes) {
     if (change.from <= stall.arc_length) friction = change.friction;
   }
-  const bool rolls = body.law && body.law->kind() == "rolling";
-  return (rolls ? "the angle of rolling resistance, " : "the friction angle, ") +
-         angle_text(friction.angle());
+  const std::string_view resistance = body.law ? body.law->resistance_angle_name() : kFrictionAngleName;
+  return "the " + std::string(resistance) + ", " + angle_text(friction.angle());
 }
 
 namespace {

@@ -81,12 +81,13 @@ ReportCheck optimality(const Track& track) {
 
 /// Whether a ball rolls all the way; fail where it slips.
 std::optional<ReportCheck> rolling(const Design& design, const Track& track) {
-  if (!design.body.rolling) return {};
+  const RollingDesign* const ball = design.body.rolling();
+  if (ball == nullptr) return {};
   const QuantityPeak peak = track.motion.highest(0);
   const std::string needed =
       std::isinf(peak.value) ? "friction without bound" : "friction of " + rounded_text(peak.value, 3);
   const std::string place = " at s = " + length_text(peak.arc_length);
-  const std::optional<Friction>& grip = design.body.rolling->grip;
+  const std::optional<Friction>& grip = ball->grip;
   const std::string name = "The ball rolls and does not slip";
   if (!grip)
     return ReportCheck{name, Verdict::not_checked,

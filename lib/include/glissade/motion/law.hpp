@@ -40,6 +40,9 @@ struct LawState {
   double drive = 0.0;        ///< g sin(zeta) less drag [m/s^2]
 };
 
+/// What the resistance of a sliding body is called where it is an angle.
+inline constexpr std::string_view kFrictionAngleName = "friction angle";
+
 class Law;
 /// How laws travel; none stands for the sliding point, Coulomb's law.
 using LawPtr = std::shared_ptr<const Law>;
@@ -60,6 +63,9 @@ class Law {
 
   /// @return the word that a design file uses, e.g. "rolling"
   [[nodiscard]] virtual std::string_view kind() const noexcept = 0;
+
+  /// @return what its resistance is called where it is told as an angle
+  [[nodiscard]] virtual std::string_view resistance_angle_name() const noexcept { return kFrictionAngleName; }
 
   /// @return f, inertia over mass; >= 1
   [[nodiscard]] virtual double inertia() const noexcept { return 1.0; }
