@@ -10,6 +10,7 @@
 #include "app/table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 
@@ -52,6 +53,14 @@ std::string kind_text(const BodyDesign& body) {
   visit_measures(body, words);
   return ", " + std::string(std::visit([](const auto& kind) { return kind.kDoes; }, body.kind)) + ": " +
          words.text();
+}
+
+/// "Rolling" of a rolling body.
+std::string law_label(const BodyDesign& body) {
+  if (body.slides()) return "Law";
+  std::string word(std::visit([](const auto& kind) { return kind.kKind; }, body.kind));
+  word.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(word.front())));
+  return word;
 }
 
 std::string value_text(const LawQuantity& quantity, double value) {
@@ -121,13 +130,13 @@ std::string law_lines(const Design& design, const Track& track) {
     std::string text = std::string(quantity.name) + " " + value_text(quantity, peak.value) +
                        (std::isinf(peak.value) ? ", " : " at most, ") + length_text(peak.arc_length) +
                        " down the track";
-    if (quantity.highest) {
+    if (quantity.highest && quantity.verdict) {
       const std::string there = rounded_text(*quantity.highest, 4) + " there is";
-      text += peak.beyond_from ? "\n" + emphasised("slips", Emphasis::bad) + " from " +
-                                     length_text(*peak.beyond_from) + " on: more than the " + there
-                               : "\nless than the " + there + ": it does not slip";
+      text += peak.beyond_from ? "\n" + emphasised(std::string(quantity.verdict->broken), Emphasis::bad) +
+                                     " from " + length_text(*peak.beyond_from) + " on: more than the " + there
+                               : "\nless than the " + there + ": " + std::string(quantity.verdict->kept);
     }
-    lines += labelled(design.body.rolling() != nullptr ? "Rolling" : "Law", text);
+    lines += labelled(law_label(design.body), text);
   }
   return lines;
 }

@@ -272,6 +272,58 @@ TEST_CASE("degrees are made by Angle alone, and a quarter turn has one name") {
   CHECK(found == std::vector<std::string>{});
 }
 
+TEST_CASE("a limit, a section and a law stand in the files that docs/development.md names") {
+  const auto files_with = [](const std::string& words) {
+    const std::regex pattern("\\b(" + words + ")\\b");
+    std::set<std::string> names;
+    for (const char* folder : {"lib", "app"}) {
+      for (const fs::path& file : sources_below(folder)) {
+        if (std::regex_search(text_of(file), pattern)) names.insert(relative_name(file));
+      }
+    }
+    return names;
+  };
+  const std::string in = "lib/include/glissade/";
+  CHECK(files_with("highest_curvature_load") ==
+        std::set<std::string>{in + "task/limits.hpp", "lib/src/task/limit_catalogue.cpp",
+                              "lib/src/referee/judgement.cpp", "lib/src/optimize/measures.cpp"});
+  CHECK(files_with("TrackGroove") == std::set<std::string>{in + "section/measures.hpp",
+                                                           in + "section/cross_section.hpp",
+                                                           "lib/src/section/cross_section.cpp"});
+  CHECK(files_with("RollingBall|RollingDesign") ==
+        std::set<std::string>{in + "motion/laws/rolling_ball.hpp", "lib/src/motion/laws/rolling_ball.cpp",
+                              in + "design/body_design.hpp", "lib/src/pipeline/body.cpp"});
+}
+
+TEST_CASE("the README names the packages that each component links") {
+  const std::map<std::string, std::string> names = {
+      {"NLopt", "NLopt"}, {"sleef", "SLEEF"},     {"yaml-cpp", "yaml-cpp"}, {"cairo", "cairo"},
+      {"ZLIB", "zlib"},   {"OpenSSL", "OpenSSL"}, {"fmt", "fmt"},           {"librsvg", "librsvg"},
+      {"TBB", "TBB"},     {"Threads", ""}};
+  std::istringstream readme(text_of(fs::path(GLISSADE_SOURCE_DIR) / "README.md"));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(readme, line);) {
+    if (line.starts_with("| `")) rows.push_back(line);
+  }
+  static const std::regex kNeeds(R"(glissade_needs(?:_module)?\((\w+) ([\w-]+))");
+  std::size_t found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLISSADE_SOURCE_DIR) / "lib/src")) {
+    if (entry.path().filename() != "CMakeLists.txt") continue;
+    const std::string text = text_of(entry.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), kNeeds), end; match != end; ++match) {
+      ++found;
+      const std::string component = "`" + (*match)[1].str() + "`";
+      const std::string& package = names.at((*match)[2]);
+      const bool told = std::any_of(rows.begin(), rows.end(), [&](const std::string& row) {
+        return row.find(component) != std::string::npos && row.find(package) != std::string::npos;
+      });
+      INFO(component << " links " << package);
+      CHECK(told);
+    }
+  }
+  CHECK(found >= 10);
+}
+
 TEST_CASE("the program sees nothing of the library but its public headers") {
   std::vector<std::string> found;
   for (const fs::path& file : sources_below("app")) {

@@ -160,17 +160,18 @@ Issue pipeline::law_end_problem(const Design& design, const LawEnd& end, double 
 std::optional<Issue> law_problem(const Design& design, const Track& track) {
   const std::vector<LawQuantity> quantities = track.motion.quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if (!quantities[i].highest || quantities[i].ends_ride) continue;
+    const LawQuantity& quantity = quantities[i];
+    if (!quantity.highest || !quantity.verdict) continue;
     const QuantityPeak peak = track.motion.highest(i);
     if (!peak.beyond_from) continue;
-    const std::string most =
-        std::isinf(peak.value) ? "no friction is enough there" : "it needs " + rounded_text(peak.value, 3);
+    const std::string most = std::isinf(peak.value) ? "has no bound" : "is " + rounded_text(peak.value, 3);
     return Issue{design.where("body"),
-                 "the ball slips, from " + length_text(*peak.beyond_from) + " down the track on",
-                 "Rolling needs more friction than the " + rounded_text(*quantities[i].highest, 3) +
-                     " there is: " + most + " " + length_text(peak.arc_length) +
-                     " down the track. The ride is that of a ball that rolls all the way.",
-                 "a track less steep (limits: slope_angle), or a ball and a track that grip better"};
+                 std::string(quantity.verdict->broken) + ", from " + length_text(*peak.beyond_from) +
+                     " down the track on",
+                 "The " + std::string(quantity.name) + " " + most + " " + length_text(peak.arc_length) +
+                     " down the track; there is " + rounded_text(*quantity.highest, 3) + ". " +
+                     std::string(quantity.verdict->why),
+                 std::string(quantity.verdict->hint)};
   }
   return {};
 }

@@ -19,6 +19,15 @@ struct Resistance {
   double by_s_s = 0.0;  ///< [1/m^2]
 };
 
+/// What people are told of a quantity that is held against its bound while the ride goes on.
+struct LawVerdict {
+  std::string_view check;   ///< a sentence that is true where it is kept: "The ball rolls and does not slip"
+  std::string_view kept;    ///< "it does not slip"
+  std::string_view broken;  ///< "the ball slips"
+  std::string_view why;     ///< what that means for the ride
+  std::string_view hint;    ///< what to try
+};
+
 /// What a law has to say beyond speed, time and load: a column of a ride.
 struct LawQuantity {
   std::string_view key;   ///< as in JSON, e.g. "friction_needed"
@@ -27,6 +36,8 @@ struct LawQuantity {
   /// What it must not exceed for the law to hold, if anything.
   std::optional<double> highest;
   bool ends_ride = false;  ///< beyond `highest` the ride is not told; otherwise it goes on, and a check fails
+  std::optional<LawVerdict> verdict =
+      {};  ///< of one that does not end the ride, whether or not there is a bound
 };
 
 /// The body at a place of a track, as a law's quantities are computed from it. Per unit mass, SI.
