@@ -295,6 +295,37 @@ TEST_CASE("a limit, a section and a law stand in the files that docs/development
                               in + "design/body_design.hpp", "lib/src/pipeline/body.cpp"});
 }
 
+TEST_CASE("every constant of the search says where it comes from") {
+  // docs/optimization.md, method; indices and constants of the language apart.
+  static const std::set<std::string> kNames = {"kNodes",  "kOwn",       "kZeta",     "kFirst",   "kSecond",
+                                               "kLength", "kUnlimited", "kInfinity", "kOfLength"};
+  static const std::regex kConstant(
+      R"(^ *(?:static |inline )*constexpr [^=({]*\b(k[A-Z]\w*)(?:\[\d*\])? ?[={])");
+  static const std::regex kOrigin(
+      R"(//.*\b([Tt]heory|[Aa]ccuracy|[Rr]ounding|[Bb]udget|[Mm]easured|[Tt]aste)\b)");
+  std::vector<std::string> found;
+  std::size_t seen = 0;
+  for (const fs::path& file : sources_below("lib/src/optimize")) {
+    std::istringstream lines(text_of(file));
+    std::string comment;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t begins = line.find_first_not_of(' ');
+      const bool is_comment = begins != std::string::npos && line.compare(begins, 2, "//") == 0;
+      std::smatch match;
+      if (std::regex_search(line, match, kConstant) &&
+          (!kNames.contains(match[1]) || std::regex_search(line, kOrigin))) {
+        ++seen;
+        if (!std::regex_search(line, kOrigin) && !std::regex_search(comment, kOrigin)) {
+          found.push_back(relative_name(file) + ": " + line);
+        }
+      }
+      comment = is_comment ? comment + line : "";
+    }
+  }
+  CHECK(seen > 80);
+  CHECK(found == std::vector<std::string>{});
+}
+
 TEST_CASE("the README names the packages that each component links") {
   const std::map<std::string, std::string> names = {
       {"NLopt", "NLopt"}, {"sleef", "SLEEF"},     {"yaml-cpp", "yaml-cpp"}, {"cairo", "cairo"},

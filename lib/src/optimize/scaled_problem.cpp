@@ -335,8 +335,8 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   // In a valley hardly wider than the body is high its centre hardly moves and is pressed without bound: a ball
   // would roll up the tightest bend there is to touch the finish. Unless a radius is asked for, it is at least
   // twice the height.
-  constexpr double kFits = 0.98;
-  constexpr double kFitsWell = 0.5;
+  constexpr double kFits = 0.98;     // theory: below 1
+  constexpr double kFitsWell = 0.5;  // taste
   const double height = out.rides.front().height;
   if (height > 0.0) {
     list.add_built_in(LimitId::room_for_body, Measure::curvature,
@@ -344,14 +344,14 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
     out.limits.back().scale = out.limits.back().bound;
   }
   // No track is shorter than a chord; none that is worth building is many times longer.
-  constexpr double kShortest = 0.9;
-  constexpr double kLongest = 20.0;
-  constexpr double kShortestCore = 0.05;
+  constexpr double kShortest = 0.9;       // theory: below 1
+  constexpr double kLongest = 20.0;       // taste
+  constexpr double kShortestCore = 0.05;  // taste
   list.add_built_in(LimitId::not_shorter_than_chord, Measure::arc_length,
                     std::max(kShortest, out.lead_in + out.lead_out + kShortestCore));
   list.add_built_in(LimitId::not_many_chords_long, Measure::arc_length, kLongest);
   // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
-  constexpr double kCreep = 1e-6;
+  constexpr double kCreep = 1e-6;  // taste
   list.add_built_in(LimitId::arrival, Measure::arrival, kCreep);
   list.add_no_choking();
   // A stream flatter than the floor flies on over it.

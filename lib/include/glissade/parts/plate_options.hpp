@@ -148,6 +148,7 @@ enum class CornerJoint {
   tab_and_slot  ///< tabs of the floor through slots of the walls
 };
 
+/// How walls and floor meet along a corner.
 struct CornerOptions {
   CornerJoint joint = CornerJoint::butt;
   double lap = 15e-3;         ///< by which the floor stands out [m]
