@@ -287,9 +287,9 @@ TEST_CASE("a limit, a section and a law stand in the files that docs/development
   CHECK(files_with("highest_curvature_load") ==
         std::set<std::string>{in + "task/limits.hpp", "lib/src/task/limit_catalogue.cpp",
                               "lib/src/referee/judgement.cpp", "lib/src/optimize/measures.cpp"});
-  CHECK(files_with("TrackGroove") == std::set<std::string>{in + "section/measures.hpp",
-                                                           in + "section/cross_section.hpp",
-                                                           "lib/src/section/cross_section.cpp"});
+  CHECK(files_with("TrackGroove") ==
+        std::set<std::string>{in + "section/measures.hpp", in + "section/cross_section.hpp",
+                              "lib/src/section/cross_section.cpp", "lib/src/section/shapes.cpp"});
   CHECK(files_with("RollingBall|RollingDesign") ==
         std::set<std::string>{in + "motion/laws/rolling_ball.hpp", "lib/src/motion/laws/rolling_ball.cpp",
                               in + "design/body_design.hpp", "lib/src/pipeline/body.cpp"});
