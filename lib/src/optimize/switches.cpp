@@ -124,8 +124,8 @@ Parabola beside_jump(const Vector& knots, const SlopeAngle& found, std::size_t f
   constexpr std::size_t kTests = 3;  // theory: a parabola has three coefficients
   // Gauss-Legendre: products of two parabolas are integrated exactly.
   constexpr double kOffset = 0.3872983346207417;  // theory: Gauss-Legendre, sqrt(3/5)/2
-  constexpr std::array<double, 3> kShare = {0.5 - kOffset, 0.5, 0.5 + kOffset};
-  constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  constexpr std::array<double, 3> kShare = {0.5 - kOffset, 0.5, 0.5 + kOffset};    // theory
+  constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};  // theory
   const double sign = backwards ? -1.0 : 1.0;
   const double origin = knots[from];
   const std::size_t reach = std::min(most, kTests + 1);

@@ -338,11 +338,10 @@ double Transcription::curvature(const Vector& z, std::size_t index) const {
 }
 
 bool Transcription::is_track(const Vector& z) const {
-  constexpr double kSteepest = 3.0;   // theory: below pi
-  constexpr double kShortest = 0.01;  // taste: below any track
-  constexpr double kLongest = 100.0;  // taste: above any track
-  constexpr double kTightest =
-      0.999;  // curvature times height: at 1 the body does not fit in; theory: below 1
+  constexpr double kSteepest = 3.0;    // theory: below pi
+  constexpr double kShortest = 0.01;   // taste: below any track
+  constexpr double kLongest = 100.0;   // taste: above any track
+  constexpr double kTightest = 0.999;  // curvature times height; theory: at 1 the body does not fit in
   const double length = z[layout_.length()];
   if (!(length > kShortest && length < kLongest)) return false;
   for (std::size_t i = 0; i < layout_.knots; ++i) {
