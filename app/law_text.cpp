@@ -9,6 +9,8 @@
 #include "app/summary.hpp"
 #include "app/table.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 
@@ -19,12 +21,46 @@ std::string angle_and_coefficient(Friction friction) {
   return angle_text(friction.angle()) + " (coefficient " + rounded_text(friction.coefficient(), 4) + ")";
 }
 
-std::string rolling_text(const BodyDesign& body) {
-  std::string text = ", rolls: radius " + length_text(body.rolling->radius);
-  if (body.rolling->groove_half_angle < Angle::from_degrees(90.0)) {
-    text += " in a groove of " + angle_text(2.0 * body.rolling->groove_half_angle);
+/// Names each measure of a kind of body.
+class KindWords {
+ public:
+  explicit KindWords(const BodyDesign& body) : body_(body) {}
+
+  void resistance(const char* key, const char*) { add(key, rounded_text(body_.friction.coefficient(), 4)); }
+  void length(const char* key, double value, double, double, const char*, const char*) {
+    add(key, length_text(value));
   }
-  return text + ", rolling resistance " + rounded_text(body.friction.coefficient(), 4);
+  void angle(const char* key, Angle value, Angle most, const char*, const char*) {
+    if (value != most) add(key, angle_text(value));
+  }
+  void grip(const std::optional<Friction>&, const char*) const {}
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void add(std::string key, const std::string& value) {
+    std::replace(key.begin(), key.end(), '_', ' ');
+    text_ += (text_.empty() ? "" : ", ") + key + " " + value;
+  }
+
+  const BodyDesign& body_;
+  std::string text_;
+};
+
+/// @return ", rolls: rolling resistance 0.01, radius 8 mm"
+std::string kind_text(const BodyDesign& body) {
+  KindWords words(body);
+  visit_measures(body, words);
+  return ", " + std::string(std::visit([](const auto& kind) { return kind.kDoes; }, body.kind)) + ": " +
+         words.text();
+}
+
+/// "Rolling" of a rolling body.
+std::string law_label(const BodyDesign& body) {
+  if (body.slides()) return "Law";
+  std::string word(std::visit([](const auto& kind) { return kind.kKind; }, body.kind));
+  word.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(word.front())));
+  return word;
 }
 
 std::string value_text(const LawQuantity& quantity, double value) {
@@ -37,8 +73,8 @@ std::string value_text(const LawQuantity& quantity, double value) {
 std::string resistance_text(const Design& design) {
   const BodyDesign& body = design.body;
   std::string text;
-  if (body.rolling) {
-    text = rolling_text(body);
+  if (!body.slides()) {
+    text = kind_text(body);
   } else if (body.friction_changes.size() > 1) {
     text = ", friction angle";
     for (const FrictionFrom& change : body.friction_changes) {
@@ -94,13 +130,13 @@ std::string law_lines(const Design& design, const Track& track) {
     std::string text = std::string(quantity.name) + " " + value_text(quantity, peak.value) +
                        (std::isinf(peak.value) ? ", " : " at most, ") + length_text(peak.arc_length) +
                        " down the track";
-    if (quantity.highest) {
+    if (quantity.highest && quantity.verdict) {
       const std::string there = rounded_text(*quantity.highest, 4) + " there is";
-      text += peak.beyond_from ? "\n" + emphasised("slips", Emphasis::bad) + " from " +
-                                     length_text(*peak.beyond_from) + " on: more than the " + there
-                               : "\nless than the " + there + ": it does not slip";
+      text += peak.beyond_from ? "\n" + emphasised(std::string(quantity.verdict->broken), Emphasis::bad) +
+                                     " from " + length_text(*peak.beyond_from) + " on: more than the " + there
+                               : "\nless than the " + there + ": " + std::string(quantity.verdict->kept);
     }
-    lines += labelled(design.body.rolling ? "Rolling" : "Law", text);
+    lines += labelled(law_label(design.body), text);
   }
   return lines;
 }

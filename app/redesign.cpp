@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/design/write.hpp"
 #include "glissade/io/atomic_file.hpp"
@@ -114,7 +115,7 @@ Table shapes_table(const Redesign& found) {
 
 /// "0.31 m of tower per m"
 std::string price_words(const LetterPrice& price) {
-  constexpr double kDegree = 0.017453292519943295;
+  constexpr double kDegree = Angle::from_degrees(1.0).radians();
   const bool angle = price.dimension == Dimension::angle;
   const double value = price.price * (angle ? kDegree : 1.0);
   const std::string unit = angle ? "deg" : price.dimension == Dimension::speed ? "m/s" : "m";

@@ -5,6 +5,7 @@
 #include "app/law_text.hpp"
 #include "app/summary.hpp"
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,9 +31,11 @@ std::string stall_text(const Track& track, const std::optional<Angle>& stall_ang
   if (!stall_angle) return "at no friction angle below 89.9 deg";
   if (stall_angle->radians() == 0.0) return "even without friction";
   const Angle margin = *stall_angle - track.motion.body().friction.angle();
-  const bool rolls = track.motion.body().law && track.motion.body().law->kind() == "rolling";
-  return (rolls ? "an angle of rolling resistance of " : "a friction angle of ") + angle_text(*stall_angle) +
-         " (margin " + angle_text(margin, 3) + ")";
+  const LawPtr& law = track.motion.body().law;
+  const std::string_view resistance = law ? law->resistance_angle_name() : kFrictionAngleName;
+  const bool vowel = std::string_view("aeiou").find(resistance.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + std::string(resistance) + " of " + angle_text(*stall_angle) + " (margin " +
+         angle_text(margin, 3) + ")";
 }
 
 }  // namespace

@@ -82,6 +82,21 @@ TEST_CASE("of a friction range the columns of motion follow for each end, the un
   CHECK_THAT(text, Contains(",0,0,0,0,0,,,,,,0,2.5,0,0,0\n"));
 }
 
+TEST_CASE("what a law says follows the motion that it is of, the unit last") {
+  StationRow row;
+  row.motion = MotionState{};
+  const double infinity = std::numeric_limits<double>::infinity();
+  const StationTable table{{row, StationRow{}},
+                           {{FrictionLevel::high, {{}, {}}, {{"burden_depth_m", {0.25, {}}}}}},
+                           {{"burden_depth_m", {0.5, {}}}, {"friction_needed", {infinity, {}}}}};
+  const TempDir dir;
+  write_stations_csv(dir / "stations.csv", table);
+  const std::string text = bytes_of(dir / "stations.csv");
+  CHECK_THAT(text, Contains(",drag_loss_j_per_kg,burden_depth_m,friction_needed,time_high_s,") &&
+                       Contains(",drag_loss_high_j_per_kg,burden_depth_high_m\n"));
+  CHECK_THAT(text, Contains(",0,0,0,0,0,0.5,inf,,,,,,0.25\n") && Contains(",inf,,,,,,,,,,,,,\n"));
+}
+
 TEST_CASE("an OpenSCAD file says unit, name and section, and holds doubles in full") {
   const TempDir dir;
   write_scad(dir / "solid.scad", shapes::tetrahedron(), {{0, 0, 1.0 / 3.0}, {0, 2, 0}},

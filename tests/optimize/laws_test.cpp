@@ -8,6 +8,7 @@
 #include "glissade/optimize/optimize.hpp"
 
 #include "support/catch.hpp"
+#include "support/neighbours.hpp"
 #include "support/random.hpp"
 
 #include <cmath>
@@ -40,35 +41,6 @@ Problem problem(double run, double drop, double mu, double entry_speed, LawPtr l
   problem.body.entry_speed = entry_speed;
   problem.body.law = std::move(law);
   return problem;
-}
-
-/// A track with its curvature changed a little and turned and scaled so that it ends where the other does.
-CenterlinePtr neighbour(const ClothoidSpline& track, testing::Random& random, double size) {
-  std::vector<ClothoidSegment> segments = track.segments();
-  const double scale = size / track.length();
-  const double wave = random.between(0.0, 4.0);
-  const double phase = random.between(0.0, 6.3);
-  double s = 0.0;
-  const auto change = [&](double at) {
-    return scale * std::cos(phase + wave * std::numbers::pi * at / track.length());
-  };
-  for (ClothoidSegment& segment : segments) {
-    segment.entry_curvature += change(s);
-    s += segment.length;
-    segment.exit_curvature += change(s);
-  }
-  const ClothoidSpline bent(track.entry_slope_angle(), segments);
-  const Endpoints from = bent.endpoints();
-  const Endpoints to = track.endpoints();
-  const double stretch = std::hypot(to.run, to.drop) / std::hypot(from.run, from.drop);
-  const double turn = std::atan2(to.drop, to.run) - std::atan2(from.drop, from.run);
-  for (ClothoidSegment& segment : segments) {
-    segment.length *= stretch;
-    segment.entry_curvature /= stretch;
-    segment.exit_curvature /= stretch;
-  }
-  return std::make_shared<const ClothoidSpline>(
-      Angle::from_radians(track.entry_slope_angle().radians() + turn), segments);
 }
 
 }  // namespace
@@ -139,7 +111,7 @@ TEST_CASE("laws: no neighbour of the fastest track is faster, whatever moves") {
         price += active.price;
     }
     for (int i = 0; i < 400; ++i) {
-      const CenterlinePtr other = neighbour(*spline, random, random.between(-0.05, 0.05));
+      const CenterlinePtr other = testing::neighbour(*spline, random, random.between(-0.05, 0.05));
       const Motion ride(other, one.problem.body);
       const double end = other->length();
       const double turned =

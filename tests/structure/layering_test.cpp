@@ -150,6 +150,37 @@ std::string relative_name(const fs::path& file) {
   return fs::relative(file, GLISSADE_SOURCE_DIR).generic_string();
 }
 
+/// @return the functions of a source that are longer than so many lines, with their length
+std::vector<std::string> long_functions(const std::string& text, std::size_t most) {
+  static const std::regex kBegins(
+      R"(^(  )?(?! |namespace|class|struct|enum|if |for |while |switch |else|do |return|case )[^=]*\(.*\{$)");
+  static const std::regex kContinues(
+      R"(^(  )?(?! |namespace|class|struct|enum|if |for |while |switch |else|return|case |//)[^=;{}]*\([^;{}]*$)");
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::size_t body = i;
+    if (!std::regex_search(lines[i], kBegins)) {
+      // A signature over several lines.
+      if (!std::regex_search(lines[i], kContinues)) continue;
+      while (body + 1 < lines.size() && !lines[body].ends_with("{") && !lines[body].ends_with(";") &&
+             !lines[body].ends_with("}"))
+        ++body;
+      if (!lines[body].ends_with(" {")) continue;
+    }
+    const std::string close = std::string(lines[i].find_first_not_of(' '), ' ') + "}";
+    std::size_t end = body;
+    while (end < lines.size() && lines[end] != close) ++end;
+    if (end < lines.size() && end - i + 1 > most) {
+      found.push_back(lines[i] + " " + std::to_string(end - i + 1));
+    }
+    i = body;
+  }
+  return found;
+}
+
 }  // namespace
 
 TEST_CASE("a file that reaches into a layer above it is found out") {
@@ -270,6 +301,109 @@ TEST_CASE("degrees are made by Angle alone, and a quarter turn has one name") {
     }
   }
   CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("a limit, a section and a law stand in the files that docs/development.md names") {
+  const auto files_with = [](const std::string& words) {
+    const std::regex pattern("\\b(" + words + ")\\b");
+    std::set<std::string> names;
+    for (const char* folder : {"lib", "app"}) {
+      for (const fs::path& file : sources_below(folder)) {
+        if (std::regex_search(text_of(file), pattern)) names.insert(relative_name(file));
+      }
+    }
+    return names;
+  };
+  const std::string in = "lib/include/glissade/";
+  CHECK(files_with("highest_curvature_load") ==
+        std::set<std::string>{in + "task/limits.hpp", "lib/src/task/limit_catalogue.cpp",
+                              "lib/src/referee/judgement.cpp", "lib/src/optimize/measures.cpp"});
+  CHECK(files_with("TrackGroove") ==
+        std::set<std::string>{in + "section/measures.hpp", "lib/src/section/shapes.cpp",
+                              "lib/src/section/cross_section.cpp", "lib/src/parts/plate_section.cpp"});
+  CHECK(files_with("RollingBall|RollingDesign") ==
+        std::set<std::string>{in + "motion/laws/rolling_ball.hpp", "lib/src/motion/laws/rolling_ball.cpp",
+                              in + "design/body_design.hpp", "lib/src/pipeline/body.cpp"});
+}
+
+TEST_CASE("every constant of the search says where it comes from") {
+  // docs/optimization.md, method; indices and constants of the language apart.
+  static const std::set<std::string> kNames = {"kNodes",    "kOwn",     "kZeta",      "kFirst",
+                                               "kSecond",   "kLength",  "kUnlimited", "kInfinity",
+                                               "kOfLength", "kMeasures"};
+  static const std::regex kConstant(
+      R"(^ *(?:static |inline )*constexpr [^=({]*\b(k[A-Z]\w*)(?:\[\d*\])? ?[={])");
+  static const std::regex kOrigin(
+      R"(//.*\b([Tt]heory|[Aa]ccuracy|[Rr]ounding|[Bb]udget|[Mm]easured|[Tt]aste)\b)");
+  std::vector<std::string> found;
+  std::size_t seen = 0;
+  for (const fs::path& file : sources_below("lib/src/optimize")) {
+    std::istringstream lines(text_of(file));
+    std::string comment;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t begins = line.find_first_not_of(' ');
+      const bool is_comment = begins != std::string::npos && line.compare(begins, 2, "//") == 0;
+      std::smatch match;
+      if (std::regex_search(line, match, kConstant) &&
+          (!kNames.contains(match[1]) || std::regex_search(line, kOrigin))) {
+        ++seen;
+        if (!std::regex_search(line, kOrigin) && !std::regex_search(comment, kOrigin)) {
+          found.push_back(relative_name(file) + ": " + line);
+        }
+      }
+      comment = is_comment ? comment + line : "";
+    }
+  }
+  CHECK(seen > 80);
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("a function is a page long: longer ones are known by name, and are to get shorter") {
+  constexpr std::size_t kPage = 65;
+  CHECK(long_functions("int f(int a,\n      int b) {\n  g();\n}\nint h() {\n}\n", 3) ==
+        std::vector<std::string>{"int f(int a, 4"});
+  const std::set<std::string> known = {"Optimum optimize(", "void Transcription::add_law_parts("};
+  std::vector<std::string> found;
+  for (const char* folder : {"lib", "app"}) {
+    for (const fs::path& file : sources_below(folder)) {
+      for (const std::string& function : long_functions(text_of(file), kPage)) {
+        const bool is_known = std::any_of(known.begin(), known.end(), [&](const std::string& name) {
+          return function.find(name) != std::string::npos;
+        });
+        if (!is_known) found.push_back(relative_name(file) + ": " + function);
+      }
+    }
+  }
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("the README names the packages that each component links") {
+  const std::map<std::string, std::string> names = {
+      {"NLopt", "NLopt"}, {"sleef", "SLEEF"},     {"yaml-cpp", "yaml-cpp"}, {"cairo", "cairo"},
+      {"ZLIB", "zlib"},   {"OpenSSL", "OpenSSL"}, {"fmt", "fmt"},           {"librsvg", "librsvg"},
+      {"TBB", "TBB"},     {"Threads", ""}};
+  std::istringstream readme(text_of(fs::path(GLISSADE_SOURCE_DIR) / "README.md"));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(readme, line);) {
+    if (line.starts_with("| `")) rows.push_back(line);
+  }
+  static const std::regex kNeeds(R"(glissade_needs(?:_module)?\((\w+) ([\w-]+))");
+  std::size_t found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(GLISSADE_SOURCE_DIR) / "lib/src")) {
+    if (entry.path().filename() != "CMakeLists.txt") continue;
+    const std::string text = text_of(entry.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), kNeeds), end; match != end; ++match) {
+      ++found;
+      const std::string component = "`" + (*match)[1].str() + "`";
+      const std::string& package = names.at((*match)[2]);
+      const bool told = std::any_of(rows.begin(), rows.end(), [&](const std::string& row) {
+        return row.find(component) != std::string::npos && row.find(package) != std::string::npos;
+      });
+      INFO(component << " links " << package);
+      CHECK(told);
+    }
+  }
+  CHECK(found >= 10);
 }
 
 TEST_CASE("the program sees nothing of the library but its public headers") {

@@ -29,7 +29,8 @@ std::string drop_over_run(const TrackDesign& track) {
 }
 
 std::string friction_key(const Design& design) {
-  if (design.body.rolling) return "rolling_resistance";
+  if (!design.body.slides())
+    return std::string(std::visit([](const auto& kind) { return kind.kResistance; }, design.body.kind));
   if (!design.body.friction_changes.empty()) return "friction";
   return design.locations.contains("body.friction_coefficient") ? "friction_coefficient" : "friction_angle";
 }
@@ -112,7 +113,7 @@ std::optional<Finding> find_unreachable(const Design& design) {
   constexpr double kBelow = 1.0 - 1e-3;
   constexpr double kAbove = 1.0 + 1e-3;
   const std::string key = friction_key(design);
-  const bool by_coefficient = key == "friction_coefficient" || key == "rolling_resistance";
+  const bool by_coefficient = key == "friction_coefficient" || !design.body.slides();
   const Angle mean_slope = Angle::from_radians(math::atan2(drop, run));
   const auto [angle, slope] = texts_apart(Angle::from_radians(math::atan(mu)), mean_slope);
   const std::string value = by_coefficient ? rounded_text(mu, 4) + " (" + angle + ")" : angle;

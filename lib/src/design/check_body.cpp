@@ -20,8 +20,7 @@ namespace design_file {
 namespace {
 
 constexpr double kHighestSpeed = 1e4;   // [m/s]
-constexpr double kLargestBall = 1e3;    // [m]
-constexpr double kSmallestBall = 1e-6;  // [m]
+constexpr double kHighestCentre = 1e3;  // [m]
 constexpr double kHighestWind = 150.0;  // [m/s], beyond any storm
 constexpr double kHeaviest = 1e9;       // [kg]
 constexpr double kFreezing = 273.15;    // [K]
@@ -66,22 +65,32 @@ void check_friction_changes(const Design& design, Collected& findings) {
            {"", "from: " + length_text(changes[i].from) + " after " + length_text(changes[i - 1].from),
             "Entries stand in the order of the track, each from further on than the one before.", ""});
   }
-  if (design.centerline.kind != CenterlineKind::fastest) return;
-  report(findings, {"body.friction", "centerline.kind"},
-         {"", "friction: a list, on the kind fastest",
-          "The fastest track is found for one friction along all of it.",
-          "friction_angle or friction_coefficient; or another kind, to see how it rides"});
+  const bool searched = design.centerline.kind == CenterlineKind::fastest;
+  if (!searched || !design.limits || !design.limits->lowest_slope_margin) return;
+  report(findings, {"limits.lowest_slope_margin", "body.friction"},
+         {"", "lowest_slope_margin: of a friction that changes along the track",
+          "The slope of a fastest track would have to change at once where the friction does.",
+          "slope_angle: {lowest: ...}, from the highest friction angle"});
 }
 
-void check_rolling(const BodyDesign& body, Collected& findings) {
-  const RollingDesign& ball = *body.rolling;
-  check_range(ball.radius >= kSmallestBall && ball.radius <= kLargestBall, "body.radius",
-              length_text(ball.radius), "A ball's radius lies between 0.001 mm and 1 km.", "8 mm", findings);
-  const Angle angle = ball.groove_half_angle;
-  check_range(angle > Angle() && angle <= Angle::from_degrees(90.0), "body.groove_half_angle",
-              angle_text(angle), "It lies above 0 and is at most 90 deg, which is a flat floor.",
-              "half the angle between the walls of the groove", findings);
-}
+/// Holds each measure of a kind against what it may be.
+class KindCheck {
+ public:
+  explicit KindCheck(Collected& findings) : findings_(findings) {}
+
+  void resistance(const char*, const char*) const {}
+  void length(const std::string& key, double value, double least, double most, const char* why,
+              const char* example) {
+    check_range(value >= least && value <= most, "body." + key, length_text(value), why, example, findings_);
+  }
+  void angle(const std::string& key, Angle value, Angle most, const char* why, const char* hint) {
+    check_range(value > Angle() && value <= most, "body." + key, angle_text(value), why, hint, findings_);
+  }
+  void grip(const std::optional<Friction>&, const char*) const {}
+
+ private:
+  Collected& findings_;
+};
 
 void check_drag_parts(const DragDesign& drag, Collected& findings) {
   check_range(drag.mass > 0.0 && drag.mass <= kHeaviest, "body.mass", rounded_text(drag.mass, 4) + " kg",
@@ -137,24 +146,24 @@ Friction least_friction(const BodyDesign& body) {
 }
 
 bool is_sliding_point(const BodyDesign& body) {
-  return !body.rolling && centre_height(body) == 0.0 && body.friction_changes.empty() &&
+  return body.slides() && centre_height(body) == 0.0 && body.friction_changes.empty() &&
          body.head_wind == 0.0;
 }
 
 double centre_height(const BodyDesign& body) {
   if (body.centre_height) return *body.centre_height;
-  return body.rolling ? body.rolling->radius : 0.0;
+  return std::visit([](const auto& kind) { return kind.default_centre_height(); }, body.kind);
 }
 
 void check_body(const Design& design, Collected& findings) {
   const BodyDesign& body = design.body;
   check_friction_range(design, findings);
   check_friction_changes(design, findings);
-  if (body.rolling) check_rolling(body, findings);
+  visit_measures(body, KindCheck(findings));
   if (body.centre_height) {
     const double height = *body.centre_height;
     const bool fine =
-        std::isfinite(height) && height <= kLargestBall && (body.rolling ? height > 0.0 : height >= 0.0);
+        std::isfinite(height) && height <= kHighestCentre && (body.slides() ? height >= 0.0 : height > 0.0);
     check_range(fine, "body.centre_height", length_text(height),
                 "The centre of mass lies above the track, by at most 1 km.", "0.6 m of a skier", findings);
   }

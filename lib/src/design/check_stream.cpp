@@ -90,7 +90,7 @@ void check_plate(const LinerPlateDesign& plate, Collected& findings) {
 
 /// What a stream asks of the body beside it.
 void check_its_body(const Design& design, Collected& findings) {
-  if (design.body.rolling) {
+  if (!design.body.slides()) {
     report(findings, {"stream", "body.kind"},
            {"", "stream: of a body that rolls", "A stream slides on the floor and the walls.",
             "body: {friction_angle: 27 deg, entry_speed: 2 m/s}"});

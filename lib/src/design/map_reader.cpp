@@ -137,6 +137,10 @@ MapReader::MapReader(const Value& value, std::string_view noun, std::string_view
 }
 
 void MapReader::expect(std::initializer_list<std::string_view> keys) {
+  expect(std::vector<std::string_view>(keys));
+}
+
+void MapReader::expect(const std::vector<std::string_view>& keys) {
   known_ = keys;
   Notes* const notes = findings_.notes();
   for (const std::string_view key : keys) {

@@ -47,6 +47,7 @@ class MapReader {
 
   /// Names the keys in the order in which messages list them; otherwise it is the order of asking.
   void expect(std::initializer_list<std::string_view> keys);
+  void expect(const std::vector<std::string_view>& keys);
 
   /// @return false if the value is no map; every reading then returns none, without a problem of its own
   [[nodiscard]] bool readable() const { return node_ != nullptr; }

@@ -12,8 +12,6 @@
 namespace glissade::design_file {
 namespace {
 
-enum class BodyKind { sliding, rolling };
-
 /// A friction angle or coefficient: one value, or a range with a nominal value.
 struct FrictionValues {
   std::optional<double> low;
@@ -131,10 +129,62 @@ void read_friction_list(const Value& value, BodyDesign& body, Findings& findings
   body.friction = body.friction_changes.front().friction;
 }
 
+/// The keys of a kind of body, without those that every body has.
+class KeysOfKind {
+ public:
+  void resistance(const char* key, const char*) { keys_.emplace_back(key); }
+  void length(const char* key, double, double, double, const char*, const char*) { keys_.emplace_back(key); }
+  void angle(const char* key, Angle, Angle, const char*, const char*) { keys_.emplace_back(key); }
+  void grip(const std::optional<Friction>&, const char*) const {}
+
+  [[nodiscard]] const std::vector<std::string_view>& keys() const { return keys_; }
+
+ private:
+  std::vector<std::string_view> keys_;
+};
+
+std::vector<std::string_view> keys_of(const BodyKind& kind) {
+  KeysOfKind keys;
+  std::visit([&](const auto& one) { one.visit(one, keys); }, kind);
+  return keys.keys();
+}
+
+template <std::size_t... kIndex>
+std::vector<BodyKind> all_kinds(std::index_sequence<kIndex...> /*indices*/) {
+  return {BodyKind(std::in_place_index<kIndex>)...};
+}
+
+const std::vector<BodyKind>& all_kinds() {
+  static const std::vector<BodyKind> kinds =
+      all_kinds(std::make_index_sequence<std::variant_size_v<BodyKind>>());
+  return kinds;
+}
+
+std::string_view word_of(const BodyKind& kind) {
+  return std::visit([](const auto& one) { return one.kKind; }, kind);
+}
+
+/// Keys of the kinds that do not slide, each with the hint that names its kind.
+const std::vector<std::pair<std::string_view, std::string>>& keys_of_others() {
+  static const std::vector<std::pair<std::string_view, std::string>> all = [] {
+    std::vector<std::pair<std::string_view, std::string>> found;
+    for (const BodyKind& kind : all_kinds()) {
+      const std::vector<std::string_view> keys = keys_of(kind);
+      std::string list;
+      for (std::size_t i = 0; i < keys.size(); ++i) {
+        list += (i == 0 ? "" : i + 1 < keys.size() ? ", " : " and ") + std::string(keys[i]);
+      }
+      for (const std::string_view key : keys) {
+        found.emplace_back(key, "kind: " + std::string(word_of(kind)) + ", which has " + list);
+      }
+    }
+    return found;
+  }();
+  return all;
+}
+
 void read_sliding(MapReader& map, bool friction_may_follow, BodyDesign& body, Findings& findings) {
-  for (const std::string_view key : {"rolling_resistance", "radius", "groove_half_angle"}) {
-    map.add_stranger(key, "kind: rolling, which has rolling_resistance, radius and groove_half_angle");
-  }
+  for (const auto& [key, hint] : keys_of_others()) map.add_stranger(key, hint);
   const auto list = map.find("friction");
   const bool given = list || map.has("friction_angle") || map.has("friction_coefficient");
   body.friction_given = given || !friction_may_follow;
@@ -148,25 +198,46 @@ void read_sliding(MapReader& map, bool friction_may_follow, BodyDesign& body, Fi
   read_friction_list(*list, body, findings);
 }
 
-void read_rolling(MapReader& map, BodyDesign& body, Findings& findings) {
+/// Reads each measure of a kind under its key.
+class KindReader {
+ public:
+  KindReader(MapReader& map, BodyDesign& body, Findings& findings)
+      : map_(map), body_(body), findings_(findings) {}
+
+  void resistance(const char* key, const char* example) {
+    const auto value = map_.need(key, std::string(key) + ": " + example);
+    if (!value) return;
+    const FrictionValues values = read_friction_values(*value, Dimension::number, findings_);
+    set_friction(to_range(values, true, value->key_path, findings_), body_);
+  }
+  void length(const char* key, double& value, double, double, const char*, const char* example) {
+    value = map_.needed_quantity(key, Dimension::length, std::string(key) + ": " + example).value_or(0.0);
+  }
+  void angle(const char* key, Angle& value, Angle most, const char*, const char*) {
+    const auto given = map_.quantity(key, Dimension::angle);
+    value = given ? Angle::from_radians(*given) : most;
+  }
+  void grip(std::optional<Friction>& value, const char* why) {
+    const FrictionRange grip = read_friction(map_, false, findings_);
+    value = grip.nominal;
+    if (!grip.low && !grip.high) return;
+    const std::string key = map_.has("friction_coefficient") ? "friction_coefficient" : "friction_angle";
+    findings_.add(findings_.position(map_.path_of(key)), map_.path_of(key),
+                  {"", key + ": a range, of a body that does not slide", why,
+                   "one value, the lowest; a range of what resists"});
+  }
+
+ private:
+  MapReader& map_;
+  BodyDesign& body_;
+  Findings& findings_;
+};
+
+/// A body that does not slide.
+void read_kind(MapReader& map, BodyDesign& body, Findings& findings) {
   map.add_stranger("friction", "kind: sliding, which has a friction that changes along the track");
-  body.rolling.emplace();
-  if (const auto value = map.need("rolling_resistance", "rolling_resistance: 0.01, force over load")) {
-    const FrictionValues values = read_friction_values(*value, Dimension::number, findings);
-    set_friction(to_range(values, true, value->key_path, findings), body);
-  }
-  body.rolling->radius = map.needed_quantity("radius", Dimension::length, "radius: 8 mm").value_or(0.0);
-  if (const auto angle = map.quantity("groove_half_angle", Dimension::angle)) {
-    body.rolling->groove_half_angle = Angle::from_radians(*angle);
-  }
-  const FrictionRange grip = read_friction(map, false, findings);
-  body.rolling->grip = grip.nominal;
-  if (!grip.low && !grip.high) return;
-  const std::string key = map.has("friction_coefficient") ? "friction_coefficient" : "friction_angle";
-  findings.add(findings.position(map.path_of(key)), map.path_of(key),
-               {"", key + ": a range, of a body that rolls",
-                "It decides whether the ball slips; what slows it down is its rolling_resistance.",
-                "one value, the lowest; a range of rolling_resistance"});
+  KindReader reader(map, body, findings);
+  std::visit([&](auto& kind) { kind.visit(kind, reader); }, body.kind);
 }
 
 void read_air(const Value& value, DragDesign& drag, Findings& findings) {
@@ -217,21 +288,40 @@ void read_drag(MapReader& map, BodyDesign& body, Findings& findings) {
 
 }  // namespace
 
+namespace {
+
+/// Keys of every body, behind those of its kind.
+const std::vector<std::string_view>& keys_of_all() {
+  static const std::vector<std::string_view> keys = {"centre_height", "entry_speed", "drag",     "drag_area",
+                                                     "mass",          "air",         "head_wind"};
+  return keys;
+}
+
+/// The keys of a body of some kind, in the order in which messages list them.
+std::vector<std::string_view> keys_of_body(const BodyKind& kind) {
+  std::vector<std::string_view> keys{"kind"};
+  const std::vector<std::string_view> own = keys_of(kind);
+  const bool slides = std::holds_alternative<SlidingDesign>(kind);
+  if (slides) keys.insert(keys.end(), {"friction_angle", "friction_coefficient", "friction"});
+  keys.insert(keys.end(), own.begin(), own.end());
+  keys.push_back("centre_height");
+  if (!slides) keys.insert(keys.end(), {"friction_coefficient", "friction_angle"});
+  keys.insert(keys.end(), keys_of_all().begin() + 1, keys_of_all().end());
+  return keys;
+}
+
+}  // namespace
+
 const std::vector<std::string_view>& body_keys() {
-  static const std::vector<std::string_view> keys = {"kind",
-                                                     "friction_angle",
-                                                     "friction_coefficient",
-                                                     "friction",
-                                                     "rolling_resistance",
-                                                     "radius",
-                                                     "groove_half_angle",
-                                                     "centre_height",
-                                                     "entry_speed",
-                                                     "drag",
-                                                     "drag_area",
-                                                     "mass",
-                                                     "air",
-                                                     "head_wind"};
+  static const std::vector<std::string_view> keys = [] {
+    std::vector<std::string_view> all{"kind", "friction_angle", "friction_coefficient", "friction"};
+    for (const BodyKind& kind : all_kinds()) {
+      const std::vector<std::string_view> own = keys_of(kind);
+      all.insert(all.end(), own.begin(), own.end());
+    }
+    all.insert(all.end(), keys_of_all().begin(), keys_of_all().end());
+    return all;
+  }();
   return keys;
 }
 
@@ -240,22 +330,19 @@ BodyDesign read_body(MapReader& top, bool friction_may_follow, Findings& finding
   const std::optional<Value> value = top.need("body", "body: {friction_angle: 17 deg}");
   if (!value) return body;
   MapReader map(*value, "A body", "{friction_angle: 17 deg}", findings);
-  static const std::vector<std::pair<std::string_view, BodyKind>> kKinds = {{"sliding", BodyKind::sliding},
-                                                                            {"rolling", BodyKind::rolling}};
-  const auto kind_value = map.find("kind");
-  const auto kind = kind_value ? map.choice(*kind_value, kKinds) : BodyKind::sliding;
-  if (!kind) return body;
-  const bool rolls = *kind == BodyKind::rolling;
-  if (rolls) {
-    map.rename("A rolling body");
-    map.expect({"kind", "rolling_resistance", "radius", "groove_half_angle", "centre_height",
-                "friction_coefficient", "friction_angle", "entry_speed", "drag", "drag_area", "mass", "air",
-                "head_wind"});
-    read_rolling(map, body, findings);
-  } else {
-    map.expect({"kind", "friction_angle", "friction_coefficient", "friction", "centre_height", "entry_speed",
-                "drag", "drag_area", "mass", "air", "head_wind"});
+  std::vector<std::pair<std::string_view, BodyKind>> kinds;
+  for (const BodyKind& kind : all_kinds()) kinds.emplace_back(word_of(kind), kind);
+  if (const auto word = map.find("kind")) {
+    const auto kind = map.choice(*word, kinds);
+    if (!kind) return body;
+    body.kind = *kind;
+  }
+  map.expect(keys_of_body(body.kind));
+  if (body.slides()) {
     read_sliding(map, friction_may_follow, body, findings);
+  } else {
+    map.rename(std::visit([](const auto& kind) { return kind.kNoun; }, body.kind));
+    read_kind(map, body, findings);
   }
   body.centre_height = map.quantity("centre_height", Dimension::length);
   body.entry_speed = map.quantity("entry_speed", Dimension::speed).value_or(0.0);

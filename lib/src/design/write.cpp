@@ -118,16 +118,26 @@ std::string friction_from(const FrictionFrom& change) {
   return group.inlined();
 }
 
-void add_rolling(const BodyDesign& body, Group& group) {
-  const RollingDesign& rolling = *body.rolling;
-  group.add("kind", "rolling");
-  group.add("rolling_resistance", friction_range(body, coefficient_of));
-  group.add("radius", rolling.radius, Dimension::length);
-  if (rolling.groove_half_angle != RollingDesign{}.groove_half_angle) {
-    group.add("groove_half_angle", rolling.groove_half_angle.radians(), Dimension::angle);
+/// Writes each measure of a kind of body under its key.
+class KindWriter {
+ public:
+  KindWriter(const BodyDesign& body, Group& group) : body_(body), group_(group) {}
+
+  void resistance(const char* key, const char*) { group_.add(key, friction_range(body_, coefficient_of)); }
+  void length(const char* key, double value, double, double, const char*, const char*) {
+    group_.add(key, value, Dimension::length);
   }
-  if (rolling.grip) group.add("friction_coefficient", coefficient_of(*rolling.grip));
-}
+  void angle(const char* key, Angle value, Angle most, const char*, const char*) {
+    if (value != most) group_.add(key, value.radians(), Dimension::angle);
+  }
+  void grip(const std::optional<Friction>& value, const char*) {
+    if (value) group_.add("friction_coefficient", coefficient_of(*value));
+  }
+
+ private:
+  const BodyDesign& body_;
+  Group& group_;
+};
 
 void add_drag(const BodyDesign& body, Group& group) {
   if (!body.drag) {
@@ -145,8 +155,9 @@ void add_drag(const BodyDesign& body, Group& group) {
 
 std::string body(const BodyDesign& design) {
   Group group;
-  if (design.rolling) {
-    add_rolling(design, group);
+  if (!design.slides()) {
+    group.add("kind", std::string(std::visit([](const auto& kind) { return kind.kKind; }, design.kind)));
+    visit_measures(design, KindWriter(design, group));
   } else if (!design.friction_changes.empty()) {
     group.add("friction", list_of(design.friction_changes, friction_from));
   } else if (design.friction_given) {

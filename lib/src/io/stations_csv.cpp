@@ -43,14 +43,16 @@ std::array<double, kMotionColumns.size()> motion_values(const MotionState& state
   return {state.time, state.speed, state.normal_load, state.friction_loss, state.drag_loss};
 }
 
+[[noreturn]] void refuse_nan(std::size_t station, std::string_view column) {
+  throw InputError({"station " + std::to_string(station), std::string(column) + " is not a number",
+                    "Every value of a station must be a number.", ""});
+}
+
 template <std::size_t Count>
 void write_values(TextWriter& text, const std::array<double, Count>& values,
                   const std::array<std::string_view, Count>& columns, std::size_t station) {
   for (std::size_t i = 0; i < Count; ++i) {
-    if (std::isnan(values[i])) {
-      throw InputError({"station " + std::to_string(station), std::string(columns[i]) + " is not a number",
-                        "Every value of a station must be a number.", ""});
-    }
+    if (std::isnan(values[i])) refuse_nan(station, columns[i]);
     if (i > 0) text.put(',');
     text.put(values[i]);
   }
@@ -65,16 +67,38 @@ void write_motion(TextWriter& text, const std::optional<MotionState>& motion, st
   }
 }
 
+void write_law(TextWriter& text, const std::vector<StationColumn>& columns, std::size_t station) {
+  for (const StationColumn& column : columns) {
+    text.put(',');
+    const std::optional<double> value = column.values.at(station);
+    if (!value) continue;
+    if (std::isnan(*value)) refuse_nan(station, column.name);
+    text.put(*value);
+  }
+}
+
 /// "speed_m_per_s" at low friction: "speed_low_m_per_s"; the unit stays at the end.
 std::string column_at(std::string_view column, FrictionLevel level) {
-  for (const std::string_view unit : {"_m_per_s2", "_m_per_s", "_j_per_kg", "_s"}) {
+  for (const std::string_view unit : {"_w_per_m2", "_m_per_s2", "_m_per_s", "_j_per_kg", "_s", "_m"}) {
     if (!column.ends_with(unit)) continue;
     return std::string(column.substr(0, column.size() - unit.size()))
         .append("_")
         .append(to_text(level))
         .append(unit);
   }
-  return std::string(column);
+  return std::string(column) + "_" + std::string(to_text(level));
+}
+
+void write_names(TextWriter& text, const StationTable& stations) {
+  text.put(kTrackColumns.front());
+  for (std::size_t i = 1; i < kTrackColumns.size(); ++i) text.put(',', kTrackColumns[i]);
+  for (const std::string_view column : kMotionColumns) text.put(',', column);
+  for (const StationColumn& column : stations.law) text.put(',', column.name);
+  for (const StationRange& range : stations.range) {
+    for (const std::string_view column : kMotionColumns) text.put(',', column_at(column, range.level));
+    for (const StationColumn& column : range.law) text.put(',', column_at(column.name, range.level));
+  }
+  text.put('\n');
 }
 
 }  // namespace
@@ -82,20 +106,15 @@ std::string column_at(std::string_view column, FrictionLevel level) {
 void write_stations_csv(const std::filesystem::path& file, const StationTable& stations) {
   AtomicFile output(file);
   TextWriter text(output);
-  for (const std::string_view column : kTrackColumns) text.put(column, ',');
-  for (const std::string_view column : kMotionColumns) {
-    text.put(column, column == kMotionColumns.back() && stations.range.empty() ? '\n' : ',');
-  }
-  for (const StationRange& range : stations.range) {
-    const bool last = &range == &stations.range.back();
-    for (const std::string_view column : kMotionColumns) {
-      text.put(column_at(column, range.level), last && column == kMotionColumns.back() ? '\n' : ',');
-    }
-  }
+  write_names(text, stations);
   for (std::size_t i = 0; i < stations.rows.size(); ++i) {
     write_values(text, track_values(stations.rows[i]), kTrackColumns, i);
     write_motion(text, stations.rows[i].motion, i);
-    for (const StationRange& range : stations.range) write_motion(text, range.states.at(i), i);
+    write_law(text, stations.law, i);
+    for (const StationRange& range : stations.range) {
+      write_motion(text, range.states.at(i), i);
+      write_law(text, range.law, i);
+    }
     text.put('\n');
   }
   output.commit();

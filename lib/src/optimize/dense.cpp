@@ -40,8 +40,8 @@ double norm(const Vector& a) {
 }
 
 ShiftedCholesky::ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal, double largest) {
-  constexpr double kFirstShift = 1e-6;
-  constexpr double kShiftGrowth = 8.0;
+  constexpr double kFirstShift = 1e-6;  // taste
+  constexpr double kShiftGrowth = 8.0;  // taste
   while (shift_ <= largest && !factor(symmetric, diagonal)) {
     shift_ = shift_ == 0.0 ? kFirstShift : shift_ * kShiftGrowth;
   }

@@ -37,7 +37,7 @@ void add_symmetric(Matrix& matrix, double factor, const Vector& a, const Vector&
 /// from 0 that makes it positive definite.
 class ShiftedCholesky {
  public:
-  static constexpr double kLargestShift = 1e9;
+  static constexpr double kLargestShift = 1e9;  // taste
 
   ShiftedCholesky() = default;
   /// @param largest  shifts beyond it are not tried: the factor is then of no use

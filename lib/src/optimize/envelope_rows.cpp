@@ -93,8 +93,8 @@ Foot EnvelopeRows::leaving(const State& state, const Face& face, double height, 
   double at_low = beyond(track_.between(state.z, state.shape, from, to, low));
   double at_high = beyond(track_.between(state.z, state.shape, from, to, high));
   Foot foot = track_.between(state.z, state.shape, from, to, high);
-  constexpr int kSteps = 60;
-  constexpr double kRounding = 1e-16;
+  constexpr int kSteps = 60;           // budget: halvings of a station's way, or Newton's steps
+  constexpr double kRounding = 1e-16;  // rounding
   for (int step = 0; step < kSteps && at_low > at_high; ++step) {
     const double share = std::clamp(low + (high - low) * at_low / (at_low - at_high), 0.0, 1.0);
     foot = track_.between(state.z, state.shape, from, to, share);
@@ -204,9 +204,9 @@ EnvelopeRows::Distance EnvelopeRows::distance(const Obstacle& obstacle, Vec2 poi
 // Newton's method for the foot, along the normal of which the corner lies: near the centre of curvature, where
 // walls are, the steps of Transcription::foot() hardly get there.
 Foot EnvelopeRows::exact_foot(const State& state, Vec2 corner) const {
-  constexpr int kSteps = 20;
-  constexpr double kSettled = 1e-15;
-  constexpr double kLeastSpread = 0.05;
+  constexpr int kSteps = 20;             // budget: halvings of a station's way, or Newton's steps
+  constexpr double kSettled = 1e-15;     // rounding
+  constexpr double kLeastSpread = 0.05;  // taste
   Foot foot = track_.foot(state.z, state.shape, corner.x, corner.y);
   if (foot.end) return foot;
   const Layout& layout = track_.layout();

@@ -39,9 +39,9 @@ Arc trace(double zeta_1, double mu, int steps) {
     const auto angle = [&](double share) { return kRightAngle - turn * share; };
     const double from = static_cast<double>(i) / steps;
     const double to = static_cast<double>(i + 1) / steps;
-    constexpr double kOffset = 0.3872983346207417;  // Gauss-Legendre, 3 nodes
-    constexpr double kShare[3] = {0.5 - kOffset, 0.5, 0.5 + kOffset};
-    constexpr double kWeight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    constexpr double kOffset = 0.3872983346207417;                       // Gauss-Legendre, 3 nodes; theory
+    constexpr double kShare[3] = {0.5 - kOffset, 0.5, 0.5 + kOffset};    // theory
+    constexpr double kWeight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};  // theory
     for (int k = 0; k < 3; ++k) {
       const double zeta = angle(from + (to - from) * kShare[k]);
       const double ds = kWeight[k] * turn * (to - from) * arc_per_angle(zeta, zeta_1, mu);
@@ -68,7 +68,7 @@ double GuessCurve::slope_angle(double at) const {
 }
 
 GuessCurve brachistochrone_guess(double run, double drop, double mu) {
-  constexpr int kSteps = 400;
+  constexpr int kSteps = 400;  // taste
   const CoulombSolution exact =
       solve_coulomb_brachistochrone({run, drop}, Friction::from_coefficient(mu), 1.0);
   const Arc arc = trace(exact.exit_slope_angle.radians(), mu, kSteps);
@@ -110,7 +110,7 @@ Vector graded_knots(const GuessCurve& curve, std::size_t pieces, double entry_le
     density[i] = math::pow(second[i] * second[i] / speed, 1.0 / 7.0);
     mean += density[i] * (curve.sigma[i + 1] - curve.sigma[i]);
   }
-  constexpr double kEvenShare = 0.05;
+  constexpr double kEvenShare = 0.05;  // taste
   Vector total(n, 0.0);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     total[i + 1] =

@@ -17,11 +17,11 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr std::size_t kPieces = 24;
+constexpr std::size_t kPieces = 24;  // taste
 // Below this the limits count as met: finer meshes win that much.
-constexpr double kContradiction = 1e-5;
+constexpr double kContradiction = 1e-5;  // accuracy: a hundred times that of a limit
 // Below this a finer mesh may make up for what is left.
-constexpr double kNearly = 0.005;
+constexpr double kNearly = 0.005;  // taste
 
 /// The bound after relaxing it by t scales, in the user's unit.
 double relaxed_bound(const LimitSpec& limit, double t, double measured) {
@@ -50,10 +50,10 @@ struct Attempt {
 /// The least by which one limit must give way when all others hold: from the track that breaks all of them
 /// least; where that descent loses its way, from the straight line.
 std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elastic, SearchControl& control) {
-  constexpr double kKept = 1e-6;
-  constexpr std::size_t kFollowing = 3;
-  constexpr std::size_t kFiner = 32;
-  constexpr double kPays = 0.98;
+  constexpr double kKept = 1e-6;         // accuracy: ten times that of a limit
+  constexpr std::size_t kFollowing = 3;  // budget
+  constexpr std::size_t kFiner = 32;     // taste
+  constexpr double kPays = 0.98;         // taste
   const ScaledProblem& problem = *attempt.problem;
   const Vector margins(problem.limits.size(), 0.0);
   std::optional<Relaxed> least;
@@ -135,8 +135,8 @@ Relaxed all_relaxed(const ScaledProblem& problem, const Mesh& mesh, const GuessC
 
 /// The mesh follows the track, finer where it bends: what is left over then is no fault of the mesh.
 void follow(Attempt& attempt, SearchControl& control) {
-  constexpr std::size_t kFiner[] = {32, 48};
-  constexpr double kPays = 0.7;
+  constexpr std::size_t kFiner[] = {32, 48};  // taste
+  constexpr double kPays = 0.7;               // taste
   for (const std::size_t pieces : kFiner) {
     if (attempt.relaxed.t <= kContradiction || control.stop()) return;
     const Found& found = attempt.relaxed.found;
@@ -170,7 +170,7 @@ Vector shares_of(const Attempt& attempt) {
 }
 
 // A limit with less of a share in the least violation has none.
-constexpr double kPartOf = 1e-4;
+constexpr double kPartOf = 1e-4;  // taste
 
 /// Of the limits in conflict that one which asks the most for energy to be worn down, or for length: then winding
 /// tracks may do.
@@ -323,7 +323,7 @@ class LeastViolation {
 
   /// Whether no step lowers the least violation, or the search from its end lowers it no further.
   [[nodiscard]] bool confirmed() {
-    constexpr double kSame = 0.98;
+    constexpr double kSame = 0.98;  // taste
     if (best_->relaxed.settled) return true;
     const double before = best_->relaxed.t;
     const Transcription& track = *best_->relaxed.found.track;
@@ -370,7 +370,7 @@ struct GivingWay {
 /// found again.
 std::optional<double> needed_bound(const LimitSpec& limit, std::size_t index, const Relaxed& alone,
                                    double beyond) {
-  constexpr double kAtLeast = 1e-2;
+  constexpr double kAtLeast = 1e-2;  // taste: of a bound that is nearly kept
   const double t = alone.t * (1.0 + beyond) + kAtLeast * beyond;
   double measured = 0.0;
   if (limit.side == 0) {
@@ -443,7 +443,7 @@ Opposition opposition_at(LeastViolation& search, const std::optional<GivingWay>&
 std::vector<Relaxation> relaxations_of(const Problem& problem, const std::vector<LimitSpec>& limits,
                                        const std::vector<GivingWay>& giving, bool winding,
                                        const Resolve& resolve, SearchControl& control) {
-  constexpr double kBeyond[] = {1e-4, 1e-3, 1e-2, 5e-2};
+  constexpr double kBeyond[] = {1e-4, 1e-3, 1e-2, 5e-2};  // taste: tried in turn
   std::vector<Relaxation> relaxations;
   for (const GivingWay& way : giving) {
     const LimitSpec& limit = limits[way.limit];
@@ -523,8 +523,8 @@ std::vector<Foothold> footholds_of(const Problem& problem, const std::vector<Pas
 Explanation explain(const Problem& problem, const std::vector<Passages>& passages, const Resolve& resolve,
                     SearchControl& control) {
   // From a better track the reasons are others; how often they are looked for anew.
-  constexpr int kMostRounds = 3;
-  constexpr double kBetter = 0.98;
+  constexpr int kMostRounds = 3;    // budget
+  constexpr double kBetter = 0.98;  // taste
   Explanation explanation;
   Footing footing(problem, passages, control);
   explanation.footholds = footing.footholds();

@@ -22,9 +22,9 @@ using NodeMatrix = std::array<NodeValues, kNodes>;
 
 // What a law or the wind asks for at lower speeds is continued by its second-order Taylor polynomial: below this
 // share of the squared speed at which a law ends, and below this squared speed where wind blows.
-constexpr double kContinued = 0.25;
-constexpr double kStill = 1e-6;
-constexpr int kMostSteps = 30;
+constexpr double kContinued = 0.25;  // taste: below where a ride ends it is never reported
+constexpr double kStill = 1e-6;      // theory: what counts as lying still
+constexpr int kMostSteps = 30;       // budget
 
 /// A function of v and its derivatives, continued below a floor.
 struct Term {

@@ -12,9 +12,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostSearches = 40;
-constexpr double kSpeedAccuracy = 1e-9;  // of the speed wanted
-constexpr double kBoundAccuracy = 1e-9;  // of the bound
+constexpr int kMostSearches = 40;        // budget
+constexpr double kSpeedAccuracy = 1e-9;  // of the speed wanted; accuracy
+constexpr double kBoundAccuracy = 1e-9;  // of the bound; accuracy
 
 class LeastBound {
  public:
@@ -69,7 +69,7 @@ class LeastBound {
 
   Optimum searched(const Problem& problem) {
     OptimizeOptions options = options_;
-    constexpr double kLeast = 1e-3;  // [s]
+    constexpr double kLeast = 1e-3;  // [s]; taste
     options.time_budget = std::max(options.time_budget - seconds(), kLeast);
     Optimum optimum = optimize(problem, options, stop_, progress_);
     ++searches_;
@@ -91,7 +91,7 @@ class LeastBound {
   /// The most of what is bounded, as the referee finds it.
   [[nodiscard]] double reached_by(const CenterlinePtr& track) const {
     Problem problem = tried_;
-    constexpr double kTight = 1e-9;
+    constexpr double kTight = 1e-9;  // accuracy: a hundredth of that of a limit
     problem.limits = {};
     problem.limits.*member_ = kTight;
     for (const LimitCheck& check : check_limits(problem, track)) {

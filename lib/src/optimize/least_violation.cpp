@@ -9,18 +9,18 @@ namespace glissade::optimizer {
 namespace {
 
 // Rows this much further from their bound than the worst one take part in a step.
-constexpr double kBand = 0.3;
+constexpr double kBand = 0.3;  // taste
 // Curvature of the model along t and s: it bounds the first guess of a step, and is without effect at the end.
-constexpr double kOwnCurvature = 0.1;
+constexpr double kOwnCurvature = 0.1;  // taste: without effect at the end
 // A violation below this is none.
-constexpr double kNone = 1e-9;
+constexpr double kNone = 1e-9;  // accuracy: a hundredth of that of a limit
 // Rows that are to be kept give way too at first, by these shares of what the elastic ones do: the track that
 // breaks everything a little leads over to the one that breaks one limit alone.
-constexpr double kFirmer[] = {0.1, 1e-2, 1e-4, 1e-7};
+constexpr double kFirmer[] = {0.1, 1e-2, 1e-4, 1e-7};  // taste
 // What is kept has to be broken by this much less each time.
-constexpr double kFalls = 0.8;
+constexpr double kFalls = 0.8;  // taste
 // A step whose model promises less, at the price 1 on the change of shape, is none.
-constexpr double kSettled = 1e-9;
+constexpr double kSettled = 1e-9;  // accuracy: a hundredth of that of a limit
 
 class Search {
  public:
@@ -76,8 +76,8 @@ class Search {
 
   /// Steps until none lowers t. @return false if it ended before
   [[nodiscard]] bool settle() {
-    constexpr int kMostSteps = 60;
-    constexpr double kHighestPrice = 1e9;
+    constexpr int kMostSteps = 60;         // budget
+    constexpr double kHighestPrice = 1e9;  // taste
     price_ = 1.0;
     growth_ = 2.0;
     for (int step = 0; step < kMostSteps; ++step) {
@@ -100,7 +100,7 @@ class Search {
     Matrix gram = track_->gram_of_dzeta(weights);
     const std::size_t at_length = track_->layout().length();
     gram(at_length, at_length) = 1.0;
-    constexpr double kStiffening = 1e-4;
+    constexpr double kStiffening = 1e-4;  // taste
     for (std::size_t i = 0; i < n_; ++i) gram(i, i) *= 1.0 + kStiffening;
     return gram;
   }
@@ -194,8 +194,8 @@ class Search {
 
   /// The factor of price x shape + curvature; a higher price where that is not convex.
   void factor() {
-    constexpr double kHigher = 4.0;
-    constexpr int kMostTries = 20;
+    constexpr double kHigher = 4.0;  // taste
+    constexpr int kMostTries = 20;   // budget
     Vector diagonal(n_ + 1, 0.0);
     for (int tries = 0; tries < kMostTries; ++tries, price_ *= kHigher) {
       Matrix hessian(n_ + 1, n_ + 1);
@@ -267,9 +267,9 @@ class Search {
 
   /// Takes the step if it keeps part of its promise, and sets the price of the next one. @return if it did
   bool advance(double promised) {
-    constexpr double kGood = 0.75;
-    constexpr double kFall = 0.25;
-    constexpr double kWorthwhile = 1e-3;
+    constexpr double kGood = 0.75;        // theory: usual bounds of a trust region
+    constexpr double kFall = 0.25;        // theory: usual bounds of a trust region
+    constexpr double kWorthwhile = 1e-3;  // theory: usual bounds of a trust region
     State reached;
     Trial trial = tried(solution_.step, reached);
     double share = (t_ - trial.t) / promised;
@@ -285,7 +285,7 @@ class Search {
       growth_ *= 2.0;
       return false;
     }
-    constexpr double kLowestPrice = 1e-6;
+    constexpr double kLowestPrice = 1e-6;  // taste
     const double shift = 2.0 * std::min(share, 1.0) - 1.0;
     price_ = std::max(kLowestPrice, price_ * std::max(kFall, 1.0 - shift * shift * shift));
     growth_ = 2.0;

@@ -10,18 +10,18 @@ namespace {
 
 // A piece counts as held if this share of it lies where a limit binds; one at the end of an arc, which a linear
 // curvature leaves too early, is held only in part. So does one that stays this close to the bound, in scales.
-constexpr double kHeld = 0.05;
-constexpr double kNearBound = 0.02;
+constexpr double kHeld = 0.05;       // taste
+constexpr double kNearBound = 0.02;  // taste
 // What fine knots may leave to win in a piece, as a share of the objective: with some ten pieces held, a third of
 // the accuracy that is stated for the whole.
 constexpr double kLeft = 3e-8;
 // Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong. And so many at least where a
 // body left the track.
-constexpr std::size_t kMostFine = 32;
-constexpr std::size_t kLifting = 8;
+constexpr std::size_t kMostFine = 32;  // budget
+constexpr std::size_t kLifting = 8;    // taste
 // Below this squared speed, as a share of that of free fall through a chord, a body is at rest: the curvature of
 // constant load has no bound there.
-constexpr double kAtRest = 1e-9;
+constexpr double kAtRest = 1e-9;  // taste
 
 /// One piece along which a load limit is held.
 struct HeldPiece {

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostPassages = 16;
+constexpr std::size_t kMostPassages = 16;  // budget: 2^4 ways past four keep-outs
 
 /// Every combination of sides for the keep-outs that leave it open, up to kMostPassages.
 std::vector<Passages> all_passages(const Limits& limits) {

@@ -44,7 +44,7 @@ double multiplier_of(const Found& found, const LimitSpec& limit, std::size_t ind
 
 Found priced(const ScaledProblem& problem, Found found, const OptimizeOptions& options,
              SearchControl& control) {
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 4;  // budget
   MeshTrack finer{found.track->mesh(), found.z};
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<bool> beside = beside_jumps(finer.mesh);

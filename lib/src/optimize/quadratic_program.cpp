@@ -11,7 +11,7 @@ namespace glissade::optimizer {
 namespace {
 
 // A row whose part outside the active ones is smaller than this share of it depends on them.
-constexpr double kDependent = 1e-9;
+constexpr double kDependent = 1e-9;  // rounding
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// The active rows N = Q R in the metric of H, Q with orthonormal columns, R upper triangular.

@@ -9,9 +9,9 @@ namespace {
 
 // A piece as short as this, of the core's length, is not halved: it stands for a jump of the curvature, or next to
 // one.
-constexpr double kShortest = 1.5e-3;
+constexpr double kShortest = 1.5e-3;  // theory: between a pair of knots at a jump and half a piece
 // This share of what is left is to be won by the pieces that are halved.
-constexpr double kMost = 0.9;
+constexpr double kMost = 0.9;  // taste
 
 }  // namespace
 
@@ -40,7 +40,7 @@ MeshTrack with_halved_pieces(const Transcription& track, const Vector& z, const 
       result.mesh.knots.push_back(ends[part]);
       turns.push_back(first);
       const double width = ends[part + 1] - ends[part];
-      constexpr double kSame = 1e-9;
+      constexpr double kSame = 1e-9;  // rounding
       for (; next < mesh.fine.size() && mesh.fine[next] < ends[part + 1] - kSame * width; ++next) {
         const double sigma = mesh.fine[next];
         if (sigma <= ends[part] + kSame * width) continue;  // a knot now

@@ -7,9 +7,12 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "optimize/friction_along.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace glissade::optimizer {
 namespace {
@@ -307,6 +310,11 @@ Ride scaled_ride(const Body& body, double friction, const ScaledProblem& units) 
   at_friction.friction = Friction::from_coefficient(friction);
   if (const auto landing = landing_of(at_friction))
     ride.landing = Landing{landing->speed / units.speed, landing->angle};
+  if (!body.friction_changes.empty()) {
+    const auto along = std::make_shared<const FrictionAlong>(body, units.chord);
+    ride.friction = along->mean();
+    ride.law = along;
+  }
   if (!body.law) return ride;
   ride.gain = 2.0 / body.law->inertia();
   ride.height = body.law->centre_height() / units.chord;
@@ -330,8 +338,8 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   // In a valley hardly wider than the body is high its centre hardly moves and is pressed without bound: a ball
   // would roll up the tightest bend there is to touch the finish. Unless a radius is asked for, it is at least
   // twice the height.
-  constexpr double kFits = 0.98;
-  constexpr double kFitsWell = 0.5;
+  constexpr double kFits = 0.98;     // theory: below 1
+  constexpr double kFitsWell = 0.5;  // taste
   const double height = out.rides.front().height;
   if (height > 0.0) {
     list.add_built_in(LimitId::room_for_body, Measure::curvature,
@@ -339,14 +347,14 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
     out.limits.back().scale = out.limits.back().bound;
   }
   // No track is shorter than a chord; none that is worth building is many times longer.
-  constexpr double kShortest = 0.9;
-  constexpr double kLongest = 20.0;
-  constexpr double kShortestCore = 0.05;
+  constexpr double kShortest = 0.9;       // theory: below 1
+  constexpr double kLongest = 20.0;       // taste
+  constexpr double kShortestCore = 0.05;  // taste
   list.add_built_in(LimitId::not_shorter_than_chord, Measure::arc_length,
                     std::max(kShortest, out.lead_in + out.lead_out + kShortestCore));
   list.add_built_in(LimitId::not_many_chords_long, Measure::arc_length, kLongest);
   // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
-  constexpr double kCreep = 1e-6;
+  constexpr double kCreep = 1e-6;  // taste
   list.add_built_in(LimitId::arrival, Measure::arrival, kCreep);
   list.add_no_choking();
   // A stream flatter than the floor flies on over it.
@@ -465,17 +473,33 @@ void require_valid(const OptimizeOptions& options) {
   if (!issues.empty()) throw InputError(std::move(issues));
 }
 
+namespace {
+
+/// What a friction that changes along the track may not be together with.
+void require_one_law(const Problem& problem) {
+  std::vector<Issue> issues;
+  const auto refuse = [&](bool there, const char* what, const char* why, const char* hint) {
+    if (there)
+      issues.push_back({"", std::string("friction that changes along the track, and ") + what, why, hint});
+  };
+  refuse(problem.body.law && problem.body.law->depends_on_speed(), "a stream",
+         "The law of a stream knows one friction for the whole track.", "one friction");
+  refuse(problem.low_friction || problem.high_friction, "a range of frictions",
+         "A range is one friction for the whole track, higher or lower.", "one of the two");
+  refuse(problem.limits.lowest_slope_margin.has_value(), "lowest_slope_margin",
+         "A slope that changes at once would have to follow it.", "slope_angle: {lowest: ...}");
+  if (!issues.empty()) throw InputError(std::move(issues));
+}
+
+}  // namespace
+
 void require_searchable(const Problem& problem) {
   require_valid(problem);
-  if (!problem.body.friction_changes.empty()) {
-    throw InputError({"", "body.friction_changes: friction that changes along the track",
-                      "A search knows one friction for all of it.",
-                      "one friction, or a track that is given"});
-  }
   if (problem.body.law && problem.body.law->side() < 0.0) {
     throw InputError({"", "body.law: a stream below a hood", "A search is for the track that a body lies on.",
                       "the track below, with the hood as its approach"});
   }
+  if (!problem.body.friction_changes.empty()) require_one_law(problem);
   if (problem.limits.lowest_normal_load) return;
   throw InputError({"", "lowest_normal_load is lifted",
                     "The friction of a body held from both sides is not modelled.", "0 or a positive value"});

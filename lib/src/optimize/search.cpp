@@ -9,23 +9,23 @@ namespace glissade::optimizer {
 namespace {
 
 // Rows this close to their bound take part in a quadratic program.
-constexpr double kBand = 0.25;
+constexpr double kBand = 0.25;  // taste
 // Of the rows' gradients, as shares of the objective's.
-constexpr double kMultiplierAccuracy = 1e-15;
+constexpr double kMultiplierAccuracy = 1e-15;  // rounding
 // On meshes of fewer knots all rows take part in a round of NLopt; on others those that lie this close to
 // their bound, and ...
-constexpr std::size_t kCoarse = 18;
-constexpr double kMayMatter = 0.05;
+constexpr std::size_t kCoarse = 18;  // budget: a round of SLSQP costs the cube of rows and unknowns
+constexpr double kMayMatter = 0.05;  // taste
 // ... those that a round without them broke by this much.
-constexpr double kBroken = 0.01;
+constexpr double kBroken = 0.01;  // taste
 // Finer meshes than this are left to our own steps, ...
-constexpr std::size_t kMostForRounds = 48;
+constexpr std::size_t kMostForRounds = 48;  // budget
 // Newton steps go on until they are this share of what is asked for.
-constexpr double kArrived = 0.1;
+constexpr double kArrived = 0.1;  // taste
 // Rows this close to their bound may carry a multiplier, ...
-constexpr double kActive = 1e-6;
+constexpr double kActive = 1e-6;  // accuracy: ten times that of a limit
 // ... and Newton steps bring those that do this close to it.
-constexpr double kTight = 1e-8;
+constexpr double kTight = 1e-8;  // accuracy: a tenth of that of a limit
 
 Matrix jacobian_of(const Rows& rows, const State& state, const std::vector<Row>& set, std::size_t n) {
   Matrix jacobian(set.size(), n);
@@ -65,8 +65,8 @@ void add_squares(Matrix& hessian, double factor, const Matrix& rows) {
 /// and where that is not enough of the rows that carry multipliers too, which changes no step that keeps
 /// them; and by a shift if that will not do either.
 ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality, const Matrix& carrying) {
-  constexpr double kPenalties[] = {10.0, 100.0, 1e3};
-  constexpr double kLittle = 1e-5;
+  constexpr double kPenalties[] = {10.0, 100.0, 1e3};  // taste
+  constexpr double kLittle = 1e-5;                     // taste
   const std::size_t n = hessian.columns();
   Vector diagonal(n);
   double largest = 0.0;
@@ -115,8 +115,8 @@ class Minimiser {
     Found found;
     begin(start, known);
     // So many rounds that do not come closer by this factor end the search.
-    constexpr double kPays = 0.7;
-    constexpr int kMostIdle = 3;
+    constexpr double kPays = 0.7;  // taste
+    constexpr int kMostIdle = 3;   // budget
     double least = HUGE_VAL;
     int idle = 0;
     for (int round = 0;; ++round) {
@@ -330,7 +330,7 @@ class Minimiser {
 
   /// Newton steps. From far away they are taken only if they arrive.
   void approach() {
-    constexpr double kNear = 0.5;
+    constexpr double kNear = 0.5;  // taste
     if (control_.stop()) stopped_ = true;
     if (stopped_ || !solved(point_) || has_arrived(point_)) return;
     if (point_.distance <= kNear) {
@@ -355,7 +355,7 @@ class Minimiser {
   }
 
   void take_steps() {
-    constexpr int kMostSteps = 12;
+    constexpr int kMostSteps = 12;  // budget
     for (int step = 0; step < kMostSteps; ++step) {
       if (!advance() || !solved(point_) || has_arrived(point_)) return;
       if (control_.stop()) stopped_ = true;
@@ -367,7 +367,7 @@ class Minimiser {
   /// of the multipliers. They lead to the optimum from further away, and on a fine mesh cost a tenth of a round of
   /// NLopt.
   void take_lowering_steps() {
-    constexpr int kMostSteps = 25;
+    constexpr int kMostSteps = 25;  // budget
     double price = 0.0;
     for (int step = 0; step < kMostSteps; ++step) {
       if (!advance() && !lower(price)) return;
@@ -379,9 +379,9 @@ class Minimiser {
 
   /// @param price  raised as needed
   [[nodiscard]] bool lower(double& price) {
-    constexpr double kAbove = 2.0;
-    constexpr double kKept = 1e-4;  // of what the step promises
-    constexpr double kLeastPart = 1e-3;
+    constexpr double kAbove = 2.0;       // theory: above 1, the sum of multipliers
+    constexpr double kKept = 1e-4;       // of what the step promises; theory: small and positive, Armijo
+    constexpr double kLeastPart = 1e-3;  // budget
     double sum = 0.0;
     for (const double multiplier : point_.next.equality) sum += std::fabs(multiplier);
     for (const double multiplier : point_.next.inequality) sum += multiplier;
@@ -414,8 +414,8 @@ class Minimiser {
   /// Source: P. Deuflhard, "Newton Methods for Nonlinear Problems" (2004), the natural monotonicity test.
   /// @return false if there is none
   [[nodiscard]] bool advance() {
-    constexpr double kParts[] = {1.0, 0.5, 0.2};
-    constexpr double kShorter = 0.3;
+    constexpr double kParts[] = {1.0, 0.5, 0.2};  // taste
+    constexpr double kShorter = 0.3;              // theory: below 1, the natural monotonicity test
     for (const double part : kParts) {
       Vector z = point_.state.z;
       add_scaled(z.data(), part, point_.solution.step.data(), n_);
@@ -492,7 +492,7 @@ class Minimiser {
 
   /// A round of NLopt. Where it breaks rows that had no part in it, it is repeated with them.
   void descend_once() {
-    constexpr int kMostRepeats = 4;
+    constexpr int kMostRepeats = 4;  // budget
     std::vector<Row> set = working_set();
     std::sort(set.begin(), set.end());
     for (int repeat = 0;; ++repeat) {

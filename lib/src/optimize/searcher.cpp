@@ -14,42 +14,42 @@ namespace glissade::optimizer {
 namespace {
 
 // Pieces of the coarse levels before the finest.
-constexpr std::size_t kCoarsePieces = 12;
-constexpr std::size_t kMiddlePieces = 16;
-constexpr std::size_t kFinerPieces = 24;
-constexpr std::size_t kMovedLevels = 4;
+constexpr std::size_t kCoarsePieces = 12;  // taste
+constexpr std::size_t kMiddlePieces = 16;  // taste: meshes grow by some 4/3
+constexpr std::size_t kFinerPieces = 24;   // taste
+constexpr std::size_t kMovedLevels = 4;    // budget
 // By such a share a smoother track may be slower.
-constexpr double kDearer = 1e-7;
+constexpr double kDearer = 1e-7;  // accuracy: below that of a time
 // By less of a share nothing is won.
-constexpr double kWithoutEffect = 1e-8;
+constexpr double kWithoutEffect = 1e-8;  // accuracy: a hundredth of that of a time
 // Pieces of the mesh on which a track is looked for that keeps the limits at all.
-constexpr std::size_t kRescuePieces = 20;
-constexpr double kCoarseTolerance = 1e-3;
+constexpr std::size_t kRescuePieces = 20;  // taste
+constexpr double kCoarseTolerance = 1e-3;  // taste
 // A coarse track that breaks its limits by less is carried on to a finer mesh.
-constexpr double kNearlyFeasible = 1e-3;
+constexpr double kNearlyFeasible = 1e-3;  // taste
 // The lowest load is kept this far above its bound, in g: a body that weighs nothing at all has left the
 // track.
-constexpr double kContactMargin = 1e-6;
-constexpr int kTighteningRounds = 12;
+constexpr double kContactMargin = 1e-6;  // accuracy: ten times that of a limit
+constexpr int kTighteningRounds = 12;    // budget
 // So many of them, short ones, once the search has been asked to end.
-constexpr int kGraceRounds = 6;
-constexpr int kGraceEffort = 2;
+constexpr int kGraceRounds = 6;  // budget
+constexpr int kGraceEffort = 2;  // budget
 // In the first of them limits are held at the places that the referee names; later they are tightened.
-constexpr int kHoldingRounds = 4;
+constexpr int kHoldingRounds = 4;  // taste
 // In so many a curvature that follows the load more closely is tried where a body lifts off.
-constexpr int kFollowingRounds = 3;
+constexpr int kFollowingRounds = 3;  // budget
 // A track that then still breaks a limit at a station by more than kHopeless is given up: tighter limits are no
 // easier.
-constexpr int kPatientRounds = 2;
+constexpr int kPatientRounds = 2;  // budget
 // So is one that twice breaks them by more than this, and on a finer mesh by hardly less.
-constexpr double kHopeless = 1e-5;
+constexpr double kHopeless = 1e-5;  // accuracy: a hundred times that of a limit
 // A load that falls below none by less between two stations is mended by a greater margin, a deeper fall by
 // holding the load there: next to a jump it is deep, and short.
-constexpr double kShallow = 1e-5;
+constexpr double kShallow = 1e-5;  // taste
 // By what is missing and a little more, since the track moves.
-constexpr double kTightening = 1.3;
+constexpr double kTightening = 1.3;  // taste
 // A body that stalled between two stations is kept this much faster, squared, over free fall.
-constexpr double kStallMargin = 1e-5;
+constexpr double kStallMargin = 1e-5;  // taste: five times what counts as lying still
 
 CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   const Layout& layout = found.track->layout();
@@ -99,9 +99,9 @@ bool starts_with_crest(const ScaledProblem& problem) {
 /// Knots in shares of the core that do not depend on the track found: from a hundred-millionth on, each this factor
 /// behind the one before.
 Vector with_crest_knots(const Vector& knots) {
-  constexpr double kFirst = 1e-8;
-  constexpr double kFactor = 4.0;
-  constexpr double kLast = 2e-3;
+  constexpr double kFirst = 1e-8;  // taste
+  constexpr double kFactor = 4.0;  // taste
+  constexpr double kLast = 2e-3;   // taste: twice a pair of knots
   Vector result{0.0};
   double next = kFirst;
   for (; next < kLast; next *= kFactor) result.push_back(next);
@@ -138,7 +138,7 @@ class HeldPlaces {
  public:
   /// A place close to one that is held already takes its part: limits are touched there now.
   void add(double sigma, const Vector& knots) {
-    constexpr double kClose = 0.02;
+    constexpr double kClose = 0.02;  // taste
     if (!(sigma > 0.0 && sigma < 1.0)) return;
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
     const double piece = *above - *(above - 1);
@@ -291,7 +291,7 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
       found.stopped = next.stopped;
       continue;
     }
-    constexpr double kLess = 0.7;
+    constexpr double kLess = 0.7;  // taste
     hopeless += !next.feasible(kHopeless) && next.violation > kLess * found.violation ? 1 : 0;
     const double dearer = next.objective - found.objective;
     const double size = std::fabs(found.objective);
@@ -306,8 +306,8 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
 }
 
 Found Searcher::followed(const ScaledProblem& problem, Found found) {
-  constexpr int kMostRounds = 3;
-  constexpr double kPays = 1e-7;
+  constexpr int kMostRounds = 3;  // budget
+  constexpr double kPays = 1e-7;  // accuracy: below that of a time
   for (int round = 0; round < kMostRounds; ++round) {
     const std::optional<Mesh> mesh = following_loads(problem, found);
     if (!mesh) break;
@@ -322,12 +322,12 @@ Found Searcher::followed(const ScaledProblem& problem, Found found) {
 }
 
 Found Searcher::halved(const ScaledProblem& problem, Found found) {
-  constexpr int kMostRounds = 6;
+  constexpr int kMostRounds = 6;  // budget
   // Under a limit on the rate of curvature no jump tells where knots belong: halving alone makes prices exact.
   const bool smooth = is_smooth(problem);
   const double left_at_most = smooth ? 1e-8 : 1e-6;
-  constexpr std::size_t kMostPieces = 120;
-  constexpr double kKept = 0.1;
+  constexpr std::size_t kMostPieces = 120;  // budget
+  constexpr double kKept = 0.1;             // taste
   for (int round = 0; round < kMostRounds; ++round) {
     const Remainder left = remainder_of(problem, found, control_);
     if (left.objective <= left_at_most * std::fabs(found.objective)) break;

@@ -35,8 +35,8 @@ Vec2 expected_finish(const ScaledProblem& problem) {
       break;
     case FinishKind::anywhere: {
       // Free fall takes a drop of 1; a quarter more goes with friction, and with a slope as steep as is allowed.
-      constexpr double kLost = 0.25;
-      constexpr double kSteepest = 1.0;
+      constexpr double kLost = 0.25;     // taste
+      constexpr double kSteepest = 1.0;  // taste
       double slope = kSteepest;
       for (const LimitSpec& limit : problem.limits) {
         if (limit.measure == Measure::slope_angle && limit.side > 0)
@@ -53,7 +53,7 @@ Vec2 expected_finish(const ScaledProblem& problem) {
 GuessCurve straight(Vec2 finish) {
   GuessCurve curve;
   const double angle = math::atan2(finish.y, finish.x);
-  constexpr int kSteps = 64;
+  constexpr int kSteps = 64;  // taste
   for (int i = 0; i <= kSteps; ++i) {
     // A little sag breaks the tie between the two ways to bend.
     const double share = static_cast<double>(i) / kSteps;
@@ -76,7 +76,7 @@ GuessCurve clipped(GuessCurve curve, const ScaledProblem& problem) {
 
 /// Turning no faster than the body fits into.
 GuessCurve widened(GuessCurve curve, double height) {
-  constexpr double kShare = 0.5;  // of the curvature at which it no longer fits
+  constexpr double kShare = 0.5;  // of the curvature at which it no longer fits; taste
   if (height == 0.0) return curve;
   for (std::size_t i = curve.sigma.size() - 1; i-- > 0;) {
     const double ds = (curve.sigma[i + 1] - curve.sigma[i]) * curve.length;
@@ -108,9 +108,9 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
 }
 
 std::vector<GuessCurve> winding_starts(const ScaledProblem& problem) {
-  constexpr int kSteps = 128;
-  constexpr int kMostWaves = 3;
-  constexpr double kAmplitudes[] = {0.4, 0.8};  // [rad]
+  constexpr int kSteps = 128;                   // taste
+  constexpr int kMostWaves = 3;                 // taste
+  constexpr double kAmplitudes[] = {0.4, 0.8};  // [rad]; taste
   const Vec2 finish = expected_finish(problem);
   const double ends = problem.lead_in + problem.lead_out;
   const double mean = math::atan2(finish.y, finish.x);

@@ -11,13 +11,13 @@ namespace {
 
 // Knots before and behind a jump, in shares of the core length: near enough for what the ramp costs, far
 // enough for the place to be met.
-constexpr double kPair = 1e-3;
+constexpr double kPair = 1e-3;  // taste
 // Where the core joins a straight that is given, the place is known.
-constexpr double kJoint = 1e-4;
+constexpr double kJoint = 1e-4;  // taste: a tenth of a pair
 // A jump is seen from the track this many pieces before and behind it.
-constexpr double kWindow = 4.0;
+constexpr double kWindow = 4.0;  // taste
 // And counts as one if it is this large a share of the curvature there.
-constexpr double kJump = 0.1;
+constexpr double kJump = 0.1;  // taste
 
 /// A place counted in pieces: 2.25 lies a quarter into the third.
 double count_pieces(const Vector& knots, double sigma) {
@@ -29,14 +29,14 @@ double count_pieces(const Vector& knots, double sigma) {
 /// By how much a limit may be left alone between two places where it binds: a linear curvature cannot follow
 /// that of a load.
 double slack_within(const Measure& measure) {
-  constexpr double kOfLoad = 0.1;
-  constexpr double kElse = 1e-5;
+  constexpr double kOfLoad = 0.1;  // taste
+  constexpr double kElse = 1e-5;   // accuracy: a hundred times that of a limit
   return measure.is_load() ? kOfLoad : kElse;
 }
 
 /// Places where a limit that carries a price begins or ceases to bind, counted in pieces.
 std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& found) {
-  constexpr double kEnd = 1e-6;
+  constexpr double kEnd = 1e-6;  // accuracy: ten times that of a limit
   const Mesh& mesh = found.track->mesh();
   const double length = found.z[found.track->layout().length()];
   std::vector<double> price(problem.limits.size(), 0.0);
@@ -47,7 +47,7 @@ std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& f
     if (price[i] <= 0.0 || !problem.limits[i].measure->holds_along()) continue;
     // A load that a linear curvature misses next to an end of the core is held up to there all the same: a body
     // that flies off with little speed bends more in the first pieces than they can follow.
-    constexpr double kJoined = 3.0;
+    constexpr double kJoined = 3.0;  // taste
     const double last = static_cast<double>(mesh.knots.size() - 1);
     const bool load = problem.limits[i].measure->is_load();
     for (const Span& span : bindings[i]) {
@@ -121,11 +121,11 @@ struct Parabola {
 /// @param most      pieces up to the next jump; >= 3
 Parabola beside_jump(const Vector& knots, const SlopeAngle& found, std::size_t from, bool backwards,
                      std::size_t most) {
-  constexpr std::size_t kTests = 3;
+  constexpr std::size_t kTests = 3;  // theory: a parabola has three coefficients
   // Gauss-Legendre: products of two parabolas are integrated exactly.
-  constexpr double kOffset = 0.3872983346207417;
-  constexpr std::array<double, 3> kShare = {0.5 - kOffset, 0.5, 0.5 + kOffset};
-  constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  constexpr double kOffset = 0.3872983346207417;  // theory: Gauss-Legendre, sqrt(3/5)/2
+  constexpr std::array<double, 3> kShare = {0.5 - kOffset, 0.5, 0.5 + kOffset};    // theory
+  constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};  // theory
   const double sign = backwards ? -1.0 : 1.0;
   const double origin = knots[from];
   const std::size_t reach = std::min(most, kTests + 1);
@@ -181,7 +181,7 @@ class Kink {
  public:
   Kink(const Vector& knots, const SlopeAngle& found, std::size_t first, std::size_t last, Span blurred)
       : seen_{knots[first], knots[last]} {
-    constexpr std::size_t kPoints = 6;
+    constexpr std::size_t kPoints = 6;  // taste
     for (std::size_t i = first; i < last; ++i) {
       if (knots[i] >= blurred.from && knots[i + 1] <= blurred.to) continue;
       const double width = knots[i + 1] - knots[i];
@@ -222,8 +222,8 @@ class Kink {
 
   /// The place within `span` that fits best.
   [[nodiscard]] double best(Span span) const {
-    constexpr int kScan = 24;
-    constexpr int kHalvings = 20;
+    constexpr int kScan = 24;      // taste
+    constexpr int kHalvings = 20;  // rounding: 2^-20 of a piece
     const double step = (span.to - span.from) / kScan;
     double at = span.from;
     double least = HUGE_VAL;
@@ -245,7 +245,7 @@ class Kink {
   }
 
  private:
-  static constexpr std::size_t kTerms = 5;
+  static constexpr std::size_t kTerms = 5;  // theory: the columns of the fit
   struct Point {
     double sigma = 0.0;
     double zeta = 0.0;
@@ -312,8 +312,8 @@ class JumpFinder {
 
   /// The pieces that stand for a jump each: near the end of a binding, and no ripple of a greater one.
   [[nodiscard]] std::vector<std::size_t> ramps() const {
-    constexpr double kNear = 3.0;
-    constexpr double kRipple = 1.5;
+    constexpr double kNear = 3.0;    // taste
+    constexpr double kRipple = 1.5;  // taste
     std::vector<std::size_t> by_size;
     for (std::size_t i = 0; i < pieces_; ++i) {
       const double middle = static_cast<double>(i) + 0.5;
@@ -337,8 +337,8 @@ class JumpFinder {
   /// @param first,last  pieces [first, last) belong to this jump and to no other
   /// @return none where curvature turns out to change smoothly
   [[nodiscard]] std::optional<Switch> seen_from(std::size_t ramp, std::size_t first, std::size_t last) const {
-    constexpr double kPartOfRamp = 0.6;
-    constexpr std::size_t kMostRamps = 3;
+    constexpr double kPartOfRamp = 0.6;    // taste
+    constexpr std::size_t kMostRamps = 3;  // taste
     std::size_t begin = ramp;
     std::size_t end = ramp + 1;
     while (begin > first && end - begin < kMostRamps && change(begin - 1) > kPartOfRamp * change(ramp))
@@ -361,8 +361,8 @@ class JumpFinder {
     const double at = kink.best(search);
     const Kink::Fit fit = kink.fit(at);
     // Two parabolas that do not fit tell of more than one jump.
-    constexpr double kFits = 1e-2;
-    constexpr double kLikeRamp = 0.3;
+    constexpr double kFits = 1e-2;     // taste
+    constexpr double kLikeRamp = 0.3;  // taste
     const double risen = turn(begin) - turn(end);
     if (fit.miss > kFits * std::fabs(risen) * (knots_[behind] - knots_[before])) return result;
     if (fit.jump / risen < kLikeRamp) return std::nullopt;
@@ -374,11 +374,11 @@ class JumpFinder {
   /// @param before,behind  pieces up to the next jumps
   [[nodiscard]] std::optional<Span> moved(std::size_t pair, std::size_t before, std::size_t behind,
                                           Span search) const {
-    constexpr std::size_t kNeeded = 3;
+    constexpr std::size_t kNeeded = 3;  // theory: a parabola has three coefficients
     if (before < kNeeded || behind < kNeeded) return std::nullopt;
     const Parabola left = beside_jump(knots_, slope_angle_, pair, true, before);
     const Parabola right = beside_jump(knots_, slope_angle_, pair + 1, false, behind);
-    constexpr int kSteps = 6;
+    constexpr int kSteps = 6;  // budget
     double at = 0.5 * (knots_[pair] + knots_[pair + 1]);
     for (int step = 0; step < kSteps; ++step) {
       at -= (right.value(at) - left.value(at)) / (right.slope(at) - left.slope(at));
@@ -403,8 +403,8 @@ struct Cut {
 };
 
 std::vector<Cut> cuts_of(const Vector& knots, const std::vector<Switch>& switches) {
-  constexpr std::size_t kMoreBlurred = 2;
-  constexpr double kApart = 4.0 * kPair;
+  constexpr std::size_t kMoreBlurred = 2;  // taste
+  constexpr double kApart = 4.0 * kPair;   // taste
   std::vector<Cut> cuts;
   for (std::size_t i = 0; i < switches.size(); ++i) {
     const Switch& change = switches[i];
@@ -442,7 +442,7 @@ Vector third_differences(const Transcription& track, const Vector& z, const std:
   }
   third[0] = third[1];
   third[n - 1] = third[n - 2];
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-12;  // rounding
   for (const Cut& cut : cuts) {
     const auto begin = std::lower_bound(knots.begin(), knots.end(), cut.blurred.from - kRounding);
     const auto end = std::upper_bound(knots.begin(), knots.end(), cut.blurred.to + kRounding);
@@ -460,7 +460,7 @@ class Demand {
  public:
   Demand(const Transcription& track, const Vector& z, const std::vector<Cut>& cuts)
       : knots_(track.mesh().knots), total_(knots_.size(), 0.0) {
-    constexpr double kEvenShare = 0.3;
+    constexpr double kEvenShare = 0.3;  // taste
     const Mesh& mesh = track.mesh();
     const std::size_t n = knots_.size();
     const Vector third = third_differences(track, z, cuts);
@@ -507,8 +507,8 @@ class Demand {
 }  // namespace
 
 std::vector<std::vector<Span>> bindings_of(const ScaledProblem& problem, const Found& found) {
-  constexpr double kAtBound = 1e-6;
-  constexpr double kSameStretch = 1.5;
+  constexpr double kAtBound = 1e-6;     // accuracy: ten times that of a limit
+  constexpr double kSameStretch = 1.5;  // taste
   struct Place {
     double at = 0.0;
     double slack = 0.0;
@@ -562,7 +562,7 @@ std::vector<Switch> switches_of(const ScaledProblem& problem, const Found& found
 }
 
 bool settled(const std::vector<Switch>& switches) {
-  constexpr double kSettled = 0.1 * kPair;
+  constexpr double kSettled = 0.1 * kPair;  // taste
   return std::all_of(switches.begin(), switches.end(), [](const Switch& change) {
     if (!change.jump) return false;
     const double before = std::fabs(change.jump->from - change.blurred.from);
@@ -573,7 +573,7 @@ bool settled(const std::vector<Switch>& switches) {
 
 Vector refined_knots(const Transcription& track, const Vector& z, const std::vector<Switch>& switches,
                      std::size_t pieces) {
-  constexpr std::size_t kFewest = 2;
+  constexpr std::size_t kFewest = 2;  // taste
   const std::vector<Cut> cuts = cuts_of(track.mesh().knots, switches);
   const Demand demand(track, z, cuts);
   double shared = demand.up_to(1.0);

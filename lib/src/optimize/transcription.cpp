@@ -13,16 +13,16 @@ namespace {
 constexpr std::size_t kNodes = PanelRule::kNodes;
 
 // Panels grow at most by this factor in r, so that six nodes resolve the start from rest.
-constexpr double kPanelGrowth = 2.5;
+constexpr double kPanelGrowth = 2.5;  // taste
 
 // And by at most this share of the whole track's r, so that a long first piece is resolved too.
-constexpr double kLargestPanel = 1.0 / 14.0;
+constexpr double kLargestPanel = 1.0 / 14.0;  // taste
 
 // What a second weighs beside a second of speed that is off by all of itself: enough for one optimum to be left.
-constexpr double kFasterOfTwo = 1e-3;
+constexpr double kFasterOfTwo = 1e-3;  // taste
 
 // Below this share of free fall a body counts as not arriving.
-constexpr double kSlowest = 2e-6;
+constexpr double kSlowest = 2e-6;  // theory: twice what counts as lying still
 
 }  // namespace
 
@@ -338,10 +338,10 @@ double Transcription::curvature(const Vector& z, std::size_t index) const {
 }
 
 bool Transcription::is_track(const Vector& z) const {
-  constexpr double kSteepest = 3.0;
-  constexpr double kShortest = 0.01;
-  constexpr double kLongest = 100.0;
-  constexpr double kTightest = 0.999;  // curvature times height: at 1 the body does not fit in
+  constexpr double kSteepest = 3.0;    // theory: below pi
+  constexpr double kShortest = 0.01;   // taste: below any track
+  constexpr double kLongest = 100.0;   // taste: above any track
+  constexpr double kTightest = 0.999;  // curvature times height; theory: at 1 the body does not fit in
   const double length = z[layout_.length()];
   if (!(length > kShortest && length < kLongest)) return false;
   for (std::size_t i = 0; i < layout_.knots; ++i) {

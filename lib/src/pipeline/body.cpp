@@ -36,17 +36,24 @@ LawPtr stream_law(const StreamDesign& design, const CrossSectionDesign& section)
   return std::make_shared<const BulkStream>(shape);
 }
 
-LawPtr law_of(const BodyDesign& design) {
-  if (design.rolling) {
-    BallShape shape;
-    shape.radius = design.rolling->radius;
-    shape.groove_half_angle = design.rolling->groove_half_angle;
-    shape.centre_height = design.centre_height;
-    shape.grip = design.rolling->grip;
-    return std::make_shared<const RollingBall>(shape);
-  }
-  const double height = design.centre_height.value_or(0.0);
+// The law of each kind of body.
+
+LawPtr law_of(const SlidingDesign&, const BodyDesign& body) {
+  const double height = body.centre_height.value_or(0.0);
   return height == 0.0 ? nullptr : std::make_shared<const Rider>(height);
+}
+
+LawPtr law_of(const RollingDesign& ball, const BodyDesign& body) {
+  BallShape shape;
+  shape.radius = ball.radius;
+  shape.groove_half_angle = ball.groove_half_angle;
+  shape.centre_height = body.centre_height;
+  shape.grip = ball.grip;
+  return std::make_shared<const RollingBall>(shape);
+}
+
+LawPtr law_of(const BodyDesign& body) {
+  return std::visit([&](const auto& kind) { return law_of(kind, body); }, body.kind);
 }
 
 }  // namespace
@@ -116,9 +123,8 @@ std::string pipeline::friction_text(const Body& body, const Stall& stall) {
   for (const FrictionChange& change : body.friction_changes) {
     if (change.from <= stall.arc_length) friction = change.friction;
   }
-  const bool rolls = body.law && body.law->kind() == "rolling";
-  return (rolls ? "the angle of rolling resistance, " : "the friction angle, ") +
-         angle_text(friction.angle());
+  const std::string_view resistance = body.law ? body.law->resistance_angle_name() : kFrictionAngleName;
+  return "the " + std::string(resistance) + ", " + angle_text(friction.angle());
 }
 
 namespace {
@@ -162,17 +168,18 @@ Issue pipeline::law_end_problem(const Design& design, const LawEnd& end, double 
 std::optional<Issue> law_problem(const Design& design, const Track& track) {
   const std::vector<LawQuantity> quantities = track.motion.quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if (!quantities[i].highest || quantities[i].ends_ride) continue;
+    const LawQuantity& quantity = quantities[i];
+    if (!quantity.highest || !quantity.verdict) continue;
     const QuantityPeak peak = track.motion.highest(i);
     if (!peak.beyond_from) continue;
-    const std::string most =
-        std::isinf(peak.value) ? "no friction is enough there" : "it needs " + rounded_text(peak.value, 3);
+    const std::string most = std::isinf(peak.value) ? "has no bound" : "is " + rounded_text(peak.value, 3);
     return Issue{design.where("body"),
-                 "the ball slips, from " + length_text(*peak.beyond_from) + " down the track on",
-                 "Rolling needs more friction than the " + rounded_text(*quantities[i].highest, 3) +
-                     " there is: " + most + " " + length_text(peak.arc_length) +
-                     " down the track. The ride is that of a ball that rolls all the way.",
-                 "a track less steep (limits: slope_angle), or a ball and a track that grip better"};
+                 std::string(quantity.verdict->broken) + ", from " + length_text(*peak.beyond_from) +
+                     " down the track on",
+                 "The " + std::string(quantity.name) + " " + most + " " + length_text(peak.arc_length) +
+                     " down the track; there is " + rounded_text(*quantity.highest, 3) + ". " +
+                     std::string(quantity.verdict->why),
+                 std::string(quantity.verdict->hint)};
   }
   return {};
 }

@@ -79,20 +79,24 @@ ReportCheck optimality(const Track& track) {
           "travel time is " + rounded_text(100.0 * excess, 3) + " % above the closed form of the optimum"};
 }
 
-/// Whether a ball rolls all the way; fail where it slips.
-std::optional<ReportCheck> rolling(const Design& design, const Track& track) {
-  if (!design.body.rolling) return {};
-  const QuantityPeak peak = track.motion.highest(0);
-  const std::string needed =
-      std::isinf(peak.value) ? "friction without bound" : "friction of " + rounded_text(peak.value, 3);
-  const std::string place = " at s = " + length_text(peak.arc_length);
-  const std::optional<Friction>& grip = design.body.rolling->grip;
-  const std::string name = "The ball rolls and does not slip";
-  if (!grip)
-    return ReportCheck{name, Verdict::not_checked,
-                       "it needs " + needed + place + "; the design does not say what there is"};
-  return ReportCheck{name, verdict(!peak.beyond_from),
-                     "it needs " + needed + place + ", there is " + rounded_text(grip->coefficient(), 3)};
+/// What a law asks for without ending the ride: a ball that is not to slip.
+void add_law_checks(const Track& track, std::vector<ReportCheck>& checks) {
+  const std::vector<LawQuantity> quantities = track.motion.quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const LawQuantity& quantity = quantities[i];
+    if (!quantity.verdict) continue;
+    const QuantityPeak peak = track.motion.highest(i);
+    const std::string most = std::isinf(peak.value) ? "has no bound" : "is " + rounded_text(peak.value, 3);
+    const std::string text =
+        "the " + std::string(quantity.name) + " " + most + " at s = " + length_text(peak.arc_length);
+    const std::string name(quantity.verdict->check);
+    if (!quantity.highest) {
+      checks.push_back({name, Verdict::not_checked, text + "; the design does not say what there is"});
+    } else {
+      checks.push_back(
+          {name, verdict(!peak.beyond_from), text + ", there is " + rounded_text(*quantity.highest, 3)});
+    }
+  }
 }
 
 ReportCheck watertight(const MeshFacts& facts, const Solid& solid) {
@@ -249,7 +253,9 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
                   deviation(design, build.max_deviation),
                   read_back(build.read_back_files)};
   if (track.search) input.checks.insert(input.checks.begin() + 4, search(design, *track.search));
-  if (const auto rolls = rolling(design, track)) input.checks.insert(input.checks.begin() + 3, *rolls);
+  std::vector<ReportCheck> of_law;
+  add_law_checks(track, of_law);
+  input.checks.insert(input.checks.begin() + 3, of_law.begin(), of_law.end());
   return input;
 }
 

@@ -1,8 +1,13 @@
 #include "pipeline/stations.hpp"
 
+#include "glissade/core/math.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
+
 #include "report/ride_stations.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 namespace glissade {
 namespace {
@@ -17,6 +22,51 @@ std::vector<std::optional<MotionState>> states_at(const Motion& motion,
   return states;
 }
 
+/// A column with a value wherever the body comes.
+StationColumn column(std::string name, const Motion& motion, const std::vector<double>& arc_lengths,
+                     const std::function<double(double)>& value) {
+  StationColumn result{std::move(name), {}};
+  for (const double s : arc_lengths) {
+    result.values.push_back(s <= motion.distance() ? std::optional(value(s)) : std::nullopt);
+  }
+  return result;
+}
+
+/// What the law of a body says: its quantities, whether those that have a bound keep it, and of a stream the wear.
+std::vector<StationColumn> law_columns(const Motion& motion, const std::vector<double>& arc_lengths) {
+  std::vector<StationColumn> columns;
+  const std::vector<LawQuantity> quantities = motion.quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const LawQuantity& quantity = quantities[i];
+    const auto value = [&](double s) { return motion.quantity(i, s); };
+    columns.push_back(column(std::string(quantity.key), motion, arc_lengths, value));
+    if (!quantity.highest || quantity.ends_ride) continue;
+    columns.push_back(column(std::string(quantity.key) + "_kept", motion, arc_lengths,
+                             [&](double s) { return value(s) <= *quantity.highest ? 1.0 : 0.0; }));
+  }
+  if (const auto* const stream = dynamic_cast<const BulkStream*>(motion.body().law.get())) {
+    columns.push_back(column("floor_wear_w_per_m2", motion, arc_lengths, [&](double s) {
+      return stream->floor_wear(s, motion.body().friction, motion.at(s).normal_load);
+    }));
+  }
+  return columns;
+}
+
+/// Where the centre of mass is, of a body whose centre is not on the track.
+void add_centre(const Track& track, const std::vector<double>& arc_lengths, StationTable& table) {
+  const LawPtr& law = track.motion.body().law;
+  const double height = law ? law->centre_height() : 0.0;
+  if (height == 0.0) return;
+  StationColumn run{"centre_run_m", {}};
+  StationColumn drop{"centre_drop_m", {}};
+  for (const double s : arc_lengths) {
+    const CenterlinePoint point = track.centerline->at(s);
+    run.values.emplace_back(point.x + height * math::sin(point.slope_angle));
+    drop.values.emplace_back(point.drop - height * math::cos(point.slope_angle));
+  }
+  table.law.insert(table.law.begin(), {std::move(run), std::move(drop)});
+}
+
 }  // namespace
 
 StationTable pipeline::stations_of(const Track& track, const std::vector<double>& arc_lengths) {
@@ -26,8 +76,12 @@ StationTable pipeline::stations_of(const Track& track, const std::vector<double>
     const CenterlinePoint point = track.centerline->at(arc_lengths[index]);
     table.rows.push_back({point, track.placement.to_space(point.x, point.drop, 0.0), states[index]});
   }
-  for (const RangeRide& ride : track.range)
-    table.range.push_back({ride.level, states_at(ride.motion, arc_lengths)});
+  table.law = law_columns(track.motion, arc_lengths);
+  add_centre(track, arc_lengths, table);
+  for (const RangeRide& ride : track.range) {
+    table.range.push_back(
+        {ride.level, states_at(ride.motion, arc_lengths), law_columns(ride.motion, arc_lengths)});
+  }
   return table;
 }
 

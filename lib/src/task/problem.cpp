@@ -48,11 +48,7 @@ class Checker {
   std::vector<Issue> issues_;
 };
 
-}  // namespace
-
-void require_valid(const Problem& problem) {
-  Checker check;
-  const Limits& limits = problem.limits;
+void check_ends(const Problem& problem, Checker& check) {
   if (fixes_run(problem.finish.kind)) {
     check.number("endpoints.run", problem.endpoints.run, problem.endpoints.run != 0.0,
                  "a run of 0 is a fall straight down, which leaves nothing to optimise");
@@ -66,6 +62,9 @@ void require_valid(const Problem& problem) {
   if (problem.finish.kind == FinishKind::level) {
     check.require(problem.endpoints.drop != 0.0, "endpoints.drop: 0 m", "a level finish needs a drop");
   }
+}
+
+void check_body(const Problem& problem, Checker& check) {
   check.number("gravity", problem.gravity, problem.gravity > 0.0, "gravity is positive");
   check.number("body.entry_speed", problem.body.entry_speed, problem.body.entry_speed >= 0.0,
                "a speed is not negative");
@@ -80,27 +79,40 @@ void require_valid(const Problem& problem) {
                   "high_friction is below the body's friction",
                   "a friction range needs low <= nominal <= high");
   }
+}
+
+void check_objective(const Problem& problem, Checker& check) {
   check.number("objective.exit_speed_weight", problem.objective.exit_speed_weight,
                problem.objective.exit_speed_weight >= 0.0, "a weight is not negative");
-  const bool speed_given = limits.exit_speed.lowest && *limits.exit_speed.lowest > problem.body.entry_speed;
-  if (problem.finish.kind == FinishKind::anywhere) {
+  const Range& exit_speed = problem.limits.exit_speed;
+  const bool speed_given = exit_speed.lowest && *exit_speed.lowest > problem.body.entry_speed;
+  const bool anywhere = problem.finish.kind == FinishKind::anywhere;
+  if (anywhere) {
     check.require(speed_given, "finish: free both ways, without a lowest exit speed above the entry speed",
                   "it is the speed to be reached that says how far the track has to fall",
                   "exit_speed.lowest, or a finish with a run or a drop");
   }
-  if (is_least_bound(problem.objective.kind)) {
-    check.require(speed_given, "objective: a least bound, without a lowest exit speed above the entry speed",
-                  "the tightest bound is the one at which a given speed is just reached",
-                  "exit_speed.lowest");
-    check.require(problem.finish.kind != FinishKind::anywhere,
-                  "objective: a least bound, with a finish that is free both ways",
-                  "a longer and longer track has less and less of it", "a finish with a drop");
+  if (!is_least_bound(problem.objective.kind)) return;
+  check.require(speed_given, "objective: a least bound, without a lowest exit speed above the entry speed",
+                "the tightest bound is the one at which a given speed is just reached", "exit_speed.lowest");
+  check.require(!anywhere, "objective: a least bound, with a finish that is free both ways",
+                "a longer and longer track has less and less of it", "a finish with a drop");
+}
+
+void check_profiles(const char* name, const std::vector<Profile>& profiles, Checker& check) {
+  for (const Profile& profile : profiles) {
+    check.points(name, profile.line, 2);
+    check.number(name, profile.clearance, profile.clearance >= 0.0, "a clearance is not negative");
+    for (std::size_t i = 0; i + 1 < profile.line.size(); ++i) {
+      check.require(profile.line[i].x < profile.line[i + 1].x,
+                    std::string(name) + ": run " + exact_text(profile.line[i + 1].x) + " after " +
+                        exact_text(profile.line[i].x),
+                    "the runs of a profile ascend");
+    }
   }
-  for (LimitFault& fault : limit_faults(limits)) check.add(std::move(fault.issue));
-  check.number("lowest_speed_from", limits.lowest_speed_from, limits.lowest_speed_from >= 0.0,
-               "an arc length is not negative");
-  check.range("finish.free_range", problem.finish.free_range);
-  check.range("finish.free_drop", problem.finish.free_drop);
+}
+
+void check_obstacles(const Limits& limits, Checker& check) {
   for (const HalfPlane& plane : limits.half_planes) {
     check.require(norm(plane.forbidden) > 0.0 && std::isfinite(norm(plane.forbidden)) &&
                       std::isfinite(norm(plane.point)),
@@ -114,21 +126,25 @@ void require_valid(const Problem& problem) {
     check.number("keep_outs clearance", keep_out.clearance, keep_out.clearance >= 0.0,
                  "a clearance is not negative");
   }
-  const auto check_profiles = [&](const char* name, const std::vector<Profile>& profiles) {
-    for (const Profile& profile : profiles) {
-      check.points(name, profile.line, 2);
-      check.number(name, profile.clearance, profile.clearance >= 0.0, "a clearance is not negative");
-      for (std::size_t i = 0; i + 1 < profile.line.size(); ++i) {
-        check.require(profile.line[i].x < profile.line[i + 1].x,
-                      std::string(name) + ": run " + exact_text(profile.line[i + 1].x) + " after " +
-                          exact_text(profile.line[i].x),
-                      "the runs of a profile ascend");
-      }
-    }
-  };
-  check_profiles("stay_above", limits.stay_above);
-  check_profiles("stay_below", limits.stay_below);
+  check_profiles("stay_above", limits.stay_above, check);
+  check_profiles("stay_below", limits.stay_below, check);
   check.points("waypoints", limits.waypoints, 0);
+}
+
+}  // namespace
+
+void require_valid(const Problem& problem) {
+  Checker check;
+  check_ends(problem, check);
+  check_body(problem, check);
+  check_objective(problem, check);
+  const Limits& limits = problem.limits;
+  for (LimitFault& fault : limit_faults(limits)) check.add(std::move(fault.issue));
+  check.number("lowest_speed_from", limits.lowest_speed_from, limits.lowest_speed_from >= 0.0,
+               "an arc length is not negative");
+  check.range("finish.free_range", problem.finish.free_range);
+  check.range("finish.free_drop", problem.finish.free_drop);
+  check_obstacles(limits, check);
   check.finish();
 }
 

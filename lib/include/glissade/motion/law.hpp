@@ -19,6 +19,15 @@ struct Resistance {
   double by_s_s = 0.0;  ///< [1/m^2]
 };
 
+/// What people are told of a quantity that is held against its bound while the ride goes on.
+struct LawVerdict {
+  std::string_view check;   ///< a sentence that is true where it is kept: "The ball rolls and does not slip"
+  std::string_view kept;    ///< "it does not slip"
+  std::string_view broken;  ///< "the ball slips"
+  std::string_view why;     ///< what that means for the ride
+  std::string_view hint;    ///< what to try
+};
+
 /// What a law has to say beyond speed, time and load: a column of a ride.
 struct LawQuantity {
   std::string_view key;   ///< as in JSON, e.g. "friction_needed"
@@ -27,6 +36,8 @@ struct LawQuantity {
   /// What it must not exceed for the law to hold, if anything.
   std::optional<double> highest;
   bool ends_ride = false;  ///< beyond `highest` the ride is not told; otherwise it goes on, and a check fails
+  std::optional<LawVerdict> verdict =
+      {};  ///< of one that does not end the ride, whether or not there is a bound
 };
 
 /// The body at a place of a track, as a law's quantities are computed from it. Per unit mass, SI.
@@ -39,6 +50,9 @@ struct LawState {
   double friction = 0.0;     ///< mu there
   double drive = 0.0;        ///< g sin(zeta) less drag [m/s^2]
 };
+
+/// What the resistance of a sliding body is called where it is an angle.
+inline constexpr std::string_view kFrictionAngleName = "friction angle";
 
 class Law;
 /// How laws travel; none stands for the sliding point, Coulomb's law.
@@ -60,6 +74,9 @@ class Law {
 
   /// @return the word that a design file uses, e.g. "rolling"
   [[nodiscard]] virtual std::string_view kind() const noexcept = 0;
+
+  /// @return what its resistance is called where it is told as an angle
+  [[nodiscard]] virtual std::string_view resistance_angle_name() const noexcept { return kFrictionAngleName; }
 
   /// @return f, inertia over mass; >= 1
   [[nodiscard]] virtual double inertia() const noexcept { return 1.0; }

@@ -23,6 +23,7 @@ enum class RedesignGoal {
 /// @return every goal, in the order of the enumeration
 [[nodiscard]] const std::vector<RedesignGoal>& redesign_goals();
 
+/// What a redesign is to be best in, and what it keeps.
 struct RedesignOptions {
   RedesignGoal goal = RedesignGoal::least_drop;
   std::optional<double> speed;  ///< at the edge [m/s]; none: what the design gives from its highest start

@@ -35,6 +35,9 @@ RollingBall::RollingBall(const BallShape& shape)
 
 std::vector<LawQuantity> RollingBall::quantities() const {
   LawQuantity needed{"friction_needed", "friction that rolling needs", "", {}, false};
+  needed.verdict = {"The ball rolls and does not slip", "it does not slip", "the ball slips",
+                    "The ride is that of a ball that rolls all the way.",
+                    "a track less steep (limits: slope_angle), or a ball and a track that grip better"};
   if (shape_.grip) needed.highest = shape_.grip->coefficient();
   return {needed};
 }

@@ -21,6 +21,27 @@ Json quantity_json(const LawQuantity& quantity, const QuantityPeak& peak) {
           {"kept", !peak.beyond_from}, {"beyond_from_m", number(peak.beyond_from)}};
 }
 
+/// Tells each measure of a kind of body, its unit in its key.
+class KindJson {
+ public:
+  KindJson(const BodyDesign& body, Json& json) : body_(body), json_(json) {}
+
+  void resistance(const char* key, const char*) { json_[key] = body_.friction.coefficient(); }
+  void length(const std::string& key, double value, double, double, const char*, const char*) {
+    json_[key + "_m"] = value;
+  }
+  void angle(const std::string& key, Angle value, Angle, const char*, const char*) {
+    json_[key + "_deg"] = value.degrees();
+  }
+  void grip(const std::optional<Friction>& value, const char*) {
+    json_["grip_coefficient"] = value ? Json(value->coefficient()) : Json(nullptr);
+  }
+
+ private:
+  const BodyDesign& body_;
+  Json& json_;
+};
+
 }  // namespace
 
 std::string_view status_of(const Motion& motion) {
@@ -31,13 +52,9 @@ std::string_view status_of(const Motion& motion) {
 }
 
 void add_law_body(Json& json, const BodyDesign& body) {
-  if (body.rolling) {
-    const RollingDesign& ball = *body.rolling;
-    json["body"] = "rolling";
-    json["rolling_resistance"] = body.friction.coefficient();
-    json["radius_m"] = ball.radius;
-    json["groove_half_angle_deg"] = ball.groove_half_angle.degrees();
-    json["grip_coefficient"] = ball.grip ? Json(ball.grip->coefficient()) : Json(nullptr);
+  if (!body.slides()) {
+    json["body"] = std::visit([](const auto& kind) { return kind.kKind; }, body.kind);
+    visit_measures(body, KindJson(body, json));
   }
   if (body.centre_height) json["centre_height_m"] = *body.centre_height;
   if (body.head_wind != 0.0) json["head_wind_m_per_s"] = body.head_wind;

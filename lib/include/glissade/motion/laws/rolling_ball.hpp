@@ -34,6 +34,9 @@ class RollingBall final : public Law {
   [[nodiscard]] const BallShape& shape() const noexcept { return shape_; }
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "rolling"; }
+  [[nodiscard]] std::string_view resistance_angle_name() const noexcept override {
+    return "angle of rolling resistance";
+  }
   [[nodiscard]] double inertia() const noexcept override { return inertia_; }
   [[nodiscard]] double centre_height() const noexcept override { return height_; }
   [[nodiscard]] std::vector<LawQuantity> quantities() const override;
