@@ -17,7 +17,7 @@ constexpr double kNearBound = 0.02;  // taste
 constexpr double kLeft = 3e-8;
 // Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong. And so many at least where a
 // body left the track.
-constexpr std::size_t kMostFine = 32;  // budget
+constexpr std::size_t kMostFine = 16;  // budget
 constexpr std::size_t kLifting = 8;    // taste
 // Below this squared speed, as a share of that of free fall through a chord, a body is at rest: the curvature of
 // constant load has no bound there.

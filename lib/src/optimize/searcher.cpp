@@ -282,7 +282,7 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
     tell("finer track", done);
     done += 0.7 / static_cast<double>(levels.size());
     const bool finest = levels[level] == pieces;
-    aim_at(finest ? options_.tolerance : kCoarseTolerance, finest ? 10 : 5);
+    aim_at(finest ? options_.tolerance : kCoarseTolerance, finest ? 3 : 5);
     const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
                                 core_length_of(found));
     Found next = on_mesh(problem, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)), found);
@@ -393,7 +393,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
       if (lift.depth > kShallow) held.add(lift.sigma, mesh.knots);
     }
     mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.places().begin(), held.places().end());
-    aim_at(options_.tolerance, found.stopped ? kGraceEffort : 10);
+    aim_at(options_.tolerance, found.stopped ? kGraceEffort : 3);
     const bool stopped = found.stopped;
     found = on_mesh(problem, mesh, found.z, found);
     control_.stop = stop;
