@@ -261,6 +261,20 @@ TEST_CASE("fittings: what cannot be made is refused with place, value, bound and
   joint.split.longest = 2.9;
   joint.inspection = {{0.02, 0.2, 0.12, 8}};
   CHECK(refusal(joint).find("inspection|at: an opening at 20 mm reaches over the end of a unit|") == 0);
+  PlateOptions away;
+  away.inspection = {{20.0, 0.2, 0.12, 8}};
+  CHECK(refusal(away).find("inspection|at: an opening at 20 m is not on the track|It is 7.746 m long.") == 0);
+  PlateOptions tiles;
+  tiles.liner.emplace();
+  tiles.liner->tile_width = 40e-3;
+  CHECK(
+      refusal(tiles).find("liner.tile_width|tile_width: 40 mm makes half tiles of 17.9 mm|Holes for M10 take "
+                          "26.4 mm with their edges.|tile_width: 59 mm or more") == 0);
+  PlateOptions many;
+  many.split.longest = 1e-3;
+  CHECK(refusal(many).find(
+            "split.longest|longest: 1 mm makes 7747 units of a track of 7.746 m|There are at most "
+            "400.") == 0);
   PlateOptions slab;
   slab.rim.emplace();
   CHECK(refusal(slab, {0.4, 0.0, 4e-3}).find("rim|rim: there are no walls to set it on") == 0);

@@ -134,6 +134,69 @@ TEST_CASE("fabrication: the same design gives the same bytes") {
   CHECK(1.0 - first.fabrication->ride.exit_speed / first.track.motion.exit_speed() <= 0.0105);
 }
 
+TEST_CASE("fabrication: export names the files of the parts, and what kind of DXF they are") {
+  const TempDir place;
+  const auto files_of = [&](const std::string& exports) {
+    const Design design = parse_design(
+        "glissade: 1\n"
+        "track: {start: {x: 0 m, z: 5.1 m}, finish: {x: 5.4 m, z: 0 m}}\n"
+        "body: {friction_angle: 17 deg}\n"
+        "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}\n"
+        "fabrication: {process: plate}\nmesh: {tolerance: 2 mm}\nexport: " +
+            exports + "\n",
+        "chute.yaml");
+    std::vector<std::string> names;
+    const Build built = build(design, place / "out", {}, {.report = false});
+    for (const WrittenFile& file : built.files) names.push_back(file.path.extension().string());
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+  };
+  CHECK(files_of("[off, dxf]") == std::vector<std::string>{".dxf", ".off"});
+  CHECK(files_of("[step]") == std::vector<std::string>{".step"});
+  CHECK(files_of("[off, workshop]") == std::vector<std::string>{".csv", ".dxf", ".off", ".pdf", ".step"});
+  CHECK(files_of("{formats: [svg, templates], paper: a3}") == std::vector<std::string>{".pdf", ".svg"});
+  CHECK(files_of("{formats: [dxf], dxf_version: r12, layers: plain}") == std::vector<std::string>{".dxf"});
+  for (const auto& entry : std::filesystem::directory_iterator(place / "out" / "chute.parts")) {
+    const std::string text = bytes_of(entry.path());
+    CHECK(text.find("AC1009") != std::string::npos);
+    CHECK(text.find("LWPOLYLINE") == std::string::npos);
+    CHECK(text.find("CUT") == std::string::npos);
+  }
+}
+
+TEST_CASE("fabrication: words of export that nothing makes are refused at their place") {
+  const auto message = [](const std::string& fabrication, const std::string& exports) {
+    try {
+      (void)parse_design(
+          "glissade: 1\n"
+          "track: {start: {x: 0 m, z: 5.1 m}, finish: {x: 5.4 m, z: 0 m}}\n"
+          "body: {friction_angle: 17 deg}\n"
+          "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}\n" +
+              fabrication + "export: " + exports + "\n",
+          "chute.yaml");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(message("", "[dxf]").find("export: dxf is of parts, and nothing makes any") != std::string::npos);
+  CHECK(message("", "workshop").find("fabrication: {process: plate}") != std::string::npos);
+  CHECK(message("fabrication: {process: plate}\n", "[3mf]").find("export: 3mf does not fit process: plate") !=
+        std::string::npos);
+  CHECK(message("fabrication: {process: plate}\n", "[dxf, dxf]").find("dxf is named twice") !=
+        std::string::npos);
+}
+
+TEST_CASE(
+    "fabrication: a ground line is read as those of limits, and one above the track is told at its place") {
+  CHECK(refusal("{process: plate, supports: {ground: 5 m}}").find("chute.yaml:5:") != std::string::npos);
+  CHECK(refusal("{process: plate, supports: {ground: 5 m}}").find("above the underside of the track") !=
+        std::string::npos);
+  CHECK(refusal("{process: plate, supports: {ground: [[2 m, 0 m], [7.4 m, 0.5 m]]}}").empty());
+  CHECK(refusal("{process: plate, supports: {}}").find("ground") != std::string::npos);
+}
+
 TEST_CASE("fabrication: what cannot be made is refused at its place in the file") {
   CHECK(refusal("{process: plate, flanges: {pitch: 20 mm}}")
             .find("chute.yaml:5:48: pitch: 20 mm is too close for M10") != std::string::npos);

@@ -263,12 +263,12 @@ struct Source {
 const std::vector<Source>& sources() {
   static const std::vector<Source> all = {
       {{"chute", "a U-channel for bulk material, the fastest track"}, kChute},
-      {{"chute-in-plates", "the same as a sheet-metal shop makes it: parts, patterns, drawings"},
-       kChuteInPlates},
       {{"ramp", "a flat ramp with curbs, such as a ski in-run"}, kRamp},
       {{"toboggan", "a half-pipe between two points in space"}, kToboggan},
       {{"in-run", "a ski jump's in-run from its certificate, with gates; --hill-size"}, in_run_of_template()},
       {{"pipe", "a closed pipe"}, kPipe},
+      {{"chute-in-plates", "a chute as a sheet-metal shop makes it: parts, patterns, drawings"},
+       kChuteInPlates},
       {{"marble-run", "a section of your own outline, for a 3-D printer"}, kMarbleRun},
       {{"constant-speed", "a chute that keeps a body at its speed"}, kConstantSpeed},
       {{"segments", "a track of straights, arcs and clothoids as drawn"}, kSegments},

@@ -280,6 +280,12 @@ void add_lid(const Fitting& fitting, const InspectionOptions& opening, const Spa
 void add_openings(const Fitting& fitting) {
   const Job& job = fitting.job;
   const double rim = job.options.rim ? job.options.rim->thickness + 2e-3 : 0.0;
+  for (const InspectionOptions& opening : job.options.inspection) {
+    if (opening.at > 0.0 && opening.at < job.track.length()) continue;
+    refuse("inspection", "at: an opening at " + length_text(opening.at, 4) + " is not on the track",
+           "It is " + length_text(job.track.length(), 4) + " long.",
+           "at: " + length_text(0.5 * job.track.length(), 2));
+  }
   for (const Unit& unit : fitting.units) {
     std::vector<ArcPath> openings;
     std::vector<Circle> holes;
@@ -420,6 +426,28 @@ class Refusals {
   std::vector<Issue> issues_;
 };
 
+/// Tiles hold their bolts: half ones 1.2 hole diameters from both edges.
+void object_to_tiles(const ChannelMeasures& channel, const LinerOptions& liner, Refusals& refusals) {
+  const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), liner.bolt) != bolt_sizes().end();
+  if (!known || !(liner.tile_width > 0.0) || !(liner.tile_length > 0.0)) return;
+  const double least = 2.4 * clearance_hole(liner.bolt, HoleFit::medium);
+  const std::string why =
+      "Holes for M" + std::to_string(liner.bolt) + " take " + length_text(least, 3) + " with their edges.";
+  const double count = std::ceil(channel.width / liner.tile_width - 1e-9);
+  const double full = (channel.width - (count + 1.0) * liner.gap) / count;
+  if (0.5 * (full - liner.gap) < least) {
+    refusals.add(
+        "liner.tile_width",
+        "tile_width: " + length_text(liner.tile_width) + " makes half tiles of " +
+            length_text(0.5 * (full - liner.gap), 3),
+        why, "tile_width: " + length_text(2.0 * least + 3.0 * liner.gap, 2) + " or more, or a smaller bolt");
+  }
+  if (liner.tile_length - liner.gap < least) {
+    refusals.add("liner.tile_length", "tile_length: " + length_text(liner.tile_length) + " is too short", why,
+                 "tile_length: 600 mm");
+  }
+}
+
 void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
   const LinerOptions& liner = *options.liner;
   refusals.positive(liner.thickness, "liner.thickness", "thickness");
@@ -436,6 +464,7 @@ void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options
         "Gaps between tiles are 0 to a tenth of the floor's width, " + length_text(0.1 * channel.width) + ".",
         "gap: 2 mm");
   }
+  object_to_tiles(channel, liner, refusals);
   if (options.floor == FloorMake::bent) {
     refusals.add("liner", "liner: tiles would lie on the bends of a bent floor",
                  "They are rolled as the floor is.", "floor: rolled");
@@ -478,7 +507,11 @@ void object_to_openings(const ChannelMeasures& channel, const PlateOptions& opti
 
 void object_to_supports(const PlateOptions& options, Refusals& refusals) {
   const SupportOptions& supports = *options.supports;
-  refusals.positive(supports.spacing, "supports.spacing", "spacing");
+  if (!(supports.spacing >= 4.0 * supports.tube)) {
+    refusals.add(
+        "supports.spacing", "spacing: " + length_text(supports.spacing) + " leaves no room between trestles",
+        "They are at least four tubes apart, " + length_text(4.0 * supports.tube) + ".", "spacing: 2 m");
+  }
   refusals.positive(supports.tube, "supports.tube", "tube");
   refusals.bolt(supports.anchor, "supports.anchor", "anchor");
   if (!(supports.wall > 0.0) || 2.0 * supports.wall >= supports.tube) {
@@ -509,7 +542,10 @@ std::vector<Issue> fitting_problems(const ChannelMeasures& channel, const PlateO
   if (options.rim && need_walls(true, "rim")) object_to_rim(channel, options, refusals);
   if (options.cover && need_walls(true, "cover")) {
     refusals.positive(options.cover->thickness, "cover.thickness", "thickness");
-    refusals.positive(options.cover->pitch, "cover.pitch", "pitch");
+    if (!(options.cover->pitch >= 40e-3)) {
+      refusals.add("cover.pitch", "pitch: " + length_text(options.cover->pitch) + " is too close",
+                   "Bolts of covers are at least 40 mm apart.", "pitch: 300 mm");
+    }
     refusals.bolt(options.cover->bolt, "cover.bolt", "bolt");
     if (!options.rim)
       refusals.add("cover", "cover: it is bolted to a rim, and there is none", "", "rim: {width: 40 mm}");
@@ -524,7 +560,13 @@ std::vector<Issue> fitting_problems(const ChannelMeasures& channel, const PlateO
     }
   }
   if (options.stiffeners) {
-    refusals.positive(options.stiffeners->spacing, "stiffeners.spacing", "spacing");
+    if (!(options.stiffeners->spacing >= 10.0 * options.stiffeners->thickness)) {
+      refusals.add("stiffeners.spacing",
+                   "spacing: " + length_text(options.stiffeners->spacing) + " leaves no room to weld them",
+                   "They are at least ten thicknesses apart, " +
+                       length_text(10.0 * options.stiffeners->thickness) + ".",
+                   "spacing: 800 mm");
+    }
     refusals.positive(options.stiffeners->width, "stiffeners.width", "width");
     refusals.positive(options.stiffeners->thickness, "stiffeners.thickness", "thickness");
   }

@@ -130,6 +130,8 @@ void check_sizes(const SplitOptions& split, const Workshop& workshop, std::vecto
       const PlaneBox box = bounds(part.pattern->region.outline);
       largest.see(std::max(box.width(), box.height()), std::max(split.sheet.x, split.sheet.y), part.name,
                   as_length);
+      largest.see(std::min(box.width(), box.height()), std::min(split.sheet.x, split.sheet.y), part.name,
+                  as_length);
       smallest.see(std::min(box.width(), box.height()), kLeastSide, part.name, as_length);
     }
     if (split.heaviest) mass.see(part.mass, *split.heaviest, part.name, as_mass);
@@ -277,6 +279,8 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
     objections.add(key, std::string(key) + ": it goes with a flat floor and upright walls alone",
                    "Other sections have no place that it fits.", "a cross_section of kind: u-channel");
   };
+  objections.positive(options.stave_tolerance, "stave_tolerance");
+  objections.positive(options.polygon_thickness, "thickness");
   only_on_channels(options.rim.has_value(), "rim");
   only_on_channels(options.stiffeners.has_value(), "stiffeners");
   only_on_channels(options.liner.has_value(), "liner");

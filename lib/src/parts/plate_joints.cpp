@@ -148,6 +148,13 @@ void split_until_it_fits(const SplitOptions& split, double length,
   std::size_t count = 1;
   if (split.longest && split.allowed)
     count = static_cast<std::size_t>(std::ceil(length / *split.longest - 1e-9));
+  if (count > kMostUnits) {
+    throw InputError({"split.longest",
+                      "longest: " + length_text(*split.longest) + " makes " + std::to_string(count) +
+                          " units of a track of " + length_text(length, 4),
+                      "There are at most " + std::to_string(kMostUnits) + ".",
+                      "longest: " + length_text(length / 3.0, 2)});
+  }
   std::string last;
   for (; count <= kMostUnits; ++count) {
     const std::optional<Excess> found = make(count);

@@ -192,7 +192,7 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
     return issues;
   }
   std::vector<Issue> issues = common_problems(options);
-  if (is_mitred(measures, options)) return issues;
+  if (!issues.empty() || is_mitred(measures, options)) return issues;
   const auto section = plate_section(measures, options);
   for (Issue& issue : section ? strip_problems(*section, options) : width_changes())
     issues.push_back(std::move(issue));
