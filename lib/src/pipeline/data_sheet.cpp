@@ -148,7 +148,7 @@ struct Chart {
 
 void label(Drawing& ink, Vec2 at, const std::string& text, TextAnchor anchor) {
   const std::size_t layer = ink.layer({"LABELS", LineStyle::continuous, 0.18, kBlack});
-  ink.texts.push_back({layer, at, kText, text, anchor, 0.0});
+  ink.texts.push_back({layer, at, kText, text, anchor, {}});
 }
 
 Drawing chart_of(const Chart& chart, const Track& track, const PlaneBox& room) {
