@@ -65,12 +65,82 @@ std::vector<std::string> values_of(const DesignKey& key) {
   return values;
 }
 
+/// A key that reads beside others alone, or whose value is a list of its own.
+struct Beside {
+  std::string key;
+  std::vector<Override> others;
+  std::string value = {};  ///< none: one of values_of()
+};
+
+const std::vector<Beside>& besides() {
+  const Override area{"body.drag_area", "0.3 m^2"};
+  const Override mass{"body.mass", "80 kg"};
+  const Override ball{
+      "body", "{kind: rolling, rolling_resistance: {low: 0.005, nominal: 0.01, high: 0.5}, radius: 8 mm}"};
+  const Override mu{"body.friction_coefficient", "{low: 0.01, nominal: 0.137, high: 0.4}"};
+  const Override bulk{"stream.bulk_density", "{low: 1 kg/m^3, nominal: 700 kg/m^3, high: 9000 kg/m^3}"};
+  const Override plate{"stream.liner_plate", "{thickness: 12 mm, hardness: 4 GPa, wear_coefficient: 2e-4}"};
+  const Override by_name{"stream", "{mass_flow: 40 t/h, material: wheat, liner: mild-steel}"};
+  const Override hopper{"feed", "{kind: hopper, outlet_speed: 0.5 m/s, drop: 0.8 m}"};
+  const Override blend{"limits.objective", "{kind: blend, exit_speed_weight: 0.1 s/(m/s)}"};
+  const Override range{"body.friction_angle", "{nominal: 13 deg, high: 20 deg}"};
+  const Override ends{"track.finish.x", "{lowest: 0.5 m, highest: 900 m}"};
+  static const std::vector<Beside> all = {
+      {"track.finish.x.lowest", {ends}},
+      {"track.finish.x.highest", {ends}},
+      {"body.kind", {{"body.rolling_resistance", "0.01"}, {"body.radius", "8 mm"}}, "rolling"},
+      {"body.friction_coefficient.low", {mu}},
+      {"body.friction_coefficient.high", {mu}},
+      {"body.friction", {}, "[{from: 0 m, angle: 3 deg}, {from: 1 m, coefficient: 0.1}]"},
+      {"body.drag_area", {mass}},
+      {"body.mass", {area}},
+      {"body.air.altitude", {area, mass}},
+      {"body.air.temperature", {area, mass}},
+      {"body.air.density", {area, mass}},
+      {"body.rolling_resistance.low", {ball}, "0.007"},
+      {"body.rolling_resistance.nominal", {ball}},
+      {"body.rolling_resistance.high", {ball}},
+      {"stream.bulk_density.nominal", {bulk}, "800 kg/m^3"},
+      {"stream.bulk_density.high", {bulk}, "900 kg/m^3"},
+      {"stream.material", {by_name}, "barley"},
+      {"stream.liner", {by_name}, "stainless-steel"},
+      {"stream.liner_plate.thickness", {plate}},
+      {"stream.liner_plate.hardness", {plate}, "5 GPa"},
+      {"stream.liner_plate.wear_coefficient", {plate}, "1e-4"},
+      {"feed.kind", {hopper}, "hopper"},
+      {"feed.outlet_speed", {hopper}},
+      {"limits.objective.worst_case", {range}},
+      {"limits.objective.exit_speed_weight", {blend}},
+      {"limits.half_planes", {}, "[{line: [[0 m, 900 m], [1 m, 900 m]], stay: below}]"},
+      {"limits.keep_outs",
+       {},
+       "[{outline: [[2 m, 900 m], [3 m, 900 m], [3 m, 901 m], [2 m, 901 m]], pass: below}]"},
+      {"limits.stay_above", {}, "[{line: [[-9 m, -900 m], [900 m, -900 m]]}]"},
+      {"limits.stay_below", {}, "[{line: [[-9 m, 900 m], [900 m, 900 m]]}]"},
+      {"probes", {}, "[{from_start: 0.1 m, name: here}]"},
+      {"cross_section.outline",
+       {{"cross_section",
+         "{kind: polygon, outline: [[-1 m, 0 m], [-1 m, -5 mm], [1 m, -5 mm], [1 m, 0 m], [0 m, 0 m]]}"}},
+       "[[-2 m, 0 m], [-2 m, -5 mm], [1 m, -5 mm], [1 m, 0 m], [0 m, 0 m]]"},
+      {"centerline.segments",
+       {{"centerline", "{kind: segments, entry_slope_angle: 30 deg, segments: [{length: 2 m}]}"}},
+       "[{length: 3 m}, {length: 1 m, radius: 9 m}]"},
+      {"rules.own",
+       {},
+       "[{id: mine, quantity: steepest_slope_angle, highest: 60 deg, sentence: steep, source: me}]"},
+  };
+  return all;
+}
+
 /// @return whether some value of the key reads in the design and makes it another one; each that does is written back
-bool is_written(const Base& base, const DesignKey& key) {
+bool is_written(const Base& base, const DesignKey& key, const Beside* beside = nullptr) {
   constexpr int kEnough = 3;
   int took_effect = 0;
-  for (const std::string& value : values_of(key)) {
-    const std::optional<Design> design = with(base.source, {{key.path, value}});
+  const bool given = beside != nullptr && !beside->value.empty();
+  for (const std::string& value : given ? std::vector<std::string>{beside->value} : values_of(key)) {
+    std::vector<Override> overrides = beside == nullptr ? std::vector<Override>{} : beside->others;
+    overrides.push_back({key.path, value});
+    const std::optional<Design> design = with(base.source, overrides);
     if (!design || design->asks_the_same(base.design)) continue;
     if (took_effect++ == kEnough) break;
     const std::string text = design_text(*design);
@@ -92,13 +162,17 @@ TEST_CASE("every key of the schema that a design here can take is written back")
   for (const DesignKey& key : design_keys()) {
     bool written = false;
     for (const Base& base : designs) written = is_written(base, key) || written;
+    for (const Beside& beside : besides()) {
+      if (written || beside.key != key.path) continue;
+      for (const Base& base : designs) written = is_written(base, key, &beside) || written;
+    }
     if (written) {
       ++tried;
     } else {
       untried += " " + key.path;
     }
   }
-  // The others need a second key beside them: write_test.cpp has those.
+  // The version has one value; the others, of whole groups and lists, stand in write_test.cpp.
   CAPTURE(untried);
-  CHECK(tried >= 100);
+  CHECK(tried >= 150);
 }

@@ -11,14 +11,12 @@ namespace glissade::optimizer {
 ///
 /// Where it changes at once, the search lets it change over kChange chords, half of them before the place, by a step
 /// whose first two derivatives are continuous: a place in metres moves over the stations as the track's length
-/// changes, and what jumps there has no derivatives. What friction takes over the whole change is the same; the track
-/// is slower or faster than the search believes by less than 1e-5 of the travel time, and the referee, which
-/// knows the places, has the last word on times and limits.
+/// changes, and what jumps there has no derivatives. What friction takes over the whole change is the same; the referee,
+/// which knows the places, has the last word on times and limits.
 class FrictionAlong final : public Law {
  public:
-  /// Over so much a friction changes, in chords. Theory: the time of a ride differs by its square, a mesh of 32 pieces
-  /// has some 10 nodes in it; a quarter of it moved no optimum of the tests by more than 1e-6 of its time, four
-  /// times as much did.
+  /// Over so much a friction changes, in chords. Theory: the time of a ride differs by its square; taste, beyond that: a
+  /// piece of the default mesh is about as long.
   static constexpr double kChange = 0.04;
 
   /// @param body   with changes
