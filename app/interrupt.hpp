@@ -5,8 +5,8 @@
 
 namespace glissade::app {
 
-/// While it lives, the first Ctrl-C (or SIGTERM) asks the work to end; the second one ends the program as
-/// usual.
+/// While it lives, the first Ctrl-C asks the work to end. The second one, or SIGTERM, ends the program at once, wherever
+/// the work is: what was being written is taken away, files that are finished stay.
 class Interrupt {
  public:
   Interrupt();

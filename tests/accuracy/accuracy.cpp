@@ -9,6 +9,7 @@
 #include "glissade/motion/motion.hpp"
 
 #include "centerline/coulomb_reference.hpp"
+#include "support/cramer_rao.hpp"
 #include "support/known_profiles.hpp"
 #include "support/paths.hpp"
 
@@ -317,56 +318,96 @@ double highest_load(const Centerline& curve) {
   return Motion(shared, {Friction::from_coefficient(0.03), 0.0, 0.0}).highest_load().normal_load;
 }
 
+using Family = std::vector<testing::ProfileMake>;
+
 /// One line of radius and one of load for profiles of one family.
-void add_broken(Section& section, const std::vector<testing::KnownProfile>& family, int count, double noise,
+void add_broken(Section& section, const Family& family, int count, double noise, int draws,
                 double radius_bound, double load_bound) {
-  const std::string name = fmt::format("{}, {} points", family.front().name, count);
+  const std::string name = fmt::format("{}, {} points", family.front().known().name, count);
   Line radius = line(name + ": radius", radius_bound);
   Line load = line(name + ": load", load_bound);
-  constexpr int kDraws = 3;
   testing::Random random(20250217);
-  for (const testing::KnownProfile& known : family) {
-    for (int draw = 0; draw < (noise > 0.0 ? kDraws : 1); ++draw) {
+  for (const testing::ProfileMake& make : family) {
+    const testing::KnownProfile known = make.known();
+    const double known_load = highest_load(*known.truth);
+    for (int draw = 0; draw < draws; ++draw) {
       const FittedProfile profile(testing::points_of(known, count, noise, random));
       radius.add(relative_error(testing::smallest_valley_radius(profile.curve()), known.smallest_radius));
-      load.add(relative_error(highest_load(profile), highest_load(*known.truth)));
+      load.add(relative_error(highest_load(profile), known_load));
     }
   }
   section.lines.push_back(radius);
   section.lines.push_back(load);
 }
 
-std::vector<std::vector<testing::KnownProfile>> broken_families() {
-  using testing::known_in_run;
+/// What the noise allows at all, beside it.
+void add_allowed(Section& section, const Family& family, int count, double noise, double radius_bound,
+                 double load_bound) {
+  const std::string name =
+      fmt::format("{}, {} points: the noise allows of", family.front().known().name, count);
+  Line radius = line(name + " radius", radius_bound);
+  Line load = line(name + " load", load_bound);
+  for (const testing::ProfileMake& make : family) {
+    radius.add(testing::least_deviation(
+        make, count, noise, [](const testing::KnownProfile& known) { return known.smallest_radius; }));
+    load.add(testing::least_deviation(
+        make, count, noise, [](const testing::KnownProfile& known) { return highest_load(*known.truth); }));
+  }
+  section.lines.push_back(radius);
+  section.lines.push_back(load);
+}
+
+/// gamma, alpha, r1, straight; the table is as long as it takes.
+testing::ProfileMake in_run(double gamma, double alpha, double r1, double table, double straight) {
+  return {
+      [table](const std::vector<double>& n) { return testing::known_in_run(n[0], n[1], n[2], table, n[3]); },
+      {gamma, alpha, r1, straight}};
+}
+
+std::vector<Family> broken_families() {
   using testing::known_profile;
-  return {{known_in_run(33.0, 9.5, 70.0, 5.6, 60.0), known_in_run(35.0, 11.0, 103.0, 6.9, 70.0),
-           known_in_run(35.0, 11.0, 60.0, 5.0, 40.0)},
-          {known_profile("straight and arc", 35.0, {{60.0, 0.0, 0.0}, {40.0, 0.01, 0.01}}),
-           known_profile("", 35.0, {{60.0, 0.0, 0.0}, {30.0, 1.0 / 70.0, 1.0 / 70.0}, {8.0, 0.0, 0.0}})},
-          {known_profile("clothoids", 35.0, {{60.0, 0.0, 0.0}, {40.0, 0.0, 1.0 / 60.0}, {8.0, 0.0, 0.0}}),
-           known_profile("", 40.0,
-                         {{30.0, 0.0, 0.0},
-                          {10.0, 0.0, 0.025},
-                          {15.0, 0.025, 0.025},
-                          {10.0, 0.025, 0.0},
-                          {10.0, 0.0, 0.0}})}};
+  using Numbers = std::vector<double>;
+  const auto arc = [](const Numbers& n) {
+    return known_profile("straight and arc", n[0], {{n[1], 0.0, 0.0}, {100.0 - n[1], n[2], n[2]}});
+  };
+  const auto arc_between = [](const Numbers& n) {
+    return known_profile("", n[0], {{n[1], 0.0, 0.0}, {n[2], n[3], n[3]}, {98.0 - n[1] - n[2], 0.0, 0.0}});
+  };
+  const auto clothoid = [](const Numbers& n) {
+    return known_profile("clothoids", n[0],
+                         {{n[1], 0.0, 0.0}, {n[2], 0.0, n[3]}, {108.0 - n[1] - n[2], 0.0, 0.0}});
+  };
+  const auto eased = [](const Numbers& n) {
+    const double end = 75.0 - n[1] - n[2] - n[4] - n[5];
+    return known_profile(
+        "", n[0],
+        {{n[1], 0.0, 0.0}, {n[2], 0.0, n[3]}, {n[4], n[3], n[3]}, {n[5], n[3], 0.0}, {end, 0.0, 0.0}});
+  };
+  return {{in_run(33.0, 9.5, 70.0, 5.6, 60.0), in_run(35.0, 11.0, 103.0, 6.9, 70.0),
+           in_run(35.0, 11.0, 60.0, 5.0, 40.0)},
+          {{arc, {35.0, 60.0, 0.01}}, {arc_between, {35.0, 60.0, 30.0, 1.0 / 70.0}}},
+          {{clothoid, {35.0, 60.0, 40.0, 1.0 / 60.0}}, {eased, {40.0, 30.0, 10.0, 0.025, 15.0, 10.0}}}};
 }
 
 Section broken_profiles() {
   Section section{"Profiles whose curvature jumps, fitted to exact points (relative)", {}};
-  for (const auto& family : broken_families()) {
-    for (const int count : {50, 103, 263, 2000}) {
-      add_broken(section, family, count, 0.0, 0.02, 0.01);
-    }
+  for (const Family& family : broken_families()) {
+    for (const int count : {50, 103, 263, 2000}) add_broken(section, family, count, 0.0, 1, 0.02, 0.01);
   }
   return section;
 }
 
 Section noisy_profiles() {
-  Section section{"The same with 1 mm of noise in both coordinates, worst of 3 draws (relative)", {}};
-  for (const auto& family : broken_families()) {
-    add_broken(section, family, 100, 1e-3, 0.12, 0.06);
-    add_broken(section, family, 1000, 1e-3, 0.06, 0.04);
+  constexpr double kNoise = 1e-3;
+  Section section{
+      "The same with 1 mm of noise in both coordinates: worst of 10 draws, and the standard deviation that "
+      "the noise allows (relative)",
+      {}};
+  for (const Family& family : broken_families()) {
+    for (const int count : {100, 1000}) {
+      add_broken(section, family, count, kNoise, count > 500 ? 3 : 10, 0.02, 0.01);
+      add_allowed(section, family, count, kNoise, 0.02, 0.01);
+    }
   }
   return section;
 }

@@ -159,3 +159,28 @@ TEST_CASE("laws: a finish beyond reach is beyond it for a ball, unless its own h
   if (near.centerline)
     CHECK(Motion(near.centerline, problem(2.0, 0.399, 0.2, 0.0, ball(0.02)).body).arrived());
 }
+
+TEST_CASE("a start from rest straight down is found, for every body, next to the one a little less steep") {
+  const auto time_at = [](const LawPtr& law, double degrees, double lead_in, double radius) {
+    Problem task = problem(1.0, 1.0, law ? 0.01 : 0.2, 0.0, law);
+    const double angle = Angle::from_degrees(degrees).radians();
+    task.limits.entry_slope_angle = {angle, angle};
+    task.limits.lead_in = lead_in;
+    if (radius > 0.0) task.limits.smallest_valley_radius = radius;
+    const Optimum found = optimize(task);
+    CHECK(found.report.status == OptimizeStatus::optimal);
+    const Motion ride(found.centerline, task.body, task.gravity);
+    REQUIRE(ride.arrived());
+    return ride.travel_time();
+  };
+  const LawPtr rider = std::make_shared<const Rider>(0.008);
+  for (const LawPtr& law : {LawPtr{}, ball(0.008), rider}) {
+    for (const double lead_in : {0.0, 0.2}) {
+      for (const double radius : {0.1, 0.3}) {
+        CAPTURE(law ? std::string(law->kind()) : "sliding point", lead_in, radius);
+        const double straight_down = time_at(law, 90.0, lead_in, radius);
+        CHECK(straight_down == Approx(time_at(law, 89.9, lead_in, radius)).epsilon(1e-4));
+      }
+    }
+  }
+}

@@ -85,8 +85,12 @@ double RunningProgram::processor_time() const {
   return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
-int RunningProgram::end_by(int signal) {
+void RunningProgram::send(int signal) const {
   ::kill(child_, signal);
+}
+
+int RunningProgram::end_by(int signal) {
+  send(signal);
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }

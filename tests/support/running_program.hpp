@@ -24,6 +24,7 @@ class RunningProgram {
   [[nodiscard]] std::string output_of_lines(std::size_t count) const;
   /// @return time that it has spent on processors [s]
   [[nodiscard]] double processor_time() const;
+  void send(int signal) const;
   /// Sends a signal and waits for the end.
   /// @return the exit code, 128 + signal where one ended it
   int end_by(int signal);

@@ -32,6 +32,9 @@ constexpr int kMostTrials = 40;
 // So many points, means of neighbours, decide what the pieces are; all of them, how long and how curved.
 constexpr std::size_t kMostDeciding = 300;
 
+// What a jump of curvature costs that could be none, in numbers, beside the number itself.
+constexpr double kPriceOfJump = 1.0;
+
 enum class Change { tie, simpler, merge };
 
 /// One way of putting the profile with fewer numbers.
@@ -125,10 +128,140 @@ std::vector<Simplification> simplifications(const PieceFit& fit) {
       steps.push_back({Change::merge, k, 0.0, 1.0});
       continue;
     }
-    if (const auto price = fit.price_of_tie(k)) steps.push_back({Change::tie, k, *price, 1.0});
+    // A jump where a clothoid meets another piece is rare on drawings: it has to show twice as clearly.
+    if (const auto price = fit.price_of_tie(k)) steps.push_back({Change::tie, k, *price, kPriceOfJump + 1.0});
     if (const auto price = fit.price_of_merger(k)) steps.push_back({Change::merge, k, *price, 2.0});
   }
   return steps;
+}
+
+/// Jumps of curvature where it could go over evenly.
+std::size_t avoidable_jumps(const PiecewiseProfile& profile) {
+  std::size_t count = 0;
+  for (std::size_t k = 1; k < profile.pieces.size(); ++k) {
+    const ProfilePiece& before = profile.pieces[k - 1];
+    const ProfilePiece& piece = profile.pieces[k];
+    const bool into_curve = before.shape == PieceShape::cubic && !before.backwards();
+    const bool out_of_curve = piece.shape == PieceShape::cubic && piece.backwards();
+    const bool can_tie = before.shape == PieceShape::cubic || piece.shape == PieceShape::cubic
+                             ? (into_curve && piece.shape == PieceShape::arc) ||
+                                   (out_of_curve && before.shape == PieceShape::arc)
+                             : !before.constant() || !piece.constant();
+    if (can_tie && !piece.tied) ++count;
+  }
+  return count;
+}
+
+/// Angle by which pieces turn upwards.
+double turn_of(const std::vector<ProfilePiece>& pieces, std::size_t from, std::size_t to) {
+  double turn = 0.0;
+  for (std::size_t k = from; k < to; ++k) {
+    // Swellings beyond the second turn as much one way as the other, but for the third's third part.
+    const ProfilePiece& piece = pieces[k];
+    double mean = 0.5 * (piece.entry_curvature + piece.exit_curvature);
+    if (piece.swellings > 0) mean += piece.swelling[0] * 2.0 / 3.0;
+    if (piece.swellings > 2) mean += piece.swelling[2] * 2.0 / 15.0;
+    turn += piece.length * mean;
+  }
+  return turn;
+}
+
+/// The pieces [from, to) as one.
+PiecewiseProfile replaced(PiecewiseProfile profile, std::size_t from, std::size_t to,
+                          const ProfilePiece& by) {
+  std::vector<ProfilePiece>& pieces = profile.pieces;
+  pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+               pieces.begin() + static_cast<std::ptrdiff_t>(to));
+  pieces[from] = by;
+  return profile;
+}
+
+/// Bends beside a straight as cubic parabolas: of a ski jump's transition, several clothoids are one.
+void add_cubic_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfile>& ways) {
+  constexpr std::size_t kMostReplaced = 4;
+  const std::vector<ProfilePiece>& pieces = profile.pieces;
+  const auto is_bend = [&](std::size_t k) {
+    return !pieces[k].constant() && pieces[k].shape != PieceShape::cubic;
+  };
+  const auto is_straight = [&](std::size_t k) {
+    return k < pieces.size() && pieces[k].shape == PieceShape::straight;
+  };
+  for (std::size_t from = 0; from < pieces.size(); ++from) {
+    double length = 0.0;
+    bool bent = false;
+    for (std::size_t to = from + 1; to <= std::min(pieces.size(), from + kMostReplaced); ++to) {
+      if (pieces[to - 1].shape == PieceShape::straight || pieces[to - 1].shape == PieceShape::cubic) break;
+      length += pieces[to - 1].length;
+      bent = bent || is_bend(to - 1);
+      if (!bent) continue;
+      const double turn = turn_of(pieces, from, to);
+      if (from == 0 || is_straight(from - 1)) {
+        if (auto cubic = cubic_piece(length, turn, false)) {
+          PiecewiseProfile next = replaced(profile, from, to, *cubic);
+          if (from + 1 < next.pieces.size() && next.pieces[from + 1].tied) {
+            next.pieces[from + 1].tied = !next.pieces[from + 1].constant();
+            next.pieces[from + 1].entry_curvature = cubic->exit_curvature;
+          }
+          ways.push_back(std::move(next));
+        }
+      }
+      if (to == pieces.size() || is_straight(to)) {
+        if (auto cubic = cubic_piece(length, turn, true)) {
+          PiecewiseProfile next = replaced(profile, from, to, *cubic);
+          if (from + 1 < next.pieces.size()) next.pieces[from + 1].tied = false;
+          ways.push_back(std::move(next));
+        }
+      }
+    }
+  }
+}
+
+/// Where curvature jumps a little between a clothoid and a straight or an arc: no jump, and the break where the
+/// clothoid has the other's curvature.
+void add_moved_ties(const PiecewiseProfile& profile, std::vector<PiecewiseProfile>& ways) {
+  for (std::size_t k = 1; k < profile.pieces.size(); ++k) {
+    if (profile.pieces[k].tied) continue;
+    PiecewiseProfile next = profile;
+    ProfilePiece& before = next.pieces[k - 1];
+    ProfilePiece& piece = next.pieces[k];
+    if (before.shape == PieceShape::cubic && !before.backwards() && piece.shape == PieceShape::arc) {
+      piece.entry_curvature = piece.exit_curvature = before.exit_curvature;
+      piece.tied = true;
+      ways.push_back(std::move(next));
+      continue;
+    }
+    if (before.shape == PieceShape::arc && piece.shape == PieceShape::cubic && piece.backwards()) {
+      piece.entry_curvature = before.exit_curvature;
+      piece.tied = true;
+      if (piece.settle_cubic()) ways.push_back(std::move(next));
+      continue;
+    }
+    const bool into = before.shape == PieceShape::clothoid && piece.constant();
+    const bool out_of = before.constant() && piece.shape == PieceShape::clothoid;
+    if (!into && !out_of) continue;
+    ProfilePiece& clothoid = into ? before : piece;
+    ProfilePiece& other = into ? piece : before;
+    double& end = into ? clothoid.exit_curvature : clothoid.entry_curvature;
+    const double far_end = into ? clothoid.entry_curvature : clothoid.exit_curvature;
+    const double share = (other.entry_curvature - far_end) / (end - far_end);
+    const double moved = clothoid.length * (1.0 - share);
+    if (!(share > 0.0 && other.length + moved > 0.0)) continue;
+    end = other.entry_curvature;
+    clothoid.length -= moved;
+    other.length += moved;
+    piece.tied = true;
+    ways.push_back(std::move(next));
+  }
+}
+
+/// What the points had to yield: the unknowns, and the places of the breaks once more, as they were chosen among
+/// many.
+double freedom_of(const PieceFit& fit) {
+  return static_cast<double>(fit.freedom() + fit.profile().pieces.size() - 1);
+}
+
+double jump_prices_of(const PieceFit& fit) {
+  return kPriceOfJump * static_cast<double>(avoidable_jumps(fit.profile()));
 }
 
 class Describer {
@@ -171,9 +304,37 @@ class Describer {
     }
   }
 
+  /// What the price of a step to second order does not foresee: other shapes, breaks that move. Each is fitted to its
+  /// end, the best is taken, as long as one pays.
+  void reshape() {
+    constexpr std::size_t kMostPieces = 16;
+    constexpr int kMostReshapes = 8;
+    for (int i = 0; i < kMostReshapes && fit_.profile().pieces.size() <= kMostPieces; ++i) {
+      std::vector<PiecewiseProfile> ways;
+      add_moved_ties(fit_.profile(), ways);
+      add_cubic_bends(fit_.profile(), ways);
+      std::optional<PieceFit> best;
+      double least = score(fit_);
+      for (PiecewiseProfile& way : ways) {
+        PieceFit next(points_, places_, std::move(way));
+        next.relax(kSettled * variance_, kMostSteps);
+        if (score(next) >= least) continue;
+        least = score(next);
+        best = std::move(next);
+      }
+      if (!best) return;
+      fit_ = *std::move(best);
+    }
+  }
+
   [[nodiscard]] const PiecewiseProfile& profile() const { return fit_.profile(); }
 
  private:
+  /// Of the Bayesian information criterion, in variances.
+  [[nodiscard]] double score(const PieceFit& fit) const {
+    return fit.square_sum() / variance_ + (freedom_of(fit) + jump_prices_of(fit)) * number_price_;
+  }
+
   /// From the last place of the profile to the first, so that the steps leave each other's indices alone.
   [[nodiscard]] std::vector<Simplification> best_steps() const {
     // Steps that cost less than this share of what they save, two pieces apart, hardly touch each other.
@@ -213,12 +374,6 @@ class Describer {
   double variance_ = 0.0;
   std::set<Simplification> refused_;
 };
-
-/// What the points had to yield: the unknowns, and the places of the breaks once more, as they were chosen among
-/// many.
-double freedom_of(const PieceFit& fit) {
-  return static_cast<double>(fit.freedom() + fit.profile().pieces.size() - 1);
-}
 
 PlacedPoints placed_beside(const ClothoidSpline& reference, const std::vector<Vec2>& points) {
   PlacedPoints placed;
@@ -279,6 +434,8 @@ class Descriptions {
     if (!cut) return;
     Describer describer(beside(reference, deciding), deciding.places, *cut, scatter);
     describer.simplify_all();
+    describer.reshape();
+    describer.simplify_all();
     PieceFit fit(points_, placed.places, describer.profile());
     fit.relax(0.0, kMostSteps);
     if (best_ && score(fit) >= score(*best_)) return;
@@ -292,7 +449,7 @@ class Descriptions {
     const auto count = static_cast<double>(points_.size());
     const double length = fit.profile().length();
     const double mean_square = std::max(fit.square_sum() / count, kRounding * length * length);
-    return count * math::log(mean_square) + freedom_of(fit) * math::log(count);
+    return count * math::log(mean_square) + (freedom_of(fit) + jump_prices_of(fit)) * math::log(count);
   }
 
   const std::vector<Vec2>& points_;

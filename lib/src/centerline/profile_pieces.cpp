@@ -3,6 +3,7 @@
 
 #include "glissade/core/math.hpp"
 
+#include "chebyshev_series.hpp"
 #include "profile_model.hpp"
 
 #include <algorithm>
@@ -42,8 +43,97 @@ double swelling_area(std::size_t index, double u) {
   return antiderivative(w) - antiderivative(-1.0);
 }
 
+// A cubic parabola eta = xi^3 w/(3 d^2), w = tan(turn), by the share u of its length (CubicBend): with y = xi/d,
+// Int_0^y sqrt(1 + w^2 t^4) dt = u Int_0^1 and it has turned by atan(w y^2).
+
+/// Int_0^y sqrt(1 + w^2 t^4) dt by the binomial series; w^2 below 1/3.
+double cubic_length(double w2, double y) {
+  const double ratio = w2 * y * y * y * y;
+  double coefficient = 1.0;
+  double power = 1.0;
+  double sum = 1.0;
+  for (int n = 1; n < 40; ++n) {
+    coefficient *= (1.5 - n) / n;
+    power *= ratio;
+    const double term = coefficient * power / (4.0 * n + 1.0);
+    sum += term;
+    if (std::fabs(term) < 1e-17) break;
+  }
+  return y * sum;
+}
+
+double cubic_reach(double w2, double u) {
+  const double length = u * cubic_length(w2, 1.0);
+  double y = length;
+  for (int i = 0; i < 8; ++i) {
+    const double step = (cubic_length(w2, y) - length) / std::sqrt(1.0 + w2 * y * y * y * y);
+    y -= step;
+    if (std::fabs(step) < 1e-12) break;
+  }
+  return y;
+}
+
+/// @param turn  of the whole bend, not negative
+double cubic_turned(double turn, double u) {
+  const double w = math::tan(turn);
+  const double y = cubic_reach(w * w, u);
+  return math::atan(w * y * y);
+}
+
+/// Curvature times length where it ends.
+double cubic_bending(double turn) {
+  const double w = math::tan(turn);
+  const auto [sine, cosine] = math::sine_cosine(turn);
+  return 2.0 * sine * cosine * cosine * cubic_length(w * w, 1.0);
+}
+
+/// Curvature times length at u.
+double cubic_curvature(double turn, double u) {
+  const double w = math::tan(turn);
+  const double y = cubic_reach(w * w, u);
+  const double slope = w * y * y;
+  const double stretch = 1.0 + slope * slope;
+  return 2.0 * w * y / (stretch * std::sqrt(stretch)) * cubic_length(w * w, 1.0);
+}
+
+/// @param turn  of the whole bend, not negative
+CubicShape cubic_shape(double turn) {
+  constexpr double kStep = 1e-5;
+  CubicShape shape{turn, kStep / (cubic_bending(turn + kStep) - cubic_bending(turn)), {}, {}, {}};
+  const double low = std::max(0.0, turn - kStep);
+  for (std::size_t j = 0; j < CubicShape::kTerms; ++j) {
+    const double u2 = std::sqrt(0.5 * (1.0 + node_cosine<CubicShape::kTerms>(1, j)));
+    const double u = std::sqrt(u2);
+    shape.turned[j] = cubic_turned(turn, u) / u2;
+    shape.by_turn[j] = (cubic_turned(turn + kStep, u) - cubic_turned(low, u)) / ((turn + kStep - low) * u2);
+    shape.bending[j] = cubic_curvature(turn, u) / u;
+  }
+  shape.turned = chebyshev_series(shape.turned);
+  shape.by_turn = chebyshev_series(shape.by_turn);
+  shape.bending = chebyshev_series(shape.bending);
+  return shape;
+}
+
+/// How far a cubic bend has turned up to u, and the same by its whole turn.
+struct CubicTurn {
+  double turned = 0.0;
+  double by_turn = 0.0;
+};
+
+CubicTurn cubic_turn(const ProfilePiece& piece, double u) {
+  const double side = piece.cubic.turn < 0.0 ? -1.0 : 1.0;
+  const double from_straight = piece.backwards() ? 1.0 - u : u;
+  const double u2 = from_straight * from_straight;
+  const double at = 2.0 * u2 * u2 - 1.0;
+  const double turned = side * u2 * chebyshev_value(piece.cubic.turned, at);
+  const double by_turn = u2 * chebyshev_value(piece.cubic.by_turn, at);
+  if (!piece.backwards()) return {turned, by_turn};
+  return {piece.cubic.turn - turned, 1.0 - by_turn};
+}
+
 /// Angle that a piece has turned by up to u, over its length.
 double turned_share(const ProfilePiece& piece, double u) {
+  if (piece.shape == PieceShape::cubic) return cubic_turn(piece, u).turned / piece.length;
   double sum = piece.entry_curvature * (u - 0.5 * u * u) + piece.exit_curvature * (0.5 * u * u);
   for (std::size_t i = 0; i < piece.swellings; ++i) sum += piece.swelling[i] * swelling_area(i, u);
   return sum;
@@ -67,7 +157,39 @@ Vec2 tangent_of(double slope) {
 
 }  // namespace
 
+bool ProfilePiece::settle_cubic() {
+  const double curvature = backwards() ? entry_curvature : exit_curvature;
+  const double wanted = std::fabs(curvature) * length;
+  if (!(wanted <= cubic_bending(kMostCubicTurn))) return false;
+  double found = 0.5 * wanted;
+  for (int i = 0; i < 40; ++i) {
+    constexpr double kStep = 1e-6;
+    const double rate = (cubic_bending(found + kStep) - cubic_bending(found)) / kStep;
+    const double step = (cubic_bending(found) - wanted) / rate;
+    found = std::clamp(found - step, 0.0, 1.1 * kMostCubicTurn);
+    if (std::fabs(step) < 1e-15) break;
+  }
+  cubic = cubic_shape(found);
+  if (curvature < 0.0) cubic.turn = -found;
+  return true;
+}
+
+std::optional<ProfilePiece> cubic_piece(double length, double turn, bool backwards) {
+  if (turn == 0.0 || std::fabs(turn) > kMostCubicTurn) return {};
+  const double bending = cubic_bending(std::fabs(turn)) / length;
+  const double curvature = turn < 0.0 ? -bending : bending;
+  ProfilePiece piece{PieceShape::cubic, length, backwards ? curvature : 0.0, backwards ? 0.0 : curvature};
+  if (!piece.settle_cubic()) return {};
+  return piece;
+}
+
 double ProfilePiece::curvature(double u) const {
+  if (shape == PieceShape::cubic) {
+    const double from_straight = backwards() ? 1.0 - u : u;
+    const double u2 = from_straight * from_straight;
+    const double bending = from_straight * chebyshev_value(cubic.bending, 2.0 * u2 * u2 - 1.0) / length;
+    return cubic.turn < 0.0 ? -bending : bending;
+  }
   double sum = entry_curvature + u * (exit_curvature - entry_curvature);
   for (std::size_t i = 0; i < swellings; ++i) sum += this->swelling[i] * centerline::swelling(i, u);
   return sum;
@@ -84,9 +206,11 @@ namespace {
 /// A bend as clothoids of equal length, as many as told.
 std::vector<ClothoidSegment> clothoids_of(const ProfilePiece& piece, std::size_t count) {
   const double step = 1.0 / static_cast<double>(count);
-  // Chords of a curvature that bulges one way turn too little: by a twelfth of its second difference each.
+  // Chords of a curvature that bulges one way turn too little: by a twelfth of its second difference each. The ends
+  // have the curvature that they have: it is what the smallest radius is read from.
   const auto node = [&](std::size_t i) {
     const double u = static_cast<double>(i) * step;
+    if (i == 0 || i == count) return i == 0 ? piece.entry_curvature : piece.exit_curvature;
     const double bulge = piece.curvature(u + step) - 2.0 * piece.curvature(u) + piece.curvature(u - step);
     return piece.curvature(u) - bulge / 12.0;
   };
@@ -119,7 +243,7 @@ std::vector<ClothoidSegment> clothoids_of(const ProfilePiece& piece) {
 ClothoidSpline PiecewiseProfile::spline() const {
   std::vector<ClothoidSegment> segments;
   for (const ProfilePiece& piece : pieces) {
-    if (piece.shape == PieceShape::bend) {
+    if (piece.shape == PieceShape::bend || piece.shape == PieceShape::cubic) {
       const std::vector<ClothoidSegment> bend = clothoids_of(piece);
       segments.insert(segments.end(), bend.begin(), bend.end());
     } else {
@@ -154,6 +278,16 @@ void PieceFit::number_unknowns() {
     const ProfilePiece& piece = profile_.pieces[k];
     Columns columns{next++, kNone, kNone, kNone};
     const std::size_t before = k > 0 ? columns_[k - 1].exit_curvature : kNone;
+    if (piece.shape == PieceShape::cubic) {
+      if (piece.backwards()) {
+        columns.entry_curvature = piece.tied ? before : next++;
+      } else {
+        columns.exit_curvature = next++;
+      }
+      columns.first_swelling = next;
+      columns_.push_back(columns);
+      continue;
+    }
     if (piece.shape != PieceShape::straight) columns.entry_curvature = piece.tied ? before : next++;
     columns.exit_curvature = columns.entry_curvature;
     if (!piece.constant()) columns.exit_curvature = ends_straight(profile_, k) ? kNone : next++;
@@ -167,6 +301,13 @@ void PieceFit::number_unknowns() {
 PieceFit::Ways PieceFit::ways_at(const ProfilePiece& piece, double t) {
   const double u = t / piece.length;
   Ways ways{};
+  if (piece.shape == PieceShape::cubic) {
+    const double by_turn = cubic_turn(piece, u).by_turn * piece.cubic.turn_by_bending;
+    const double curvature = piece.backwards() ? piece.entry_curvature : piece.exit_curvature;
+    ways[piece.backwards() ? 0 : 1] = -by_turn * piece.length;
+    ways[2] = u * piece.curvature(u) - by_turn * curvature;
+    return ways;
+  }
   ways[0] = -piece.length * (u - 0.5 * u * u);
   ways[1] = -piece.length * 0.5 * u * u;
   ways[2] = u * piece.curvature(u) - turned_share(piece, u);
@@ -336,6 +477,8 @@ PiecewiseProfile PieceFit::moved(const std::vector<double>& move) const {
     piece.length -= scale_ * move[columns.length];
     if (columns.entry_curvature != kNone) piece.entry_curvature -= move[columns.entry_curvature] / scale_;
     if (columns.exit_curvature != kNone) piece.exit_curvature -= move[columns.exit_curvature] / scale_;
+    if (piece.shape == PieceShape::cubic && !piece.settle_cubic())
+      piece.length = 0.0;  // which relax() refuses
     for (std::size_t i = 0; i < piece.swellings; ++i) {
       piece.swelling[i] -= move[columns.first_swelling + i] / scale_;
     }
@@ -414,6 +557,7 @@ std::optional<double> PieceFit::price(const std::vector<std::pair<std::size_t, d
 std::optional<double> PieceFit::price_of_tie(std::size_t joint) const {
   const ProfilePiece& piece = profile_.pieces[joint];
   const ProfilePiece& before = profile_.pieces[joint - 1];
+  if (piece.shape == PieceShape::cubic || before.shape == PieceShape::cubic) return {};
   // Two that are constant would become one piece: that is no tie.
   if (piece.tied || (piece.constant() && before.constant())) return {};
   return price({{columns_[joint].entry_curvature, 1.0}, {columns_[joint - 1].exit_curvature, -1.0}},
@@ -422,6 +566,7 @@ std::optional<double> PieceFit::price_of_tie(std::size_t joint) const {
 
 std::optional<double> PieceFit::price_of_simpler(std::size_t k) const {
   const ProfilePiece& piece = profile_.pieces[k];
+  if (piece.shape == PieceShape::cubic) return {};
   if (piece.shape == PieceShape::bend) {
     const std::size_t highest = piece.swellings - 1;
     return price({{columns_[k].first_swelling + highest, 1.0}}, piece.swelling[highest]);
@@ -438,7 +583,10 @@ std::optional<double> PieceFit::price_of_simpler(std::size_t k) const {
 std::optional<double> PieceFit::price_of_merger(std::size_t joint) const {
   const ProfilePiece& piece = profile_.pieces[joint];
   const ProfilePiece& before = profile_.pieces[joint - 1];
-  if (piece.shape == PieceShape::bend || before.shape == PieceShape::bend) return {};
+  const auto is_other = [](const ProfilePiece& of) {
+    return of.shape == PieceShape::bend || of.shape == PieceShape::cubic;
+  };
+  if (is_other(piece) || is_other(before)) return {};
   if (!piece.tied) {
     if (!piece.constant() || !before.constant()) return {};
     return price({{columns_[joint].entry_curvature, 1.0}, {columns_[joint - 1].exit_curvature, -1.0}},

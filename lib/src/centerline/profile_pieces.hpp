@@ -13,11 +13,24 @@
 
 namespace glissade::centerline {
 
-/// How the curvature runs along a piece: zero, constant, linear, or as a polynomial of higher degree.
-enum class PieceShape { straight, arc, clothoid, bend };
+/// How the curvature runs along a piece: zero, constant, linear, as a polynomial of higher degree, or as along a cubic
+/// parabola (CubicBend) that begins or ends without curvature.
+enum class PieceShape { straight, arc, clothoid, bend, cubic };
 
 /// What a bend has beyond a clothoid: polynomials that vanish at both of its ends.
 inline constexpr std::size_t kMostSwellings = 4;
+
+/// How a cubic bend turns, by the share u of its length from its straight end: all of it as series in u^4.
+struct CubicShape {
+  static constexpr std::size_t kTerms = 15;
+  using Series = std::array<double, kTerms>;
+
+  double turn = 0.0;             // upwards
+  double turn_by_bending = 0.0;  // its derivative by curvature times length
+  Series turned{};               // over u^2
+  Series by_turn{};              // of that; over u^2
+  Series bending{};              // curvature times length, over u
+};
 
 /// One piece of a profile that is put together from few.
 struct ProfilePiece {
@@ -28,11 +41,23 @@ struct ProfilePiece {
   bool tied = false;             // begins with the curvature with which the piece before it ends
   std::size_t swellings = 0;  // of a bend, at least 1: its curvature is a polynomial of degree 1 + swellings
   std::array<double, kMostSwellings> swelling{};  // [1/m]
+  CubicShape cubic;                               // of a cubic bend, as settle_cubic() finds it
 
   [[nodiscard]] bool constant() const { return shape == PieceShape::straight || shape == PieceShape::arc; }
+  /// Whether a cubic bend begins with its curvature and ends without.
+  [[nodiscard]] bool backwards() const { return entry_curvature != 0.0; }
+  /// Of a cubic bend: finds its shape again after its length or curvature has changed.
+  /// @return false if it would turn by more than kMostCubicTurn
+  bool settle_cubic();
   /// @param u  place, 0 at the start of the piece, 1 at its end
   [[nodiscard]] double curvature(double u) const;
 };
+
+/// The most that a cubic bend of a profile turns by: its turn follows from its length and curvature up to there [rad].
+inline constexpr double kMostCubicTurn = 0.52;
+
+/// @return the cubic bend of that length that turns by so much upwards; none beyond kMostCubicTurn
+[[nodiscard]] std::optional<ProfilePiece> cubic_piece(double length, double turn, bool backwards);
 
 /// A profile of few pieces with breaks where they have to be: curvature jumps there unless the pieces are tied.
 struct PiecewiseProfile {

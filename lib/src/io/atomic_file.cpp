@@ -1,6 +1,7 @@
 #include "glissade/io/atomic_file.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/io/unfinished.hpp"
 
 #include "io/system_error.hpp"
 
@@ -8,12 +9,16 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <optional>
+#include <regex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -57,6 +62,38 @@ std::optional<mode_t> replaceable_mode(const std::filesystem::path& target,
   return status.st_mode & kPermissionBits;
 }
 
+/// Removes the siblings that killed processes left in a directory: those that nobody has locked.
+void remove_abandoned(const std::filesystem::path& directory) {
+  static const std::regex kName(R"(\.glissade-[0-9]+-[0-9]+\.part)");
+  std::error_code error;
+  const std::filesystem::path place = directory.empty() ? std::filesystem::path(".") : directory;
+  for (auto entry = std::filesystem::directory_iterator(place, error);
+       !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    if (!std::regex_match(entry->path().filename().string(), kName)) continue;
+    const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    struct stat status {};
+    const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    if (is_file && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+    ::close(descriptor);
+  }
+}
+
+/// The same, once a directory: a sweep writes thousands of files into one.
+void remove_abandoned_once(const std::filesystem::path& directory) {
+  static std::mutex mutex;
+  static std::set<std::filesystem::path> known;
+  const std::scoped_lock lock(mutex);
+  if (known.insert(directory).second) remove_abandoned(directory);
+}
+
+/// @return whether the file is this process's own: no other takes it for abandoned, nor has done so
+bool claimed(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
 }  // namespace
 
 struct AtomicFile::State {
@@ -64,6 +101,7 @@ struct AtomicFile::State {
   std::filesystem::path file;     ///< what is replaced
   std::filesystem::path sibling;  ///< what is written
   std::optional<mode_t> mode;     ///< to give it before it takes its place
+  std::optional<Unfinished> unfinished;
   std::vector<char> buffer;
   int descriptor = -1;
 
@@ -76,6 +114,7 @@ struct AtomicFile::State {
   }
 
   void create_sibling() {
+    remove_abandoned_once(file.parent_path());
     static std::atomic<unsigned> counter{0};
     constexpr int kMostTries = 1000;
     for (int i = 0; i < kMostTries; ++i) {
@@ -83,9 +122,14 @@ struct AtomicFile::State {
           ".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
       const std::filesystem::path path = file.parent_path() / name;
       descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-      if (descriptor >= 0) {
+      if (descriptor >= 0 && claimed(descriptor)) {
         sibling = path;
+        unfinished.emplace(path);
         return;
+      }
+      if (descriptor >= 0) {
+        ::close(std::exchange(descriptor, -1));
+        continue;
       }
       if (errno != EEXIST && errno != EINTR) break;
     }
@@ -147,13 +191,21 @@ void AtomicFile::commit() {
   if (state_->mode && ::fchmod(state_->descriptor, *state_->mode) != 0) {
     throw system_error(state_->target, "cannot give it the permissions that it had", errno);
   }
-  if (::close(std::exchange(state_->descriptor, -1)) != 0) {
-    throw system_error(state_->target, "cannot write", errno);
+  // The lock is held until it has its name: a copy of the descriptor keeps it.
+  const int lock = ::fcntl(state_->descriptor, F_DUPFD_CLOEXEC, 0);
+  const bool closed = ::close(std::exchange(state_->descriptor, -1)) == 0;
+  int failure = closed ? 0 : errno;
+  if (closed) {
+    const auto hold = Unfinished::hold();
+    if (::rename(state_->sibling.c_str(), state_->file.c_str()) != 0) failure = errno;
   }
-  if (::rename(state_->sibling.c_str(), state_->file.c_str()) != 0) {
-    throw system_error(state_->target, "cannot put the finished file in its place", errno);
+  if (lock >= 0) ::close(lock);
+  if (failure != 0) {
+    throw system_error(state_->target, closed ? "cannot put the finished file in its place" : "cannot write",
+                       failure);
   }
   state_->sibling.clear();
+  state_->unfinished.reset();
 }
 
 }  // namespace glissade

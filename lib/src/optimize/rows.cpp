@@ -184,7 +184,28 @@ void Rows::measure_gradient(const State& state, const LimitSpec& limit, const Ro
 double Rows::value(const State& state, const Row& row) const {
   const LimitSpec& limit = problem_.limits[row.limit];
   return limit.side * (measure(state, limit, row) - effective_bound(limit)) / effective_scale(limit) +
-         margins_[row.limit];
+         margin(row);
+}
+
+double Rows::margin(const Row& row) const {
+  const LimitSpec& limit = problem_.limits[row.limit];
+  const double wanted = margins_[row.limit];
+  if (limit.measure != Measure::normal_load || limit.side >= 0 || !(wanted > 0.0)) return wanted;
+  const Station& station = track_.stations()[row.place];
+  const bool from_rest = problem_.entry_speed2 == 0.0 && !problem_.rides[row.ride].landing;
+  const bool straight = station.part == Part::lead_in;
+  if (!from_rest && !straight) return wanted;
+  // Where a fixed slope angle makes the load there is no more margin than that leaves, none on the way straight down;
+  // and from rest hardly more right behind the start.
+  constexpr double kNear = 0.01;  // [chords]
+  const double way = straight ? 0.0 : station.arc_length(track_.mesh().core_length) - problem_.lead_in;
+  for (const auto& [fixed, ride] : equality_limits_) {
+    const LimitSpec& angle = problem_.limits[fixed];
+    if (angle.measure != Measure::entry_slope_angle) continue;
+    const double left = (math::cos(angle.bound) - effective_bound(limit)) / effective_scale(limit);
+    return std::min(wanted, 0.5 * std::max(0.0, left) + wanted * way / kNear);
+  }
+  return wanted;
 }
 
 void Rows::gradient(const State& state, const Row& row, double* out) const {

@@ -77,6 +77,8 @@ class Rows {
                                        double objective) const;
 
  private:
+  /// By how much the row is tightened [scale].
+  [[nodiscard]] double margin(const Row& row) const;
   [[nodiscard]] Row row_of_equality(std::size_t index) const;
   [[nodiscard]] RowAt at(const State& state, const LimitSpec& limit, const Row& row) const {
     return {problem_, track_, envelope_, state, limit, row};

@@ -155,6 +155,9 @@ Staging::Staging(const fs::path& target, std::string owner)
     : target_(without_trailing_slash(target)),
       owner_(std::move(owner)),
       made_directories_(make_directories(target_)) {
+  for (const fs::path& path : made_directories_) {
+    unfinished_directories_.emplace_back(path, Unfinished::Kind::if_empty);
+  }
   remove_abandoned(target_);
   lock_new_directory();
 }
@@ -170,7 +173,10 @@ void Staging::lock_new_directory() {
     if (!made) continue;
     lock_ = locked(directory_);
     // Without locks on this file system nobody takes it for abandoned either.
-    if (fs::exists(directory_, error)) return;
+    if (fs::exists(directory_, error)) {
+      unfinished_.emplace(directory_);
+      return;
+    }
     if (lock_ >= 0) ::close(std::exchange(lock_, -1));
   }
   if (!error) error = std::make_error_code(std::errc::file_exists);
@@ -194,6 +200,7 @@ fs::path Staging::path_for(const std::string& name) {
 }
 
 Published Staging::publish() {
+  const auto hold = Unfinished::hold();
   const fs::path made = directory_ / "new";
   const fs::path attic = directory_ / "old";
   (void)make_directories(attic);

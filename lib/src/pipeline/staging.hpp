@@ -1,6 +1,10 @@
 #pragma once
 
+#include "glissade/io/unfinished.hpp"
+
 #include <filesystem>
+#include <list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +52,8 @@ class Staging {
   std::vector<std::filesystem::path> made_directories_;  // outermost first
   std::filesystem::path directory_;
   int lock_ = -1;
+  std::optional<Unfinished> unfinished_;
+  std::list<Unfinished> unfinished_directories_;
   std::vector<std::string> names_;
 };
 

@@ -1,0 +1,161 @@
+// Ctrl-C and SIGTERM in every step of a build and of a sweep. Time is that of the processor: how long a loaded machine
+// lets a program wait says nothing of it.
+
+#include "cli/glissade.hpp"
+#include "support/catch.hpp"
+#include "support/running_program.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/resource.h>
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of an optimised build 0.2 s; where checks slow everything down, as much longer.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr double kSlower = 15.0;
+#elif defined(NDEBUG)
+constexpr double kSlower = 1.0;
+#else
+constexpr double kSlower = 15.0;
+#endif
+constexpr double kPatience = 0.2 * kSlower;  // [s] of processor time
+
+/// Processor time of all children that have ended and were waited for [s].
+double time_of_children() {
+  struct rusage usage {};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+struct Ending {
+  int exit_code = 0;
+  double time = 0.0;  ///< that it spent from the signal to its end [s]
+  std::string errors;
+};
+
+/// Runs until standard error has the text (or to the end), then sends the signal.
+Ending interrupted(const std::vector<std::string>& arguments, const fs::path& place, const std::string& until,
+                   int signal) {
+  RunningProgram running(glissade_program(), arguments, place);
+  while (running.errors().find(until) == std::string::npos &&
+         running.errors().find("error") == std::string::npos) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const double before = running.processor_time();
+  const double others = time_of_children();
+  Ending ending;
+  ending.exit_code = running.end_by(signal);
+  ending.time = time_of_children() - others - before;
+  ending.errors = running.errors();
+  return ending;
+}
+
+/// The steps that --verbose tells, one of each kind of file, but the last, which may be over before a signal arrives.
+std::vector<std::string> steps_of(const std::vector<std::string>& arguments, const fs::path& place) {
+  const Outcome whole = glissade_run(arguments, {.directory = place});
+  std::istringstream lines(whole.errors);
+  std::vector<std::string> steps;
+  std::set<std::string> endings;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(" s: ");
+    if (!line.starts_with("glissade: after ") || at == std::string::npos) continue;
+    const std::string step = line.substr(at);
+    const bool file = step.find(": writing ") != std::string::npos;
+    if (!file || endings.insert(step.substr(step.rfind('.'))).second) steps.push_back(step);
+  }
+  REQUIRE(steps.size() >= 3);
+  steps.pop_back();
+  return steps;
+}
+
+std::vector<std::string> leftovers(const fs::path& place) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(place)) {
+    const std::string name = entry.path().filename();
+    if (name != "output" && name != "errors") names.push_back(name);
+  }
+  return names;
+}
+
+const std::vector<std::vector<std::string>>& builds() {
+  static const std::vector<std::vector<std::string>> kBuilds = {
+      {"build", shipped("grain_chute_fabricated"), "-v", "-o", "made"},
+      {"build", shipped("toboggan_run"), "-v", "-o", "made", "--set", "mesh.tolerance=0.05 mm", "--set",
+       "export=[stl, stl-ascii, off, scad, csv]"}};
+  return kBuilds;
+}
+
+}  // namespace
+
+TEST_CASE("SIGTERM ends a build in any step within 0.2 s and leaves nothing behind") {
+  for (const std::vector<std::string>& arguments : builds()) {
+    const TempDir whole;
+    for (const std::string& step : steps_of(arguments, whole.path())) {
+      INFO(arguments[1] << step);
+      const TempDir place;
+      const Ending ending = interrupted(arguments, place.path(), step, SIGTERM);
+      CHECK(ending.exit_code == 130);
+      CHECK(ending.time <= kPatience);
+      CHECK_THAT(ending.errors, Contains("interrupted"));
+      CHECK(leftovers(place.path()).empty());
+    }
+  }
+}
+
+TEST_CASE("Ctrl-C ends a build in any step but the search within 0.2 s and leaves nothing behind") {
+  for (const std::vector<std::string>& arguments : builds()) {
+    const TempDir whole;
+    for (const std::string& step : steps_of(arguments, whole.path())) {
+      INFO(arguments[1] << step);
+      const TempDir place;
+      const Ending ending = interrupted(arguments, place.path(), step, SIGINT);
+      CHECK(ending.exit_code == 130);
+      CHECK(ending.time <= kPatience);
+      CHECK_THAT(ending.errors, Contains("interrupted"));
+      CHECK(leftovers(place.path()).empty());
+    }
+  }
+}
+
+TEST_CASE("SIGTERM ends a search at once, Ctrl-C ends it with the best track so far") {
+  const std::vector<std::string> arguments = {"solve", shipped("ski_jump_inrun_with_limits"), "-v", "--set",
+                                              "body.drag=0.002 1/m"};
+  const TempDir place;
+  const Ending terminated = interrupted(arguments, place.path(), "finding the track", SIGTERM);
+  CHECK(terminated.exit_code == 130);
+  CHECK(terminated.time <= kPatience);
+  const Ending ended = interrupted(arguments, place.path(), "finding the track", SIGINT);
+  CHECK((ended.exit_code == 4 || ended.exit_code == 0));
+  CHECK(ended.time <= kPatience);
+}
+
+TEST_CASE("a second Ctrl-C ends a build at once, whatever it is at") {
+  const TempDir place;
+  RunningProgram running(glissade_program(), builds().back(), place.path());
+  while (running.errors().find("checking the mesh") == std::string::npos) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const double before = running.processor_time();
+  const double others = time_of_children();
+  running.send(SIGINT);
+  CHECK(running.end_by(SIGINT) == 130);
+  CHECK(time_of_children() - others - before <= kPatience);
+  CHECK(leftovers(place.path()).empty());
+}
