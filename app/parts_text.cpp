@@ -28,7 +28,7 @@ std::string pieces_text(const Workshop& workshop) {
     mass += part.mass * static_cast<double>(part.quantity());
   }
   return counted(workshop.parts.size(), "part") + ", " + counted(pieces, "piece") + ", " +
-         rounded_text(mass, 4) + " kg; they add up to the channel, none clash";
+         rounded_text(mass, 4) + " kg; they add up to the solid, none clash";
 }
 
 std::string ride_text(const AsBuiltRide& ride) {

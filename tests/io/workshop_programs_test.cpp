@@ -1,9 +1,11 @@
 // What the programs of workshops make of our files: opinions that share no code with ours.
 
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/mesh_file.hpp"
 #include "glissade/io/step_file.hpp"
 #include "glissade/io/three_mf_file.hpp"
+#include "glissade/parts/prints.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
@@ -196,4 +198,25 @@ TEST_CASE("PrusaSlicer finds every piece of a 3MF file, whole and in its size", 
   CHECK(whole == 3);
   CHECK(run.output.find("manifold = no") == std::string::npos);
   CHECK(run.output.find("size_z = 12.0") != std::string::npos);
+}
+
+TEST_CASE("PrusaSlicer finds every piece of a printed run on its beds, whole", "[external]") {
+  if (!oracle_is_there("prusa-slicer", {"--help"})) return;
+  const TempDir directory;
+  const Friction friction = Friction::from_angle(Angle::from_degrees(10.0));
+  const WorkshopBuild build =
+      make_prints(CoulombBrachistochrone({0.6, 0.35}, friction), CrossSection::slab(40e-3, 12e-3),
+                  {PrintOptions::kArcTolerance}, {}, 5e-5, Placement(), {.friction = friction});
+  REQUIRE(build.prints.size() > 3);
+  const auto file = directory / "run.3mf";
+  write_three_mf(file, laid_on_beds(build.prints), "run");
+  const Outcome run = run_program("prusa-slicer", {"--info", file.string()});
+  INFO(run.output << run.errors);
+  std::size_t whole = 0;
+  for (std::size_t at = run.output.find("manifold = yes"); at != std::string::npos;
+       at = run.output.find("manifold = yes", at + 1)) {
+    ++whole;
+  }
+  CHECK(whole == build.prints.size());
+  CHECK(run.output.find("manifold = no") == std::string::npos);
 }

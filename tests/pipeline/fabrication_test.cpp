@@ -2,9 +2,12 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/io/dxf_file.hpp"
+#include "glissade/io/mesh_file.hpp"
 #include "glissade/io/step_file.hpp"
+#include "glissade/io/three_mf_file.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
+#include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
@@ -13,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -121,6 +125,61 @@ TEST_CASE("fabrication: every piece that is cut lies on one sheet of its thickne
   CHECK(holes == circles);
 }
 
+TEST_CASE(
+    "fabrication: a print gives its pieces as one 3MF file, each whole, and meshes of single pieces on "
+    "request") {
+  const TempDir place;
+  Design design = load_design(designs_path("marble_run_printed.yaml"));
+  design.exports.formats = {ExportFormat::off};
+  const Build built = build(design, place / "out", {}, {.report = false});
+  REQUIRE(built.fabrication);
+  const nlohmann::json json = nlohmann::json::parse(build_json(design, built));
+  std::size_t pieces = 0;
+  for (const nlohmann::json& part : json["parts"]) {
+    pieces += part["quantity"].get<std::size_t>();
+    REQUIRE(part["files"].size() == 2);
+    CHECK(part["files"][0] == "marble_run_printed.3mf");
+    const TriangleMesh single =
+        read_mesh(place / "out" / part["files"][1].get<std::string>(), LengthUnit::millimetre);
+    CHECK(measure(single).valid());
+    CHECK(measure(single).volume == Approx(part["volume_m3"].get<double>()).epsilon(5e-3));
+  }
+  const std::vector<PrintPiece> read = read_three_mf(place / "out" / "marble_run_printed.3mf");
+  REQUIRE(read.size() == pieces);
+  CHECK(pieces == 3 + 4);
+  for (const PrintPiece& piece : read) {
+    INFO(piece.name);
+    CHECK(measure(piece.mesh).valid());  // at the precision of the file
+  }
+  CHECK(json["as_built"]["joints"] == 2);
+  CHECK_FALSE(std::filesystem::exists(place / "out" / "marble_run_printed.step"));
+}
+
+TEST_CASE(
+    "fabrication: a timber ramp gives patterns, STEP, templates and a setting-out table with the levels of "
+    "its edges") {
+  const TempDir place;
+  Design design = load_design(designs_path("sand_ski_ramp_in_timber.yaml"));
+  design.exports.formats = {ExportFormat::off};
+  const Build built = build(design, place / "out", {}, {.report = false});
+  REQUIRE(built.fabrication);
+  const Workshop& workshop = built.fabrication->workshop;
+  for (const ShopPart& part : workshop.parts) {
+    INFO(part.name);
+    CHECK(part.files.size() == (part.pattern ? 2 : 1));
+    for (const std::string& file : part.files) CHECK(std::filesystem::exists(place / "out" / file));
+  }
+  const StepFacts assembly = read_step_facts(place / "out" / "sand_ski_ramp_in_timber.step");
+  std::size_t pieces = 0;
+  for (const ShopPart& part : workshop.parts) pieces += part.quantity();
+  CHECK(assembly.solids.size() == workshop.parts.size());
+  CHECK(pieces > 300);
+  std::ifstream table(place / "out" / "sand_ski_ramp_in_timber.setting_out.csv");
+  std::string head;
+  std::getline(table, head);
+  CHECK(head.ends_with("underside of deck,top of ribs,underside of ribs"));
+}
+
 TEST_CASE("fabrication: the same design gives the same bytes") {
   const TempDir place;
   const Design design = quick("{process: plate, floor: bent, split: {longest: 2 m}}");
@@ -208,5 +267,14 @@ TEST_CASE("fabrication: what cannot be made is refused at its place in the file"
   CHECK(refusal("{process: plate, bend: {bends: 10, segment_length: 1 m}}").find("more than one rule") !=
         std::string::npos);
   CHECK(refusal("{process: casting}").find("plate") != std::string::npos);
+  CHECK(refusal("{process: print, split: {bed: [20 mm, 20 mm, 20 mm], gap: 0 mm}}")
+            .find("chute.yaml:5:39: bed: 20 mm x 20 mm x 20 mm is too small for the section of") !=
+        std::string::npos);
+  CHECK(refusal("{process: print, split: {bed: [20 mm, 20 mm]}}").find("bed: 2 lengths") !=
+        std::string::npos);
+  CHECK(refusal("{process: timber, deck: {layers: 2.5}}").find("layers: 2.5 is no whole number") !=
+        std::string::npos);
+  CHECK(refusal("{process: timber, deck: {layers: 40}}").find("chute.yaml:5:39: layers: 40 layers") !=
+        std::string::npos);
   CHECK(refusal("{}").find("process") != std::string::npos);
 }

@@ -1,5 +1,6 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/parts/plates.hpp"
+#include "glissade/section/cross_section.hpp"
 
 #include "design/checks.hpp"
 
@@ -17,7 +18,9 @@ std::string_view process_word(const FabricationDesign& design) {
 
 bool fits(WorkshopFormat format, const FabricationDesign& design) {
   const bool meshes = format == WorkshopFormat::three_mf || format == WorkshopFormat::stl_parts;
-  return !meshes || !std::holds_alternative<PlateOptions>(design.process);
+  const bool always =
+      format == WorkshopFormat::pdf || format == WorkshopFormat::svg || format == WorkshopFormat::tables;
+  return always || meshes == std::holds_alternative<PrintOptions>(design.process);
 }
 
 bool ExportDesign::asks_for(WorkshopFormat format) const {
@@ -48,13 +51,30 @@ void check_bend(const BendOptions& bend, Collected& findings) {
   }
 }
 
-void check_process(const Design& design, const PlateOptions& plate, Collected& findings) {
-  check_bend(plate.bend, findings);
-  for (Issue& issue : plate_problems(*design.cross_section, plate)) {
+void report_all(std::vector<Issue> issues, Collected& findings) {
+  for (Issue& issue : issues) {
     const std::string key = (issue.where.starts_with("cross_section.") ? "" : "fabrication.") + issue.where;
     issue.where.clear();
     report(findings, {key}, std::move(issue));
   }
+}
+
+void check_process(const Design& design, const PlateOptions& plate, Collected& findings) {
+  check_bend(plate.bend, findings);
+  report_all(plate_problems(*design.cross_section, plate), findings);
+}
+
+/// Of a section that is no good itself, its own check tells.
+void check_process(const Design& design, const PrintOptions& print, Collected& findings) {
+  try {
+    report_all(print_problems(CrossSection(*design.cross_section), print), findings);
+  } catch (const InputError&) {
+    return;
+  }
+}
+
+void check_process(const Design& design, const TimberOptions& timber, Collected& findings) {
+  report_all(timber_problems(*design.cross_section, timber), findings);
 }
 
 }  // namespace

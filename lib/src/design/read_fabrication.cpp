@@ -8,7 +8,7 @@
 namespace glissade::design_file {
 namespace {
 
-enum class Process { plate };
+enum class Process { plate, print, timber };
 
 }  // namespace
 
@@ -30,13 +30,22 @@ std::optional<FabricationDesign> read_fabrication(MapReader& top, Findings& find
   FabricationDesign design;
   Process kind = Process::plate;
   if (const auto process = map.need("process", "process: plate")) {
-    kind = map.choice<Process>(*process, {{"plate", Process::plate}}).value_or(kind);
+    kind =
+        map.choice<Process>(
+               *process, {{"plate", Process::plate}, {"print", Process::print}, {"timber", Process::timber}})
+            .value_or(kind);
   }
   const auto material = map.find("material");
   const auto tolerance = map.quantity("arc_tolerance", Dimension::length);
   switch (kind) {
     case Process::plate:
       design.process = read_plate(map, findings);
+      break;
+    case Process::print:
+      design.process = read_print(map, findings);
+      break;
+    case Process::timber:
+      design.process = read_timber(map, findings);
       break;
   }
   std::visit(

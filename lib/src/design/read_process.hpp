@@ -12,6 +12,8 @@ namespace glissade::design_file {
 
 /// Reads the keys of a process of `fabrication`, those that every process has excepted: material, arc_tolerance.
 [[nodiscard]] PlateOptions read_plate(MapReader& map, Findings& findings);
+[[nodiscard]] PrintOptions read_print(MapReader& map, Findings& findings);
+[[nodiscard]] TimberOptions read_timber(MapReader& map, Findings& findings);
 
 /// @param material  what stands where a key is missing
 [[nodiscard]] StockMaterial read_material(const Value& value, StockMaterial material, Findings& findings);

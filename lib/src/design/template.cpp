@@ -81,6 +81,7 @@ cross_section:
   thickness: 200 mm
   curb_height: 500 mm
   curb_width: 100 mm
+# fabrication: {process: timber, frame: beams, bearers: {count: 5}}  # parts for carpenters: docs/fabrication.md
 mesh: {tolerance: 5 mm}
 export: [stl, scad, csv]
 )";
@@ -137,6 +138,7 @@ cross_section:
     - [-3 mm, 0 mm]
     - [-10 mm, 5 mm]
     - [-12 mm, 5 mm]
+# fabrication: {process: print}        # pieces for a printer: docs/fabrication.md
 mesh: {tolerance: 0.02 mm}
 export: {formats: [stl], unit: mm}
 )";

@@ -14,6 +14,8 @@ namespace glissade::design_file {
 
 /// Adds the keys of one process, those that every process has excepted.
 void add_process(Group& group, const PlateOptions& plate);
+void add_process(Group& group, const PrintOptions& print);
+void add_process(Group& group, const TimberOptions& timber);
 
 /// Of what several processes have.
 [[nodiscard]] std::string written_material(const StockMaterial& material);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +69,13 @@ void add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye) {
   constexpr double kAbove = 12.0;  // of the row over the view, on paper [mm]
   constexpr double kRadius = 3.5;
   std::vector<std::pair<Vec2, std::string>> targets;
+  // Where there are more parts than a row has room for, the first of each family stands for all.
+  constexpr std::size_t kMostBalloons = 36;
+  const bool all = workshop.parts.size() <= kMostBalloons;
+  std::set<std::string> families;
   for (const ShopPart& part : workshop.parts) {
+    if (!all && !families.insert(part.name.substr(0, part.name.find_last_not_of("_0123456789") + 1)).second)
+      continue;
     if (!part.places.empty())
       targets.emplace_back(kMillimetres * eye.see(part.centre_of_gravity), number_of(part));
   }

@@ -131,6 +131,7 @@ class Heap {
     const double room = stock_.width - 2.0 * stock_.margin - attitude.width;
     if (room < 0.0) return best;
     const auto steps = static_cast<std::size_t>(std::floor(room / column_));
+    double ceiling = stock_.height - stock_.margin;  // above it no place is of use
     for (std::size_t step = 0; step <= steps; ++step) {
       const double x = stock_.margin + static_cast<double>(step) * column_;
       double y = stock_.margin;
@@ -140,10 +141,12 @@ class Heap {
         const double top = std::max(tops_[std::min(shift + i, tops_.size() - 1)],
                                     tops_[std::min(shift + i + 1, tops_.size() - 1)]);
         y = std::max(y, top + stock_.spacing - attitude.low[i]);
+        if (y + attitude.height > ceiling) break;
       }
       const double top = y + attitude.height;
-      if (top > stock_.height - stock_.margin) continue;
-      if (!best || top < best->top - 1e-9) best = Place{{x, y}, top};
+      if (top > ceiling) continue;
+      best = Place{{x, y}, top};
+      ceiling = top - 1e-9;
     }
     return best;
   }

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 namespace glissade {
 namespace drawing {
@@ -173,9 +175,42 @@ std::vector<ArcPath> outlines_of(const parts::Brep& brep, const Frame& place, co
   return lines;
 }
 
+/// Edges of a mesh at which its facets meet at an angle.
+std::vector<std::pair<Vec3, Vec3>> sharp_edges(const TriangleMesh& mesh) {
+  constexpr double kBlunt = 0.94;  // cosine of the angle of normals: 20 deg
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> normals;
+  std::vector<std::pair<Vec3, Vec3>> edges;
+  for (const auto& corner : mesh.triangles) {
+    const Vec3 a = mesh.vertices[corner[0]];
+    const Vec3 normal = cross(mesh.vertices[corner[1]] - a, mesh.vertices[corner[2]] - a);
+    const Vec3 unit = (1.0 / norm(normal)) * normal;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = corner[i];
+      const std::uint32_t to = corner[(i + 1) % 3];
+      const auto other = normals.find({to, from});
+      if (other == normals.end()) {
+        normals[{from, to}] = unit;
+      } else if (dot(unit, other->second) < kBlunt) {
+        edges.emplace_back(mesh.vertices[from], mesh.vertices[to]);
+      }
+    }
+  }
+  return edges;
+}
+
 }  // namespace
 
+void Projection::add_mesh(const TriangleMesh& mesh, const Frame& place) {
+  for (const auto& [from, to] : sharp_edges(mesh)) {
+    ArcPath path{
+        {{eye_.see(kMillimetres * place.to_space(from))}, {eye_.see(kMillimetres * place.to_space(to))}},
+        false};
+    if (!is_point(path)) paths_.push_back(std::move(path));
+  }
+}
+
 void Projection::add(const ShopPart& part, const Frame& place) {
+  if (const auto* const printed = std::get_if<MeshBody>(&part.body)) return add_mesh(printed->mesh, place);
   const parts::Brep brep = parts::brep_of(part);
   Frame millimetres = place;
   millimetres.origin = kMillimetres * place.origin;

@@ -26,6 +26,8 @@ class Projection {
   [[nodiscard]] Drawing drawing(const std::string& name) const;
 
  private:
+  void add_mesh(const TriangleMesh& mesh, const Frame& place);
+
   Eye eye_;
   std::vector<ArcPath> paths_;
 };

@@ -4,6 +4,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/piece_mesh.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,6 +107,16 @@ BodyMoments moments_of(const TubeGore& gore) {
   const double z = 0.5 * (area * gore.length * gore.length + second * (end * end - start * start));
   const double volume = area * gore.length;
   return {volume, {x / volume, 0.0, z / volume}};
+}
+
+BodyMoments moments_of(const MeshBody& body) {
+  const MeshMoments all = mesh_moments(body.mesh);
+  return {all.volume, all.centre};
+}
+
+/// Printed pieces are held against planes instead (prints.cpp).
+std::vector<Vec3> points_of(const MeshBody& /*body*/, double /*inset*/) {
+  return {};
 }
 
 std::vector<Vec3> points_of(const Prism& prism, double inset) {
@@ -233,6 +245,10 @@ double depth_in(const SweptBody& body, Vec3 point) {
     deepest = std::max(deepest, flat_depth > 0.0 ? std::min(flat_depth, lengthwise) : flat_depth);
   }
   return deepest;
+}
+
+double depth_in(const MeshBody& /*body*/, Vec3 /*point*/) {
+  return -kFar;
 }
 
 double depth_in(const TubeGore& gore, Vec3 point) {

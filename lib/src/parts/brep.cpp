@@ -382,6 +382,10 @@ Brep brep_of(const TubeGore& gore, const ShopPart& part) {
   return brep;
 }
 
+Brep brep_of(const MeshBody& /*body*/, const ShopPart& part) {
+  throw bad_body(part, "it is made of facets: it has no faces but those");
+}
+
 Brep brep_of(const SweptBody& body, const ShopPart& part) {
   return SweptFaces(body, part).whole();
 }

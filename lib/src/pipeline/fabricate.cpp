@@ -3,6 +3,8 @@
 #include "pipeline/fabricate.hpp"
 
 #include "glissade/parts/plates.hpp"
+#include "glissade/parts/prints.hpp"
+#include "glissade/parts/timber.hpp"
 
 #include "pipeline/located.hpp"
 #include "pipeline/workshop_files.hpp"
@@ -45,6 +47,27 @@ std::vector<Vec2> in_plane(const TrackDesign& track, const std::vector<Vec2>& gr
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PlateOptions options) {
   if (options.supports) options.supports->ground = in_plane(design.track, options.supports->ground);
   return make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
+                     frame, body_of(design), design.gravity);
+}
+
+WorkshopBuild make(const Design& design, const Track& track, const Placement& frame,
+                   const PrintOptions& options) {
+  return make_prints(*track.centerline, CrossSection(*design.cross_section),
+                     {design.fabrication->arc_tolerance}, options, design.mesh.tolerance, frame,
+                     body_of(design), design.gravity);
+}
+
+/// Ground as the design has it, x and z of the site, becomes run and height from the start.
+WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, TimberOptions options) {
+  if (options.legs) {
+    for (Vec2& point : options.legs->ground) {
+      const Vec2 from_start = in_track_plane(design.track, point);
+      point = {from_start.x, -from_start.y};
+    }
+    std::vector<Vec2>& ground = options.legs->ground;
+    if (ground.size() > 1 && ground.front().x > ground.back().x) std::reverse(ground.begin(), ground.end());
+  }
+  return make_timber(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
                      frame, body_of(design), design.gravity);
 }
 

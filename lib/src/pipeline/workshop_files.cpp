@@ -6,12 +6,15 @@
 #include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/dxf_file.hpp"
+#include "glissade/io/mesh_file.hpp"
 #include "glissade/io/sheet_file.hpp"
 #include "glissade/io/step_file.hpp"
+#include "glissade/io/three_mf_file.hpp"
 #include "glissade/io/workshop_tables.hpp"
 
 #include "parts/plate_joints.hpp"
 #include "pipeline/fabricate.hpp"
+#include "pipeline/formats.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -105,9 +108,45 @@ std::vector<PendingFile> nests_of(const std::string& stem, const Workshop& works
   return files;
 }
 
+/// Every piece of a print on its bed.
+PendingFile three_mf_of(std::string name, std::vector<PrintPiece> laid, const std::string& title) {
+  const auto pieces = std::make_shared<const std::vector<PrintPiece>>(std::move(laid));
+  PendingFile file;
+  file.name = std::move(name);
+  file.cost = 0.2;
+  file.write = [pieces, title](const fs::path& path, const std::stop_token&) {
+    write_three_mf(path, *pieces, title);
+  };
+  file.read_back = [pieces](const fs::path& path, const std::stop_token&) {
+    require_same_three_mf(path, *pieces);
+  };
+  return file;
+}
+
+/// One piece as it lies on a bed, in binary STL.
+PendingFile stl_of(std::string name, const TriangleMesh& mesh, LengthUnit unit) {
+  const auto rounded = std::make_shared<const TriangleMesh>(as_written(mesh, MeshFormat::stl_binary, unit));
+  PendingFile file;
+  file.name = std::move(name);
+  file.cost = kSmallFile;
+  file.write = [rounded, unit, name = file.name](const fs::path& path, const std::stop_token& stop) {
+    write_mesh(path, MeshFormat::stl_binary, *rounded, {unit, {}, name, stop});
+  };
+  file.read_back = [rounded, unit](const fs::path& path, const std::stop_token& stop) {
+    require_same_on_disk(path, *rounded, unit, stop);
+  };
+  return file;
+}
+
 /// Stock of the design's sheets; of a process that names none, what a sheet is by default.
 NestStock stock_of(const FabricationDesign& fabrication) {
   constexpr double kSpacing = 10e-3;
+  constexpr double kSawCut = 4e-3;
+  // Sheets of a deck keep the stock's size: no margin, and no saw between two of them.
+  if (const auto* const timber = std::get_if<TimberOptions>(&fabrication.process)) {
+    const Vec2 sheet = timber->split.sheet;
+    return {std::max(sheet.x, sheet.y), std::min(sheet.x, sheet.y), 0.0, kSawCut};
+  }
   const auto* const plate = std::get_if<PlateOptions>(&fabrication.process);
   const Vec2 sheet = plate != nullptr ? plate->split.sheet : SplitOptions{}.sheet;
   return {std::max(sheet.x, sheet.y), std::min(sheet.x, sheet.y), parts::kSheetMargin, kSpacing};
@@ -125,6 +164,11 @@ std::vector<Sheet> templates(const Workshop& workshop, TemplatePaper paper) {
 bool has_patterns(const Workshop& workshop) {
   return std::any_of(workshop.parts.begin(), workshop.parts.end(),
                      [](const ShopPart& part) { return part.pattern.has_value(); });
+}
+
+/// Whether meshes of single pieces are written: they are on request alone.
+bool wants_single_meshes(const Design& design) {
+  return design.exports.whole_workshop || !design.exports.workshop.empty();
 }
 
 std::string part_stem(const std::string& stem, const ShopPart& part) {
@@ -179,6 +223,25 @@ void add_sheets(const Design& design, const std::shared_ptr<const WorkshopBuild>
   }
 }
 
+void add_prints(const Design& design, const std::shared_ptr<const WorkshopBuild>& build,
+                std::vector<PendingFile>& files) {
+  const auto* const print = std::get_if<PrintOptions>(&design.fabrication->process);
+  if (print == nullptr) return;
+  const Choice wanted(design);
+  if (wanted(WorkshopFormat::three_mf)) {
+    files.push_back(three_mf_of(stem_of(design) + ".3mf", laid_on_beds(build->prints, print->split.bed),
+                                build->workshop.name));
+  }
+  if (!wanted(WorkshopFormat::stl_parts) || !wants_single_meshes(design)) return;
+  for (const ShopPart& part : build->workshop.parts) {
+    const auto piece = std::find_if(build->prints.begin(), build->prints.end(), [&](const PrintPiece& one) {
+      return one.number == std::to_string(part.number);
+    });
+    if (piece == build->prints.end()) continue;
+    files.push_back(stl_of(part_stem(stem_of(design), part) + ".stl", piece->mesh, design.exports.unit));
+  }
+}
+
 void add_tables(const std::string& stem, const Workshop& workshop, std::vector<PendingFile>& files) {
   files.push_back(table(stem + ".cut_list.csv", cut_list_csv(workshop)));
   if (!workshop.items.empty()) files.push_back(table(stem + ".bought_in.csv", bought_in_csv(workshop)));
@@ -201,6 +264,8 @@ void name_part_files(const Design& design, Workshop& workshop) {
     const std::string name = part_stem(stem_of(design), part);
     if (part.pattern && wanted(WorkshopFormat::dxf)) part.files.push_back(name + ".dxf");
     if (wanted(WorkshopFormat::step)) part.files.push_back(name + ".step");
+    if (wanted(WorkshopFormat::three_mf)) part.files.push_back(stem_of(design) + ".3mf");
+    if (wanted(WorkshopFormat::stl_parts) && wants_single_meshes(design)) part.files.push_back(name + ".stl");
   }
 }
 
@@ -213,6 +278,7 @@ std::vector<PendingFile> workshop_files(const Design& design,
   add_part_files(design, build, files);
   if (wanted(WorkshopFormat::step))
     files.push_back(step_of(stem + ".step", std::shared_ptr<const Workshop>(build, &workshop)));
+  add_prints(design, build, files);
   add_sheets(design, build, files);
   if (wanted(WorkshopFormat::nests)) {
     for (PendingFile& file :

@@ -2,6 +2,8 @@
 
 #include "glissade/core/workshop_format.hpp"
 #include "glissade/parts/plate_options.hpp"
+#include "glissade/parts/print_options.hpp"
+#include "glissade/parts/timber_options.hpp"
 
 #include <string_view>
 #include <variant>
@@ -13,7 +15,7 @@ namespace glissade {
 struct FabricationDesign {
   double arc_tolerance =
       PlateOptions::kArcTolerance;  ///< greatest distance between the track and its arcs [m]; > 0
-  std::variant<PlateOptions> process;
+  std::variant<PlateOptions, PrintOptions, TimberOptions> process;
 
   friend bool operator==(const FabricationDesign&, const FabricationDesign&) = default;
 };

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "glissade/solid/triangle_mesh.hpp"
+#include "glissade/parts/print_piece.hpp"
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,13 +13,6 @@ namespace glissade {
 ///
 /// Coordinates are numbers of single precision, as readers hold them, rounded as as_written() does for binary STL: no two vertices
 /// become one. Bytes depend on the pieces and on zlib alone: entries are dated 1980-01-01, there are no random identifiers.
-
-/// One thing to be printed.
-struct PrintPiece {
-  std::string name;    ///< "segment 2 of 5"
-  std::string number;  ///< as it is marked on the piece: "02"
-  TriangleMesh mesh;   ///< closed, outward [m]
-};
 
 /// @param title  of the model
 /// @throws InputError if there is no piece, a piece has no triangle, or as as_written(); FileError as AtomicFile
@@ -37,14 +29,6 @@ void write_three_mf(const std::filesystem::path& file, const std::vector<PrintPi
 /// Holds a 3MF file against the pieces that it was written from: names, numbers, every vertex and triangle.
 /// @throws InternalError if anything differs; FileError as read_three_mf()
 void require_same_three_mf(const std::filesystem::path& file, const std::vector<PrintPiece>& pieces);
-
-/// The room of a printer [m]; all > 0.
-struct PrintBed {
-  double x = 0.220;
-  double y = 0.220;
-  double z = 0.250;
-  double gap = 0.005;  ///< between pieces, and from the edges of the bed; >= 0
-};
 
 /// Lays pieces on beds, standing as they are: each on z = 0, in rows, largest first; beds stand side by side along x, a gap of a
 /// fifth of their width between them.

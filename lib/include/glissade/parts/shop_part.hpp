@@ -3,6 +3,7 @@
 #include "glissade/core/arc_path.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
+#include "glissade/solid/triangle_mesh.hpp"
 
 #include <array>
 #include <cstddef>
@@ -52,7 +53,12 @@ struct TubeGore {
   Angle end_tilt;             ///< z of the second one is length + x tan(end_tilt)
 };
 
-using PartBody = std::variant<Prism, SweptBody, TubeGore>;
+/// What only facets show: printed pieces with holes and numbers.
+struct MeshBody {
+  TriangleMesh mesh;  ///< closed, outward, in the part's own frame [m]
+};
+
+using PartBody = std::variant<Prism, SweptBody, TubeGore, MeshBody>;
 
 /// A straight bend across a flat pattern.
 struct BendLine {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/parts/master_curve.hpp"
+#include "glissade/parts/print_piece.hpp"
 #include "glissade/parts/shop_part.hpp"
 
 #include <cstddef>
@@ -38,6 +39,7 @@ struct WorkshopBuild {
   std::vector<double> joints;  ///< arc lengths of the units' ends, first 0, last the length [m]
   AsBuiltRide ride;
   PartsProof proof;
+  std::vector<PrintPiece> prints;  ///< what a printer makes, each as it lies on a bed, one of a count a piece
 };
 
 }  // namespace glissade

@@ -1,0 +1,97 @@
+#pragma once
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/vec.hpp"
+#include "glissade/parts/plate_options.hpp"
+#include "glissade/section/measures.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace glissade {
+
+/// What runs along the track below the deck.
+enum class TimberFrame {
+  ribs,  ///< templates cut from sheets
+  beams  ///< glued laminated beams, set out by ordinates
+};
+
+/// Ribs or beams.
+struct BearerOptions {
+  std::optional<int> count;     ///< none: as many as `spacing` asks for, at least 2
+  double spacing = 0.6;         ///< greatest distance of their middles [m]
+  std::optional<double> width;  ///< across [m]; none: 18 mm of ribs, 120 mm of beams
+  std::optional<double> depth;  ///< square to the track [m]; none: 200 mm of ribs, 400 mm of beams
+
+  friend bool operator==(const BearerOptions&, const BearerOptions&) = default;
+};
+
+/// The floor: sheets bent over the cross members, in layers whose seams are apart.
+struct DeckOptions {
+  int layers = 2;  ///< as thick together as the section's floor
+
+  friend bool operator==(const DeckOptions&, const DeckOptions&) = default;
+};
+
+/// Battens on the bearers that carry the deck: one below every seam, others between.
+struct CrossMemberOptions {
+  double width = 45e-3;   ///< along the track [m]
+  double height = 70e-3;  ///< [m]
+  double spacing = 0.4;   ///< greatest distance of their middles [m]
+
+  friend bool operator==(const CrossMemberOptions&, const CrossMemberOptions&) = default;
+};
+
+/// Posts below every bearer.
+struct LegOptions {
+  std::vector<Vec2> ground;  ///< (x, height above the start), from left to right; one point: level [m]
+  double spacing = 2.0;      ///< greatest distance along the run [m]
+  double side = 90e-3;       ///< of their square section [m]
+
+  friend bool operator==(const LegOptions&, const LegOptions&) = default;
+};
+
+/// Stock that pieces are cut from, and what none may exceed.
+struct TimberSplit {
+  double longest = 12.0;  ///< of a beam or cross member [m]
+  Vec2 sheet{2.5,
+             1.25};  ///< stock of deck, ribs and curbs; of the deck its longer side lies along the track [m]
+  std::optional<double> heaviest;  ///< mass of a part [kg]
+
+  friend bool operator==(const TimberSplit&, const TimberSplit&) = default;
+};
+
+/// How a track is built of timber.
+struct TimberOptions {
+  static constexpr std::string_view kProcess = "timber";
+  static constexpr double kArcTolerance = 1e-3;  ///< [m]
+
+  StockMaterial material{"birch plywood", 680.0};  ///< of sheets: deck, ribs, curbs
+  StockMaterial lumber{"C24", 420.0};              ///< of beams, cross members, legs
+  TimberFrame frame = TimberFrame::ribs;
+  BearerOptions bearers;
+  DeckOptions deck;
+  CrossMemberOptions cross_members;
+  std::optional<LegOptions> legs;
+  TimberSplit split;
+  double fit = 2e-3;  ///< greatest gap between flat members and the curved ones that they bear [m]
+  double joint_step =
+      0.0;  ///< by which the floor may drop at a seam of the upper layer, downstream [m]; >= 0
+
+  [[nodiscard]] double bearer_width() const {
+    return bearers.width.value_or(frame == TimberFrame::ribs ? 18e-3 : 120e-3);
+  }
+  [[nodiscard]] double bearer_depth() const {
+    return bearers.depth.value_or(frame == TimberFrame::ribs ? 0.2 : 0.4);
+  }
+
+  friend bool operator==(const TimberOptions&, const TimberOptions&) = default;
+};
+
+/// Measures and options that no carpenter can make, whatever the track is: all of them.
+/// @return issues whose `where` is the key: "deck.layers", "bearers.count"; of the section "cross_section.kind"
+[[nodiscard]] std::vector<Issue> timber_problems(const section::Measures& measures,
+                                                 const TimberOptions& options);
+
+}  // namespace glissade

@@ -1,0 +1,76 @@
+#include "design/read_process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace glissade::design_file {
+namespace {
+
+/// [220 mm, 220 mm, 250 mm]: width, depth and height.
+PrintBed read_bed(const Value& value, PrintBed bed, Findings& findings) {
+  constexpr std::string_view kExample = "[220 mm, 220 mm, 250 mm]";
+  const std::vector<Value> sides = as_list(value, kExample, findings);
+  if (sides.empty()) return bed;
+  const std::array<double*, 3> lengths = {&bed.x, &bed.y, &bed.z};
+  for (std::size_t i = 0; i < std::min(sides.size(), lengths.size()); ++i) {
+    *lengths[i] = as_quantity(sides[i], Dimension::length, findings).value_or(*lengths[i]);
+  }
+  if (sides.size() != lengths.size()) {
+    findings.add(value.node->at, value.key_path,
+                 {"", "bed: " + std::to_string(sides.size()) + " lengths",
+                  "A bed has a width, a depth and a height.", "bed: " + std::string(kExample)});
+  }
+  return bed;
+}
+
+PrintSplit read_split(const Value& value, Findings& findings) {
+  MapReader map(value, "A split of a print", "{bed: [220 mm, 220 mm, 250 mm]}", findings);
+  PrintSplit split;
+  if (const auto bed = map.find("bed")) split.bed = read_bed(*bed, split.bed, findings);
+  split.bed.gap = map.quantity("gap", Dimension::length).value_or(split.bed.gap);
+  split.longest = map.quantity("longest", Dimension::length);
+  split.heaviest = map.quantity("heaviest", Dimension::mass);
+  if (const auto allowed = map.find("allowed")) split.allowed = as_flag(*allowed, findings).value_or(true);
+  map.refuse_unknown_keys();
+  return split;
+}
+
+DowelOptions read_dowels(const Value& value, Findings& findings) {
+  DowelOptions dowels;
+  if (value.node->kind != Node::Kind::map && is_word(value, "none", findings)) {
+    dowels.wanted = false;
+    return dowels;
+  }
+  MapReader map(value, "A set of dowels", "{diameter: 4 mm, fit: 0.15 mm}", findings);
+  dowels.diameter = map.quantity("diameter", Dimension::length);
+  dowels.depth = map.quantity("depth", Dimension::length);
+  dowels.fit = map.quantity("fit", Dimension::length).value_or(dowels.fit);
+  dowels.chamfer = map.quantity("chamfer", Dimension::length).value_or(dowels.chamfer);
+  map.refuse_unknown_keys();
+  return dowels;
+}
+
+}  // namespace
+
+PrintOptions read_print(MapReader& map, Findings& findings) {
+  PrintOptions print;
+  if (const auto split = map.find("split")) print.split = read_split(*split, findings);
+  if (const auto dowels = map.find("dowels")) print.dowels = read_dowels(*dowels, findings);
+  print.pose = chosen<PrintPose>(map, "pose", print.pose,
+                                 {{"automatic", PrintPose::automatic},
+                                  {"side", PrintPose::side},
+                                  {"end", PrintPose::end},
+                                  {"flat", PrintPose::flat}});
+  print.layer = map.quantity("layer", Dimension::length).value_or(print.layer);
+  print.wall = map.quantity("wall", Dimension::length).value_or(print.wall);
+  if (const auto overhang = map.quantity("overhang", Dimension::angle))
+    print.overhang = Angle::from_radians(*overhang);
+  print.number_depth = map.quantity("number_depth", Dimension::length).value_or(print.number_depth);
+  print.ease = map.quantity("ease", Dimension::length).value_or(print.ease);
+  return print;
+}
+
+}  // namespace glissade::design_file

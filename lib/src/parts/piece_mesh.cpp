@@ -1,0 +1,158 @@
+// End faces get new triangles between their edge and what is sunk into them: no boolean operation, no vertex of the rest is
+// touched, and the mesh stays as valid as it was.
+
+#include "parts/piece_mesh.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+
+#include "solid/cap_triangulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kInPlane = 1e-10;  // [m]
+constexpr int kBarCorners = 48;
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Loops of vertices round the triangles of a face, counter-clockwise round the outside.
+std::vector<std::vector<std::uint32_t>> edges_of(const std::vector<Triangle>& face) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> sides;
+  for (const Triangle& triangle : face) {
+    for (std::size_t i = 0; i < 3; ++i) sides[{triangle[i], triangle[(i + 1) % 3]}] = true;
+  }
+  std::map<std::uint32_t, std::uint32_t> next;
+  for (const auto& [side, here] : sides) {
+    if (!sides.contains({side.second, side.first})) next[side.first] = side.second;
+  }
+  std::vector<std::vector<std::uint32_t>> loops;
+  while (!next.empty()) {
+    std::vector<std::uint32_t> loop;
+    for (auto at = next.begin(); at != next.end(); at = next.find(loop.empty() ? at->second : loop.back())) {
+      loop.push_back(at->second);
+      next.erase(at);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+std::vector<Triangle> take_face(TriangleMesh& mesh, const FacePlane& plane) {
+  const std::vector<bool> in_plane = vertices_in(mesh, plane);
+  std::vector<Triangle> face;
+  std::vector<Triangle> rest;
+  for (const Triangle& triangle : mesh.triangles) {
+    const bool there = in_plane[triangle[0]] && in_plane[triangle[1]] && in_plane[triangle[2]];
+    (there ? face : rest).push_back(triangle);
+  }
+  if (face.empty()) throw InternalError({"", "a piece has no face where it is joined", "", ""});
+  mesh.triangles = std::move(rest);
+  return face;
+}
+
+/// Adds the corners of a ring. @return the number of the first
+std::uint32_t add_ring(TriangleMesh& mesh, const FacePlane& plane, const Recess::Ring& ring) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Vec2 corner : ring.corners) mesh.vertices.push_back(plane.to_space(corner, ring.depth));
+  return first;
+}
+
+void add_walls(TriangleMesh& mesh, std::uint32_t above, std::uint32_t below, std::uint32_t count) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t next = (i + 1) % count;
+    mesh.triangles.push_back({above + i, above + next, below + i});
+    mesh.triangles.push_back({above + next, below + next, below + i});
+  }
+}
+
+}  // namespace
+
+std::vector<bool> vertices_in(const TriangleMesh& mesh, const FacePlane& plane) {
+  const Vec3 outward = plane.outward();
+  std::vector<bool> in_plane;
+  in_plane.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) {
+    in_plane.push_back(std::fabs(dot(vertex - plane.origin, outward)) < kInPlane);
+  }
+  return in_plane;
+}
+
+void sink(TriangleMesh& mesh, const FacePlane& plane, const std::vector<Recess>& recesses) {
+  if (recesses.empty()) return;
+  std::vector<std::vector<Vec2>> loops;
+  std::vector<std::uint32_t> vertices;  // of the mesh, by the running numbers of the loops' corners
+  for (const std::vector<std::uint32_t>& edge : edges_of(take_face(mesh, plane))) {
+    std::vector<Vec2> loop;
+    for (const std::uint32_t vertex : edge) {
+      loop.push_back(plane.see(mesh.vertices[vertex]));
+      vertices.push_back(vertex);
+    }
+    loops.push_back(std::move(loop));
+  }
+  for (const Recess& recess : recesses) {
+    const auto count = static_cast<std::uint32_t>(recess.rings.front().corners.size());
+    std::uint32_t above = add_ring(mesh, plane, recess.rings.front());
+    loops.push_back(recess.rings.front().corners);
+    for (std::uint32_t i = 0; i < count; ++i) vertices.push_back(above + i);
+    for (std::size_t ring = 1; ring < recess.rings.size(); ++ring) {
+      const std::uint32_t below = add_ring(mesh, plane, recess.rings[ring]);
+      add_walls(mesh, above, below, count);
+      above = below;
+    }
+    for (const Triangle& triangle : solid::triangulate_loops({recess.rings.back().corners})) {
+      mesh.triangles.push_back({above + triangle[0], above + triangle[1], above + triangle[2]});
+    }
+  }
+  for (const Triangle& triangle : solid::triangulate_loops(loops)) {
+    mesh.triangles.push_back({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
+  }
+}
+
+TriangleMesh round_bar(double diameter, double length, double chamfer) {
+  TriangleMesh mesh;
+  const auto ring = [&](double radius, double z) {
+    for (int i = 0; i < kBarCorners; ++i) {
+      const auto [sine, cosine] = math::sine_cosine(2.0 * std::numbers::pi * i / kBarCorners);
+      mesh.vertices.push_back({radius * cosine, radius * sine, z});
+    }
+  };
+  const double radius = 0.5 * diameter;
+  ring(radius - chamfer, 0.0);
+  ring(radius, chamfer);
+  ring(radius, length - chamfer);
+  ring(radius - chamfer, length);
+  constexpr auto kCount = static_cast<std::uint32_t>(kBarCorners);
+  // Seen from outside, each ring is below the next one: the walls of a recess turned inside out.
+  for (std::uint32_t i = 0; i < 3; ++i) add_walls(mesh, i * kCount, (i + 1) * kCount, kCount);
+  for (std::uint32_t i = 1; i + 1 < kCount; ++i) {
+    mesh.triangles.push_back({0, i + 1, i});
+    mesh.triangles.push_back({3 * kCount, 3 * kCount + i, 3 * kCount + i + 1});
+  }
+  return mesh;
+}
+
+MeshMoments mesh_moments(const TriangleMesh& mesh) {
+  MeshMoments sum;
+  const Vec3 base = mesh.vertices.empty() ? Vec3{} : mesh.vertices.front();
+  for (const Triangle& triangle : mesh.triangles) {
+    const Vec3 a = mesh.vertices[triangle[0]] - base;
+    const Vec3 b = mesh.vertices[triangle[1]] - base;
+    const Vec3 c = mesh.vertices[triangle[2]] - base;
+    const double volume = dot(a, cross(b, c)) / 6.0;
+    sum.volume += volume;
+    sum.centre = sum.centre + 0.25 * volume * (a + b + c);
+  }
+  if (sum.volume > 0.0) sum.centre = base + (1.0 / sum.volume) * sum.centre;
+  return sum;
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,230 @@
+#include "parts/print_split.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/calm_joints.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr std::size_t kMostPieces = 400;
+constexpr double kLeastPiece = 2e-3;  // along the track [m]
+constexpr double kRoom = 0.1;         // of a piece, by which a joint may move to where the track bends less
+
+std::string bed_text(const PrintBed& bed) {
+  return length_text(bed.x) + " x " + length_text(bed.y) + " x " + length_text(bed.z);
+}
+
+bool fits(const PrintJob& job, PrintPose kind, const Span& span) {
+  const PrintSplit& split = job.options.split;
+  const double length = span.to - span.from;
+  if (split.longest && length > *split.longest * (1.0 + 1e-12)) return false;
+  const double mass = job.section.area() * length * job.options.material.density;
+  if (split.heaviest && mass > *split.heaviest) return false;
+  PrintBed bed = split.bed;
+  bed.gap += 1e-4;  // points of the outline stand for the piece
+  const std::vector<Vec3> points = outline_points(job.track, span, job.face);
+  for (const Pose& pose : poses_of(kind, job.track, span, job.face, job.options.layer)) {
+    const bool hangs = kind == PrintPose::end && pose.overhang > job.options.overhang.radians();
+    if (!hangs && turned_to_fit(pose, points, bed)) return true;
+  }
+  return false;
+}
+
+bool all_fit(const PrintJob& job, PrintPose kind, const std::vector<double>& joints) {
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    if (!fits(job, kind, {joints[i], joints[i + 1]})) return false;
+  }
+  return true;
+}
+
+/// The longest pieces one after the other; none where one would be too short.
+std::optional<std::vector<double>> greedy_joints(const PrintJob& job, PrintPose kind) {
+  const double length = job.track.length();
+  std::vector<double> joints = {0.0};
+  while (!fits(job, kind, {joints.back(), length})) {
+    const double from = joints.back();
+    const double least = std::min(kLeastPiece, 0.5 * (length - from));
+    if (joints.size() > kMostPieces || !fits(job, kind, {from, from + least})) return std::nullopt;
+    double good = from + least;
+    double bad = length;
+    while (bad - good > 1e-4 * length) {
+      const double middle = 0.5 * (good + bad);
+      (fits(job, kind, {from, middle}) ? good : bad) = middle;
+    }
+    joints.push_back(good);
+  }
+  joints.push_back(length);
+  return joints;
+}
+
+std::optional<std::vector<double>> joints_for(const PrintJob& job, PrintPose kind) {
+  std::optional<std::vector<double>> greedy = greedy_joints(job, kind);
+  if (!greedy || greedy->size() == 2) return greedy;
+  const std::size_t count = greedy->size() - 1;
+  const double even = job.track.length() / static_cast<double>(count);
+  for (const double room : {kRoom * even, 0.0}) {
+    std::vector<double> joints = calm_joints(job.track, count, room);
+    if (all_fit(job, kind, joints)) return joints;
+  }
+  // A remnant is shared with the piece before it.
+  std::vector<double> shared = *greedy;
+  shared[count - 1] = 0.5 * (shared[count - 2] + shared[count]);
+  return all_fit(job, kind, shared) ? shared : greedy;
+}
+
+/// What to say where no pose fits.
+InputError no_bed(const PrintJob& job) {
+  const PrintSplit& split = job.options.split;
+  const double width = job.face.high().x - job.face.low().x;
+  const double height = job.face.high().y - job.face.low().y;
+  const double margin = 2.0 * split.bed.gap;
+  const std::string section = length_text(width) + " x " + length_text(height);
+  return InputError({"split.bed",
+                     "bed: " + bed_text(split.bed) + " is too small for the section of " + section,
+                     "No piece of the track fits it, whichever way it lies, with a gap of " +
+                         length_text(split.bed.gap) + " round it.",
+                     "a bed of at least " + length_text(std::max(height, 5e-3) + margin + 1e-3) + " x " +
+                         length_text(std::max(height, 5e-3) + margin + 1e-3) + " x " + length_text(width) +
+                         " for pieces on their side, or a smaller section"});
+}
+
+/// The least wall beside a hole, along its depth: the track bends away from it.
+double wall_along(const PrintJob& job, double s, double sense, Vec2 place, double radius, double depth) {
+  const TrackFrame joint = frame_at(job.track, s);
+  double least = job.face.clearance(place) - radius;
+  double near = s;
+  constexpr int kPlaces = 8;
+  for (int k = 1; k <= kPlaces; ++k) {
+    const Vec2 point = joint.at + place.y * joint.up + (sense * depth * k / kPlaces) * joint.along;
+    double height = place.y;
+    near += sense * depth / kPlaces;
+    for (int round = 0; round < 4; ++round) {
+      near = std::clamp(near, 0.0, job.track.length());
+      const TrackFrame at = frame_at(job.track, near);
+      height = dot(point - at.at, at.up);
+      const double stretch = 1.0 - job.track.at(near).curvature * height;
+      if (stretch > 0.1) near += dot(point - at.at, at.along) / stretch;
+    }
+    least = std::min(least, job.face.clearance({place.x, height}) - radius);
+  }
+  return least;
+}
+
+struct ThinnestWall {
+  double wall = 1e300;
+  double joint = 0.0;
+};
+
+ThinnestWall thinnest_wall(const PrintJob& job, const std::vector<double>& joints, const Dowels& dowels) {
+  ThinnestWall thinnest;
+  for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+    for (const Vec2 place : dowels.places) {
+      for (const double sense : {-1.0, 1.0}) {
+        const double wall = wall_along(job, joints[i], sense, place, 0.5 * dowels.hole, dowels.depth);
+        if (wall < thinnest.wall) thinnest = {wall, joints[i]};
+      }
+    }
+  }
+  return thinnest;
+}
+
+double deepest_hole(const PrintJob& job, const std::vector<double>& joints) {
+  double shortest = job.track.length();
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i)
+    shortest = std::min(shortest, joints[i + 1] - joints[i]);
+  return 0.5 * (shortest - job.options.wall);
+}
+
+/// The deepest holes of a diameter that keep the wall; none where not even one diameter deep ones do.
+std::optional<Dowels> holes_of(const PrintJob& job, const std::vector<double>& joints, double diameter,
+                               const std::vector<Vec2>& places) {
+  const DowelOptions& asked = job.options.dowels;
+  Dowels dowels{diameter, diameter + asked.fit, 0.0, 0.0, places};
+  const double mouth = 0.5 * dowels.hole + asked.chamfer + 0.2e-3;
+  for (const Vec2 place : places) {
+    if (job.face.clearance(place) < mouth) return std::nullopt;
+  }
+  for (const double share : {2.5, 2.25, 2.0, 1.75, 1.5, 1.25, 1.0}) {
+    dowels.depth = asked.depth.value_or(share * diameter);
+    if (dowels.depth > deepest_hole(job, joints)) continue;
+    dowels.wall = thinnest_wall(job, joints, dowels).wall;
+    if (dowels.wall >= job.options.wall) return dowels;
+  }
+  return std::nullopt;
+}
+
+InputError thin_wall(const PrintJob& job, const std::vector<double>& joints, Dowels dowels) {
+  const DowelOptions& asked = job.options.dowels;
+  dowels.depth = std::min(asked.depth.value_or(dowels.diameter), deepest_hole(job, joints));
+  const ThinnestWall thinnest = thinnest_wall(job, joints, dowels);
+  const std::string key = asked.diameter ? "diameter" : "depth";
+  const double value = asked.diameter ? *asked.diameter : *asked.depth;
+  return InputError({"dowels." + key,
+                     key + ": holes of " + length_text(dowels.hole) + " leave a wall of " +
+                         length_text(std::max(0.0, thinnest.wall), 3) + " at the joint " +
+                         length_text(thinnest.joint) + " along the track",
+                     "The printer's least wall is " + length_text(job.options.wall) + ", " + key + " is " +
+                         length_text(value) + ".",
+                     "a smaller " + key + ", a thicker section, or dowels: none"});
+}
+
+}  // namespace
+
+std::optional<Pose> pose_on_bed(const PrintJob& job, PrintPose kind, const Span& span,
+                                const std::vector<Vec3>& points) {
+  for (const Pose& pose : poses_of(kind, job.track, span, job.face, job.options.layer)) {
+    if (auto turned = turned_to_fit(pose, points, job.options.split.bed)) return turned;
+  }
+  return std::nullopt;
+}
+
+PrintPlan plan_prints(const PrintJob& job) {
+  std::vector<PrintPose> kinds = {job.options.pose};
+  if (job.options.pose == PrintPose::automatic) {
+    kinds = {PrintPose::side, PrintPose::end, PrintPose::flat};
+    const Span whole{0.0, job.track.length()};
+    const double on_side =
+        poses_of(PrintPose::side, job.track, whole, job.face, job.options.layer).front().overhang;
+    // A side with an overhang comes after the poses that need no support.
+    if (on_side > job.options.overhang.radians() + 1e-9) kinds = {PrintPose::end, PrintPose::flat};
+  }
+  for (const PrintPose kind : kinds) {
+    auto joints = joints_for(job, kind);
+    if (!joints) continue;
+    if (joints->size() > 2 && !job.options.split.allowed) {
+      throw InputError({"split.allowed",
+                        "the track takes " + std::to_string(joints->size() - 1) + " pieces on a bed of " +
+                            bed_text(job.options.split.bed),
+                        "Splits are not allowed.", "a larger bed, or allowed: yes"});
+    }
+    return {kind, std::move(*joints)};
+  }
+  throw no_bed(job);
+}
+
+std::optional<Dowels> place_dowels(const PrintJob& job, const std::vector<double>& joints) {
+  const DowelOptions& asked = job.options.dowels;
+  if (!asked.wanted || joints.size() < 3) return std::nullopt;
+  const std::vector<Vec2> places = {job.face.roomiest(true), job.face.roomiest(false)};
+  if (asked.diameter) {
+    if (auto dowels = holes_of(job, joints, *asked.diameter, places)) return dowels;
+    throw thin_wall(job, joints, {*asked.diameter, *asked.diameter + asked.fit, 0.0, 0.0, places});
+  }
+  constexpr std::array<double, 7> kDiameters = {6e-3, 5e-3, 4e-3, 3e-3, 2.5e-3, 2e-3, 1.5e-3};
+  for (const double diameter : kDiameters) {
+    if (auto dowels = holes_of(job, joints, diameter, places)) return dowels;
+  }
+  if (asked.depth) throw thin_wall(job, joints, {1.5e-3, 1.5e-3 + asked.fit, 0.0, 0.0, places});
+  return std::nullopt;
+}
+
+}  // namespace glissade::parts

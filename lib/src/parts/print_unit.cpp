@@ -1,0 +1,191 @@
+// One piece of a print: the sweep of its own stretch of arcs, its end faces sunk with holes and its number, the edge that a
+// body meets eased.
+
+#include "parts/print_unit.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/section/outline.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+#include "glissade/solid/sweep.hpp"
+
+#include "parts/piece_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr std::size_t kShapeTriangles = 4000;  // well shaped facets are none of a slicer's business
+
+Vec3 upright(Vec2 direction) {
+  return {direction.x, 0.0, direction.y};
+}
+
+/// The piece's floor line, with a joint of its arcs where the eased edge ends.
+ArcSpline line_of(const PrintJob& job, const Span& span, double ease) {
+  ArcPath path = *offset_line(job.track, span, 0.0);
+  const Vec2 origin = path.vertices.front().at;
+  for (PathVertex& vertex : path.vertices) vertex.at = vertex.at - origin;
+  const PathPiece first = pieces_of(path).front();
+  const double share = ease / length(first);
+  if (ease > 0.0 && share < 0.5) {
+    const double quarter = math::atan(first.bulge);
+    path.vertices.front().bulge = math::tan(quarter * share);
+    path.vertices.insert(path.vertices.begin() + 1,
+                         {point_on(first, share), math::tan(quarter * (1.0 - share))});
+  }
+  return ArcSpline(std::move(path));
+}
+
+FacePlane face_at(const ArcSpline& line, bool downstream) {
+  const TrackFrame at = frame_at(line, downstream ? line.length() : 0.0);
+  return {upright(at.at), {0.0, downstream ? 1.0 : -1.0, 0.0}, upright(at.up)};
+}
+
+/// Corners of an end face in the frame of the section.
+std::vector<Vec2> corners_in(const TriangleMesh& mesh, const FacePlane& plane) {
+  const std::vector<bool> in_plane = vertices_in(mesh, plane);
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!in_plane[i]) continue;
+    const Vec2 seen = plane.see(mesh.vertices[i]);
+    corners.push_back({plane.right.y * seen.x, seen.y});
+  }
+  return corners;
+}
+
+/// Which way out of the material the run surface faces at a corner of the section; nothing where it is none of it.
+Vec2 out_of_floor(const CrossSection& section, Vec2 corner) {
+  constexpr double kOn = 1e-7;  // [m]
+  Vec2 sum;
+  for (const section::Stroke& stroke : section.strokes(section::Side::floor)) {
+    if (stroke.arc) {
+      const Vec2 in = stroke.arc->centre() - corner;
+      const Vec2 low = {std::min(stroke.from.x, stroke.to.x), 0.0};
+      const Vec2 high = {std::max(stroke.from.x, stroke.to.x), 0.0};
+      if (std::fabs(norm(in) - stroke.arc->radius) < kOn && corner.x > low.x - kOn && corner.x < high.x + kOn)
+        sum = sum + (1.0 / norm(in)) * in;
+      continue;
+    }
+    const Vec2 along = stroke.to - stroke.from;
+    const double share = dot(corner - stroke.from, along) / dot(along, along);
+    const double away = std::fabs(cross(along, corner - stroke.from)) / norm(along);
+    if (away < kOn && share > -1e-6 && share < 1.0 + 1e-6)
+      sum = sum + (1.0 / norm(along)) * Vec2{along.y, -along.x};
+  }
+  return norm(sum) > 0.0 ? (1.0 / norm(sum)) * sum : Vec2{};
+}
+
+/// Moves the edge of the run surface into the material.
+void ease_edge(const PrintJob& job, TriangleMesh& mesh, const FacePlane& plane) {
+  const std::vector<bool> in_plane = vertices_in(mesh, plane);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!in_plane[i]) continue;
+    const Vec2 seen = plane.see(mesh.vertices[i]);
+    const Vec2 out = out_of_floor(job.section, {plane.right.y * seen.x, seen.y});
+    const Vec2 in_face{plane.right.y * out.x, out.y};
+    mesh.vertices[i] = mesh.vertices[i] - job.options.ease * (in_face.x * plane.right + in_face.y * plane.up);
+  }
+}
+
+/// Holes and number of a joint face.
+std::vector<Recess> recesses_of(const PrintJob& job, const std::optional<Dowels>& dowels,
+                                const std::string& number, bool downstream, double& digit_height) {
+  std::vector<Recess> recesses;
+  std::vector<Vec2> holes;
+  double radius = 0.0;
+  if (dowels) {
+    const double chamfer = std::min(job.options.dowels.chamfer, 0.25 * dowels->depth);
+    holes = dowels->places;
+    radius = 0.5 * dowels->hole + chamfer;
+    for (const Vec2 place : holes) {
+      const Vec2 centre{downstream ? place.x : -place.x, place.y};
+      recesses.push_back(round_hole(centre, dowels->hole, dowels->depth, chamfer));
+    }
+  }
+  if (job.options.number_depth <= 0.0) return recesses;
+  const auto place = place_for_digits(job.face, number.size(), holes, radius);
+  digit_height = place ? place->height : 0.0;
+  if (!place) return recesses;
+  Vec2 corner = place->corner;
+  if (!downstream) corner.x = -corner.x - width_of_digits(number.size()) * place->height;
+  for (Recess& digit : sunk_digits(number, corner, place->height, job.options.number_depth)) {
+    recesses.push_back(std::move(digit));
+  }
+  return recesses;
+}
+
+void require_sound(const TriangleMesh& mesh, const std::string& which, const std::stop_token& stop) {
+  const MeshFacts facts = measure(mesh, stop);
+  if (facts.valid() && facts.components == 1) return;
+  const std::vector<std::string> faults = facts.faults();
+  throw InternalError({which, "its mesh is faulty: " + (faults.empty() ? "several pieces" : faults.front()),
+                       "A faulty mesh is never written.", "another mesh.tolerance"});
+}
+
+Pose pose_of(const PrintJob& job, PrintPose kind, const Span& span, const TriangleMesh& mesh,
+             const std::string& which) {
+  if (auto pose = pose_on_bed(job, kind, span, mesh.vertices)) return *pose;
+  const PrintBed& bed = job.options.split.bed;
+  throw InputError({"split.bed",
+                    which + " fits the bed of " + length_text(bed.x) + " x " + length_text(bed.y) + " x " +
+                        length_text(bed.z) + " in no way",
+                    "Where the track starts upright its end face is larger than the section.",
+                    "a larger bed, or longest"});
+}
+
+}  // namespace
+
+Frame place_of(const PrintJob& job, Vec2 origin) {
+  const Vec3 zero = job.placement.to_space(0.0, 0.0, 0.0);
+  return {job.placement.to_space(origin.x, -origin.y, 0.0),
+          job.placement.to_space(1.0, 0.0, 0.0) - zero,
+          job.placement.to_space(0.0, 0.0, 1.0) - zero,
+          {0.0, 0.0, 1.0}};
+}
+
+PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan, const std::optional<Dowels>& dowels,
+                    std::size_t index) {
+  const Span span{plan.joints[index], plan.joints[index + 1]};
+  const bool joined_before = index > 0;
+  const bool joined_after = index + 2 < plan.joints.size();
+  const double ease = joined_before ? job.options.ease : 0.0;
+  const std::string which = "segment " + std::to_string(index + 1);
+  PrintUnit unit{
+      span, line_of(job, span, ease), frame_at(job.track, span.from).at, {}, {}, 0.0, 0.0, 0.0, 0.0, {}, {}};
+  Solid solid =
+      sweep(unit.line, job.section, Placement(),
+            {.tolerance = job.mesh_tolerance, .shape_triangles = kShapeTriangles, .stop = job.stop});
+  unit.exact_volume = solid.exact_volume;
+  unit.mesh = std::move(solid.mesh);
+  const FacePlane before = face_at(unit.line, false);
+  const FacePlane after = face_at(unit.line, true);
+  unit.first_face = corners_in(unit.mesh, before);
+  unit.last_face = corners_in(unit.mesh, after);
+  const double swept = mesh_moments(unit.mesh).volume;
+  if (ease > 0.0) ease_edge(job, unit.mesh, before);
+  const double eased = mesh_moments(unit.mesh).volume;
+  unit.eased_volume = swept - eased;
+  const auto work = [&](const FacePlane& plane, bool downstream) {
+    const std::vector<Recess> recesses =
+        recesses_of(job, dowels, std::to_string(index + 1), downstream, unit.digit_height);
+    for (const Recess& recess : recesses) unit.sunk_volume += recess.volume();
+    sink(unit.mesh, plane, recesses);
+  };
+  if (joined_before) work(before, false);
+  if (joined_after) work(after, true);
+  const double left = mesh_moments(unit.mesh).volume;
+  if (!(std::fabs(left + unit.sunk_volume - eased) <= 1e-9 * swept)) {
+    throw InternalError({which, "its holes do not take their volume off it", "", ""});
+  }
+  require_sound(unit.mesh, which, job.stop);
+  unit.pose = pose_of(job, plan.kind, span, unit.mesh, which);
+  return unit;
+}
+
+}  // namespace glissade::parts

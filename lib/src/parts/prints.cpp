@@ -1,0 +1,243 @@
+#include "glissade/parts/prints.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/parts/plates.hpp"
+#include "glissade/section/outline.hpp"
+#include "glissade/solid/sweep.hpp"
+
+#include "parts/as_built.hpp"
+#include "parts/piece_mesh.hpp"
+#include "parts/print_checks.hpp"
+#include "parts/print_split.hpp"
+#include "parts/print_unit.hpp"
+#include "parts/setting_out.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace glissade {
+
+using namespace parts;
+
+namespace {
+
+constexpr std::array<double, 3> kSegmentColour = {0.85, 0.45, 0.20};
+constexpr std::array<double, 3> kOtherSegmentColour = {0.95, 0.65, 0.35};
+constexpr std::array<double, 3> kPinColour = {0.45, 0.45, 0.50};
+constexpr double kEndPlay = 0.5e-3;     // of a pin at the bottom of each hole [m]
+constexpr double kFoldedVolume = 1e-6;  // relative, where levels are trimmed
+constexpr double kSameFace = 1e-9;      // greatest difference of mating faces [m]
+
+std::string count_of(std::size_t number, std::size_t of) {
+  return std::to_string(number) + " of " + std::to_string(of);
+}
+
+void finish_part(const PrintJob& job, ShopPart& part, const TriangleMesh& mesh) {
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.mass = part.volume * part.density;
+  part.centre_of_gravity = part.places.front().to_space(mesh_moments(mesh).centre);
+  part.body = MeshBody{mesh};
+}
+
+void add_segments(const PrintJob& job, const std::vector<PrintUnit>& units, WorkshopBuild& build) {
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const PrintUnit& unit = units[i];
+    ShopPart part;
+    part.number = static_cast<int>(i) + 1;
+    part.name = "segment";
+    if (units.size() > 1) part.name += "_" + std::to_string(i + 1);
+    part.thickness = job.section.narrowest();
+    part.colour = i % 2 == 0 ? kSegmentColour : kOtherSegmentColour;
+    part.places = {place_of(job, unit.origin)};
+    part.volume = unit.exact_volume - unit.eased_volume - unit.sunk_volume;
+    finish_part(job, part, unit.mesh);
+    build.prints.push_back({"segment " + count_of(i + 1, units.size()), std::to_string(part.number),
+                            posed(unit.mesh, unit.pose)});
+    build.workshop.parts.push_back(std::move(part));
+  }
+}
+
+/// Pins lie half in each of two holes, with play at both ends.
+void add_pins(const PrintJob& job, const std::vector<double>& joints, const Dowels& dowels,
+              WorkshopBuild& build) {
+  const double length = 2.0 * (dowels.depth - kEndPlay);
+  const double chamfer = std::min({job.options.dowels.chamfer, 0.25 * dowels.diameter, 0.25 * length});
+  const TriangleMesh mesh = round_bar(dowels.diameter, length, chamfer);
+  ShopPart part;
+  part.number = static_cast<int>(build.workshop.parts.size()) + 1;
+  part.name = "pin";
+  part.thickness = dowels.diameter;
+  part.colour = kPinColour;
+  const Frame track = place_of(job, {});
+  const auto turned = [&](Vec2 direction) { return direction.x * track.x + direction.y * track.z; };
+  for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+    const TrackFrame at = frame_at(job.track, joints[i]);
+    for (const Vec2 place : dowels.places) {
+      const Vec2 bottom = at.at + place.y * at.up - 0.5 * length * at.along;
+      part.places.push_back({job.placement.to_space(bottom.x, -bottom.y, place.x), turned(at.up),
+                             -1.0 * track.y, turned(at.along)});
+    }
+  }
+  part.volume = mesh_moments(mesh).volume;
+  finish_part(job, part, mesh);
+  for (std::size_t i = 0; i < part.quantity(); ++i) {
+    build.prints.push_back({"pin " + count_of(i + 1, part.quantity()), std::to_string(part.number), mesh});
+  }
+  build.workshop.parts.push_back(std::move(part));
+}
+
+AsBuiltRide ride_prints(const std::vector<PrintUnit>& units, const Motion& design, const Body& body,
+                        double gravity, double step) {
+  std::vector<std::shared_ptr<const ArcSpline>> floors;
+  for (const PrintUnit& unit : units) floors.push_back(std::make_shared<ArcSpline>(unit.line));
+  return ride_units(floors, step, design, body, gravity);
+}
+
+/// Volume of the section along the whole of the arcs, by another route than that of the pieces.
+double exact_volume(const PrintJob& job, bool& folded) {
+  const double reach = std::max(job.section.highest(), 0.0);
+  const double depth = std::min(job.section.lowest(), 0.0);
+  const Span whole{0.0, job.track.length()};
+  folded = folds(job.track, whole, reach) || folds(job.track, whole, depth);
+  if (folded) {
+    return sweep(job.track, job.section, Placement(),
+                 {.tolerance = job.mesh_tolerance, .shape_triangles = 1000, .stop = job.stop})
+        .exact_volume;
+  }
+  const double turned = job.track.direction(0.0).slope_angle - job.track.direction(whole.to).slope_angle;
+  return job.section.area() * whole.to - job.section.first_moment() * turned;
+}
+
+double distance_from(const section::Stroke& stroke, Vec2 point) {
+  if (stroke.arc) return std::fabs(norm(point - stroke.arc->centre()) - stroke.arc->radius);
+  const Vec2 along = stroke.to - stroke.from;
+  const double share = std::clamp(dot(point - stroke.from, along) / dot(along, along), 0.0, 1.0);
+  return norm(point - stroke.from - share * along);
+}
+
+/// Greatest distance between the corners of a face and the outline of the section, both ways.
+double mismatch(const CrossSection& section, const std::vector<Vec2>& face) {
+  double most = 0.0;
+  std::vector<double> nearest(face.size(), 1.0);
+  for (const section::Outline& loop : section.loops()) {
+    for (const section::Stroke& stroke : loop) {
+      double to_corner = 1.0;
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        nearest[i] = std::min(nearest[i], distance_from(stroke, face[i]));
+        to_corner = std::min(to_corner, norm(stroke.from - face[i]));
+      }
+      most = std::max(most, to_corner);
+    }
+  }
+  for (const double distance : nearest) most = std::max(most, distance);
+  return most;
+}
+
+/// Pieces keep to their side of the planes between them.
+void require_apart(const PrintJob& job, const std::vector<PrintUnit>& units, std::size_t joint) {
+  const TrackFrame at = frame_at(job.track, units[joint].span.from);
+  const auto past = [&](const PrintUnit& unit, double sense) {
+    double most = -1.0;
+    for (const Vec3& vertex : unit.mesh.vertices) {
+      const Vec2 point = Vec2{vertex.x, vertex.z} + unit.origin - at.at;
+      if (norm(point) < 4.0 * (job.section.highest() - job.section.lowest()))
+        most = std::max(most, sense * dot(point, at.along));
+    }
+    return most;
+  };
+  const double most = std::max(past(units[joint - 1], 1.0), past(units[joint], -1.0));
+  if (most <= kSameFace) return;
+  throw InternalError(
+      {"", "segments clash: one reaches " + length_text(most, 3) + " past joint " + std::to_string(joint), "",
+       "another design, and a report of this one"});
+}
+
+PartsProof prove_prints(const PrintJob& job, const std::vector<PrintUnit>& units,
+                        const std::optional<Dowels>& dowels, const Workshop& workshop) {
+  PartsProof proof;
+  double made = 0.0;
+  for (const PrintUnit& unit : units) proof.volume += unit.exact_volume;
+  for (const ShopPart& part : workshop.parts) made += part.volume * static_cast<double>(part.quantity());
+  proof.added_volume = made - proof.volume;
+  bool folded = false;
+  proof.exact_volume = exact_volume(job, folded);
+  const double allowed = folded ? kFoldedVolume : kPartsVolumeAccuracy;
+  if (!(std::fabs(proof.volume - proof.exact_volume) <= allowed * proof.exact_volume)) {
+    throw InternalError({"",
+                         "the segments hold " + rounded_text(proof.volume, 12) + " m^3, the solid " +
+                             rounded_text(proof.exact_volume, 12) + " m^3",
+                         "", ""});
+  }
+  for (std::size_t i = 1; i < units.size(); ++i) {
+    require_apart(job, units, i);
+    proof.edge_mismatch = std::max({proof.edge_mismatch, mismatch(job.section, units[i - 1].last_face),
+                                    mismatch(job.section, units[i].first_face)});
+  }
+  proof.pairs = units.size() - 1;
+  if (!(proof.edge_mismatch <= kSameFace)) {
+    throw InternalError({"", "faces of a joint differ by " + length_text(proof.edge_mismatch, 3), "", ""});
+  }
+  if (dowels) {
+    proof.smallest_gap = std::min(0.5 * job.options.dowels.fit, kEndPlay);
+    proof.pairs += 2 * dowels->places.size() * (units.size() - 1);
+  }
+  return proof;
+}
+
+std::vector<std::string> notes_of(const PrintJob& job, const PrintPlan& plan,
+                                  const std::optional<Dowels>& dowels) {
+  std::vector<std::string> notes;
+  const char* const lies = plan.kind == PrintPose::side  ? "on their side"
+                           : plan.kind == PrintPose::end ? "on a joint face"
+                                                         : "as they are used";
+  notes.push_back("Segments are printed " + std::string(lies) + ", layers of " +
+                  length_text(job.options.layer));
+  if (dowels) {
+    notes.push_back("Pins of " + length_text(dowels->diameter) + " in holes of " + length_text(dowels->hole) +
+                    ", " + length_text(dowels->depth) + " deep in both faces");
+  }
+  return notes;
+}
+
+}  // namespace
+
+WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, const MasterCurveOptions& fit,
+                          const PrintOptions& options, double mesh_tolerance, const Placement& placement,
+                          const Body& body, double gravity, const std::stop_token& stop) {
+  std::vector<Issue> problems = print_problems(section, options);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  WorkshopBuild build;
+  build.master = fit_arcs(track, fit);
+  const PrintJob job{*build.master.spline,
+                     section,
+                     FaceOutline(section, mesh_tolerance),
+                     options,
+                     mesh_tolerance,
+                     placement,
+                     stop};
+  const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
+  const PrintPlan plan = plan_prints(job);
+  const std::optional<Dowels> dowels = place_dowels(job, plan.joints);
+  std::vector<PrintUnit> units;
+  for (std::size_t i = 0; i + 1 < plan.joints.size(); ++i) {
+    units.push_back(make_unit(job, plan, dowels, i));
+  }
+  build.joints = plan.joints;
+  add_segments(job, units, build);
+  if (dowels) add_pins(job, plan.joints, *dowels, build);
+  build.workshop.setting_out = setting_out(job.track, build.joints, placement);
+  build.workshop.notes = notes_of(job, plan, dowels);
+  build.ride = ride_prints(units, smooth, body, gravity, dowels ? options.dowels.fit : 0.0);
+  build.workshop.checks = print_checks(job, units, dowels);
+  build.proof = prove_prints(job, units, dowels, build.workshop);
+  return build;
+}
+
+}  // namespace glissade

@@ -1,0 +1,334 @@
+#include "glissade/parts/timber.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/as_built.hpp"
+#include "parts/body_geometry.hpp"
+#include "parts/calm_joints.hpp"
+#include "parts/plate_joints.hpp"
+#include "parts/plate_unit.hpp"
+#include "parts/setting_out.hpp"
+#include "parts/timber_checks.hpp"
+#include "parts/timber_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace glissade {
+
+using namespace parts;
+
+namespace {
+
+using Colour = std::array<double, 3>;
+constexpr Colour kDeckColour = {0.87, 0.72, 0.50};
+constexpr Colour kCurbColour = {0.80, 0.62, 0.40};
+constexpr Colour kBearerColour = {0.70, 0.50, 0.30};
+constexpr Colour kMemberColour = {0.76, 0.60, 0.42};
+constexpr Colour kSpliceColour = {0.60, 0.45, 0.32};
+constexpr Colour kLegColour = {0.55, 0.42, 0.30};
+constexpr double kSeamClear = 0.1;        // of a curb's joint from the seams of the upper layer [m]
+constexpr double kThickestSheet = 50e-3;  // what is thicker is sawn, not cut from a sheet [m]
+constexpr double kFoldedVolume = 1e-6;
+
+int add(Workshop& workshop, ShopPart part, const Colour& colour) {
+  part.number = static_cast<int>(workshop.parts.size()) + 1;
+  part.colour = colour;
+  workshop.parts.push_back(std::move(part));
+  return workshop.parts.back().number;
+}
+
+/// A pattern that is the side view of the part as it stands.
+void set_own_pattern(ShopPart& part) {
+  FlatPattern pattern;
+  pattern.region = std::get<Prism>(part.body).region;
+  set_number_place(pattern, bounds(pattern.region.outline));
+  part.pattern = std::move(pattern);
+}
+
+/// @return middles of equal strips of a width, from left to right
+std::vector<double> strips(double width, int count) {
+  std::vector<double> middles;
+  for (int i = 0; i < count; ++i) middles.push_back(0.5 * width - width * (i + 0.5) / count);
+  return middles;
+}
+
+double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows, Workshop& workshop) {
+  const double overall = job.channel.overall();
+  const double sheet = std::min(job.options.split.sheet.x, job.options.split.sheet.y);
+  const int count = std::max(1, static_cast<int>(std::ceil(overall / sheet - 1e-9)));
+  const double width = overall / count;
+  double volume = 0.0;
+  for (std::size_t layer = 0; layer < rows.size(); ++layer) {
+    const double top = -job.layer() * static_cast<double>(layer);
+    for (std::size_t i = 0; i < rows[layer].size(); ++i) {
+      const DeckRow& row = rows[layer][i];
+      ShopPart part = upright_part(job, *band(job.track, row.span, top - job.layer(), top), width,
+                                   strips(overall, count), job.options.material);
+      part.name = "deck_" + std::to_string(layer + 1) + "_" + std::to_string(i + 1);
+      part.thickness = job.layer();
+      FlatPattern pattern;
+      pattern.region.outline = rectangle({}, {row.flat_length, width});
+      set_number_place(pattern, bounds(pattern.region.outline));
+      part.pattern = std::move(pattern);
+      volume += part.volume * static_cast<double>(part.quantity());
+      add(workshop, std::move(part), kDeckColour);
+    }
+  }
+  return volume;
+}
+
+/// Joints of the curbs, apart from the seams of the upper layer.
+std::vector<double> curb_joints(const TimberJob& job, const std::vector<DeckRow>& upper) {
+  const TimberSplit& split = job.options.split;
+  const double longest = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin - 2.0 * kSeamClear;
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(job.track.length() / longest)));
+  std::vector<double> joints = calm_joints(job.track, count, 0.0);
+  for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+    for (std::size_t k = 1; k < upper.size(); ++k) {
+      const double seam = upper[k].span.from;
+      if (std::fabs(joints[i] - seam) < kSeamClear) joints[i] = seam + kSeamClear;
+    }
+  }
+  return joints;
+}
+
+double add_curbs(const TimberJob& job, const std::vector<DeckRow>& upper, Workshop& workshop) {
+  const double height = job.channel.curb_height;
+  if (height == 0.0) return 0.0;
+  const double thickness = job.channel.curb_thickness;
+  const double middle = 0.5 * (job.channel.width + thickness);
+  const std::vector<double> joints = curb_joints(job, upper);
+  double volume = 0.0;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const auto outline = band(job.track, {joints[i], joints[i + 1]}, 0.0, height);
+    if (!outline) {
+      throw InputError({"cross_section",
+                        "curbs of " + length_text(height) + " fold over between " + length_text(joints[i]) +
+                            " and " + length_text(joints[i + 1]) + " along the track",
+                        "Their tops are nearer to each other than the radius of the track there.",
+                        "lower curbs, or a limit on the track's radius"});
+    }
+    const bool sawn = thickness > kThickestSheet;
+    ShopPart part = upright_part(job, *outline, thickness, {middle, -middle},
+                                 sawn ? job.options.lumber : job.options.material);
+    part.name = "curb_" + std::to_string(i + 1);
+    part.bought_in = sawn;
+    set_own_pattern(part);
+    volume += part.volume * static_cast<double>(part.quantity());
+    add(workshop, std::move(part), kCurbColour);
+  }
+  return volume;
+}
+
+void add_cross_members(const TimberJob& job, const std::vector<CrossMember>& members, Workshop& workshop) {
+  const CrossMemberOptions& options = job.options.cross_members;
+  ShopPart part;
+  part.name = "cross_member";
+  part.material = job.options.lumber.name;
+  part.density = job.options.lumber.density;
+  part.thickness = options.width;
+  part.body = Prism{{rectangle({}, {options.width, options.height}), {}, {}}, job.channel.overall()};
+  for (const CrossMember& member : members) {
+    const TrackFrame at = frame_at(job.track, member.at);
+    const Vec2 corner = at.at - 0.5 * options.width * at.along + (member.top - options.height) * at.up;
+    part.places.push_back(plane_of_track(job.placement, corner, math::atan2(at.along.y, at.along.x),
+                                         -0.5 * job.channel.overall()));
+  }
+  part.bought_in = true;
+  FlatPattern pattern;
+  pattern.region.outline = rectangle({}, {job.channel.overall(), options.height});
+  part.pattern = std::move(pattern);
+  weigh(part);
+  add(workshop, std::move(part), kMemberColour);
+}
+
+void add_splices(const TimberJob& job, const std::vector<double>& joints, const std::vector<double>& across,
+                 const std::string& name, Workshop& workshop) {
+  const double width = job.options.bearer_width();
+  const double depth = job.options.bearer_depth();
+  std::vector<double> middles;
+  for (const double middle : across) {
+    middles.push_back(middle + width);
+    middles.push_back(middle - width);
+  }
+  for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+    const double reach =
+        std::min({1.25 * depth, 0.4 * (joints[i] - joints[i - 1]), 0.4 * (joints[i + 1] - joints[i])});
+    const auto outline = band(job.track, {joints[i] - reach, joints[i] + reach},
+                              job.bearer_bottom() + 0.1 * depth, job.bearer_top() - 0.1 * depth);
+    if (!outline) continue;
+    ShopPart part = upright_part(job, *outline, width, middles, job.options.material);
+    part.name = name + "_" + std::to_string(i);
+    set_own_pattern(part);
+    add(workshop, std::move(part), kSpliceColour);
+  }
+}
+
+void add_bearer_row(const TimberJob& job, const std::vector<double>& joints,
+                    const std::vector<double>& across, const std::string& name, Workshop& workshop) {
+  const bool ribs = job.options.frame == TimberFrame::ribs;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    ShopPart part =
+        upright_part(job, *band(job.track, {joints[i], joints[i + 1]}, job.bearer_bottom(), job.bearer_top()),
+                     job.options.bearer_width(), across, ribs ? job.options.material : job.options.lumber);
+    part.name = name + "_" + std::to_string(i + 1);
+    part.bought_in = !ribs;
+    set_own_pattern(part);
+    add(workshop, std::move(part), kBearerColour);
+  }
+}
+
+void add_bearers(const TimberJob& job, const BearerPlan& plan, Workshop& workshop) {
+  std::vector<double> even;
+  std::vector<double> odd;
+  for (std::size_t i = 0; i < plan.across.size(); ++i) (i % 2 == 0 ? even : odd).push_back(plan.across[i]);
+  const bool ribs = job.options.frame == TimberFrame::ribs;
+  const std::string name = ribs ? "rib" : "beam";
+  add_bearer_row(job, plan.joints, even, name, workshop);
+  if (!odd.empty()) add_bearer_row(job, plan.shifted, odd, name + "_shifted", workshop);
+  const std::size_t joints = even.size() * (plan.joints.size() - 2) + odd.size() * (plan.shifted.size() - 2);
+  if (ribs) {
+    add_splices(job, plan.joints, even, "splice", workshop);
+    if (!odd.empty()) add_splices(job, plan.shifted, odd, "splice_shifted", workshop);
+  } else if (joints > 0) {
+    workshop.items.push_back({"slotted-in joint plate with dowels", "to the engineer's drawing", joints,
+                              "at the joints of the beams"});
+  }
+}
+
+void add_legs(const TimberJob& job, const std::vector<Leg>& legs, const BearerPlan& plan,
+              Workshop& workshop) {
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const Leg& leg = legs[i];
+    ArcPath outline;
+    outline.closed = true;
+    for (const Vec2 corner :
+         {Vec2{leg.top_left.x, leg.ground}, Vec2{leg.top_right.x, leg.ground}, leg.top_right, leg.top_left}) {
+      outline.vertices.push_back({corner, 0.0});
+    }
+    ShopPart part = upright_part(job, outline, job.options.legs->side, plan.across, job.options.lumber);
+    part.name = "leg_" + std::to_string(i + 1);
+    part.bought_in = true;
+    set_own_pattern(part);
+    add(workshop, std::move(part), kLegColour);
+  }
+}
+
+/// Heights of the lines that are set out below the floor.
+void add_offsets(const TimberJob& job, Workshop& workshop) {
+  const bool ribs = job.options.frame == TimberFrame::ribs;
+  const std::string bearers = ribs ? "ribs" : "beams";
+  workshop.offset_names = {"underside of deck", "top of " + bearers, "underside of " + bearers};
+  for (SettingOutPoint& point : workshop.setting_out) {
+    for (const double height : {-job.channel.thickness, job.bearer_top(), job.bearer_bottom()}) {
+      const TrackFrame at = frame_at(job.track, point.arc_length);
+      point.offsets.push_back(point.z + height * at.up.y);
+    }
+  }
+}
+
+AsBuiltRide ride_deck(const TimberJob& job, const std::vector<DeckRow>& upper, const Motion& design,
+                      const Body& body, double gravity) {
+  std::vector<std::shared_ptr<const ArcSpline>> floors;
+  for (const DeckRow& row : upper)
+    floors.push_back(std::make_shared<ArcSpline>(rolled_face(job.track, row.span).line));
+  return ride_units(floors, job.options.joint_step, design, body, gravity);
+}
+
+/// Volume of deck and curbs along the arcs by the section's area and first moment, or where curbs fold by their lengths.
+double exact_volume(const TimberJob& job, bool& folded) {
+  const ArcSpline& track = job.track;
+  const double length = track.length();
+  const double turned = track.direction(0.0).slope_angle - track.direction(length).slope_angle;
+  const double thickness = job.channel.thickness;
+  double volume = job.channel.overall() * (thickness * length + 0.5 * thickness * thickness * turned);
+  const double height = job.channel.curb_height;
+  const double across = 2.0 * job.channel.curb_thickness;
+  folded = height > 0.0 && folds(track, {0.0, length}, height);
+  if (folded) {
+    constexpr int kPanels = 400;
+    for (int k = 0; k < kPanels; ++k) {
+      const auto line = offset_line(track, {0.0, length}, height * (k + 0.5) / kPanels);
+      if (line) volume += across * (height / kPanels) * glissade::length(*line);
+    }
+  } else {
+    volume += across * (height * length - 0.5 * height * height * turned);
+  }
+  return volume;
+}
+
+PartsProof prove_timber(const TimberJob& job, double made, const std::vector<CrossMember>& members,
+                        const std::vector<std::vector<DeckRow>>& rows, const Workshop& workshop) {
+  PartsProof proof;
+  proof.volume = made;
+  for (const ShopPart& part : workshop.parts)
+    proof.added_volume += part.volume * static_cast<double>(part.quantity());
+  proof.added_volume -= made;
+  bool folded = false;
+  proof.exact_volume = exact_volume(job, folded);
+  const double allowed = folded ? 1e3 * kFoldedVolume : kPartsVolumeAccuracy;
+  if (!(std::fabs(proof.volume - proof.exact_volume) <= allowed * proof.exact_volume)) {
+    throw InternalError({"",
+                         "deck and curbs hold " + rounded_text(proof.volume, 12) + " m^3, the section " +
+                             rounded_text(proof.exact_volume, 12) + " m^3",
+                         "", ""});
+  }
+  proof.smallest_gap = job.options.fit;
+  for (const CrossMember& member : members)
+    proof.smallest_gap = std::min(proof.smallest_gap, job.options.fit - member.sagitta);
+  for (std::size_t layer = 0; layer < rows.size(); ++layer) {
+    const double depth = (static_cast<double>(layer) + 0.5) * job.layer();
+    for (const DeckRow& row : rows[layer]) {
+      const double fibre = length(*offset_line(job.track, row.span, -depth));
+      proof.edge_mismatch = std::max(proof.edge_mismatch, std::fabs(fibre - row.flat_length));
+    }
+  }
+  if (!(proof.edge_mismatch <= 1e-9)) {
+    throw InternalError({"",
+                         "sheets of the deck differ by " + length_text(proof.edge_mismatch, 3) +
+                             " from the lines they lie on",
+                         "", ""});
+  }
+  proof.pairs = require_no_clash(workshop);
+  return proof;
+}
+
+}  // namespace
+
+WorkshopBuild make_timber(const Centerline& track, const section::Measures& measures,
+                          const MasterCurveOptions& fit, const TimberOptions& options,
+                          const Placement& placement, const Body& body, double gravity) {
+  std::vector<Issue> problems = timber_problems(measures, options);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  WorkshopBuild build;
+  build.master = fit_arcs(track, fit);
+  const TimberJob job{*build.master.spline, *timber_channel_of(measures), options, placement};
+  const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
+  const std::vector<std::vector<DeckRow>> rows = deck_rows(job);
+  const std::vector<CrossMember> members = cross_members(job, rows);
+  const BearerPlan bearers = plan_bearers(job);
+  const std::vector<Leg> legs = plan_legs(job);
+  Workshop& workshop = build.workshop;
+  double made = add_deck(job, rows, workshop);
+  made += add_curbs(job, rows.front(), workshop);
+  add_cross_members(job, members, workshop);
+  add_bearers(job, bearers, workshop);
+  add_legs(job, legs, bearers, workshop);
+  workshop.setting_out = setting_out(job.track, bearers.joints, placement);
+  add_offsets(job, workshop);
+  for (const DeckRow& row : rows.front()) build.joints.push_back(row.span.from);
+  build.joints.push_back(job.track.length());
+  build.ride = ride_deck(job, rows.front(), smooth, body, gravity);
+  workshop.checks = timber_checks(job, rows, members, bearers, legs, workshop);
+  build.proof = prove_timber(job, made, members, rows, workshop);
+  return build;
+}
+
+}  // namespace glissade

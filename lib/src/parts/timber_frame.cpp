@@ -1,0 +1,333 @@
+// Where the members of a timber structure are: deck in layers, cross members below it, bearers, legs.
+
+#include "parts/timber_frame.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/calm_joints.hpp"
+#include "parts/plate_joints.hpp"
+#include "parts/plate_unit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kLeastRow = 0.25;  // of a sheet: a shorter remnant is shared with the sheet before it
+constexpr double kStagger = 0.3;    // least distance of seams of neighbouring layers [m]
+constexpr std::size_t kMostPieces = 400;
+constexpr double kLeastLeg = 50e-3;  // the structure lies on the ground below that [m]
+constexpr double kSteepest = 1.2;    // slope angle beyond which no leg stands below a bearer [rad]
+
+double turned_between(const ArcSpline& track, double from, double to) {
+  return track.direction(from).slope_angle - track.direction(to).slope_angle;
+}
+
+double flat_length_of(const TimberJob& job, std::size_t layer, double from, double to) {
+  const double depth = (static_cast<double>(layer) + 0.5) * job.layer();
+  return to - from + depth * turned_between(job.track, from, to);
+}
+
+/// @return where a sheet of a flat length ends that begins at a place; the end of the track if it is longer
+double end_of_sheet(const TimberJob& job, std::size_t layer, double from, double flat) {
+  double low = from;
+  double high = job.track.length();
+  if (flat_length_of(job, layer, from, high) <= flat) return high;
+  for (int round = 0; round < 100 && high - low > 0.0; ++round) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (flat_length_of(job, layer, from, middle) <= flat ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Moves the last seam back so that no remnant is short and no seam of the layer above is near.
+/// @param seams  of a layer, both ends among them
+void keep_apart(std::vector<double>& seams, double sheet, const std::vector<DeckRow>& above) {
+  const std::size_t last = seams.size() - 1;
+  if (last < 2) return;
+  const auto is_good = [&](double seam) {
+    if (seams[last] - seam < kLeastRow * sheet) return false;
+    return std::none_of(above.begin(), above.end(), [&](const DeckRow& row) {
+      return row.span.from > 0.0 && std::fabs(row.span.from - seam) < kStagger;
+    });
+  };
+  constexpr int kSteps = 40;
+  const double room = seams[last - 1] - seams[last - 2] - kLeastRow * sheet;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double seam = seams[last - 1] - room * k / kSteps;
+    if (!is_good(seam)) continue;
+    seams[last - 1] = seam;
+    return;
+  }
+}
+
+/// Height, square to the track at s, of the line at a height over the point that lies `along` from there.
+double height_over(const ArcSpline& track, double s, double along, double height) {
+  const TrackFrame here = frame_at(track, s);
+  double near = s + along;
+  Vec2 away;
+  for (int round = 0; round < 20; ++round) {
+    near = std::clamp(near, 0.0, track.length());
+    const TrackFrame at = frame_at(track, near);
+    away = at.at + height * at.up - here.at;
+    const double stretch = 1.0 - track.at(near).curvature * height;
+    near += (along - dot(away, here.along)) / std::max(stretch, 0.1);
+  }
+  return dot(away, here.up);
+}
+
+/// Seams of all layers and both ends, moved so that a member lies within the track; ascending.
+std::vector<double> supported_places(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows) {
+  const double half = 0.5 * job.options.cross_members.width;
+  std::vector<double> places = {half, job.track.length() - half};
+  for (const std::vector<DeckRow>& layer : rows) {
+    for (std::size_t i = 1; i < layer.size(); ++i) {
+      places.push_back(std::clamp(layer[i].span.from, half, job.track.length() - half));
+    }
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<double> apart;
+  for (const double place : places) {
+    if (apart.empty() || place - apart.back() > 1.5 * job.options.cross_members.width) apart.push_back(place);
+  }
+  // The last one keeps the end.
+  apart.back() = job.track.length() - half;
+  return apart;
+}
+
+bool piece_fits(const TimberJob& job, const Span& span) {
+  const auto outline = band(job.track, span, job.bearer_bottom(), job.bearer_top());
+  if (!outline) return false;
+  const OwnPlane plane = own_plane(*outline);
+  const PlaneBox box = bounds(moved(*outline, PlaneMotion::turn(-plane.angle)));
+  const TimberSplit& split = job.options.split;
+  const StockMaterial& stock =
+      job.options.frame == TimberFrame::ribs ? job.options.material : job.options.lumber;
+  const double area = glissade::moments(PlaneRegion{*outline, {}, {}}).area;
+  if (split.heaviest && area * job.options.bearer_width() * stock.density > *split.heaviest) return false;
+  if (job.options.frame == TimberFrame::beams) return std::max(box.width(), box.height()) <= split.longest;
+  const double longer = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  const double shorter = std::min(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  return std::max(box.width(), box.height()) <= longer && std::min(box.width(), box.height()) <= shorter;
+}
+
+bool all_fit(const TimberJob& job, const std::vector<double>& joints) {
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    if (!piece_fits(job, {joints[i], joints[i + 1]})) return false;
+  }
+  return true;
+}
+
+std::vector<double> half_shifted(const std::vector<double>& joints) {
+  std::vector<double> shifted = {joints.front()};
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) shifted.push_back(0.5 * (joints[i] + joints[i + 1]));
+  shifted.push_back(joints.back());
+  return shifted;
+}
+
+/// The point of a line below the track at a given x; none where the track does not pass it.
+std::optional<double> place_below(const ArcSpline& track, double height, double x) {
+  const auto run = [&](double s) {
+    const TrackFrame at = frame_at(track, s);
+    return at.at.x + height * at.up.x;
+  };
+  double low = 0.0;
+  double high = track.length();
+  if (!(run(low) <= x && run(high) >= x)) return std::nullopt;
+  for (int round = 0; round < 80; ++round) {
+    const double middle = 0.5 * (low + high);
+    (run(middle) <= x ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Leg below a point of the underside; its slanted end below the bearer throughout.
+Leg leg_below(const TimberJob& job, double s) {
+  const double height = job.bearer_bottom();
+  const TrackFrame at = frame_at(job.track, s);
+  const Vec2 point = at.at + height * at.up;
+  const double half = 0.5 * job.options.legs->side;
+  Leg leg;
+  leg.at = s;
+  leg.x = point.x;
+  leg.ground = ground_at(job.options.legs->ground, point.x);
+  const double slope = at.along.y / at.along.x;
+  // The line touches the underside in a hollow; on a crest it lies as far below as that bends away.
+  double below = 0.0;
+  for (const double side : {-1.0, 1.0}) {
+    const auto place = place_below(job.track, height, point.x + side * half);
+    if (!place) continue;
+    const TrackFrame there = frame_at(job.track, *place);
+    const double level = there.at.y + height * there.up.y;
+    below = std::max(below, point.y + side * half * slope - level);
+  }
+  leg.top_left = {point.x - half, point.y - half * slope - below};
+  leg.top_right = {point.x + half, point.y + half * slope - below};
+  return leg;
+}
+
+}  // namespace
+
+std::optional<TimberChannel> timber_channel_of(const section::Measures& measures) {
+  if (const auto* const channel = std::get_if<section::UChannel>(&measures)) {
+    if (!channel->width.is_constant()) return std::nullopt;
+    return TimberChannel{channel->width.narrowest(), channel->thickness, channel->wall_height,
+                         channel->thickness};
+  }
+  if (const auto* const slab = std::get_if<section::Slab>(&measures)) {
+    if (!slab->width.is_constant()) return std::nullopt;
+    return TimberChannel{slab->width.narrowest(), slab->thickness, slab->curb_height, slab->curb_width};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::vector<DeckRow>> deck_rows(const TimberJob& job) {
+  const double sheet = std::max(job.options.split.sheet.x, job.options.split.sheet.y);
+  const double length = job.track.length();
+  const int layers = job.options.deck.layers;
+  std::vector<std::vector<DeckRow>> all;
+  for (int layer = 0; layer < layers; ++layer) {
+    const auto depth = static_cast<std::size_t>(layer);
+    // Seams of a layer are a share of a sheet from those of the one above.
+    double flat = sheet * (1.0 - static_cast<double>(layer) / layers);
+    std::vector<double> seams = {0.0};
+    while (seams.back() < length) {
+      seams.push_back(end_of_sheet(job, depth, seams.back(), flat));
+      flat = sheet;
+    }
+    keep_apart(seams, sheet, all.empty() ? std::vector<DeckRow>() : all.back());
+    std::vector<DeckRow> rows;
+    for (std::size_t i = 0; i + 1 < seams.size(); ++i) {
+      rows.push_back({{seams[i], seams[i + 1]}, flat_length_of(job, depth, seams[i], seams[i + 1])});
+    }
+    all.push_back(std::move(rows));
+  }
+  return all;
+}
+
+std::vector<CrossMember> cross_members(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows) {
+  const CrossMemberOptions& options = job.options.cross_members;
+  const std::vector<double> supported = supported_places(job, rows);
+  std::vector<double> places;
+  for (std::size_t i = 0; i + 1 < supported.size(); ++i) {
+    const double room = supported[i + 1] - supported[i];
+    const int count = std::max(1, static_cast<int>(std::ceil(room / options.spacing - 1e-9)));
+    for (int k = 0; k < count; ++k) places.push_back(supported[i] + room * k / count);
+  }
+  places.push_back(supported.back());
+  std::vector<CrossMember> members;
+  for (const double s : places) {
+    const double middle = -job.channel.thickness;
+    double low = middle;
+    double high = middle;
+    for (const double along : {-0.5, -0.25, 0.25, 0.5}) {
+      const double height = height_over(job.track, s, along * options.width, middle);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    const CrossMember member{s, low, std::max(high - middle, middle - low)};
+    if (member.sagitta > job.options.fit) {
+      throw InputError({"cross_members.width",
+                        "width: cross members of " + length_text(options.width) + " leave gaps of " +
+                            length_text(member.sagitta, 3) + " at " + length_text(s) + " along the track",
+                        "The track bends there with a radius of " +
+                            length_text(std::fabs(1.0 / job.track.at(s).curvature), 3) + "; the fit is " +
+                            length_text(job.options.fit) + ".",
+                        "narrower cross members, a larger fit, or a limit on the track's radius"});
+    }
+    members.push_back(member);
+  }
+  return members;
+}
+
+BearerPlan plan_bearers(const TimberJob& job) {
+  const BearerOptions& options = job.options.bearers;
+  BearerPlan plan;
+  const double outer = job.channel.overall() - job.options.bearer_width();
+  const int by_spacing = static_cast<int>(std::ceil(outer / options.spacing - 1e-9)) + 1;
+  const int count = options.count.value_or(std::max(2, by_spacing));
+  for (int i = 0; i < count; ++i) plan.across.push_back(0.5 * outer - outer * i / std::max(1, count - 1));
+  for (std::size_t pieces = 1; pieces <= kMostPieces; ++pieces) {
+    const double even = job.track.length() / static_cast<double>(pieces);
+    for (const double room : {0.1 * even, 0.0}) {
+      plan.joints = calm_joints(job.track, pieces, room);
+      plan.shifted = pieces > 1 ? half_shifted(plan.joints) : plan.joints;
+      if (all_fit(job, plan.joints) && all_fit(job, plan.shifted)) return plan;
+    }
+  }
+  const TimberSplit& split = job.options.split;
+  throw InputError(
+      {"bearers.depth", "depth: bearers of " + length_text(job.options.bearer_depth()) + " fit no stock",
+       job.options.frame == TimberFrame::ribs
+           ? "A sheet is " + length_text(split.sheet.x) + " x " + length_text(split.sheet.y) + "."
+           : "The longest beam is " + length_text(split.longest) + ".",
+       "a smaller depth, a larger sheet, or frame: beams"});
+}
+
+double ground_at(const std::vector<Vec2>& ground, double x) {
+  if (x <= ground.front().x) return ground.front().y;
+  for (std::size_t i = 0; i + 1 < ground.size(); ++i) {
+    if (x > ground[i + 1].x) continue;
+    const double share = (x - ground[i].x) / (ground[i + 1].x - ground[i].x);
+    return ground[i].y + share * (ground[i + 1].y - ground[i].y);
+  }
+  return ground.back().y;
+}
+
+std::vector<Leg> plan_legs(const TimberJob& job) {
+  std::vector<Leg> legs;
+  if (!job.options.legs) return legs;
+  const double half = 0.5 * job.options.legs->side;
+  const double height = job.bearer_bottom();
+  const auto run = [&](double s) {
+    const TrackFrame at = frame_at(job.track, s);
+    return at.at.x + height * at.up.x;
+  };
+  const double from = run(0.0) + half + 1e-3;
+  const double to = run(job.track.length()) - half - 1e-3;
+  if (!(to > from)) return legs;
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / job.options.legs->spacing)));
+  std::vector<Issue> issues;
+  for (int k = 0; k <= steps; ++k) {
+    const auto place = place_below(job.track, height, from + (to - from) * k / steps);
+    if (!place || std::fabs(job.track.at(*place).slope_angle) > kSteepest) continue;
+    const Leg leg = leg_below(job, *place);
+    if (leg.length() < -kLeastLeg) {
+      issues.push_back({"legs.ground",
+                        "ground: it lies " + length_text(-leg.length(), 3) +
+                            " above the underside of the bearers, " + length_text(leg.x) + " from the start",
+                        "They reach " + length_text(-height, 3) + " below the floor.",
+                        "a lower ground there, or bearers of less depth"});
+    }
+    if (std::min(leg.top_left.y, leg.top_right.y) - leg.ground >= kLeastLeg) legs.push_back(leg);
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
+  return legs;
+}
+
+ShopPart upright_part(const TimberJob& job, const ArcPath& outline, double depth,
+                      const std::vector<double>& middles, const StockMaterial& material) {
+  const OwnPlane plane = own_plane(outline);
+  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
+  ShopPart part;
+  part.material = material.name;
+  part.density = material.density;
+  part.thickness = depth;
+  part.body = Prism{{moved(outline, PlaneMotion::turn(-plane.angle, -1.0 * back)), {}, {}}, depth};
+  for (const double middle : middles) {
+    part.places.push_back(plane_of_track(job.placement, plane.origin, plane.angle, -middle - 0.5 * depth));
+  }
+  weigh(part);
+  return part;
+}
+
+}  // namespace glissade::parts

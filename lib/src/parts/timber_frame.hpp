@@ -1,0 +1,90 @@
+#pragma once
+
+#include "glissade/parts/shop_part.hpp"
+#include "glissade/parts/timber.hpp"
+
+#include "parts/offset_line.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace glissade::parts {
+
+/// Inside measures of what is built of timber [m].
+struct TimberChannel {
+  double width = 0.0;        ///< of the floor between the curbs
+  double thickness = 0.0;    ///< of the floor
+  double curb_height = 0.0;  ///< 0: none
+  double curb_thickness = 0.0;
+
+  [[nodiscard]] double overall() const { return width + 2.0 * (curb_height > 0.0 ? curb_thickness : 0.0); }
+};
+/// @return a slab or U-channel of one width; none of others
+[[nodiscard]] std::optional<TimberChannel> timber_channel_of(const section::Measures& measures);
+
+/// Everything that the parts of one structure are made from.
+struct TimberJob {
+  const ArcSpline& track;
+  TimberChannel channel;
+  const TimberOptions& options;
+  const Placement& placement;
+
+  [[nodiscard]] double layer() const { return channel.thickness / options.deck.layers; }
+  /// Height of the upper edge of the bearers.
+  [[nodiscard]] double bearer_top() const {
+    return -(channel.thickness + options.cross_members.height + options.fit);
+  }
+  [[nodiscard]] double bearer_bottom() const { return bearer_top() - options.bearer_depth(); }
+};
+
+/// A stretch of deck, one sheet long.
+struct DeckRow {
+  Span span;
+  double flat_length = 0.0;  ///< along the neutral fibre [m]
+};
+
+/// @return rows of each layer, the upper one first
+[[nodiscard]] std::vector<std::vector<DeckRow>> deck_rows(const TimberJob& job);
+
+/// A cross member that touches the deck.
+struct CrossMember {
+  double at = 0.0;       ///< arc length of its middle [m]
+  double top = 0.0;      ///< height of its upper face above the floor line, square to the track there [m]
+  double sagitta = 0.0;  ///< by which deck or bearers bend away over its width [m]
+};
+/// @throws InputError where the track bends so much that the gaps exceed the fit: names the place
+[[nodiscard]] std::vector<CrossMember> cross_members(const TimberJob& job,
+                                                     const std::vector<std::vector<DeckRow>>& rows);
+
+/// Where bearers stand, and where each is jointed: every other one half a unit farther.
+struct BearerPlan {
+  std::vector<double> across;   ///< middles, to the left [m]
+  std::vector<double> joints;   ///< of the even ones, ends included; arc lengths [m]
+  std::vector<double> shifted;  ///< of the odd ones
+};
+/// @throws InputError if no length of piece fits the stock: names the depth that would
+[[nodiscard]] BearerPlan plan_bearers(const TimberJob& job);
+
+/// A post from the ground to the underside of a bearer.
+struct Leg {
+  double at = 0.0;  ///< arc length of the bearer's point above its middle [m]
+  double x = 0.0;   ///< of its middle [m]
+  double ground = 0.0;
+  Vec2 top_left;  ///< of its slanted upper end
+  Vec2 top_right;
+
+  [[nodiscard]] double length() const { return 0.5 * (top_left.y + top_right.y) - ground; }
+};
+/// @throws InputError where the ground lies above the underside of the bearers: names the place, by how much
+[[nodiscard]] std::vector<Leg> plan_legs(const TimberJob& job);
+
+/// @return height of the ground below x
+[[nodiscard]] double ground_at(const std::vector<Vec2>& ground, double x);
+
+/// A part that stands in the plane of the track, with the pattern that is cut where it comes from a sheet.
+/// @param middles  of the pieces, across to the left [m]
+[[nodiscard]] ShopPart upright_part(const TimberJob& job, const ArcPath& outline, double depth,
+                                    const std::vector<double>& middles, const StockMaterial& material);
+
+}  // namespace glissade::parts

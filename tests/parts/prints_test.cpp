@@ -1,0 +1,287 @@
+// Solids in pieces for a printer: they add up to the solid, fit the bed, match at their joints.
+
+#include "glissade/parts/prints.hpp"
+
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/straight_line.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+
+#include "parts/joint_face.hpp"
+#include "parts/piece_mesh.hpp"
+#include "parts/print_pose.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(10.0));
+
+CrossSection groove() {
+  return CrossSection::polygon({{-12e-3, -8e-3},
+                                {12e-3, -8e-3},
+                                {12e-3, 5e-3},
+                                {10e-3, 5e-3},
+                                {3e-3, 0.0},
+                                {-3e-3, 0.0},
+                                {-10e-3, 5e-3},
+                                {-12e-3, 5e-3}});
+}
+
+CoulombBrachistochrone run() {
+  return {{0.6, 0.35}, kFriction};
+}
+
+WorkshopBuild prints(const Centerline& track, const CrossSection& section, const PrintOptions& options = {}) {
+  return make_prints(track, section, {PrintOptions::kArcTolerance}, options, 5e-5, Placement(),
+                     {.friction = kFriction});
+}
+
+std::string refusal(const PrintOptions& options, const CrossSection& section) {
+  try {
+    (void)prints(run(), section, options);
+  } catch (const InputError& error) {
+    std::string text;
+    for (const Issue& issue : error.issues())
+      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
+    return text;
+  }
+  return "";
+}
+
+Vec3 size_of(const TriangleMesh& mesh) {
+  const MeshFacts facts = measure(mesh);
+  return facts.upper - facts.lower;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "prints: a run longer than the bed comes in pieces that fit it, valid each, and add up to the section's "
+    "A S - M phi") {
+  const CrossSection section = groove();
+  const WorkshopBuild build = prints(run(), section);
+  REQUIRE(build.joints.size() == 4);
+  CHECK(build.prints.size() == 3 + 4);  // two pins a joint
+  double volume = 0.0;
+  for (const PrintPiece& piece : build.prints) {
+    const MeshFacts facts = measure(piece.mesh);
+    INFO(piece.name);
+    CHECK(facts.valid());
+    CHECK(facts.components == 1);
+    const Vec3 size = facts.upper - facts.lower;
+    CHECK(size.x <= 0.21 + 1e-12);
+    CHECK(size.y <= 0.21 + 1e-12);
+    CHECK(size.z <= 0.25);
+    CHECK(facts.lower.z == 0.0);
+    volume += facts.volume;
+  }
+  const ArcSpline& line = *build.master.spline;
+  const double turned = line.slope_angle(0.0) - line.slope_angle(line.length());
+  const double exact = section.area() * line.length() - section.first_moment() * turned;
+  CHECK(std::fabs(build.proof.volume - exact) < 1e-9 * exact);
+  CHECK(std::fabs(volume - build.proof.volume - build.proof.added_volume) < 2e-3 * exact);
+  CHECK(build.proof.edge_mismatch < 1e-12);
+  for (const ShopCheck& check : build.workshop.checks) {
+    INFO(check.rule << " " << check.value << " " << check.bound << " " << check.where);
+    CHECK(check.verdict == ShopVerdict::pass);
+  }
+}
+
+TEST_CASE(
+    "prints: a run that fits the bed slantwise is one piece without joints, and a shorter bed takes more "
+    "pieces") {
+  const CoulombBrachistochrone short_run({0.2, 0.12}, kFriction);
+  const WorkshopBuild whole = prints(short_run, groove());
+  CHECK(whole.joints.size() == 2);
+  CHECK(whole.prints.size() == 1);
+  std::size_t before = 1;
+  for (const double side : {0.15, 0.1, 0.06}) {
+    PrintOptions options;
+    options.split.bed = {side, side, 0.1, 0.002};
+    const WorkshopBuild build = prints(short_run, groove(), options);
+    CHECK(build.joints.size() - 1 > before);
+    before = build.joints.size() - 1;
+    for (const PrintPiece& piece : build.prints) {
+      const Vec3 size = size_of(piece.mesh);
+      CHECK(std::max(size.x, size.y) <= side - 0.004 + 1e-12);
+    }
+  }
+}
+
+TEST_CASE(
+    "prints: holes on both sides of a joint lie on one axis, and pins leave half the fit all round and play "
+    "at both ends") {
+  const WorkshopBuild build = prints(run(), groove());
+  const ShopPart& pin = build.workshop.parts.back();
+  REQUIRE(pin.name == "pin");
+  const Vec3 size = size_of(std::get<MeshBody>(pin.body).mesh);
+  const double pin_diameter = size.x;
+  for (const Frame& place : pin.places) {
+    int holes = 0;
+    for (const ShopPart& part : build.workshop.parts) {
+      if (part.name == "pin") continue;
+      // Corners of a hole's walls: nearer to the pin's axis than to anything else of the piece.
+      double nearest = 1.0;
+      double deepest = 0.0;
+      for (const Vec3& vertex : std::get<MeshBody>(part.body).mesh.vertices) {
+        const Vec3 away = part.places.front().to_space(vertex) - place.origin;
+        const double along = dot(away, place.z);
+        const double radius = norm(away - along * place.z);
+        if (along < -1e-3 || along > size.z + 1e-3 || radius > 0.51 * (pin_diameter + 0.15e-3)) continue;
+        nearest = std::min(nearest, radius);
+        deepest = std::max(deepest, std::fabs(along - 0.5 * size.z));
+      }
+      if (nearest == 1.0) continue;
+      ++holes;
+      CHECK(nearest >= 0.5 * (pin_diameter + 0.15e-3) - 1e-12);
+      CHECK(deepest == Approx(0.5 * size.z + 0.5e-3).epsilon(1e-9));
+    }
+    CHECK(holes == 2);
+  }
+}
+
+TEST_CASE(
+    "prints: layers follow a groove on its side without a step; a channel stands on its end, its steps the "
+    "sine of its turn") {
+  const auto rule = [](const WorkshopBuild& build, const std::string& name) {
+    for (const ShopCheck& check : build.workshop.checks) {
+      if (check.rule == name) return check.value;
+    }
+    return std::string("none");
+  };
+  CHECK(rule(prints(run(), groove()), "step of the layers on the run surface") == "0 m");
+  CHECK(rule(prints(run(), groove()), "overhang") == "35.5 deg");  // of the groove's side, atan(5/7)
+  const WorkshopBuild channel = prints(run(), CrossSection::u_channel(30e-3, 15e-3, 3e-3));
+  for (const PrintPiece& piece : channel.prints) CHECK(size_of(piece.mesh).z <= 0.25 + 1e-12);
+  CHECK(rule(channel, "overhang") != "none");
+  CHECK(rule(channel, "step of the layers on the run surface") != "0 m");
+}
+
+TEST_CASE(
+    "prints: a thin section goes without pins and says so; one asked for by its diameter is refused with the "
+    "wall it leaves") {
+  const CrossSection thin = CrossSection::slab(30e-3, 2e-3);
+  PrintOptions options;
+  options.ease = 0.0;
+  options.number_depth = 0.0;
+  const WorkshopBuild build = prints(run(), thin, options);
+  CHECK(build.workshop.parts.back().name != "pin");
+  const bool told =
+      std::any_of(build.workshop.checks.begin(), build.workshop.checks.end(), [](const auto& check) {
+        return check.rule == "pins at the joints" && check.verdict == ShopVerdict::warn;
+      });
+  CHECK(told);
+  options.dowels.diameter = 1.5e-3;
+  const std::string text = refusal(options, thin);
+  INFO(text);
+  CHECK(text.starts_with("dowels.diameter|diameter: holes of 1.65 mm leave a wall of "));
+  CHECK(text.find("The printer's least wall is 0.9 mm") != std::string::npos);
+  CHECK(text.find("dowels: none") != std::string::npos);
+}
+
+TEST_CASE(
+    "prints: what no printer can make is refused with its key, value, bound and a way out, all of it at "
+    "once") {
+  PrintOptions options;
+  options.split.bed = {0.02, 0.02, 0.02, 0.005};
+  std::string text = refusal(options, groove());
+  CHECK(text.find("split.bed|bed: 20 mm x 20 mm x 20 mm is too small for the section of 24 mm x 13 mm") == 0);
+  options = {};
+  options.split.allowed = false;
+  CHECK(refusal(options, groove())
+            .find("split.allowed|the track takes 3 pieces on a bed of 220 mm x 220 mm x 250 mm") == 0);
+  options = {};
+  options.layer = 0.0;
+  options.dowels.fit = -1e-4;
+  options.split.bed.z = -1.0;
+  text = refusal(options, groove());
+  CHECK(text.find("layer|layer: 0 m is not positive") != std::string::npos);
+  CHECK(text.find("dowels.fit|fit: -0.1 mm is negative") != std::string::npos);
+  CHECK(text.find("split.bed|bed: -1 m is not positive") != std::string::npos);
+}
+
+TEST_CASE(
+    "prints: numbers of a face touch neither its edge, nor its holes, nor one another, and read from "
+    "outside") {
+  const parts::FaceOutline face(groove());
+  const std::vector<Vec2> holes = {face.roomiest(true), face.roomiest(false)};
+  const auto place = parts::place_for_digits(face, 2, holes, 3e-3);
+  REQUIRE(place);
+  std::vector<Vec2> corners;
+  for (const parts::Recess& bar : parts::sunk_digits("80", place->corner, place->height, 0.4e-3)) {
+    CHECK(bar.volume() > 0.0);
+    for (const Vec2 corner : bar.rings.front().corners) {
+      CHECK(face.clearance(corner) >= 0.6e-3 - 1e-12);
+      for (const Vec2 hole : holes) CHECK(norm(corner - hole) >= 3.6e-3 - 1e-12);
+      corners.push_back(corner);
+    }
+  }
+  CHECK(corners.size() == 4 * (7 + 6));
+  // Of 1 the two right bars alone are cut.
+  for (const parts::Recess& bar : parts::sunk_digits("1", {}, 1.0, 0.1)) {
+    for (const Vec2 corner : bar.rings.front().corners) CHECK(corner.x >= 0.6 - parts::kBarWidth - 1e-12);
+  }
+}
+
+TEST_CASE(
+    "prints: random runs, sections and beds come as valid pieces within the bed, their volumes those of the "
+    "solid") {
+  testing::Random random = testing::seeded_random();
+  for (int k = 0; k < 8; ++k) {
+    const CoulombBrachistochrone track({random.between(0.2, 0.9), random.between(0.15, 0.5)}, kFriction);
+    const double thickness = random.between(4e-3, 12e-3);
+    const CrossSection section =
+        k % 3 == 0 ? CrossSection::slab(random.between(15e-3, 60e-3), thickness)
+        : k % 3 == 1
+            ? CrossSection::u_channel(random.between(20e-3, 40e-3), random.between(5e-3, 20e-3), thickness)
+            : CrossSection::half_pipe(random.between(20e-3, 40e-3), thickness);
+    PrintOptions options;
+    options.split.bed.x = random.between(0.1, 0.3);
+    options.split.bed.y = random.between(0.1, 0.3);
+    INFO("GLISSADE_SEED=" << random.seed() << ", problem " << k);
+    WorkshopBuild build;
+    try {
+      build = prints(track, section, options);
+    } catch (const InputError& error) {
+      // A start without radius is wider than the section: it may fit no bed.
+      CHECK(error.issues().front().where == "split.bed");
+      continue;
+    }
+    double volume = 0.0;
+    for (const PrintPiece& piece : build.prints) {
+      const MeshFacts facts = measure(piece.mesh);
+      CHECK(facts.valid());
+      CHECK(facts.upper.x - facts.lower.x <= options.split.bed.x - 0.01 + 1e-9);
+      CHECK(facts.upper.y - facts.lower.y <= options.split.bed.y - 0.01 + 1e-9);
+      volume += facts.volume;
+    }
+    const double listed = build.proof.volume + build.proof.added_volume;
+    CHECK(std::fabs(volume - listed) < 5e-3 * listed);
+    CHECK(build.proof.volume == Approx(build.proof.exact_volume).epsilon(1e-6));
+  }
+}
+
+TEST_CASE(
+    "prints: the edge that a body meets at a joint is eased over as short a way as it is deep, and nothing "
+    "else is") {
+  PrintOptions plain;
+  plain.ease = 0.0;
+  const WorkshopBuild eased = prints(run(), groove());
+  const WorkshopBuild sharp = prints(run(), groove(), plain);
+  REQUIRE(eased.joints == sharp.joints);
+  const double joints = static_cast<double>(eased.joints.size() - 2);
+  // Half of ease squared, along the groove's floor and both its sides.
+  const double expected = 0.5 * 0.2e-3 * 0.2e-3 * (6e-3 + 2.0 * std::sqrt(7e-3 * 7e-3 + 5e-3 * 5e-3));
+  const double taken = (sharp.proof.added_volume - eased.proof.added_volume) / joints;
+  CHECK(taken == Approx(expected).epsilon(0.1));
+  CHECK(sharp.proof.volume == Approx(eased.proof.volume).epsilon(1e-12));
+}

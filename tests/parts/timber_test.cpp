@@ -1,0 +1,232 @@
+// Tracks in timber: layers of the deck develop to the stock's length, seams are staggered and carried, parts add up.
+
+#include "glissade/parts/timber.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/arc_path.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+
+#include "parts/timber_frame.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(10.0));
+
+/// Straight at 40 deg, a bend to 10 deg, straight again.
+ArcSpline bend(double radius, double straight = 6.0) {
+  const double steep = -40.0 * std::numbers::pi / 180.0;
+  const double turn = 30.0 * std::numbers::pi / 180.0;
+  const Vec2 first{straight * math::cos(steep), straight * math::sin(steep)};
+  const Vec2 centre = first + radius * Vec2{-math::sin(steep), math::cos(steep)};
+  const double flat = steep + turn;
+  const Vec2 second = centre - radius * Vec2{-math::sin(flat), math::cos(flat)};
+  const Vec2 third = second + straight * Vec2{math::cos(flat), math::sin(flat)};
+  return ArcSpline(
+      {{{{0.0, 0.0}, 0.0}, {first, math::tan(0.25 * turn)}, {second, 0.0}, {third, 0.0}}, false});
+}
+
+const section::Measures kRamp = section::Slab{WidthLaw(1.5), 24e-3, 0.15, 24e-3};
+
+WorkshopBuild timber(const Centerline& track, const TimberOptions& options = {},
+                     const section::Measures& measures = kRamp) {
+  return make_timber(track, measures, {TimberOptions::kArcTolerance}, options, Placement(),
+                     {.friction = kFriction});
+}
+
+std::string refusal(const TimberOptions& options, const Centerline& track,
+                    const section::Measures& measures = kRamp) {
+  try {
+    (void)timber(track, options, measures);
+  } catch (const InputError& error) {
+    std::string text;
+    for (const Issue& issue : error.issues())
+      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
+    return text;
+  }
+  return "";
+}
+
+std::vector<const ShopPart*> named(const WorkshopBuild& build, const std::string& start) {
+  std::vector<const ShopPart*> parts;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.starts_with(start)) parts.push_back(&part);
+  }
+  return parts;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "timber: deck and curbs add up to the section's volume, and each layer is longer in a valley by t phi "
+    "than the one above") {
+  const ArcSpline track = bend(9.0);
+  const WorkshopBuild build = timber(track);
+  const double turn = 30.0 * std::numbers::pi / 180.0;
+  const double length = track.length();
+  const double deck = 1.548 * (24e-3 * length + 0.5 * 24e-3 * 24e-3 * turn);
+  const double curbs = 2.0 * 24e-3 * (0.15 * length - 0.5 * 0.15 * 0.15 * turn);
+  CHECK(std::fabs(build.proof.volume - deck - curbs) < 1e-12);
+  std::vector<double> lengths;
+  for (const std::string layer : {"deck_1_", "deck_2_"}) {
+    double flat = 0.0;
+    for (const ShopPart* part : named(build, layer)) flat += bounds(part->pattern->region.outline).width();
+    lengths.push_back(flat);
+  }
+  CHECK(lengths[0] == Approx(length + 0.5 * 12e-3 * turn).epsilon(1e-12));
+  CHECK(lengths[1] - lengths[0] == Approx(12e-3 * turn).epsilon(1e-9));
+}
+
+TEST_CASE(
+    "timber: sheets keep the stock's length along their fibre, seams are staggered, and a cross member lies "
+    "below each") {
+  const WorkshopBuild build = timber(bend(9.0));
+  for (const ShopPart* part : named(build, "deck_")) {
+    const PlaneBox box = bounds(part->pattern->region.outline);
+    CHECK(box.width() <= 2.5 + 1e-9);
+    CHECK(box.height() <= 1.25 + 1e-9);
+  }
+  // Of the upper layer all but the last two are whole sheets.
+  const auto upper = named(build, "deck_1_");
+  for (std::size_t i = 0; i + 2 < upper.size(); ++i)
+    CHECK(bounds(upper[i]->pattern->region.outline).width() == Approx(2.5).epsilon(1e-12));
+  for (const ShopCheck& check : build.workshop.checks) {
+    INFO(check.rule << ": " << check.value << ", " << check.bound << ", " << check.where);
+    CHECK(check.verdict == ShopVerdict::pass);
+  }
+}
+
+TEST_CASE(
+    "timber: cross members touch the deck in a hollow and hang below it on a crest, by the sagitta and no "
+    "more than the fit") {
+  for (const double radius : {5.0, 12.0}) {
+    const ArcSpline track = bend(radius);
+    const TimberOptions options;
+    const parts::TimberJob job{track, *parts::timber_channel_of(kRamp), options, Placement()};
+    const auto members = parts::cross_members(job, parts::deck_rows(job));
+    double most = 0.0;
+    for (const parts::CrossMember& member : members) most = std::max(most, member.sagitta);
+    const double outer = radius + 24e-3;
+    CHECK(most == Approx(outer - std::sqrt(outer * outer - 22.5e-3 * 22.5e-3)).epsilon(1e-3));
+  }
+  TimberOptions options;
+  options.fit = 0.02e-3;
+  const std::string text = refusal(options, bend(5.0));
+  INFO(text);
+  CHECK(text.starts_with("cross_members.width|width: cross members of 45 mm leave gaps of 0.0504 mm at "));
+  CHECK(text.find("radius of 5 m; the fit is 0.02 mm") != std::string::npos);
+  CHECK(text.find("narrower cross members, a larger fit") != std::string::npos);
+}
+
+TEST_CASE(
+    "timber: ribs are cut from sheets with their joints half a rib apart, beams are set out with the levels "
+    "of their edges") {
+  const WorkshopBuild ribs = timber(bend(9.0));
+  for (const ShopPart* part : named(ribs, "rib")) {
+    const PlaneBox box = bounds(part->pattern->region.outline);
+    CHECK(std::max(box.width(), box.height()) <= 2.49 + 1e-9);
+    CHECK(std::min(box.width(), box.height()) <= 1.24 + 1e-9);
+  }
+  CHECK(named(ribs, "rib_shifted").size() == named(ribs, "rib").size() / 2 + 1);
+  CHECK(!named(ribs, "splice").empty());
+
+  TimberOptions options;
+  options.frame = TimberFrame::beams;
+  options.bearers.count = 5;
+  const ArcSpline track = bend(40.0);
+  const WorkshopBuild beams = timber(track, options, section::Slab{WidthLaw(2.6), 60e-3, 0.0, 0.0});
+  std::size_t across = 0;
+  for (const ShopPart* part : named(beams, "beam_1")) across += part->quantity();
+  for (const ShopPart* part : named(beams, "beam_shifted_1")) across += part->quantity();
+  CHECK(across == 5);
+  REQUIRE(beams.workshop.offset_names.size() == 3);
+  for (const SettingOutPoint& point : beams.workshop.setting_out) {
+    REQUIRE(point.offsets.size() == 3);
+    const double cosine = math::cos(point.slope_angle.radians());
+    CHECK(point.offsets[0] == Approx(point.z - 60e-3 * cosine).margin(1e-12));
+    CHECK(point.offsets[1] == Approx(point.z - (60e-3 + 70e-3 + 2e-3) * cosine).margin(1e-12));
+    CHECK(point.offsets[2] == Approx(point.z - (60e-3 + 70e-3 + 2e-3 + 0.4) * cosine).margin(1e-12));
+  }
+}
+
+TEST_CASE(
+    "timber: legs reach from the ground to the underside of their bearer, and ground above it is refused "
+    "with the place") {
+  TimberOptions options;
+  options.legs = LegOptions{{{0.0, -9.0}}, 2.0, 90e-3};
+  const ArcSpline track = bend(9.0);
+  const WorkshopBuild build = timber(track, options);
+  const auto legs = named(build, "leg_");
+  CHECK(legs.size() >= 7);
+  for (const ShopPart* leg : legs) {
+    CHECK(leg->places.front().origin.z >= -9.0 - 1e-9);
+    CHECK(leg->bought_in);
+  }
+  // A second ground one metre up takes a metre off each leg.
+  options.legs->ground = {{0.0, -8.0}};
+  const WorkshopBuild higher = timber(track, options);
+  REQUIRE(named(higher, "leg_").size() == legs.size());
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const double saved = legs[i]->volume - named(higher, "leg_")[i]->volume;
+    CHECK(saved == Approx(90e-3 * 90e-3 * 1.0).epsilon(1e-9));
+  }
+  options.legs->ground = {{0.0, 0.0}};
+  const std::string text = refusal(options, track);
+  CHECK(text.starts_with("legs.ground|ground: it lies "));
+  CHECK(text.find(" above the underside of the bearers, ") != std::string::npos);
+  CHECK(text.find("a lower ground there") != std::string::npos);
+}
+
+TEST_CASE("timber: what no carpenter can make is refused with its key, all of it at once") {
+  TimberOptions options;
+  options.deck.layers = 0;
+  options.bearers.count = 1;
+  options.cross_members.spacing = 10e-3;
+  std::string text = refusal(options, bend(9.0));
+  CHECK(text.find("deck.layers|layers: 0 layers|They are 1 to 12.") != std::string::npos);
+  CHECK(text.find("bearers.count|count: 1 bearers carry no deck") != std::string::npos);
+  CHECK(text.find("cross_members.spacing|spacing: 10 mm is less than 1.5 widths") != std::string::npos);
+  text = refusal({}, bend(9.0), section::Pipe{0.15, 4e-3});
+  CHECK(text ==
+        "cross_section.kind|fabrication: this pipe cannot be made of timber|Timber makes a flat floor of one "
+        "width "
+        "with upright curbs or walls, or none.|kind: slab or u-channel with one width\n");
+  options = {};
+  options.bearers.depth = 2.6;
+  text = refusal(options, bend(9.0));
+  CHECK(text ==
+        "bearers.depth|depth: bearers of 2.6 m fit no stock|A sheet is 2.5 m x 1.25 m.|a smaller depth, a "
+        "larger "
+        "sheet, or frame: beams\n");
+}
+
+TEST_CASE("timber: random bends, widths and layers clash nowhere and keep their volumes") {
+  testing::Random random = testing::seeded_random();
+  for (int k = 0; k < 6; ++k) {
+    INFO("GLISSADE_SEED=" << random.seed() << ", problem " << k);
+    const ArcSpline track = bend(random.between(4.0, 60.0), random.between(3.0, 12.0));
+    const double thickness = random.between(15e-3, 60e-3);
+    const section::Measures measures =
+        k % 2 == 0 ? section::Measures(section::Slab{WidthLaw(random.between(0.8, 3.0)), thickness, 0.0, 0.0})
+                   : section::Measures(section::UChannel{WidthLaw(random.between(0.8, 3.0)), 0.4, thickness});
+    TimberOptions options;
+    options.deck.layers = random.integer(1, 4);
+    options.frame = k % 3 == 0 ? TimberFrame::beams : TimberFrame::ribs;
+    const WorkshopBuild build = timber(track, options, measures);
+    CHECK(build.proof.volume == Approx(build.proof.exact_volume).epsilon(1e-9));
+    CHECK(build.proof.smallest_gap >= 0.0);
+    CHECK(build.proof.edge_mismatch <= 1e-9);
+    CHECK(build.ride.arrives);
+  }
+}
