@@ -28,12 +28,12 @@ struct HoodPassage {
   double contact = 0.0;        ///< u^2/(g R cos(zeta)) where the feed meets the hood; in contact from 1 on
   double least_contact = 0.0;  ///< the least of it along the ride
   /// Where it comes down on the level of the track's start, seen from where the feed meets the hood: run and drop [m].
-  Vec2 start;
+  Vec2 start = {};
   double reach =
       0.0;  ///< horizontal way of the fall from the hood down to the level of the track's start [m]
   double fall_time = 0.0;  ///< of that fall [s]
   /// How it comes down there; at a stand where the stream comes to one on the hood.
-  Landing landing;
+  Landing landing = {};
 
   /// @return true if the stream is pressed on the hood all along and leaves it at its lower edge
   [[nodiscard]] bool holds() const { return motion.arrived(); }
