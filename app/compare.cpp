@@ -131,7 +131,7 @@ Table kinds_table(const std::vector<Entry>& entries) {
 }
 
 std::string letters_text(const InRunDesign& in_run) {
-  return angle_text(in_run.gamma.radians(), 4) + ", " + angle_text(in_run.alpha.radians(), 4);
+  return angle_text(in_run.gamma, 4) + ", " + angle_text(in_run.alpha, 4);
 }
 
 /// "22.71 to 26.84 m/s" from the lowest and the highest gate
