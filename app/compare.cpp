@@ -130,13 +130,16 @@ Table kinds_table(const std::vector<Entry>& entries) {
   return rides_table("Centerline", entries, kinds);
 }
 
-std::string letters_text(const InRunDesign& in_run) {
-  return angle_text(in_run.gamma, 4) + ", " + angle_text(in_run.alpha, 4);
+/// gamma and alpha of any in-run: the slopes that it begins and ends with.
+std::string slopes_text(const Centerline& track) {
+  return angle_text(Angle::from_radians(track.slope_angle(0.0)), 4) + ", " +
+         angle_text(Angle::from_radians(track.slope_angle(track.length())), 4);
 }
 
 /// "22.71 to 26.84 m/s" from the lowest and the highest gate
-std::string gate_speeds_text(const GateTable& gates) {
-  const std::vector<GateRide>& rides = gates.conditions.front().rides;
+std::string gate_speeds_text(const std::optional<GateTable>& gates) {
+  if (!gates) return "-";
+  const std::vector<GateRide>& rides = gates->conditions.front().rides;
   const auto speed = [](const GateRide& ride) {
     return ride.arrived ? fixed_text(ride.speed_at_measuring_place, 2) : std::string("-");
   };
@@ -166,11 +169,13 @@ Table hills_table(const std::vector<Entry>& entries) {
     }
     const Track& track = *entries[i].track;
     const InRunDesign& in_run = design.centerline.in_run;
-    table.add({names[i], design.hill.size ? length_text(*design.hill.size, 4) : "-", letters_text(in_run),
-               length_text(in_run.r1, 4), length_text(in_run.t, 4), length_text(track.endpoints.drop, 4),
-               length_text(track.centerline->length(), 5), std::to_string(track.gates->gates.size()),
-               gate_speeds_text(*track.gates), acceleration_text(track.motion.highest_load().normal_load),
-               rules_text(design, track)});
+    const bool lettered = design.centerline.kind == CenterlineKind::in_run;
+    table.add({names[i], design.hill.size ? length_text(*design.hill.size, 4) : "-",
+               slopes_text(*track.centerline), length_text(lettered ? in_run.r1 : track.min_radius, 4),
+               lettered ? length_text(in_run.t, 4) : "-", length_text(track.endpoints.drop, 4),
+               length_text(track.centerline->length(), 5),
+               track.gates ? std::to_string(track.gates->gates.size()) : "-", gate_speeds_text(track.gates),
+               acceleration_text(track.motion.highest_load().normal_load), rules_text(design, track)});
   }
   return table;
 }

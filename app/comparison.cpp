@@ -224,14 +224,16 @@ namespace {
 Figure profiles_to_edge(const std::vector<Entry>& entries) {
   Figure figure{"Profile, from the edge", "x [m]", "z [m]", {}, {}, true};
   constexpr int kPoints = 200;
-  for (const Entry& entry : entries) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& entry = entries[i];
     if (!entry.track) continue;
     FigureLine line;
     line.name = design_name(entry);
+    line.choice = static_cast<int>(i) + 1;
     const Centerline& track = *entry.track->centerline;
     const Endpoints end = track.endpoints();
-    for (int i = 0; i <= kPoints; ++i) {
-      const CenterlinePoint point = track.at(track.length() * i / kPoints);
+    for (int k = 0; k <= kPoints; ++k) {
+      const CenterlinePoint point = track.at(track.length() * k / kPoints);
       line.xs.push_back(point.x - end.run);
       line.ys.push_back(end.drop - point.drop);
     }
@@ -242,10 +244,12 @@ Figure profiles_to_edge(const std::vector<Entry>& entries) {
 
 Figure speeds_by_gate(const std::vector<Entry>& entries) {
   Figure figure{"Speed at the measuring place", "gate, from the lowest", "speed [m/s]", {}, {}, false};
-  for (const Entry& entry : entries) {
-    if (!entry.track) continue;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& entry = entries[i];
+    if (!entry.track || !entry.track->gates) continue;
     FigureLine line;
     line.name = design_name(entry);
+    line.choice = static_cast<int>(i) + 1;
     for (const GateRide& ride : entry.track->gates->conditions.front().rides) {
       line.xs.push_back(ride.gate.number);
       line.ys.push_back(ride.arrived ? ride.speed_at_measuring_place
@@ -262,7 +266,7 @@ bool are_hills(const std::vector<Entry>& entries) {
   const auto has_track = [](const Entry& entry) { return entry.track.has_value(); };
   if (std::none_of(entries.begin(), entries.end(), has_track)) return false;
   return std::all_of(entries.begin(), entries.end(), [](const Entry& entry) {
-    return !entry.track || (entry.track->gates && entry.design.centerline.kind == CenterlineKind::in_run);
+    return !entry.track || entry.design.centerline.kind == CenterlineKind::in_run || entry.design.hill.size;
   });
 }
 
@@ -272,17 +276,16 @@ std::vector<Figure> design_figures(const std::vector<Entry>& entries) {
   for (const RideQuantity quantity :
        {RideQuantity::profile, RideQuantity::slope, RideQuantity::speed, RideQuantity::load}) {
     figures.push_back(ride_figure(quantity, rides));
+    // One line a design that has a track.
+    std::size_t line = 0;
+    for (std::size_t i = 0; i < entries.size() && line < figures.back().lines.size(); ++i) {
+      if (entries[i].track) figures.back().lines[line++].choice = static_cast<int>(i) + 1;
+    }
   }
   if (are_hills(entries)) {
     figures.front() = profiles_to_edge(entries);
-    figures.push_back(speeds_by_gate(entries));
-  }
-  // Each figure has one line a design that has a track.
-  for (Figure& figure : figures) {
-    std::size_t line = 0;
-    for (std::size_t i = 0; i < entries.size() && line < figure.lines.size(); ++i) {
-      if (entries[i].track) figure.lines[line++].choice = static_cast<int>(i) + 1;
-    }
+    Figure gates = speeds_by_gate(entries);
+    if (!gates.lines.empty()) figures.push_back(std::move(gates));
   }
   return figures;
 }

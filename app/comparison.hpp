@@ -41,7 +41,7 @@ struct Entry {
 /// The curves of a friction sweep, drawn as the paper draws its figure 1.
 [[nodiscard]] std::vector<Figure> sweep_figures(const std::vector<Entry>& entries);
 
-/// @return whether every design that has a track is an in-run with gates
+/// @return whether every design that has a track is an in-run, or tells the size of its hill; there is one
 [[nodiscard]] bool are_hills(const std::vector<Entry>& entries);
 
 /// Profile, slope angle, speed and load of several designs; of hills the speeds from their gates, too.

@@ -115,9 +115,8 @@ Table shapes_table(const Redesign& found) {
 
 /// "0.31 m of tower per m"
 std::string price_words(const LetterPrice& price) {
-  constexpr double kDegree = Angle::from_degrees(1.0).radians();
   const bool angle = price.dimension == Dimension::angle;
-  const double value = price.price * (angle ? kDegree : 1.0);
+  const double value = price.price * (angle ? Angle::from_degrees(1.0).radians() : 1.0);
   const std::string unit = angle ? "deg" : price.dimension == Dimension::speed ? "m/s" : "m";
   return rounded_text(value, 3) + " m per " + unit;
 }

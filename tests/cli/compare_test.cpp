@@ -1,5 +1,6 @@
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <set>

@@ -322,3 +322,21 @@ TEST_CASE("a line of ground comes from a CSV file beside the design, its faults 
                          "limits: {stay_above: [{line: [[0 m, 0 m], [6 m, 0 m]], unit: mm}]}\n"),
              Contains("unknown key unit"));
 }
+
+TEST_CASE("a condition of gates may have a drag area of its own, where the body's mass is known") {
+  const auto gates = [](const std::string& body, const std::string& slow) {
+    return "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.03, " + body +
+           "}\ncenterline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: "
+           "24 m}\n"
+           "gates: {count: 3, slow: {" +
+           slow + "}}\n";
+  };
+  const std::string rider = "mass: 68 kg, drag_area: 0.15 m^2";
+  const Design design = parse_design(gates(rider, "drag_area: 0.17 m^2"), "d.yaml");
+  CHECK(design.gates->slow->drag_area == 0.17);
+  CHECK_THAT(problems_of(gates("drag: 0.0013 1/m", "drag_area: 0.17 m^2")),
+             Contains("drag_area: of a body whose mass is not known"));
+  CHECK_THAT(problems_of(gates(rider, "drag_area: 0.17 m^2, drag: 0.001 1/m")),
+             Contains("both drag and drag_area are given"));
+  CHECK_THAT(problems_of(gates(rider, "drag_area: -1 m^2")), Contains("drag_area: -1 m^2 is out of range"));
+}

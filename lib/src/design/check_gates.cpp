@@ -40,6 +40,15 @@ void check_area_of_in_run(const Design& design, Collected& findings) {
 void check_gates(const Design& design, Collected& findings) {
   if (!design.gates) return;
   const GatesDesign& gates = *design.gates;
+  const auto check_drag_area = [&](const std::optional<ConditionDesign>& condition, const std::string& key) {
+    if (!condition || !condition->drag_area || design.body.drag) return;
+    report(findings, {"gates." + key + ".drag_area", "gates." + key, "gates"},
+           {"", "drag_area: of a body whose mass is not known",
+            "drag = air density x drag_area / (2 x mass), and both are those of the body.",
+            "mass: 68 kg and drag_area: 0.15 m^2 in the body, or drag here"});
+  };
+  check_drag_area(gates.slow, "slow");
+  check_drag_area(gates.fast, "fast");
   if (design.centerline.kind == CenterlineKind::in_run) {
     check_area_of_in_run(design, findings);
   } else if (!gates.start_area) {

@@ -44,13 +44,23 @@ std::optional<ConditionDesign> read_condition(MapReader& top, std::string_view k
   const auto value = top.find(key);
   if (!value) return {};
   MapReader map(*value, "A condition", "{friction_coefficient: 0.05, drag: 0.0013 1/m}", findings);
-  map.expect({"friction_angle", "friction_coefficient", "drag", "head_wind"});
+  map.expect({"friction_angle", "friction_coefficient", "drag", "drag_area", "head_wind"});
   ConditionDesign condition;
   condition.friction = read_friction(map, findings);
   condition.drag_per_metre = map.quantity("drag", Dimension::per_length);
   if (condition.drag_per_metre && *condition.drag_per_metre < 0.0) {
     add_out_of_range(map, "drag", rounded_text(*condition.drag_per_metre, 4) + " 1/m", "It is 0 or larger.",
                      findings);
+  }
+  condition.drag_area = map.quantity("drag_area", Dimension::area);
+  if (condition.drag_area && *condition.drag_area < 0.0) {
+    add_out_of_range(map, "drag_area", rounded_text(*condition.drag_area, 4) + " m^2", "It is 0 or larger.",
+                     findings);
+  }
+  if (condition.drag_area && condition.drag_per_metre) {
+    findings.add(findings.position(map.path_of("drag_area")), map.path_of("drag_area"),
+                 {"", "both drag and drag_area are given", "drag = air density x drag_area / (2 x mass).",
+                  "one of the two"});
   }
   condition.head_wind = map.quantity("head_wind", Dimension::speed);
   constexpr double kStrongest = 150.0;  // [m/s]

@@ -369,6 +369,7 @@ std::string condition(const ConditionDesign& design) {
   Group group;
   if (design.friction) group.add("friction_coefficient", coefficient_of(*design.friction));
   group.add("drag", design.drag_per_metre, Dimension::per_length);
+  group.add("drag_area", design.drag_area, Dimension::area);
   group.add("head_wind", design.head_wind, Dimension::speed);
   return group.inlined();
 }

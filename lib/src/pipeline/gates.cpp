@@ -25,12 +25,17 @@ std::vector<Gate> gates_of(const Design& design, const Centerline& centerline) {
   return stepped_gates(centerline.length(), area, step_along(gates, centerline));
 }
 
-Body in_condition(Body body, const ConditionDesign& condition) {
+Body in_condition(Body body, const ConditionDesign& condition, const std::optional<DragDesign>& drag) {
   if (condition.friction) {
     body.friction = *condition.friction;
     body.friction_changes.clear();
   }
   body.drag_per_metre = condition.drag_per_metre.value_or(body.drag_per_metre);
+  if (condition.drag_area && drag) {
+    DragDesign other = *drag;
+    other.drag_area = *condition.drag_area;
+    body.drag_per_metre = other.drag_per_metre();
+  }
   body.head_wind = condition.head_wind.value_or(body.head_wind);
   return body;
 }
@@ -42,7 +47,7 @@ std::vector<std::pair<std::string, Body>> conditions_of(const Design& design) {
   const auto add = [&](const char* name, const std::optional<ConditionDesign>& given,
                        const std::optional<Friction>& end_of_range) {
     if (given) {
-      conditions.emplace_back(name, in_condition(nominal, *given));
+      conditions.emplace_back(name, in_condition(nominal, *given, design.body.drag));
     } else if (end_of_range) {
       Body body = nominal;
       body.friction = *end_of_range;

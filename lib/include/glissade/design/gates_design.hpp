@@ -10,7 +10,8 @@ namespace glissade {
 struct ConditionDesign {
   std::optional<Friction> friction;
   std::optional<double> drag_per_metre;  ///< [1/m]
-  std::optional<double> head_wind;       ///< [m/s]
+  std::optional<double> drag_area;  ///< c_d A of the body's mass in its air [m^2]; instead of drag_per_metre
+  std::optional<double> head_wind;  ///< [m/s]
 
   friend bool operator==(const ConditionDesign&, const ConditionDesign&) = default;
 };
