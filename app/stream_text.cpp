@@ -84,16 +84,11 @@ std::string hood_lines(const Design& design, const Track& track) {
                         Dimension::power_per_area) +
           " at most";
   text += "\n" + impact_text(passage.landing, impact, "floor of the spoon");
-  double least = 0.0;
-  double most = 0.0;
-  for (const LevelRide& ride : track.rides()) {
-    const double off = hood_passage(design, ride.motion->body()).start.x - passage.start.x;
-    least = std::min(least, off);
-    most = std::max(most, off);
+  const Range spread = landing_spread(design, track);
+  if (*spread.highest > *spread.lowest) {
+    text += "\nover the range of friction it comes down " + length_text(-*spread.lowest, 2) + " before to " +
+            length_text(*spread.highest, 2) + " behind the start";
   }
-  if (most > least)
-    text += "\nover the range of friction it comes down " + length_text(-least, 2) + " before to " +
-            length_text(most, 2) + " behind the start";
   text += "\n" + quantity_text(transfer_time(design, track.motion), Dimension::time) +
           " from the pulley to the finish";
   return labelled("Hood", text);

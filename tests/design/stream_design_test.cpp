@@ -66,7 +66,8 @@ TEST_CASE(
              Contains("not in ascending order"));
 }
 
-TEST_CASE("a material that nobody knows is one problem, with the nearest name: what would follow from it is none") {
+TEST_CASE(
+    "a material that nobody knows is one problem, with the nearest name: what would follow from it is none") {
   const std::string text = problems("mass_flow: 40 t/h, material: wheet, liner: mild-steel");
   CHECK_THAT(text, Contains("material: wheet is none that is known") && Contains("wheat"));
   CHECK_THAT(text, !Contains("bulk_density"));

@@ -194,6 +194,20 @@ TEST_CASE("a build makes a proven solid of the hood where the stream meets it") 
   CHECK(solid.facts.volume == Approx(solid.solid.exact_volume).epsilon(1e-3));
 }
 
+TEST_CASE("a hood is as wide as its track at the start, whatever that is further on") {
+  const TempDir directory;
+  const auto volume = [&](const std::string& width) {
+    std::string text = transfer(kHood, "mesh: {tolerance: 1 mm}\nexport: [off]\n");
+    const std::string all = "width: 800 mm";
+    text.replace(text.find(all), all.size(), width);
+    return build(parse_design(text, "d.yaml"), directory.path())
+        .parts.back()
+        .solid.value()
+        .solid.exact_volume;
+  };
+  CHECK(volume("width: [{at: 0 m, width: 800 mm}, {at: 1.5 m, width: 600 mm}]") == volume("width: 800 mm"));
+}
+
 TEST_CASE("a hood keeps clear of what the track keeps clear of") {
   const auto beam = [](double x, double z) {
     const auto at = [&](double dx, double dz) {

@@ -244,13 +244,22 @@ std::vector<PendingFile> files_of(const Design& design, const std::string& stem,
   return files;
 }
 
-/// The solid of a hood in the frame of the mesh files: swept as the valley that it is upside down, and turned over.
+/// The solid of a hood in the frame of the mesh files: swept as the valley that it is upside down, as wide as the track
+/// at its start, and turned over.
 Solid hood_solid(const Design& design, const Track& track, const CrossSection& section,
-                 const Placement& frame, const SweepOptions& options) {
-  const CenterlinePtr valley = turned_over(shape_of(*design.hood), first_fall(design).landing);
+                 const Placement& frame, const std::stop_token& stop) {
+  const HoodShape shape = shape_of(*design.hood);
   const HoodPassage passage = hood_passage(design, track.motion.body());
-  Solid solid = sweep(*valley, section, track.placement.at_origin(), options);
   const Vec3 entry = frame.to_space(-passage.start.x, -passage.start.y, 0.0);
+  // What single precision may move a vertex by, all told no more than half of the tolerance.
+  const double farthest =
+      norm(entry) + 2.0 * shape.radius + section.highest() - section.lowest() + track.centerline->length();
+  const double rounding = std::min(std::sqrt(3.0) * 0x1p-23 * farthest, 0.5 * design.mesh.tolerance);
+  Solid solid =
+      sweep(*turned_over(shape, first_fall(design).landing), section.at(0.0), track.placement.at_origin(),
+            {.tolerance = design.mesh.tolerance - rounding,
+             .largest_kink = design.mesh.largest_kink,
+             .stop = stop});
   for (Vec3& vertex : solid.mesh.vertices) vertex = Vec3{vertex.x, vertex.y, -vertex.z} + entry;
   for (auto& triangle : solid.mesh.triangles) std::swap(triangle[1], triangle[2]);
   solid.placement = Placement(entry, frame.azimuth());
@@ -270,14 +279,14 @@ std::vector<Vec3> hood_positions(const Design& design, const Solid& solid) {
 
 /// A hood is a part of its own, with the files of its own that hold facets.
 void add_hood(const Design& given, const Track& track, const CrossSection& section, const Placement& frame,
-              const SweepOptions& options, const std::string& stem, Steps& steps, std::vector<Part>& parts,
+              const std::string& stem, Steps& steps, std::vector<Part>& parts,
               std::vector<PendingFile>& files) {
   if (!given.hood) return;
   Design design = given;
   std::erase_if(design.exports.formats,
                 [](ExportFormat format) { return file_format(format).content == FileContent::stations; });
   Solid solid =
-      at_place(given.where("hood"), [&] { return hood_solid(design, track, section, frame, options); });
+      at_place(given.where("hood"), [&] { return hood_solid(design, track, section, frame, steps.stop()); });
   const std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
   const MeasuredMesh& reference = least_precise(meshes);
   const double max_deviation = solid.max_deviation + reference.moved;
@@ -371,11 +380,7 @@ Assembly assemble(const Design& given, Track track, const RunContext& context, c
   add_data_sheet(design, track, stem, files);
   std::vector<Part> parts;
   parts.push_back(std::move(part));
-  add_hood(design, track, section, placement,
-           {.tolerance = design.mesh.tolerance - 2.0 * rounding,
-            .largest_kink = design.mesh.largest_kink,
-            .stop = context.stop},
-           stem, steps, parts, files);
+  add_hood(design, track, section, placement, stem, steps, parts, files);
   std::shared_ptr<const WorkshopBuild> fabrication;
   if (design.fabrication) {
     steps.enter("making parts", kPartsCost);

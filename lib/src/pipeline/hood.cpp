@@ -13,6 +13,7 @@
 #include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -43,6 +44,16 @@ HoodPassage hood_passage(const Design& design, const Body& body) {
   return at_place(design.where("hood"), [&] {
     return pass_hood(shape_of(design.hood.value()), first_fall(design).landing, body, design.gravity);
   });
+}
+
+Range landing_spread(const Design& design, const Track& track) {
+  const double nominal = hood_passage(design, track.motion.body()).start.x;
+  Range spread = Range::fixed(0.0);
+  for (const LevelRide& ride : track.rides()) {
+    const double off = hood_passage(design, ride.motion->body()).start.x - nominal;
+    spread = {std::min(*spread.lowest, off), std::max(*spread.highest, off)};
+  }
+  return spread;
 }
 
 double transfer_time(const Design& design, const Motion& motion) {

@@ -191,15 +191,8 @@ void add_hood(Json& json, const Design& design, const Track& track, const Impact
   json["feed"] = feed_json(feed_fall(design), passage.impact, passage.motion.body().entry_speed);
   json["hood"] = hood_json(pipeline::shape_of(*design.hood), passage, impact);
   json["hood"]["transfer_time_s"] = transfer_time(design, track.motion);
-  // How far the stream of each ride comes down from where the nominal one does.
-  double least = 0.0;
-  double most = 0.0;
-  for (const LevelRide& ride : track.rides()) {
-    const double off = hood_passage(design, ride.motion->body()).start.x - passage.start.x;
-    least = std::min(least, off);
-    most = std::max(most, off);
-  }
-  json["hood"]["landing_spread_m"] = {least, most};
+  const Range spread = landing_spread(design, track);
+  json["hood"]["landing_spread_m"] = {*spread.lowest, *spread.highest};
 }
 
 }  // namespace

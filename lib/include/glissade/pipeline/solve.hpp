@@ -119,6 +119,10 @@ class LimitsConflict : public InfeasibleError {
 /// @param body    body_of() the design, or one with another friction or flow
 [[nodiscard]] HoodPassage hood_passage(const Design& design, const Body& body);
 
+/// How far before (negative) and behind the start of a track its streams come down, the nominal one on the start [m].
+/// @param design  with a hood, solved
+[[nodiscard]] Range landing_spread(const Design& design, const Track& track);
+
 /// From the pulley to the finish by all three ways: feed, hood, track [s].
 /// @param design  with a hood
 [[nodiscard]] double transfer_time(const Design& design, const Motion& motion);

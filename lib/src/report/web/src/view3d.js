@@ -91,11 +91,11 @@ class View {
   // The surface of a stream across its channel, and its ways through the air; of another ride where one is chosen.
   addStream(other) {
     const { doc } = this;
-    const { placement, view, stations } = doc;
+    const { placement, stations } = doc;
     this.stream?.removeFromParent();
     if (!stations.burden_depth_m) return;
     const [c, s] = [Math.cos(this.azimuth), Math.sin(this.azimuth)];
-    const middle = [0, 1, 2].map((axis) => (view.lower_m[axis] + view.upper_m[axis]) / 2);
+    const { middle } = this;
     const place = (x, left, z) => [
       placement.start_m[0] + x * c - left * s - middle[0], placement.start_m[1] + x * s + left * c - middle[1], z - middle[2],
     ];
@@ -134,9 +134,9 @@ class View {
   // Obstacles as translucent bodies across the track, a little wider than the solid; lines as sheets. They do not count
   // for the frame of the picture.
   addObstacles() {
-    const { placement, view, keep_outs: areas } = this.doc;
+    const { placement, keep_outs: areas } = this.doc;
     const [c, s] = [Math.cos(this.azimuth), Math.sin(this.azimuth)];
-    const middle = [0, 1, 2].map((axis) => (view.lower_m[axis] + view.upper_m[axis]) / 2);
+    const { middle } = this;
     const { positions } = this.solid;
     let half = 0;
     for (let i = 0; i < positions.length; i += 3) {
@@ -181,18 +181,24 @@ class View {
     return { low, high };
   }
 
+  // The middle of the picture in the frame of the site: the mesh lies in one of its own.
+  get middle() {
+    const { view, mesh } = this.doc;
+    return [0, 1, 2].map((axis) => (view.lower_m[axis] + view.upper_m[axis]) / 2 + mesh.offset_m[axis]);
+  }
+
   get azimuth() {
     return (this.doc.placement.azimuth_deg * Math.PI) / 180;
   }
 
   // Puts the marker beside a station of the ride.
   mark(station) {
-    const { placement, view, stations } = this.doc;
+    const { placement, stations } = this.doc;
     const x = stations.x_m[station];
     const at = [
       placement.start_m[0] + x * Math.cos(this.azimuth), placement.start_m[1] + x * Math.sin(this.azimuth), stations.z_m[station],
     ];
-    this.marker.position.set(...at.map((value, axis) => value - (view.lower_m[axis] + view.upper_m[axis]) / 2));
+    this.marker.position.set(...at.map((value, axis) => value - this.middle[axis]));
     this.render();
   }
 
