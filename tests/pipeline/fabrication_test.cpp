@@ -129,7 +129,7 @@ TEST_CASE(
     "fabrication: a print gives its pieces as one 3MF file, each whole, and meshes of single pieces on "
     "request") {
   const TempDir place;
-  Design design = load_design(designs_path("marble_run_printed.yaml"));
+  Design design = read_design(designs_path("marble_run_printed.yaml"));
   design.exports.formats = {ExportFormat::off};
   const Build built = build(design, place / "out", {}, {.report = false});
   REQUIRE(built.fabrication);
@@ -159,7 +159,7 @@ TEST_CASE(
     "fabrication: a timber ramp gives patterns, STEP, templates and a setting-out table with the levels of "
     "its edges") {
   const TempDir place;
-  Design design = load_design(designs_path("sand_ski_ramp_in_timber.yaml"));
+  Design design = read_design(designs_path("sand_ski_ramp_in_timber.yaml"));
   design.exports.formats = {ExportFormat::off};
   const Build built = build(design, place / "out", {}, {.report = false});
   REQUIRE(built.fabrication);
