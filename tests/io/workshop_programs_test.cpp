@@ -131,6 +131,10 @@ double volume_of(const MeshBody& /*body*/) {
 }
 
 /// Pappus and Guldin: area times the way of its centre.
+double volume_of(const MeshBody& body) {
+  return measure(body.mesh).volume;
+}
+
 double volume_of(const SweptBody& body) {
   ArcPath section{{}, true};
   for (const Vec2 corner : body.section) section.vertices.push_back({corner});

@@ -82,19 +82,21 @@ std::optional<std::vector<double>> joints_for(const PrintJob& job, PrintPose kin
 }
 
 /// What to say where no pose fits.
-InputError no_bed(const PrintJob& job) {
+InputError no_bed(const PrintJob& job, bool on_side) {
   const PrintSplit& split = job.options.split;
   const double width = job.face.high().x - job.face.low().x;
   const double height = job.face.high().y - job.face.low().y;
-  const double margin = 2.0 * split.bed.gap;
-  const std::string section = length_text(width) + " x " + length_text(height);
+  const double margin = 2.0 * split.bed.gap + 1e-3;
+  constexpr double kShort = 50e-3;  // a piece that is worth printing on its end [m]
+  const std::string bed =
+      on_side ? bed_text({height + margin, height + margin, width, 0.0}) + " for pieces on their side"
+              : bed_text({width + margin, height + margin, kShort, 0.0}) + " for pieces on a joint face";
   return InputError({"split.bed",
-                     "bed: " + bed_text(split.bed) + " is too small for the section of " + section,
+                     "bed: " + bed_text(split.bed) + " is too small for the section of " +
+                         length_text(width) + " x " + length_text(height),
                      "No piece of the track fits it, whichever way it lies, with a gap of " +
                          length_text(split.bed.gap) + " round it.",
-                     "a bed of at least " + length_text(std::max(height, 5e-3) + margin + 1e-3) + " x " +
-                         length_text(std::max(height, 5e-3) + margin + 1e-3) + " x " + length_text(width) +
-                         " for pieces on their side, or a smaller section"});
+                     "a bed of at least " + bed + ", or a smaller section"});
 }
 
 /// The least wall beside a hole, along its depth: the track bends away from it.
@@ -208,7 +210,7 @@ PrintPlan plan_prints(const PrintJob& job) {
     }
     return {kind, std::move(*joints)};
   }
-  throw no_bed(job);
+  throw no_bed(job, kinds.front() == PrintPose::side);
 }
 
 std::optional<Dowels> place_dowels(const PrintJob& job, const std::vector<double>& joints) {

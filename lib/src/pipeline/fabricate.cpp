@@ -57,16 +57,8 @@ WorkshopBuild make(const Design& design, const Track& track, const Placement& fr
                      body_of(design), design.gravity);
 }
 
-/// Ground as the design has it, x and z of the site, becomes run and height from the start.
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, TimberOptions options) {
-  if (options.legs) {
-    for (Vec2& point : options.legs->ground) {
-      const Vec2 from_start = in_track_plane(design.track, point);
-      point = {from_start.x, -from_start.y};
-    }
-    std::vector<Vec2>& ground = options.legs->ground;
-    if (ground.size() > 1 && ground.front().x > ground.back().x) std::reverse(ground.begin(), ground.end());
-  }
+  if (options.legs) options.legs->ground = in_plane(design.track, options.legs->ground);
   return make_timber(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
                      frame, body_of(design), design.gravity);
 }
