@@ -89,9 +89,9 @@ std::string search_text(const Track& track) {
   const OptimizeReport& search = *track.search;
   const bool optimal = search.status == OptimizeStatus::optimal;
   return emphasised(to_text(search.status), optimal ? Emphasis::good : Emphasis::bad) + ": " +
-         search.message + "\nfirst-order residual " + rounded_text(search.first_order_residual, 2) + ", " +
-         std::to_string(search.iterations) + " rounds, " + std::to_string(search.evaluations) +
-         " evaluations, " + rounded_text(search.seconds, 2) + " s";
+         search.message + "\n" + search.convergence_text() + ", " + std::to_string(search.iterations) +
+         " rounds, " + std::to_string(search.evaluations) + " evaluations, " +
+         rounded_text(search.seconds, 2) + " s";
 }
 
 }  // namespace

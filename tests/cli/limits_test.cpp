@@ -72,6 +72,7 @@ TEST_CASE("solve finds the fastest track within limits and reports every one of 
   CHECK(track["centerline"] == "fastest");
   CHECK(track["search"]["status"] == "optimal");
   CHECK(track["search"]["first_order_residual"].get<double>() <= 1e-6);
+  CHECK(track["search"]["finer_mesh_wins"].get<double>() <= 1e-6);
   CHECK(track["search"]["excess_over_unlimited"].get<double>() > 0.0);
   CHECK(track["search"]["rounds"].get<int>() > 0);
   CHECK(track["exit_slope_angle_deg"].get<double>() == Approx(11.0).epsilon(1e-6));

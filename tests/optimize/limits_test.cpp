@@ -53,6 +53,23 @@ TEST_CASE("a limit that does not bind changes nothing and costs nothing") {
   CHECK(optimum.report.active.empty());
 }
 
+TEST_CASE("a search tells what a finer mesh would win beside the residual of its own") {
+  Problem problem = slide(10.0, 5.0, 0.2);
+  CHECK(!solved(problem).report.finer_mesh_wins);
+  problem.limits.slope_angle.highest = 40.0 * kDegree;
+  problem.limits.smallest_valley_radius = 6.0;
+  const OptimizeReport report = solved(problem).report;
+  REQUIRE(report.finer_mesh_wins);
+  CHECK(*report.finer_mesh_wins >= 0.0);
+  CHECK(*report.finer_mesh_wins <= 1e-6);
+  CHECK(report.brief().find(", a finer mesh would win ") != std::string::npos);
+  // As a search on a mesh of many more pieces has it.
+  OptimizeOptions finer;
+  finer.pieces = 96;
+  const double time = optimize(problem, finer).report.travel_time;
+  CHECK(report.travel_time / time - 1.0 <= 10.0 * *report.finer_mesh_wins + 1e-7);
+}
+
 TEST_CASE("a slope of 20 deg cannot lead down a mean slope of 26.6 deg, and the report says what would") {
   Problem problem = slide(10.0, 5.0, 0.2);
   problem.limits.slope_angle.highest = 20.0 * kDegree;

@@ -210,6 +210,7 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
     report.exit_speed = best.judgement.exit_speed;
     report.checks = best.judgement.checks;
     report.first_order_residual = found.residual;
+    report.finer_mesh_wins = best.finer_mesh_wins;
     report.active = active_limits(*best.problem, priced(*best.problem, found, options, control));
     const bool converged = found.residual <= options.tolerance && !stopped;
     report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;

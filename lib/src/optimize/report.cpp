@@ -54,6 +54,15 @@ std::string conflict_text(const Conflict& conflict) {
   return text;
 }
 
+std::string OptimizeReport::convergence_text() const {
+  const std::string residual = "first-order residual " + rounded_text(first_order_residual, 2);
+  if (!finer_mesh_wins) return residual;
+  // Less than the accuracy of the referee's own quadrature is nothing.
+  constexpr double kNothing = 1e-10;
+  const std::string won = *finer_mesh_wins < kNothing ? "nothing" : rounded_text(*finer_mesh_wins, 2);
+  return residual + ", a finer mesh would win " + won;
+}
+
 std::string OptimizeReport::brief() const {
   std::string text = std::string(to_text(status)) + ": " + message + "\n";
   if (status == OptimizeStatus::optimal || status == OptimizeStatus::feasible_not_converged) {
@@ -70,7 +79,7 @@ std::string OptimizeReport::brief() const {
       if (!limit.where.empty()) text += ", " + places_text(limit.where);
       text += "\n";
     }
-    text += "first-order residual " + rounded_text(first_order_residual, 2) + "; ";
+    text += convergence_text() + "; ";
   }
   text += std::to_string(iterations) + " rounds, " + std::to_string(evaluations) + " evaluations, " +
           rounded_text(1e3 * seconds, 3) + " ms\n";

@@ -247,6 +247,7 @@ std::optional<Found> Searcher::rescued(const ScaledProblem& problem, const Mesh&
 
 void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
   const ScaledProblem& problem = *candidate.problem;
+  finer_mesh_wins_.reset();
   if (!unlimited) {
     found = on_finer_meshes(problem, std::move(found));
     if (!found.stopped) found = followed(problem, std::move(found));
@@ -330,6 +331,7 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
   constexpr double kKept = 0.1;             // taste
   for (int round = 0; round < kMostRounds; ++round) {
     const Remainder left = remainder_of(problem, found, control_);
+    finer_mesh_wins_ = left.objective / std::fabs(found.objective);
     if (left.objective <= left_at_most * std::fabs(found.objective)) break;
     if (found.track->mesh().knots.size() > kMostPieces) break;
     const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
@@ -356,6 +358,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
     const bool better = !candidate.found || (kept && !candidate.kept) ||
                         (kept == candidate.kept && found.objective < candidate.found->objective);
     if (better) {
+      candidate.finer_mesh_wins = finer_mesh_wins_;
       candidate.found = found;
       candidate.track = track;
       candidate.judgement = judgement;

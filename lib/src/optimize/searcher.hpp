@@ -23,6 +23,7 @@ struct Candidate {
   referee::Judgement judgement;
   bool kept = false;  ///< the referee finds every limit kept
   bool stopped = false;
+  std::optional<double> finer_mesh_wins;  ///< as in OptimizeReport
 };
 
 /// Searches coarse to fine, and goes on until the referee finds the limits kept.
@@ -87,7 +88,8 @@ class Searcher {
   const OptimizeOptions& options_;
   SearchControl& control_;
   const Progress& progress_;
-  Vector margins_;  ///< by which the limits are tightened, in scales
+  std::optional<double> finer_mesh_wins_;  ///< as last looked at
+  Vector margins_;                         ///< by which the limits are tightened, in scales
 };
 
 }  // namespace glissade::optimizer

@@ -142,8 +142,7 @@ ReportCheck limits(const std::vector<ReportLimit>& limits) {
 ReportCheck search(const Design& design, const OptimizeReport& search) {
   const bool optimal = search.status == OptimizeStatus::optimal;
   return {design.limits ? "Fastest within the limits" : "Fastest, searched for", verdict(optimal),
-          std::string(to_text(search.status)) + ": first-order residual " +
-              rounded_text(search.first_order_residual, 2)};
+          std::string(to_text(search.status)) + ": " + search.convergence_text()};
 }
 
 std::vector<ReportLimit> limits_of(const Track& track) {

@@ -89,6 +89,9 @@ struct OptimizeReport {
   /// Norm of the Lagrangian's gradient over that of the objective's, both in the metric of the Lagrangian's
   /// Hessian; dimensionless. Half its square is about the relative time that could still be won nearby.
   double first_order_residual = 0.0;
+  /// What a mesh of halved pieces promises to win, as a share of the objective, to second order: the residual is that
+  /// of one mesh, and knows nothing of it. None where that was not looked at: without limits, or stopped early.
+  std::optional<double> finer_mesh_wins;
   std::vector<LimitCheck> checks;   ///< one for each limit, sampled by the referee ten times finer
   std::vector<ActiveLimit> active;  ///< by name
   /// Of a problem without a track. Where it is not called infeasible: what the closest track breaks, and what
@@ -102,6 +105,8 @@ struct OptimizeReport {
 
   /// @return a few lines for people
   [[nodiscard]] std::string brief() const;
+  /// @return "first-order residual 1.4e-11, a finer mesh would win 2.1e-07"
+  [[nodiscard]] std::string convergence_text() const;
 };
 
 /// What optimize() found.

@@ -164,6 +164,7 @@ Json search_json(const OptimizeReport& report) {
                                       ? number(report.travel_time / *report.unlimited_travel_time - 1.0)
                                       : Json(nullptr);
   json["first_order_residual"] = found ? number(report.first_order_residual) : Json(nullptr);
+  json["finer_mesh_wins"] = found ? number(report.finer_mesh_wins) : Json(nullptr);
   json["active"] = Json::array();
   for (const ActiveLimit& active : report.active)
     json["active"].push_back(active_json(active, report.objective));
