@@ -53,16 +53,17 @@ std::filesystem::path directory_of(const Options& options) {
   return std::filesystem::path("out") / std::filesystem::path(options.design).stem();
 }
 
-Build built(const Design& design, const Options& options, const std::stop_token& stop) {
+Build built(const Design& design, const Options& options, RunContext context) {
   ProgressLine progress(options.verbosity);
-  return build(design, directory_of(options), {progress.callback(), stop, options.time_budget.seconds()},
-               {.report = !options.no_report});
+  context.progress = progress.callback();
+  context.time_budget = options.time_budget.seconds();
+  return build(design, directory_of(options), context, {.report = !options.no_report});
 }
 
 ExitCode build_once(const Options& options) {
   const Design design = read_design(options.design, options.overrides.values());
   const Interrupt interrupt;
-  const Build made = built(design, options, interrupt.token());
+  const Build made = built(design, options, interrupt.context({}));
   if (options.json) {
     print(build_json(design, made));
   } else if (!options.verbosity.quiet()) {
@@ -74,9 +75,9 @@ ExitCode build_once(const Options& options) {
 }
 
 /// @return one line about what was built
-std::string rebuilt(const Options& options, const std::stop_token& stop) {
+std::string rebuilt(const Options& options, const RunContext& context) {
   const Design design = read_design(options.design, options.overrides.values());
-  const Build made = built(design, options, stop);
+  const Build made = built(design, options, context);
   print_warnings(warnings(design, made.track));
   if (const auto problem = search_problem(design, made.track)) print_problem(ConvergenceError(*problem));
   return "travel time " + time_text(made.track.motion.travel_time()) + ", exit speed " +
@@ -87,7 +88,7 @@ std::string rebuilt(const Options& options, const std::stop_token& stop) {
 ExitCode build_design(const Options& options) {
   if (!options.watch) return build_once(options);
   return watch({options.design, options.overrides,
-                [&](const std::stop_token& stop) { return rebuilt(options, stop); },
+                [&](const RunContext& context) { return rebuilt(options, context); },
                 options.verbosity.quiet()});
 }
 

@@ -319,7 +319,7 @@ ExitCode compare(const Options& options) {
   const Comparison comparison = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
-    const RunContext context{progress.callback(), interrupt.token(), options.time_budget.seconds()};
+    const RunContext context = interrupt.context(progress.callback(), options.time_budget.seconds());
     Comparison made = comparison_of(options, design, frictions, context);
     write_figures(options, design, made, context);
     return made;

@@ -6,11 +6,14 @@
 #include "app/exit_code.hpp"
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 namespace glissade::app {
@@ -39,6 +42,13 @@ void set_handler(int signal, void (*handler)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
+/// @return what this process has spent on processors [s]
+double processor_time() {
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// Ends the program wherever the work is; nothing half written stays.
 [[noreturn]] void end_at_once() {
   discard_unfinished();
@@ -51,15 +61,30 @@ void set_handler(int signal, void (*handler)(int)) {
 
 Interrupt::Interrupt() {
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return;  // then a signal ends the program as usual
-  listener_ = std::thread([this] {
-    char message = 0;
-    while (::read(pipe_ends[0], &message, 1) == 1 && message != 'e') {
-      if (message == 't' || source_.stop_requested()) end_at_once();
-      source_.request_stop();
-    }
-  });
+  listener_ = std::thread([this] { listen(); });
   set_handler(SIGINT, on_interrupt);
   set_handler(SIGTERM, on_termination);
+}
+
+void Interrupt::listen() {
+  // Of processor time, so that a machine that does much else takes nothing away.
+  constexpr double kPatience = 0.12;  // [s]
+  constexpr int kLook = 10;           // [ms]
+  double asked = 0.0;
+  while (true) {
+    pollfd incoming{pipe_ends[0], POLLIN, 0};
+    const int ready = ::poll(&incoming, 1, source_.stop_requested() && !goes_on_ ? kLook : -1);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) {
+      if (!goes_on_ && processor_time() - asked > kPatience) end_at_once();
+      continue;
+    }
+    char message = 0;
+    if (::read(pipe_ends[0], &message, 1) != 1 || message == 'e') return;
+    if (message == 't' || source_.stop_requested()) end_at_once();
+    asked = processor_time();
+    source_.request_stop();
+  }
 }
 
 Interrupt::~Interrupt() {

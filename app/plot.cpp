@@ -102,7 +102,7 @@ ExitCode plot(const Options& options) {
   const Design design = options.input.design();
   const Interrupt interrupt;
   ProgressLine progress(options.verbosity);
-  const Track track = solve(design, {progress.callback(), interrupt.token()});
+  const Track track = solve(design, interrupt.context(progress.callback()));
   std::vector<Figure> figures;
   for (const RideQuantity quantity : quantities) {
     figures.push_back(figure_of(quantity, design, track));

@@ -89,7 +89,7 @@ ExitCode draw_profile(const Options& options) {
   const Track track = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
-    return solve(design, {progress.callback(), interrupt.token()});
+    return solve(design, interrupt.context(progress.callback()));
   }();
   const std::size_t stations = coordinate_table(design, track, wanted).size();
   const std::filesystem::path folder = options.directory.empty()

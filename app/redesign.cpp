@@ -165,7 +165,7 @@ ExitCode show_redesign(const Options& options) {
   const Redesign found = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
-    return redesign(design, asked, {progress.callback(), interrupt.token(), options.time_budget.seconds()});
+    return redesign(design, asked, interrupt.context(progress.callback(), options.time_budget.seconds()));
   }();
   write_design(options, design, found);
   if (options.json) {

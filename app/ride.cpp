@@ -89,7 +89,7 @@ ExitCode ride_track(const Options& options) {
   const Track track = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
-    return solve(design, {progress.callback(), interrupt.token(), options.time_budget.seconds()});
+    return solve(design, interrupt.context(progress.callback(), options.time_budget.seconds()));
   }();
   std::vector<Track> rides;
   rides.reserve(frictions.size());

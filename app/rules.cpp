@@ -101,8 +101,8 @@ ExitCode judge_design(const Options& options) {
   const std::vector<Judgement> judgements = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
-    return judge_rules(
-        design, solve(design, {progress.callback(), interrupt.token(), options.time_budget.seconds()}));
+    return judge_rules(design,
+                       solve(design, interrupt.context(progress.callback(), options.time_budget.seconds())));
   }();
   if (options.json) {
     print(verdicts_json(design, judgements));

@@ -46,7 +46,7 @@ struct Options {
 Track solved(const Design& design, const Options& options) {
   const Interrupt interrupt;
   ProgressLine progress(options.verbosity);
-  return solve(design, {progress.callback(), interrupt.token(), options.time_budget.seconds()});
+  return solve(design, interrupt.context(progress.callback(), options.time_budget.seconds()));
 }
 
 void require_sound(const Design& design, const Track& track) {

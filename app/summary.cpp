@@ -245,7 +245,8 @@ std::string build_summary(const Design& design, const Build& build) {
   const std::string verdict = emphasised("proven", Emphasis::good) +
                               ": watertight, one piece, facing outward, no self-intersection,\n"
                               "no degenerate facet; measured at the precision of each file, each read back";
-  return track_summary(design, build.track) + "\n" + labelled("Solid", solid_lines(design, build)) +
+  return track_summary(design, build.track) + "\n" +
+         (build.has_solid() ? labelled("Solid", solid_lines(design, build)) : std::string()) +
          labelled("Mesh", verdict) + "\n" +
          (build.fabrication ? parts_lines(*build.fabrication) + "\n" : "") +
          labelled("Files", file_lines(build.files)) + earlier_file_lines(build);

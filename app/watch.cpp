@@ -42,16 +42,16 @@ std::string names_of(const FileWatch& files) {
 }
 
 /// @return what to say of it: what was made, or that nothing was
-std::string made(const Watched& watched, const FileWatch& files, const std::stop_token& stop) {
+std::string made(const Watched& watched, const FileWatch& files, const RunContext& context) {
   try {
     const auto start = std::chrono::steady_clock::now();
-    const std::string line = watched.make(stop);
+    const std::string line = watched.make(context);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     return "built in " + rounded_text(taken.count(), 2) + " s: " + line;
   } catch (const InternalError&) {
     throw;  // a defect of ours is no matter of the next change
   } catch (const Error& error) {
-    if (!stop.stop_requested()) print_problem(error);
+    if (!context.stop.stop_requested()) print_problem(error);
     return "not built; waiting for a change of " + names_of(files);
   }
 }
@@ -70,7 +70,7 @@ ExitCode watch(const Watched& watched) {
     add_data_files(files, watched, data_files);
     if (first && !watched.quiet) print_error("glissade: watching " + names_of(files) + "; Ctrl-C ends it\n");
     first = false;
-    const std::string line = made(watched, files, stop);
+    const std::string line = made(watched, files, interrupt.context({}));
     if (stop.stop_requested()) return ExitCode::interrupted;
     if (!watched.quiet) print(time_of_day() + "  " + line + "\n");
     if (!files.wait(stop)) return ExitCode::interrupted;

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "glissade/pipeline/solve.hpp"
+
 #include "app/exit_code.hpp"
 #include "app/track_input.hpp"
 
 #include <filesystem>
 #include <functional>
-#include <stop_token>
 #include <string>
 
 namespace glissade::app {
@@ -15,7 +16,7 @@ struct Watched {
   std::filesystem::path design;
   const Overrides& overrides;
   /// Makes it. @return one line about what was made; throws as a command does
-  std::function<std::string(const std::stop_token&)> make;
+  std::function<std::string(const RunContext&)> make;
   bool quiet = false;
 };
 

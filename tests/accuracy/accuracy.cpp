@@ -404,10 +404,10 @@ Section noisy_profiles() {
       "the noise allows (relative)",
       {}};
   for (const Family& family : broken_families()) {
-    for (const int count : {100, 1000}) {
-      add_broken(section, family, count, kNoise, count > 500 ? 3 : 10, 0.02, 0.01);
-      add_allowed(section, family, count, kNoise, 0.02, 0.01);
-    }
+    add_broken(section, family, 100, kNoise, 10, 0.03, 0.015);
+    add_allowed(section, family, 100, kNoise, 0.03, 0.015);
+    add_broken(section, family, 1000, kNoise, 3, 0.005, 0.003);
+    add_allowed(section, family, 1000, kNoise, 0.005, 0.003);
   }
   return section;
 }

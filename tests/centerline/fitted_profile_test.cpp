@@ -269,3 +269,13 @@ TEST_CASE("what no track can follow is refused by the number of the point") {
              Contains("point 2 (2, 1)") && Contains("turns back on itself"));
   CHECK_THAT(refusal({{0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}, {-1.0}), Contains("max_deviation: -1 m"));
 }
+
+TEST_CASE("nothing is left out of exact points of a straight, upright or not") {
+  for (const Vec2 way : {Vec2{0.0, 1.0}, Vec2{3.0, 1.0}, Vec2{1.0 / 3.0, 0.1}}) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 7; ++i) points.push_back(0.7 * i * way);
+    const FittedProfile profile(points);
+    CHECK_FALSE(profile.leaves_out_much());
+    CHECK(profile.rms_deviation() < 1e-14);
+  }
+}

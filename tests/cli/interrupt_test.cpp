@@ -69,7 +69,9 @@ Ending interrupted(const std::vector<std::string>& arguments, const fs::path& pl
 
 /// The steps that --verbose tells, one of each kind of file, but the last, which may be over before a signal arrives.
 std::vector<std::string> steps_of(const std::vector<std::string>& arguments, const fs::path& place) {
-  const Outcome whole = glissade_run(arguments, {.directory = place});
+  RunLimits limits;
+  limits.directory = place;
+  const Outcome whole = glissade_run(arguments, limits);
   std::istringstream lines(whole.errors);
   std::vector<std::string> steps;
   std::set<std::string> endings;
@@ -97,7 +99,7 @@ std::vector<std::string> leftovers(const fs::path& place) {
 const std::vector<std::vector<std::string>>& builds() {
   static const std::vector<std::vector<std::string>> kBuilds = {
       {"build", shipped("grain_chute_fabricated"), "-v", "-o", "made"},
-      {"build", shipped("toboggan_run"), "-v", "-o", "made", "--set", "mesh.tolerance=0.05 mm", "--set",
+      {"build", shipped("powder_chute"), "-v", "-o", "made", "--set", "mesh.tolerance=0.05 mm", "--set",
        "export=[stl, stl-ascii, off, scad, csv]"}};
   return kBuilds;
 }
@@ -138,10 +140,10 @@ TEST_CASE("SIGTERM ends a search at once, Ctrl-C ends it with the best track so 
   const std::vector<std::string> arguments = {"solve", shipped("ski_jump_inrun_with_limits"), "-v", "--set",
                                               "body.drag=0.002 1/m"};
   const TempDir place;
-  const Ending terminated = interrupted(arguments, place.path(), "finding the track", SIGTERM);
+  const Ending terminated = interrupted(arguments, place.path(), "finer track", SIGTERM);
   CHECK(terminated.exit_code == 130);
   CHECK(terminated.time <= kPatience);
-  const Ending ended = interrupted(arguments, place.path(), "finding the track", SIGINT);
+  const Ending ended = interrupted(arguments, place.path(), "finer track", SIGINT);
   CHECK((ended.exit_code == 4 || ended.exit_code == 0));
   CHECK(ended.time <= kPatience);
 }
@@ -158,4 +160,17 @@ TEST_CASE("a second Ctrl-C ends a build at once, whatever it is at") {
   CHECK(running.end_by(SIGINT) == 130);
   CHECK(time_of_children() - others - before <= kPatience);
   CHECK(leftovers(place.path()).empty());
+}
+
+TEST_CASE("a sweep of searches ends at once and goes on where it was") {
+  const TempDir place;
+  const std::vector<std::string> arguments = {
+      "sweep", shipped("grain_chute_with_limits"), "--vary", "body.entry_speed=0m/s:2m/s:400", "-o", "swept",
+      "-v"};
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Ending ending = interrupted(arguments, place.path(), "computing points", signal);
+    INFO(ending.errors);
+    CHECK(ending.exit_code == 130);
+    CHECK(ending.time <= kPatience);
+  }
 }

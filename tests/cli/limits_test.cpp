@@ -197,6 +197,19 @@ TEST_CASE("limits that contradict each other are named with the smallest relaxat
   }
 }
 
+TEST_CASE("of a waypoint out of reach it is told by how far it would have to move") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\nbody: "
+      "{friction_coefficient: 0.2}\n"
+      "limits: {waypoints: [[5 m, 6 m]]}\n");
+  const Outcome outcome = solve(file, {});
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors,
+             Contains("waypoints[0] and arrival at the finish cannot be met together; it would take "
+                      "waypoints[0] moved by ") &&
+                 Contains("Try: waypoints[0] moved by "));
+}
+
 TEST_CASE("a mirrored track has the same time, prices and places as its image") {
   const std::string right =
       "glissade: 1\n"

@@ -1,14 +1,18 @@
 #include "glissade/io/atomic_file.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/io/unfinished.hpp"
 
 #include "support/catch.hpp"
 #include "support/file_size_limit.hpp"
 #include "support/temp_dir.hpp"
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 using namespace glissade;
@@ -217,4 +221,46 @@ TEST_CASE("use after commit is a defect of the caller") {
   CHECK_THROWS_AS(file.write("more"), InternalError);
   CHECK_THROWS_AS(file.commit(), InternalError);
   CHECK(bytes_of(dir / "out.txt").empty());
+}
+
+TEST_CASE("what killed processes left goes with the next file of its directory, what others write stays") {
+  const TempDir dir;
+  put_bytes(dir / ".glissade-4194303-7.part", "left behind");
+  put_bytes(dir / ".glissade-notes.part", "somebody's own");
+  AtomicFile here(dir / "a.txt");
+  here.write("a");
+  CHECK_FALSE(std::filesystem::exists(dir / ".glissade-4194303-7.part"));
+  CHECK(std::filesystem::exists(dir / ".glissade-notes.part"));
+  // As another process would: the one that is being written is locked.
+  AtomicFile::remove_abandoned(dir.path());
+  here.commit();
+  CHECK(bytes_of(dir / "a.txt") == "a");
+  CHECK(dir.names().size() == 2);
+}
+
+TEST_CASE("a program that ends takes away what is not finished") {
+  const TempDir dir;
+  // In a process of its own: nothing is given its name after that.
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    AtomicFile finished(dir / "finished.txt");
+    finished.write("whole");
+    finished.commit();
+    AtomicFile half(dir / "half.txt");
+    half.write("half");
+    std::filesystem::create_directories(dir / "made" / "new");
+    put_bytes(dir / "made" / "new" / "x", "x");
+    std::filesystem::create_directories(dir / "kept");
+    std::filesystem::create_directories(dir / "empty");
+    put_bytes(dir / "kept" / "own", "own");
+    const Unfinished made(dir / "made");
+    const Unfinished kept(dir / "kept", Unfinished::Kind::if_empty);
+    const Unfinished empty(dir / "empty", Unfinished::Kind::if_empty);
+    discard_unfinished();
+    ::_exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK(dir.names() == std::vector<std::string>{"finished.txt", "kept"});
 }

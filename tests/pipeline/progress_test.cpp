@@ -1,14 +1,52 @@
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/json.hpp"
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 using namespace glissade;
+
+TEST_CASE("the progress of a build goes on from its search to its files") {
+  const TempDir place;
+  const Design design = read_design(designs_path("ski_jump_inrun_with_limits.yaml"));
+  std::vector<double> fractions;
+  RunContext context;
+  context.progress = [&](std::string_view, std::optional<double> fraction) {
+    if (fraction) fractions.push_back(*fraction);
+  };
+  static_cast<void>(build(design, place.path(), context));
+  REQUIRE(fractions.size() > 5);
+  CHECK(fractions.front() == 0.0);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(fractions.back() < 1.0);
+}
+
+TEST_CASE("a design without a cross-section that exports csv alone is built: stations and report") {
+  const TempDir place;
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2}\nexport: [csv]\n",
+      "track.yaml");
+  const Build built = build(design, place.path());
+  REQUIRE(built.files.size() == 2);
+  CHECK_FALSE(built.has_solid());
+  CHECK(built.files[0].path.filename() == "track.csv");
+  CHECK(bytes_of(built.files[0].path).find("arc_length_m") != std::string::npos);
+  CHECK(bytes_of(built.files[1].path).find("</html>") != std::string::npos);
+  CHECK(built.parts.empty());
+  CHECK(nlohmann::json::parse(build_json(design, built)).at("mesh").is_null());
+  const TempDir again;
+  const Build plain = build(design, again.path(), {}, {.report = false});
+  CHECK(bytes_of(plain.files.at(0).path) == bytes_of(built.files[0].path));
+}
 
 TEST_CASE("a build tells each step and what part of the work is done, from none to less than all") {
   const TempDir place;

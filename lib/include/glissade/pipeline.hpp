@@ -56,14 +56,17 @@ struct PendingFile {
 struct Assembly {
   std::string stem;  ///< of the files' names, and the owner of the files: that of the design file
   Track track;
-  CrossSection section;
-  std::vector<Part> parts;         ///< the swept solid first
-  std::vector<PendingFile> files;  ///< in the order in which they are written and told
+  std::optional<CrossSection> section;  ///< none where only files of the track are asked for
+  std::vector<Part> parts;              ///< the swept solid first, where there is one
+  std::vector<PendingFile> files;       ///< in the order in which they are written and told
   std::shared_ptr<const WorkshopBuild>
       fabrication;          ///< what a workshop makes; null where the design asks for none
   double cost = 0.0;        ///< of what has been done, in units of PendingFile::cost
   double total_cost = 1.0;  ///< of that and all files
 
+  /// @return false where only files of the track are made, for which no cross-section is needed
+  [[nodiscard]] bool has_solid() const { return section.has_value(); }
+  /// The swept solid, which there is if has_solid().
   [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
 };
 
@@ -76,8 +79,8 @@ struct WrittenFile {
 /// A build on disk.
 struct Build {
   Track track;
-  CrossSection section;
-  std::vector<Part> parts;  ///< the swept solid first
+  std::optional<CrossSection> section;  ///< none where only files of the track were asked for
+  std::vector<Part> parts;              ///< the swept solid first, where there is one
   std::shared_ptr<const WorkshopBuild>
       fabrication;                 ///< what a workshop makes; null where the design asks for none
   std::vector<WrittenFile> files;  ///< all of them, the report last
@@ -86,6 +89,9 @@ struct Build {
   /// Files in the way that no build of this design wrote, or that were changed since: by their new names.
   std::vector<std::filesystem::path> set_aside;
 
+  /// @return false where only files of the track are made, for which no cross-section is needed
+  [[nodiscard]] bool has_solid() const { return section.has_value(); }
+  /// The swept solid, which there is if has_solid().
   [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
 };
 
@@ -95,8 +101,8 @@ struct BuildOptions {
 };
 
 /// Makes and proves everything of a build in memory; touches no disk.
-/// @throws InputError if the design has no cross_section or the section cannot follow the track; InfeasibleError if
-///         the body does not arrive or a limit is broken; Interrupted if the context's stop token asks for it;
+/// @throws InputError if the design has no cross_section and asks for more than stations of the track (csv), or the
+///         section cannot follow the track; InfeasibleError if the body does not arrive or a limit is broken; Interrupted if the context's stop token asks for it;
 ///         InternalError if a mesh turns out faulty
 [[nodiscard]] Assembly assemble(const Design& design, Track track, const RunContext& context = {},
                                 const BuildOptions& options = {});
@@ -114,7 +120,7 @@ struct BuildOptions {
 /// A hidden list, .NAME.sha256, tells which files are the design's. Those that an earlier build wrote and this one
 /// does not are removed, unless somebody changed them since; what is in the way and is not the design's keeps its
 /// bytes as FILE.kept. Files of other designs are left alone.
-/// @throws as solve(); InputError if the design has no cross_section or the section cannot follow the track;
+/// @throws as solve(); InputError as assemble();
 ///         InfeasibleError if the body does not arrive or a limit is broken; FileError if a file cannot be
 ///         written; Interrupted if the context's stop token asks for it; InternalError if a mesh turns out
 ///         faulty

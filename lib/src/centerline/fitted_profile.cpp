@@ -153,7 +153,9 @@ FittedProfile::FittedProfile(Fitted fitted)
     const double away = (chord.x * point.y - chord.y * point.x) / norm(chord);
     bulge += away * away;
   }
-  rms_bulge_ = std::sqrt(bulge / static_cast<double>(points_.size()));
+  // A straight has no shape of its own: rounding leaves nothing out of it.
+  constexpr double kRounding = 1e-12;
+  rms_bulge_ = std::max(std::sqrt(bulge / static_cast<double>(points_.size())), kRounding * norm(chord));
 }
 
 }  // namespace glissade

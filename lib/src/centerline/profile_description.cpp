@@ -32,7 +32,7 @@ constexpr int kMostTrials = 40;
 // So many points, means of neighbours, decide what the pieces are; all of them, how long and how curved.
 constexpr std::size_t kMostDeciding = 300;
 
-// What a jump of curvature costs that could be none, in numbers, beside the number itself.
+// What a jump of curvature at a clothoid or another bend costs, in numbers, beside the number itself.
 constexpr double kPriceOfJump = 1.0;
 
 enum class Change { tie, simpler, merge };
@@ -135,19 +135,21 @@ std::vector<Simplification> simplifications(const PieceFit& fit) {
   return steps;
 }
 
-/// Jumps of curvature where it could go over evenly.
-std::size_t avoidable_jumps(const PiecewiseProfile& profile) {
+/// Whether curvature goes over evenly from one piece to the next: a cubic bend has none at its straight end.
+bool goes_over_evenly(const ProfilePiece& before, const ProfilePiece& piece) {
+  if (piece.tied) return true;
+  const bool begins = piece.shape == PieceShape::cubic && !piece.backwards();
+  const bool ends = before.shape == PieceShape::cubic && before.backwards();
+  return (begins && before.shape == PieceShape::straight) || (ends && piece.shape == PieceShape::straight);
+}
+
+/// Jumps of curvature but those from arc to straight or arc, which are a way of building.
+std::size_t jumps_of(const PiecewiseProfile& profile) {
   std::size_t count = 0;
   for (std::size_t k = 1; k < profile.pieces.size(); ++k) {
     const ProfilePiece& before = profile.pieces[k - 1];
     const ProfilePiece& piece = profile.pieces[k];
-    const bool into_curve = before.shape == PieceShape::cubic && !before.backwards();
-    const bool out_of_curve = piece.shape == PieceShape::cubic && piece.backwards();
-    const bool can_tie = before.shape == PieceShape::cubic || piece.shape == PieceShape::cubic
-                             ? (into_curve && piece.shape == PieceShape::arc) ||
-                                   (out_of_curve && before.shape == PieceShape::arc)
-                             : !before.constant() || !piece.constant();
-    if (can_tie && !piece.tied) ++count;
+    if ((!before.constant() || !piece.constant()) && !goes_over_evenly(before, piece)) ++count;
   }
   return count;
 }
@@ -156,7 +158,7 @@ std::size_t avoidable_jumps(const PiecewiseProfile& profile) {
 double turn_of(const std::vector<ProfilePiece>& pieces, std::size_t from, std::size_t to) {
   double turn = 0.0;
   for (std::size_t k = from; k < to; ++k) {
-    // Swellings beyond the second turn as much one way as the other, but for the third's third part.
+    // The first and the third swelling turn the track, the others as much one way as the other.
     const ProfilePiece& piece = pieces[k];
     double mean = 0.5 * (piece.entry_curvature + piece.exit_curvature);
     if (piece.swellings > 0) mean += piece.swelling[0] * 2.0 / 3.0;
@@ -261,7 +263,7 @@ double freedom_of(const PieceFit& fit) {
 }
 
 double jump_prices_of(const PieceFit& fit) {
-  return kPriceOfJump * static_cast<double>(avoidable_jumps(fit.profile()));
+  return kPriceOfJump * static_cast<double>(jumps_of(fit.profile()));
 }
 
 class Describer {

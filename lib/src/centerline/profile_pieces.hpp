@@ -41,7 +41,7 @@ struct ProfilePiece {
   bool tied = false;             // begins with the curvature with which the piece before it ends
   std::size_t swellings = 0;  // of a bend, at least 1: its curvature is a polynomial of degree 1 + swellings
   std::array<double, kMostSwellings> swelling{};  // [1/m]
-  CubicShape cubic = {};                          // of a cubic bend, as settle_cubic() finds it
+  CubicShape cubic{};                             // of a cubic bend, as settle_cubic() finds it
 
   [[nodiscard]] bool constant() const { return shape == PieceShape::straight || shape == PieceShape::arc; }
   /// Whether a cubic bend begins with its curvature and ends without.

@@ -62,8 +62,9 @@ std::optional<mode_t> replaceable_mode(const std::filesystem::path& target,
   return status.st_mode & kPermissionBits;
 }
 
-/// Removes the siblings that killed processes left in a directory: those that nobody has locked.
-void remove_abandoned(const std::filesystem::path& directory) {
+}  // namespace
+
+void AtomicFile::remove_abandoned(const std::filesystem::path& directory) {
   static const std::regex kName(R"(\.glissade-[0-9]+-[0-9]+\.part)");
   std::error_code error;
   const std::filesystem::path place = directory.empty() ? std::filesystem::path(".") : directory;
@@ -79,12 +80,14 @@ void remove_abandoned(const std::filesystem::path& directory) {
   }
 }
 
-/// The same, once a directory: a sweep writes thousands of files into one.
+namespace {
+
+/// Once a directory: a sweep writes thousands of files into one.
 void remove_abandoned_once(const std::filesystem::path& directory) {
   static std::mutex mutex;
   static std::set<std::filesystem::path> known;
   const std::scoped_lock lock(mutex);
-  if (known.insert(directory).second) remove_abandoned(directory);
+  if (known.insert(directory).second) AtomicFile::remove_abandoned(directory);
 }
 
 /// @return whether the file is this process's own: no other takes it for abandoned, nor has done so

@@ -5,6 +5,7 @@
 #include "glissade/core/words.hpp"
 #include "glissade/optimize/optimize.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -38,18 +39,35 @@ std::string_view to_text(OptimizeStatus status) {
   return "unknown";
 }
 
+namespace {
+
+/// The bound that would do; of a place in the way by how much it would have to lie elsewhere.
+std::string relaxed_text(const Relaxation& relaxation) {
+  const LimitId id = relaxation.limit.id;
+  const std::string key = relaxation.limit.key();
+  if (id == LimitId::waypoints) return key + " moved by " + length_text(std::fabs(relaxation.needed));
+  const bool place = id == LimitId::half_planes || id == LimitId::keep_outs || id == LimitId::stay_above ||
+                     id == LimitId::stay_below;
+  if (place && relaxation.needed < 0.0) {
+    return key + " moved away by " + length_text(relaxation.value - relaxation.needed);
+  }
+  return key + " " + quantity_text(relaxation.needed, relaxation.limit.dimension());
+}
+
+}  // namespace
+
 std::string conflict_text(const Conflict& conflict) {
   std::vector<std::string> words;
   for (const StatedLimit& stated : conflict.limits) {
     std::string word = stated.limit.key();
-    if (stated.value) word += " " + quantity_text(*stated.value, stated.limit.dimension());
+    if (stated.value && stated.limit.id != LimitId::waypoints)
+      word += " " + quantity_text(*stated.value, stated.limit.dimension());
     words.push_back(std::move(word));
   }
   std::string text = listed(words) + (words.size() == 1 ? " cannot be met" : " cannot be met together");
   for (std::size_t i = 0; i < conflict.relaxations.size(); ++i) {
     const Relaxation& relaxation = conflict.relaxations[i];
-    text += (i == 0 ? "; it would take " : ", or ") + relaxation.limit.key() + " " +
-            quantity_text(relaxation.needed, relaxation.limit.dimension());
+    text += (i == 0 ? "; it would take " : ", or ") + relaxed_text(relaxation);
   }
   return text;
 }

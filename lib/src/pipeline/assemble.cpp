@@ -336,6 +336,25 @@ void add_data_sheet(const Design& design, const Track& track, const std::string&
   files.push_back(std::move(file));
 }
 
+/// What the files of the track alone need: no section, no solid.
+Assembly assemble_track(const Design& design, Track track, const BuildOptions& options) {
+  std::string stem = stem_of(design);
+  std::vector<PendingFile> files;
+  const auto shared = std::make_shared<const Track>(track);
+  for (const ExportFormat format : design.exports.formats) {
+    PendingFile file;
+    file.name = file_name(stem, format, design.exports.formats);
+    file.cost = format_writer(format).cost;
+    file.write = [shared](const std::filesystem::path& path, const std::stop_token& /*stop*/) {
+      write_track_csv(path, *shared);
+    };
+    files.push_back(std::move(file));
+  }
+  add_gates(track, stem, files);
+  const double total = cost_of_files(design.exports.formats, options);
+  return {std::move(stem), std::move(track), {}, {}, std::move(files), nullptr, 0.0, total};
+}
+
 }  // namespace
 
 Assembly assemble(const Design& given, Track track, const RunContext& context, const BuildOptions& options) {
@@ -343,6 +362,7 @@ Assembly assemble(const Design& given, Track track, const RunContext& context, c
   require_cross_section(design);
   if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
   if (const auto problem = limits_problem(design, track)) throw InfeasibleError(*problem);
+  if (tells_of_track_alone(design)) return assemble_track(design, std::move(track), options);
 
   const std::vector<ExportFormat>& formats = design.exports.formats;
   const double solids = design.hood ? 2.0 : 1.0;

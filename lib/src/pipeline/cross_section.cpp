@@ -1,5 +1,6 @@
 #include "pipeline/cross_section.hpp"
 
+#include "glissade/core/file_format.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
@@ -50,13 +51,21 @@ std::string section_in_words(const CrossSectionDesign& section) {
   return text;
 }
 
+bool tells_of_track_alone(const Design& design) {
+  const std::vector<ExportFormat>& formats = design.exports.formats;
+  return !design.cross_section && !design.fabrication && !formats.empty() &&
+         std::all_of(formats.begin(), formats.end(), [](ExportFormat format) {
+           return file_format(format).content == FileContent::stations;
+         });
+}
+
 void require_cross_section(const Design& design) {
-  if (design.cross_section) return;
+  if (design.cross_section || tells_of_track_alone(design)) return;
   throw InputError(
       {design.where("cross_section"), "there is no cross_section to make a solid of",
        "A build sweeps a cross-section along the centerline.",
        "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}, or "
-       "'glissade solve' for the track alone"});
+       "export: [csv], which tells of the track alone"});
 }
 
 }  // namespace pipeline

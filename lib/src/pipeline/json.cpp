@@ -247,16 +247,27 @@ std::string conflict_json(const Design& design, const OptimizeReport& report) {
   return document_text(conflict_document(design, report));
 }
 
+namespace pipeline {
+namespace {
+
+Json solid_json(const ProvenSolid& swept) {
+  Json json = report::mesh_json(swept.facts);
+  // Of a mesh that is known to follow a solid, the volume is that solid's.
+  json["volume_m3"] = swept.solid.exact_volume;
+  json["mesh_volume_m3"] = swept.facts.volume;
+  json["max_deviation_m"] = swept.max_deviation;
+  const Vec3 offset = swept.offset.value_or(Vec3{});
+  json["offset_m"] = {offset.x, offset.y, offset.z};
+  json["trimmed"] = swept.solid.trimmed;
+  return json;
+}
+
+}  // namespace
+}  // namespace pipeline
+
 std::string build_json(const Design& design, const Build& build) {
   Json json = pipeline::track_document(design, build.track);
-  json["mesh"] = report::mesh_json(build.swept().facts);
-  // Of a mesh that is known to follow a solid, the volume is that solid's.
-  json["mesh"]["volume_m3"] = build.swept().solid.exact_volume;
-  json["mesh"]["mesh_volume_m3"] = build.swept().facts.volume;
-  json["mesh"]["max_deviation_m"] = build.swept().max_deviation;
-  const Vec3 offset = build.swept().offset.value_or(Vec3{});
-  json["mesh"]["offset_m"] = {offset.x, offset.y, offset.z};
-  json["mesh"]["trimmed"] = build.swept().solid.trimmed;
+  json["mesh"] = build.has_solid() ? pipeline::solid_json(build.swept()) : Json(nullptr);
   report::add_parts(json, build.fabrication.get());
   json["files"] = Json::array();
   for (const WrittenFile& file : build.files) {

@@ -137,6 +137,15 @@ std::string relaxation_text(const Design& design, const Relaxation& relaxation) 
     const double off = std::fabs(relaxation.needed / design.limits->match_belt->speed - 1.0);
     return "match_belt.within: " + rounded_text(100.0 * off, 3) + " %";
   }
+  const LimitId id = relaxation.limit.id;
+  const bool place = id == LimitId::half_planes || id == LimitId::keep_outs || id == LimitId::stay_above ||
+                     id == LimitId::stay_below;
+  if (id == LimitId::waypoints) {
+    return relaxation.limit.key() + " moved by " + length_text(std::fabs(relaxation.needed));
+  }
+  if (place && relaxation.needed < 0.0) {
+    return relaxation.limit.key() + " moved away by " + length_text(relaxation.value - relaxation.needed);
+  }
   return relaxation.limit.key() + ": " + quantity_text(relaxation.needed, relaxation.limit.dimension());
 }
 

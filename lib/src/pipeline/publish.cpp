@@ -9,7 +9,10 @@
 #include "pipeline/staging.hpp"
 #include "pipeline/steps.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace glissade {
@@ -74,7 +77,7 @@ Build publish(const Design& given, Assembly assembly, const fs::path& directory,
     });
     if (file.read_back) read_back.push_back(path);
   }
-  const ProvenSolid& swept = assembly.swept();
+  const ProvenSolid* const swept = assembly.has_solid() ? &assembly.swept() : nullptr;
   if (options.report) {
     // Last of all: it lists the others.
     const std::string name = assembly.stem + kReportEnding;
@@ -82,8 +85,8 @@ Build publish(const Design& given, Assembly assembly, const fs::path& directory,
     const fs::path page = staging.path_for(name);
     named_as(page, directory / name, [&] {
       write_report(page, design,
-                   {assembly.track, assembly.section, swept.solid, swept.facts, swept.max_deviation,
-                    std::move(made), std::move(read_back), context.stop, assembly.fabrication.get()});
+                   {assembly.track, assembly.section ? &*assembly.section : nullptr, swept, std::move(made),
+                    std::move(read_back), context.stop, assembly.fabrication.get()});
     });
   }
   require_going(context.stop);
@@ -100,11 +103,49 @@ Build publish(const Design& given, Assembly assembly, const fs::path& directory,
           std::move(published.set_aside)};
 }
 
+namespace {
+
+/// One work of two: where the search tells how far it is, what comes after it goes on from there.
+class WholeProgress {
+ public:
+  explicit WholeProgress(const Progress& told) : told_(told) {}
+
+  [[nodiscard]] Progress of_search() {
+    if (!told_) return {};
+    return [this](std::string_view stage, std::optional<double> fraction) {
+      // Of another try the fraction begins anew: the whole is as far as it was.
+      if (fraction) reached_ = std::max(reached_, kShareOfSearch * *fraction);
+      searched_ = searched_ || fraction;
+      told_(stage, fraction ? std::optional(reached_) : std::nullopt);
+    };
+  }
+  [[nodiscard]] Progress of_the_rest() {
+    if (!told_) return {};
+    const double before = searched_ ? kShareOfSearch : 0.0;
+    return [this, before](std::string_view stage, std::optional<double> fraction) {
+      if (fraction) fraction = before + (1.0 - before) * *fraction;
+      told_(stage, fraction);
+    };
+  }
+
+ private:
+  static constexpr double kShareOfSearch = 0.5;
+
+  const Progress& told_;
+  double reached_ = 0.0;
+  bool searched_ = false;
+};
+
+}  // namespace
+
 Build build(const Design& design, const fs::path& directory, const RunContext& given_context,
             const BuildOptions& options) {
   RunContext context = given_context;
   require_cross_section(design);
+  WholeProgress progress(given_context.progress);
+  context.progress = progress.of_search();
   Track track = solve(design, context);
+  context.progress = progress.of_the_rest();
   // The request to stop has been met: the search ended with the best track so far, which is built.
   if (track.search && context.stop.stop_requested()) context.stop = {};
   return publish(design, assemble(design, std::move(track), context, options), directory, context, options);

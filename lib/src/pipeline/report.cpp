@@ -227,7 +227,9 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.optimum_travel_time = track.optimum_travel_time;
   input.min_radius = track.min_radius;
   input.steepest_slope_angle = track.steepest_slope_angle;
-  input.solid = {&build.solid, &build.facts, &build.section, build.max_deviation};
+  if (build.swept != nullptr) {
+    input.solid = {&build.swept->solid, &build.swept->facts, build.section, build.swept->max_deviation};
+  }
   for (const LevelRide& ride : track.rides()) input.rides.push_back({ride.level, ride.motion});
   input.stall_angle = stall_angle_of(track);
   input.probes = probe_readings(design, track);
@@ -242,15 +244,14 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   for (const fs::path& file : build.files) {
     input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file, build.stop)});
   }
-  input.checks = {arrival(track),
-                  contact(track),
-                  energy(track, design.gravity),
-                  optimality(track),
-                  limits(input.limits),
-                  watertight(build.facts, build.solid),
-                  self_intersections(build.facts),
-                  deviation(design, build.max_deviation),
-                  read_back(build.read_back_files)};
+  input.checks = {arrival(track), contact(track), energy(track, design.gravity), optimality(track),
+                  limits(input.limits)};
+  if (build.swept != nullptr) {
+    input.checks.push_back(watertight(build.swept->facts, build.swept->solid));
+    input.checks.push_back(self_intersections(build.swept->facts));
+    input.checks.push_back(deviation(design, build.swept->max_deviation));
+    input.checks.push_back(read_back(build.read_back_files));
+  }
   if (track.search) input.checks.insert(input.checks.begin() + 4, search(design, *track.search));
   std::vector<ReportCheck> of_law;
   add_law_checks(track, of_law);

@@ -11,10 +11,8 @@ namespace glissade::pipeline {
 /// What a build has made so far, for the report that goes beside it.
 struct BuildForReport {
   const Track& track;
-  const CrossSection& section;
-  const Solid& solid;
-  const MeshFacts& facts;
-  double max_deviation = 0.0;                          ///< as of Build
+  const CrossSection* section;                         ///< null where there is no solid
+  const ProvenSolid* swept;                            ///< null where there is none
   std::vector<std::filesystem::path> files;            ///< as they stand, in the order of the build
   std::vector<std::filesystem::path> read_back_files;  ///< those that were read again and compared
   std::stop_token stop = {};

@@ -297,6 +297,21 @@ std::optional<FastestWithin> fastest_within(Design design, const RunContext& con
 
 namespace {
 
+/// While it lives, a request to stop is met by a search; from then on the work goes on with what it found.
+class SearchGoesOn {
+ public:
+  explicit SearchGoesOn(const RunContext& context) : context_(context) { tell(true); }
+  ~SearchGoesOn() { tell(context_.stop.stop_requested()); }
+  SearchGoesOn(const SearchGoesOn&) = delete;
+  SearchGoesOn& operator=(const SearchGoesOn&) = delete;
+
+ private:
+  void tell(bool goes_on) const {
+    if (context_.goes_on_after_stop != nullptr) *context_.goes_on_after_stop = goes_on;
+  }
+  const RunContext& context_;
+};
+
 /// solve() of a sound design whose hood is known.
 Track solve_settled(const Design& design, const RunContext& context) {
   if (context.progress) context.progress("finding the track", {});
@@ -306,6 +321,7 @@ Track solve_settled(const Design& design, const RunContext& context) {
       design.limits || design.track.free_finish != FinishKind::point || !has_closed_optimum(body_of(design));
   if (design.centerline.kind != CenterlineKind::fastest) return ride(design, make_centerline(design));
   if (!searched) return ride_fastest(design);
+  const SearchGoesOn goes_on(context);
   Optimum optimum = search_within_limits(design, context);
   Track track = ride(design, std::move(optimum.centerline));
   track.search = std::move(optimum.report);

@@ -159,6 +159,7 @@ Staging::Staging(const fs::path& target, std::string owner)
     unfinished_directories_.emplace_back(path, Unfinished::Kind::if_empty);
   }
   remove_abandoned(target_);
+  AtomicFile::remove_abandoned(target_);
   lock_new_directory();
 }
 

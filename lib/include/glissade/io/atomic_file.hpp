@@ -35,6 +35,9 @@ class AtomicFile {
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
+  /// Removes the siblings that killed processes left in a directory: those that nobody has locked.
+  static void remove_abandoned(const std::filesystem::path& directory);
+
   /// @throws FileError if flushing, closing or renaming fails; the target is then untouched
   /// @throws InternalError if called twice
   void commit();

@@ -15,6 +15,7 @@
 #include "glissade/trades/chute/wear.hpp"
 #include "glissade/trades/ski_jump/gates.hpp"
 
+#include <atomic>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -30,6 +31,9 @@ struct RunContext {
   Progress progress;
   std::stop_token stop;  ///< a search within limits ends with the best track so far
   double time_budget = OptimizeOptions{}.time_budget;  ///< of a search within limits [s]; > 0
+  /// Where it is not null: true while a request to stop ends a search with the best track so far, and from then on, as the
+  /// work goes on with that. Anything else that is asked to stop ends.
+  std::atomic<bool>* goes_on_after_stop = nullptr;
 };
 
 /// The ride at one end of a friction range.
