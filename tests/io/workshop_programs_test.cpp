@@ -124,12 +124,6 @@ double volume_of(const TubeGore& gore) {
   return kPi * (outer * outer - gore.inner_radius * gore.inner_radius) * gore.length;
 }
 
-/// No STEP is written of meshes.
-double volume_of(const MeshBody& /*body*/) {
-  FAIL("a mesh among the parts of a STEP file");
-  return 0.0;
-}
-
 /// Pappus and Guldin: area times the way of its centre.
 double volume_of(const MeshBody& body) {
   return measure(body.mesh).volume;
