@@ -30,11 +30,11 @@ std::string Design::where(std::string_view key_path) const {
 bool Design::asks_the_same(const Design& other) const {
   return name == other.name && track == other.track && body == other.body && stream == other.stream &&
          materials == other.materials && feed == other.feed && hood == other.hood &&
-         discharge == other.discharge &&
-         gravity == other.gravity && centerline == other.centerline && limits == other.limits &&
-         objective == other.objective && probes == other.probes && rules == other.rules &&
-         hill == other.hill && gates == other.gates && cross_section == other.cross_section &&
-         fabrication == other.fabrication && mesh == other.mesh && exports == other.exports;
+         discharge == other.discharge && gravity == other.gravity && centerline == other.centerline &&
+         limits == other.limits && objective == other.objective && probes == other.probes &&
+         rules == other.rules && hill == other.hill && gates == other.gates &&
+         cross_section == other.cross_section && fabrication == other.fabrication && mesh == other.mesh &&
+         exports == other.exports;
 }
 
 Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {

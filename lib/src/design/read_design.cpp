@@ -396,9 +396,9 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   findings.set_position("", root.at);
   MapReader top({&root, "", ""}, "A design", "glissade: 1 as the first line of a design file", findings);
   if (!top.readable()) return design;
-  top.expect({"glissade", "name", "track", "body", "stream", "feed", "hood", "discharge", "materials", "gravity",
-              "centerline", "limits", "probes", "hill", "gates", "rules", "cross_section", "fabrication",
-              "mesh", "export"});
+  top.expect({"glissade",  "name",      "track",         "body",        "stream", "feed",   "hood",
+              "discharge", "materials", "gravity",       "centerline",  "limits", "probes", "hill",
+              "gates",     "rules",     "cross_section", "fabrication", "mesh",   "export"});
   for (const std::string_view key : body_keys()) {
     top.add_stranger(key, "two spaces before it, below body:");
   }

@@ -9,7 +9,7 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr int kMostEvaluations = 60;
+constexpr int kMostEvaluations = 60;  // budget
 
 struct Search {
   const std::function<double(const std::vector<double>&)>* value = nullptr;
@@ -27,7 +27,7 @@ struct Search {
 
 /// NLopt is told a large value where there is none: it compares.
 double evaluate(unsigned variables, const double* place, double* /*gradient*/, void* data) {
-  constexpr double kNone = 1e30;
+  constexpr double kNone = 1e30;  // taste: above any value
   auto& search = *static_cast<Search*>(data);
   try {
     if ((*search.ends)()) {

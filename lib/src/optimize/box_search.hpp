@@ -24,6 +24,6 @@ struct BoxMinimum {
     const std::function<bool()>& ends);
 
 /// Of each side of the box.
-inline constexpr double kBoxAccuracy = 1e-3;
+inline constexpr double kBoxAccuracy = 1e-3;  // taste
 
 }  // namespace glissade::optimizer

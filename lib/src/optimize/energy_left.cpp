@@ -1,22 +1,21 @@
 #include "optimize/energy_left.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/units.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace glissade::optimizer {
 namespace {
 
-constexpr double kUpright = 0.5 * std::numbers::pi;
 // What the grid of slopes may miss of the bound, and rounding, as a share of gravity times the chord.
 constexpr double kSafety = 1e-5;
 
 struct Slopes {
-  double flattest = -kUpright;
-  double steepest = kUpright;
+  double flattest = -kRightAngle;
+  double steepest = kRightAngle;
 
   void hold(const Range& range) {
     if (range.lowest) flattest = std::max(flattest, *range.lowest);
@@ -27,11 +26,11 @@ struct Slopes {
 /// Lower convex envelope of h(q)/(2 g) over the slopes, at q = mean. By duality it is the greatest of all lines
 /// through (mean, .) that stay below: whatever the slope of the line, what it gives is a lower bound.
 double envelope(const Slopes& slopes, double mu, double mean) {
-  constexpr int kGrid = 2048;
-  constexpr int kThirds = 100;
-  constexpr double kNearlyUpright = 1e-3;
+  constexpr int kGrid = 2048;              // taste
+  constexpr int kThirds = 100;             // rounding: (2/3)^100
+  constexpr double kNearlyUpright = 1e-3;  // taste
   const double from = slopes.flattest;
-  const double to = std::min(slopes.steepest, kUpright - kNearlyUpright);
+  const double to = std::min(slopes.steepest, kRightAngle - kNearlyUpright);
   std::vector<double> q;
   std::vector<double> h;
   for (int i = 0; i <= kGrid; ++i) {
@@ -47,7 +46,8 @@ double envelope(const Slopes& slopes, double mu, double mean) {
   // Towards the vertical h grows as q e^(-mu pi): a line that is steeper crosses it in the end.
   const bool upright = slopes.steepest > to;
   double low = -1.0;
-  double high = upright ? math::exp(-2.0 * mu * kUpright) : (1.0 + 2.0 * mu) * math::exp(2.0 * mu * kUpright);
+  double high =
+      upright ? math::exp(-2.0 * mu * kRightAngle) : (1.0 + 2.0 * mu) * math::exp(2.0 * mu * kRightAngle);
   for (int i = 0; i < kThirds; ++i) {
     const double left = low + (high - low) / 3.0;
     const double right = high - (high - low) / 3.0;
@@ -73,7 +73,7 @@ std::optional<double> left_at(const Problem& problem, double mu) {
   Slopes exit = all;
   exit.hold(problem.limits.exit_slope_angle);
   const double mean = math::atan2(drop, run);
-  if (!(all.flattest > -kUpright) || !(all.flattest < mean && mean < all.steepest)) return std::nullopt;
+  if (!(all.flattest > -kRightAngle) || !(all.flattest < mean && mean < all.steepest)) return std::nullopt;
   const double grown = 2.0 * problem.gravity * run * envelope(all, mu, drop / run) -
                        kSafety * problem.gravity * math::hypot(run, drop);
   const double weighted = entry2 * math::exp(-2.0 * mu * entry.steepest) + grown;

@@ -215,14 +215,14 @@ class Winding {
       return a.attempt.relaxed.t < b.attempt.relaxed.t;
     };
     std::stable_sort(ends_.begin(), ends_.end(), gives_less);
-    constexpr std::size_t kFollowed = 2;
+    constexpr std::size_t kFollowed = 2;  // budget
     for (std::size_t i = 0; i < std::min(kFollowed, ends_.size()); ++i) follow(ends_[i]);
     std::stable_sort(ends_.begin(), ends_.end(), gives_less);
   }
 
   /// Those that need it not give way at all, the best first.
   [[nodiscard]] std::vector<Foothold> footholds() const {
-    constexpr std::size_t kMost = 3;
+    constexpr std::size_t kMost = 3;  // budget
     std::vector<const End*> keeping;
     for (const End& end : ends_) {
       if (end.attempt.relaxed.t <= kContradiction) keeping.push_back(&end);
@@ -246,7 +246,7 @@ class Winding {
   [[nodiscard]] const End* least() const { return ends_.empty() ? nullptr : &ends_.front(); }
 
  private:
-  static constexpr double kKept = 1e-6;
+  static constexpr double kKept = 1e-6;  // accuracy: ten times that of a limit
 
   [[nodiscard]] Relaxed relaxed(const ScaledProblem& problem, const Mesh& mesh,
                                 const GuessCurve& curve) const {
@@ -263,7 +263,7 @@ class Winding {
   }
 
   void follow(End& end) {
-    constexpr std::size_t kFiner = 40;
+    constexpr std::size_t kFiner = 40;  // taste
     if (control_.stop()) return;
     const Found& found = end.attempt.relaxed.found;
     const Mesh mesh = mesh_of(*end.attempt.problem, refined_knots(*found.track, found.z, {}, kFiner),
@@ -387,8 +387,8 @@ std::optional<double> needed_bound(const LimitSpec& limit, std::size_t index, co
 
 /// The bound as messages tell it, to few digits: rounded away from what it is now, so that it still does.
 double as_told(double needed, double now, Dimension dimension) {
-  constexpr int kMostNudges = 20;
-  constexpr double kNudge = 1e-4;
+  constexpr int kMostNudges = 20;  // budget
+  constexpr double kNudge = 1e-4;  // taste
   for (int i = 0; i <= kMostNudges; ++i) {
     const double nudged = needed + (needed > now ? kNudge : -kNudge) * i * std::fabs(needed);
     const double told = parse_quantity(quantity_text(nudged, dimension), dimension, "needed");

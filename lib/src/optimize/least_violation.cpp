@@ -195,8 +195,8 @@ class Search {
   /// The factor of price x shape + curvature, convex by adding squares of the rows that held t up last, which changes
   /// no step that keeps them; by a higher price where that is not enough.
   void factor() {
-    constexpr double kHigher = 4.0;  // taste
-    constexpr int kMostTries = 20;  // budget
+    constexpr double kHigher = 4.0;                    // taste
+    constexpr int kMostTries = 20;                     // budget
     constexpr double kPenalties[] = {0.0, 1.0, 30.0};  // taste
     double size = 0.0;
     for (std::size_t i = 0; i < n_; ++i) size = std::max(size, std::fabs(curvature_(i, i)));

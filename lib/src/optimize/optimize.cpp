@@ -120,7 +120,7 @@ class Course {
   [[nodiscard]] bool stopped() const { return stopped_; }
 
  private:
-  static constexpr int kFarRounds = 10;
+  static constexpr int kFarRounds = 10;  // budget
 
   void take(Candidate candidate) {
     stopped_ = stopped_ || candidate.stopped;

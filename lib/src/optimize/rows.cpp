@@ -197,7 +197,7 @@ double Rows::margin(const Row& row) const {
   if (!from_rest && !straight) return wanted;
   // Where a fixed slope angle makes the load there is no more margin than that leaves, none on the way straight down;
   // and from rest hardly more right behind the start.
-  constexpr double kNear = 0.01;  // [chords]
+  constexpr double kNear = 0.01;  // [chords]; taste
   const double way = straight ? 0.0 : station.arc_length(track_.mesh().core_length) - problem_.lead_in;
   for (const auto& [fixed, ride] : equality_limits_) {
     const LimitSpec& angle = problem_.limits[fixed];

@@ -136,9 +136,9 @@ std::vector<GuessCurve> winding_starts(const ScaledProblem& problem) {
 }
 
 std::vector<GuessCurve> constant_speed_starts(const ScaledProblem& problem) {
-  constexpr int kSteps = 128;
-  constexpr int kHalvings = 40;
-  constexpr double kSteepest = 1.3;  // [rad], at the start
+  constexpr int kSteps = 128;        // taste
+  constexpr int kHalvings = 40;      // rounding: 2^-40
+  constexpr double kSteepest = 1.3;  // [rad], at the start; taste
   const Vec2 finish = expected_finish(problem);
   const double mu = problem.rides[problem.objective_ride].friction;
   const double delta = math::atan(mu);
@@ -179,7 +179,7 @@ struct Step {
 };
 
 GuessCurve staircase(const std::vector<Step>& steps, double ends) {
-  constexpr int kSteps = 256;
+  constexpr int kSteps = 256;  // taste
   GuessCurve curve;
   double whole = 0.0;
   for (const Step& step : steps) whole += step.length;
@@ -198,8 +198,8 @@ GuessCurve staircase(const std::vector<Step>& steps, double ends) {
 }  // namespace
 
 std::vector<GuessCurve> stepped_starts(const ScaledProblem& problem) {
-  constexpr double kSteepest = 1.3;   // [rad]
-  constexpr double kFlattest = -0.6;  // [rad]
+  constexpr double kSteepest = 1.3;   // [rad]; taste
+  constexpr double kFlattest = -0.6;  // [rad]; taste
   const Vec2 finish = expected_finish(problem);
   double steep = kSteepest;
   double flat = kFlattest;

@@ -4,6 +4,7 @@
 
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/design/materials.hpp"
 #include "glissade/design/stream_channel.hpp"
 #include "glissade/trades/chute/stream.hpp"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -273,7 +273,7 @@ std::vector<double> spread_with(double low, double nominal, double high, int cou
 std::vector<WhatIfRide> what_if_rides(const Design& design, const CenterlinePtr& centerline) {
   const BodyDesign& body = design.body;
   const StreamDesign& stream = design.stream.value();
-  constexpr double kBeside = 3.0 * std::numbers::pi / 180.0;
+  constexpr double kBeside = Angle::from_degrees(3.0).radians();
   constexpr int kFrictions = 5;
   constexpr int kFlows = 7;
   constexpr double kBeyondSurge = 4.0 / 3.0;
