@@ -221,10 +221,12 @@ class KindReader {
     const FrictionRange grip = read_friction(map_, false, findings_);
     value = grip.nominal;
     if (!grip.low && !grip.high) return;
+    const std::string does(std::visit([](const auto& kind) { return kind.kDoes; }, body_.kind));
+    const std::string resistance(std::visit([](const auto& kind) { return kind.kResistance; }, body_.kind));
     const std::string key = map_.has("friction_coefficient") ? "friction_coefficient" : "friction_angle";
     findings_.add(findings_.position(map_.path_of(key)), map_.path_of(key),
-                  {"", key + ": a range, of a body that does not slide", why,
-                   "one value, the lowest; a range of what resists"});
+                  {"", key + ": a range, of a body that " + does, why,
+                   "one value, the lowest; a range of " + resistance});
   }
 
  private:

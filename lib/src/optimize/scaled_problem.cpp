@@ -7,8 +7,6 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
-#include "optimize/friction_along.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -310,11 +308,6 @@ Ride scaled_ride(const Body& body, double friction, const ScaledProblem& units) 
   at_friction.friction = Friction::from_coefficient(friction);
   if (const auto landing = landing_of(at_friction))
     ride.landing = Landing{landing->speed / units.speed, landing->angle};
-  if (!body.friction_changes.empty()) {
-    const auto along = std::make_shared<const FrictionAlong>(body, units.chord);
-    ride.friction = along->mean();
-    ride.law = along;
-  }
   if (!body.law) return ride;
   ride.gain = 2.0 / body.law->inertia();
   ride.height = body.law->centre_height() / units.chord;
@@ -473,33 +466,17 @@ void require_valid(const OptimizeOptions& options) {
   if (!issues.empty()) throw InputError(std::move(issues));
 }
 
-namespace {
-
-/// What a friction that changes along the track may not be together with.
-void require_one_law(const Problem& problem) {
-  std::vector<Issue> issues;
-  const auto refuse = [&](bool there, const char* what, const char* why, const char* hint) {
-    if (there)
-      issues.push_back({"", std::string("friction that changes along the track, and ") + what, why, hint});
-  };
-  refuse(problem.body.law && problem.body.law->depends_on_speed(), "a stream",
-         "The law of a stream knows one friction for the whole track.", "one friction");
-  refuse(problem.low_friction || problem.high_friction, "a range of frictions",
-         "A range is one friction for the whole track, higher or lower.", "one of the two");
-  refuse(problem.limits.lowest_slope_margin.has_value(), "lowest_slope_margin",
-         "A slope that changes at once would have to follow it.", "slope_angle: {lowest: ...}");
-  if (!issues.empty()) throw InputError(std::move(issues));
-}
-
-}  // namespace
-
 void require_searchable(const Problem& problem) {
   require_valid(problem);
   if (problem.body.law && problem.body.law->side() < 0.0) {
     throw InputError({"", "body.law: a stream below a hood", "A search is for the track that a body lies on.",
                       "the track below, with the hood as its approach"});
   }
-  if (!problem.body.friction_changes.empty()) require_one_law(problem);
+  if (!problem.body.friction_changes.empty()) {
+    throw InputError({"", "body.friction_changes: friction that changes along the track",
+                      "A search knows one friction for all of it.",
+                      "one friction, or a track that is given"});
+  }
   if (problem.limits.lowest_normal_load) return;
   throw InputError({"", "lowest_normal_load is lifted",
                     "The friction of a body held from both sides is not modelled.", "0 or a positive value"});
