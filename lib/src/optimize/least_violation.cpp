@@ -192,18 +192,13 @@ class Search {
     curvature_ = rows_->hessian(state_, equality_, active_, inequality_, 0.0);
   }
 
-  /// The factor of price x shape + curvature, convex by adding squares of the rows that held t up last, which changes
-  /// no step that keeps them; by a higher price where that is not enough.
+  /// The factor of price x shape + curvature; a higher price where that is not convex.
   void factor() {
-    constexpr double kHigher = 4.0;                    // taste
-    constexpr int kMostTries = 20;                     // budget
-    constexpr double kPenalties[] = {0.0, 1.0, 30.0};  // taste
-    double size = 0.0;
-    for (std::size_t i = 0; i < n_; ++i) size = std::max(size, std::fabs(curvature_(i, i)));
+    constexpr double kHigher = 4.0;  // taste
+    constexpr int kMostTries = 20;   // budget
     Vector diagonal(n_ + 1, 0.0);
-    Matrix hessian;
     for (int tries = 0; tries < kMostTries; ++tries, price_ *= kHigher) {
-      hessian = Matrix(n_ + 1, n_ + 1);
+      Matrix hessian(n_ + 1, n_ + 1);
       for (std::size_t i = 0; i < n_; ++i) {
         for (std::size_t j = 0; j < n_; ++j) {
           hessian(i, j) = price_ * shape_metric_(i, j) + curvature_(i, j);
@@ -211,25 +206,8 @@ class Search {
         diagonal[i] = price_ * shape_metric_(i, i);
       }
       hessian(n_, n_) = diagonal[n_] = kOwnCurvature / std::max(1.0, t_);
-      double added = 0.0;
-      for (const double penalty : kPenalties) {
-        add_squares_of_likely(hessian, (penalty - added) * size);
-        added = penalty;
-        metric_ = ShiftedCholesky(hessian, diagonal, 0.0);
-        if (metric_.shift() == 0.0) return;
-        if (likely_.empty()) break;
-      }
-    }
-    metric_ = ShiftedCholesky(hessian, diagonal);
-  }
-
-  void add_squares_of_likely(Matrix& hessian, double factor) const {
-    if (factor == 0.0) return;
-    for (const std::size_t i : likely_) {
-      const double* row = program_.inequality.row(i);
-      for (std::size_t j = 0; j <= n_; ++j) {
-        if (row[j] != 0.0) add_scaled(hessian.row(j), factor * row[j], row, n_ + 1);
-      }
+      metric_ = ShiftedCholesky(hessian, diagonal);
+      if (metric_.shift() == 0.0) return;
     }
   }
 
