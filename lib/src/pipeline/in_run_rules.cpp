@@ -83,12 +83,19 @@ bool is_straight(const Centerline& track, double from, double to) {
 Letters letters_of(const Design& design, const Track& track) {
   const Centerline& centerline = *track.centerline;
   const std::vector<double> breaks = centerline.breaks();
-  const InRunDesign& in_run = design.centerline.in_run;
-  if (design.centerline.kind == CenterlineKind::in_run) {
-    return {in_run.gamma.radians(), in_run.alpha.radians(), in_run.r1, in_run.t, breaks[1],
-            in_run.longest(),       in_run.start_area()};
-  }
   Letters letters;
+  if (design.gates) letters.start_area = design.gates->start_area;
+  if (design.centerline.kind == CenterlineKind::in_run) {
+    const InRunDesign& in_run = design.centerline.in_run;
+    letters.gamma = in_run.gamma.radians();
+    letters.alpha = in_run.alpha.radians();
+    letters.r1 = in_run.r1;
+    letters.t = in_run.t;
+    letters.e1 = breaks[1];
+    letters.longest = in_run.longest();
+    if (const auto es = in_run.start_area()) letters.start_area = es;
+    return letters;
+  }
   letters.gamma = centerline.slope_angle(0.0);
   letters.alpha = centerline.slope_angle(centerline.length());
   letters.r1 = track.min_radius;
@@ -99,7 +106,6 @@ Letters letters_of(const Design& design, const Track& track) {
   letters.e1 = breaks[first];
   letters.t = centerline.length() - breaks[last];
   letters.longest = breaks[last];
-  if (design.gates) letters.start_area = design.gates->start_area;
   return letters;
 }
 
