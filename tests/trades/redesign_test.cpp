@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/design/write.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
@@ -200,6 +201,14 @@ TEST_CASE("a redesign reads back as a design that gives its numbers") {
     CHECK(norm(edge - design.track.finish) < 1e-6);
     REQUIRE(track.gates);
     CHECK(track.gates->gates.size() == 49);
+    const std::vector<Judgement> judgements = judge_rules(made, track);
+    CHECK(judgements.size() >= 16);
+    for (const Judgement& judgement : judgements) {
+      INFO(judgement.rule.id << ": " << judgement.reason);
+      CHECK(judgement.verdict != RuleVerdict::fail);
+      const bool asked = judgement.rule.id == "fis.hill.height-large";  // zU is not of the in-run
+      CHECK((judgement.verdict == RuleVerdict::cannot_be_judged) == asked);
+    }
   }
 }
 

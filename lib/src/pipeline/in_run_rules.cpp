@@ -1,9 +1,12 @@
 #include "pipeline/in_run_rules.hpp"
 
+#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace glissade::pipeline {
 namespace {
@@ -58,19 +61,67 @@ void set_or_ask(Measurements& measurements, std::string_view key, const std::opt
   }
 }
 
-void measure_certificate(const Design& design, const Track& track, Measurements& measurements) {
-  const InRunDesign& in_run = design.centerline.in_run;
+/// The letters that rules ask about, of any in-run.
+struct Letters {
+  double gamma = 0.0;                ///< [rad]
+  double alpha = 0.0;                ///< [rad]
+  double r1 = 0.0;                   ///< [m]; of a shape that is no certificate's the smallest radius
+  double t = 0.0;                    ///< [m]; 0 where the track does not end straight
+  double e1 = 0.0;                   ///< arc length where the first straight ends [m]
+  double longest = 0.0;              ///< from the highest start, as e counts [m]
+  std::optional<double> start_area;  ///< [m]
+};
+
+bool is_straight(const Centerline& track, double from, double to) {
+  constexpr double kStraight = 1e-12;  // [1/m]
+  for (const double share : {0.01, 0.3, 0.7, 0.99}) {
+    if (std::fabs(track.direction(from + share * (to - from)).curvature) > kStraight) return false;
+  }
+  return true;
+}
+
+Letters letters_of(const Design& design, const Track& track) {
+  const Centerline& centerline = *track.centerline;
+  const std::vector<double> breaks = centerline.breaks();
+  Letters letters;
+  if (design.gates) letters.start_area = design.gates->start_area;
+  if (design.centerline.kind == CenterlineKind::in_run) {
+    const InRunDesign& in_run = design.centerline.in_run;
+    letters.gamma = in_run.gamma.radians();
+    letters.alpha = in_run.alpha.radians();
+    letters.r1 = in_run.r1;
+    letters.t = in_run.t;
+    letters.e1 = breaks[1];
+    letters.longest = in_run.longest();
+    if (const auto es = in_run.start_area()) letters.start_area = es;
+    return letters;
+  }
+  letters.gamma = centerline.slope_angle(0.0);
+  letters.alpha = centerline.slope_angle(centerline.length());
+  letters.r1 = track.min_radius;
+  std::size_t first = 0;
+  while (first + 1 < breaks.size() && is_straight(centerline, breaks[first], breaks[first + 1])) ++first;
+  std::size_t last = breaks.size() - 1;
+  while (last > first && is_straight(centerline, breaks[last - 1], breaks[last])) --last;
+  letters.e1 = breaks[first];
+  letters.t = centerline.length() - breaks[last];
+  letters.longest = breaks[last];
+  return letters;
+}
+
+void measure_letters(const Design& design, const Track& track, Measurements& measurements) {
+  const Letters letters = letters_of(design, track);
   const HillDesign& hill = design.hill;
-  measurements.set("in_run_slope_angle", in_run.gamma.radians());
-  measurements.set("table_slope_angle", in_run.alpha.radians());
-  measurements.set("table_length", in_run.t);
-  measurements.set("transition_radius", in_run.r1);
+  measurements.set("in_run_slope_angle", letters.gamma);
+  measurements.set("table_slope_angle", letters.alpha);
+  measurements.set("table_length", letters.t);
+  measurements.set("transition_radius", letters.r1);
   constexpr const char* kSpeed = "hill: {design_speed: 27 m/s}, v0 of the norm";
   std::optional<double> table_time;
   std::optional<double> radial;
   if (hill.design_speed) {
-    table_time = in_run.t / *hill.design_speed;
-    radial = *hill.design_speed * *hill.design_speed / in_run.r1;
+    table_time = letters.t / *hill.design_speed;
+    radial = *hill.design_speed * *hill.design_speed / letters.r1;
   }
   set_or_ask(measurements, "table_time", table_time, kSpeed);
   set_or_ask(measurements, "design_radial_acceleration", radial, kSpeed);
@@ -79,15 +130,11 @@ void measure_certificate(const Design& design, const Track& track, Measurements&
   set_or_ask(measurements, "table_height_ratio", ratio,
              "hill: {table_height: 3.2 m, construction_point: 125 m}, s and w of the certificate");
   std::optional<double> area;
-  if (const auto es = in_run.start_area()) area = *es / in_run.longest();
-  set_or_ask(measurements, "start_area_ratio", area, "es, or e2, in the centerline");
-  const double e1 = track.centerline->breaks()[1];
-  measurements.set("curvature_step_at_e1", track.centerline->at(e1).curvature, e1, "E1");
+  if (letters.start_area) area = *letters.start_area / letters.longest;
+  set_or_ask(measurements, "start_area_ratio", area,
+             "es, or e2, in the centerline, or a start_area of the gates");
+  measurements.set("curvature_step_at_e1", track.centerline->at(letters.e1).curvature, letters.e1, "E1");
 }
-
-}  // namespace
-
-namespace {
 
 void measure_grooves(const Design& design, Measurements& measurements) {
   const auto* const grooves =
@@ -113,8 +160,10 @@ void measure_in_run(const Design& design, const Track& track, Measurements& meas
                "hill: {construction_point: 125 m}, w of the certificate");
     set_or_ask(measurements, "hill_height", hill.height, "hill: {height: 62 m}, zU of the certificate");
   }
-  if (design.centerline.kind == CenterlineKind::in_run) measure_certificate(design, track, measurements);
-  if (design.centerline.kind == CenterlineKind::in_run || hill.size) measure_grooves(design, measurements);
+  if (design.centerline.kind == CenterlineKind::in_run || hill.size) {
+    measure_letters(design, track, measurements);
+    measure_grooves(design, measurements);
+  }
   if (track.gates) {
     measure_gates(*track.gates, measurements);
   } else {

@@ -383,6 +383,8 @@ Design redesigned(const Design& design, const Redesign& found, bool free) {
   if (free && track == nullptr) throw ConvergenceError({"", found.shapes.back().problem, "", ""});
   InRunDesign& letters = result.centerline.in_run;
   const double area = letters.start_area().value_or(0.0);
+  // Rules count with the speed that it was found for.
+  if (!result.hill.design_speed) result.hill.design_speed = found.take_off.speed;
   if (!free) {
     const InRunShape& shape = found.within_rules;
     letters.gamma = shape.gamma;
@@ -394,6 +396,9 @@ Design redesigned(const Design& design, const Redesign& found, bool free) {
   } else {
     const auto& spline = dynamic_cast<const ClothoidSpline&>(*track);
     if (result.gates && !result.gates->start_area) result.gates->start_area = area;
+    // What an in-run is held against by its kind is asked for by name.
+    const bool circle = letters.transition == InRunTransition::circle;
+    if (!result.rules.sets) result.rules.sets = {circle ? "fis-in-run-circle" : "fis-in-run"};
     result.centerline = {};
     result.centerline.kind = CenterlineKind::segments;
     result.centerline.entry_slope_angle = spline.entry_slope_angle();
