@@ -102,7 +102,8 @@ std::vector<double> friction_angles_deg(const Design& design) {
 Entry at_friction(Design design, const Entry& own) {
   const CenterlineKind kind = design.centerline.kind;
   if (!is_drawn(kind) || !own.track) return solved(std::move(design), {});
-  return entry_of(std::move(design), [&](const Design& one) { return ride(one, own.track->centerline); });
+  return entry_of(std::move(design),
+                  [&](const Design& one) { return ride(as_solved(one, *own.track), own.track->centerline); });
 }
 
 /// Two panels over the friction angle: travel time, and the steepest slope anywhere on the track.

@@ -93,7 +93,8 @@ ExitCode ride_track(const Options& options) {
   }();
   std::vector<Track> rides;
   rides.reserve(frictions.size());
-  for (const Friction friction : frictions) rides.push_back(ride_at(design, track.centerline, friction));
+  const Design solved = as_solved(design, track);
+  for (const Friction friction : frictions) rides.push_back(ride_at(solved, track.centerline, friction));
   print(options.json ? rides_json(design, track, rides) : rides_summary(design, track, rides));
   if (const auto problem = search_problem(design, track)) throw ConvergenceError(*problem);
   return ExitCode::done;

@@ -152,7 +152,10 @@ TEST_CASE("hood and spoon are found together within limits") {
   // At that hood nothing else is found.
   const Track again = solve(as_solved(design, track));
   CHECK(again.motion.travel_time() == track.motion.travel_time());
-  CHECK_FALSE(again.hood);
+  CHECK(again.hood == track.hood);
+  // The same track at another friction, and another track below the same hood, know it too.
+  CHECK_NOTHROW(
+      track_json(design, ride_at(as_solved(design, track), track.centerline, track.motion.body().friction)));
   // A design that is asked before its hood is known says so.
   CHECK_THROWS_WITH(body_of(design), Contains("something of it is still to be chosen"));
   const TempDir directory;

@@ -152,7 +152,7 @@ void label(Drawing& ink, Vec2 at, const std::string& text, TextAnchor anchor) {
 }
 
 Drawing chart_of(const Chart& chart, const Track& track, const PlaneBox& room) {
-  constexpr int kPlaces = 100;
+  constexpr int kPlaces = 500;  // a short bend wears most on a hundredth of the track
   const double length = track.centerline->length();
   std::vector<std::vector<double>> lines;
   double most = 0.0;

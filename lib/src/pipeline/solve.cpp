@@ -258,7 +258,8 @@ Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<Fast
           {},
           std::move(limit_checks),
           std::move(range),
-          std::move(gates)};
+          std::move(gates),
+          design.hood};
 }
 
 /// The curve of the closed form, which knows neither limits nor a finish that it may choose.
@@ -335,9 +336,7 @@ Track solve(const Design& given, const RunContext& context) {
   require_sound(given);
   const Design design = settled(given, context);
   if (auto problem = hood_problem(design)) throw InfeasibleError(*std::move(problem));
-  Track track = solve_settled(design, context);
-  if (design.hood != given.hood) track.hood = design.hood;
-  return track;
+  return solve_settled(design, context);
 }
 
 std::string searched_name(const Design& design) {

@@ -99,7 +99,9 @@ Evaluation::Evaluation(const Study& study, const std::stop_token& stop) : study_
     RunContext context;
     context.stop = stop;
     context.time_budget = kNoTimeBudget;
-    frozen_ = solve(design, context).centerline;
+    Track track = solve(design, context);
+    frozen_ = std::move(track.centerline);
+    frozen_hood_ = std::move(track.hood);
     if (stop.stop_requested()) throw Interrupted({"", "interrupted, no point was computed", "", ""});
   }
   const std::vector<std::string> known = known_columns(stop);
@@ -123,7 +125,11 @@ std::vector<std::string> Evaluation::known_columns(const std::stop_token& stop) 
 }
 
 Track Evaluation::track_of(const Design& design) const {
-  if (frozen_) return ride(design, frozen_);
+  if (frozen_) {
+    Design below = design;
+    if (below.hood && !below.hood->settled()) below.hood = frozen_hood_;
+    return ride(below, frozen_);
+  }
   RunContext context;
   context.time_budget = kNoTimeBudget;
   return solve(design, context);

@@ -35,6 +35,7 @@ class Evaluation {
 
   const Study& study_;
   CenterlinePtr frozen_;
+  std::optional<HoodDesign> frozen_hood_;  ///< before it, where its search chose one
   std::vector<std::string> columns_;
 };
 

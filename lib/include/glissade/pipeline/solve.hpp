@@ -84,7 +84,7 @@ struct Track {
   std::vector<RangeRide> range;
   /// The rides from every gate of the design; none where it has none.
   std::optional<GateTable> gates = {};
-  /// The hood that the search chose together with the track; none where the design left nothing of one to choose.
+  /// The hood before it, as given or as the search chose it together with the track; none of a design without one.
   std::optional<HoodDesign> hood = {};
 
   /// @return the rides at every friction that the design names, from low to high; the nominal one is always
