@@ -67,7 +67,7 @@ TEST_CASE("every key of the processes print and timber is written back") {
   for (const std::string& fabrication :
        {std::string(
             "{process: print, material: {name: PETG, density: 1270 kg/m^3}, arc_tolerance: 0.05 mm, "
-            "split: {bed: [180 mm, 190 mm, 200 mm], gap: 3 mm, longest: 150 mm, heaviest: 90 g, allowed: "
+            "split: {bed: [180 mm, 190 mm, 200 mm], gap: 3 mm, longest: 150 mm, heaviest: 0.09 kg, allowed: "
             "false}, "
             "dowels: {diameter: 3 mm, depth: 7 mm, fit: 0.2 mm, chamfer: 0.4 mm}, pose: end, layer: 0.15 mm, "
             "wall: 1.2 mm, overhang: 50 deg, number_depth: 0.3 mm, ease: 0.1 mm}"),

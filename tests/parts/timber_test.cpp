@@ -172,6 +172,9 @@ TEST_CASE(
   for (const ShopPart* leg : legs) {
     CHECK(leg->places.front().origin.z >= -9.0 - 1e-9);
     CHECK(leg->bought_in);
+    const PlaneBox box = bounds(leg->pattern->region.outline);  // lies along x, as wide as the post
+    CHECK(box.height() == Approx(90e-3).epsilon(1e-9));
+    CHECK(box.width() >= box.height());
   }
   // A second ground one metre up takes a metre off each leg.
   options.legs->ground = {{0.0, -8.0}};

@@ -274,7 +274,7 @@ TEST_CASE("fabrication: what cannot be made is refused at its place in the file"
         std::string::npos);
   CHECK(refusal("{process: timber, deck: {layers: 2.5}}").find("layers: 2.5 is no whole number") !=
         std::string::npos);
-  CHECK(refusal("{process: timber, deck: {layers: 40}}").find("chute.yaml:5:39: layers: 40 layers") !=
+  CHECK(refusal("{process: timber, deck: {layers: 40}}").find("chute.yaml:5:47: layers: 40 layers") !=
         std::string::npos);
   CHECK(refusal("{}").find("process") != std::string::npos);
 }

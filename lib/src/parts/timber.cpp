@@ -69,8 +69,9 @@ double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& r
     const double top = -job.layer() * static_cast<double>(layer);
     for (std::size_t i = 0; i < rows[layer].size(); ++i) {
       const DeckRow& row = rows[layer][i];
-      ShopPart part = upright_part(job, *band(job.track, row.span, top - job.layer(), top), width,
-                                   strips(overall, count), job.options.material);
+      ShopPart part =
+          upright_part(job, *band(job.track, row.span, top - job.layer(), top), chord_angle(job, row.span),
+                       width, strips(overall, count), job.options.material);
       part.name = "deck_" + std::to_string(layer + 1) + "_" + std::to_string(i + 1);
       part.thickness = job.layer();
       FlatPattern pattern;
@@ -116,8 +117,8 @@ double add_curbs(const TimberJob& job, const std::vector<DeckRow>& upper, Worksh
                         "lower curbs, or a limit on the track's radius"});
     }
     const bool sawn = thickness > kThickestSheet;
-    ShopPart part = upright_part(job, *outline, thickness, {middle, -middle},
-                                 sawn ? job.options.lumber : job.options.material);
+    ShopPart part = upright_part(job, *outline, chord_angle(job, {joints[i], joints[i + 1]}), thickness,
+                                 {middle, -middle}, sawn ? job.options.lumber : job.options.material);
     part.name = "curb_" + std::to_string(i + 1);
     part.bought_in = sawn;
     set_own_pattern(part);
@@ -164,7 +165,8 @@ void add_splices(const TimberJob& job, const std::vector<double>& joints, const 
     const auto outline = band(job.track, {joints[i] - reach, joints[i] + reach},
                               job.bearer_bottom() + 0.1 * depth, job.bearer_top() - 0.1 * depth);
     if (!outline) continue;
-    ShopPart part = upright_part(job, *outline, width, middles, job.options.material);
+    ShopPart part = upright_part(job, *outline, chord_angle(job, {joints[i] - reach, joints[i] + reach}),
+                                 width, middles, job.options.material);
     part.name = name + "_" + std::to_string(i);
     set_own_pattern(part);
     add(workshop, std::move(part), kSpliceColour);
@@ -177,7 +179,8 @@ void add_bearer_row(const TimberJob& job, const std::vector<double>& joints,
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
     ShopPart part =
         upright_part(job, *band(job.track, {joints[i], joints[i + 1]}, job.bearer_bottom(), job.bearer_top()),
-                     job.options.bearer_width(), across, ribs ? job.options.material : job.options.lumber);
+                     chord_angle(job, {joints[i], joints[i + 1]}), job.options.bearer_width(), across,
+                     ribs ? job.options.material : job.options.lumber);
     part.name = name + "_" + std::to_string(i + 1);
     part.bought_in = !ribs;
     set_own_pattern(part);
@@ -213,7 +216,8 @@ void add_legs(const TimberJob& job, const std::vector<Leg>& legs, const BearerPl
          {Vec2{leg.top_left.x, leg.ground}, Vec2{leg.top_right.x, leg.ground}, leg.top_right, leg.top_left}) {
       outline.vertices.push_back({corner, 0.0});
     }
-    ShopPart part = upright_part(job, outline, job.options.legs->side, plan.across, job.options.lumber);
+    ShopPart part =
+        upright_part(job, outline, kRightAngle, job.options.legs->side, plan.across, job.options.lumber);
     part.name = "leg_" + std::to_string(i + 1);
     part.bought_in = true;
     set_own_pattern(part);

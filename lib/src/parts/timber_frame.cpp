@@ -107,8 +107,7 @@ std::vector<double> supported_places(const TimberJob& job, const std::vector<std
 bool piece_fits(const TimberJob& job, const Span& span) {
   const auto outline = band(job.track, span, job.bearer_bottom(), job.bearer_top());
   if (!outline) return false;
-  const OwnPlane plane = own_plane(*outline);
-  const PlaneBox box = bounds(moved(*outline, PlaneMotion::turn(-plane.angle)));
+  const PlaneBox box = bounds(moved(*outline, PlaneMotion::turn(-chord_angle(job, span))));
   const TimberSplit& split = job.options.split;
   const StockMaterial& stock =
       job.options.frame == TimberFrame::ribs ? job.options.material : job.options.lumber;
@@ -314,17 +313,22 @@ std::vector<Leg> plan_legs(const TimberJob& job) {
   return legs;
 }
 
-ShopPart upright_part(const TimberJob& job, const ArcPath& outline, double depth,
+double chord_angle(const TimberJob& job, const Span& span) {
+  const Vec2 chord = frame_at(job.track, span.to).at - frame_at(job.track, span.from).at;
+  return math::atan2(chord.y, chord.x);
+}
+
+ShopPart upright_part(const TimberJob& job, const ArcPath& outline, double angle, double depth,
                       const std::vector<double>& middles, const StockMaterial& material) {
-  const OwnPlane plane = own_plane(outline);
-  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
+  const Vec2 low = bounds(moved(outline, PlaneMotion::turn(-angle))).low;
+  const Vec2 origin = PlaneMotion::turn(angle)(low);
   ShopPart part;
   part.material = material.name;
   part.density = material.density;
   part.thickness = depth;
-  part.body = Prism{{moved(outline, PlaneMotion::turn(-plane.angle, -1.0 * back)), {}, {}}, depth};
+  part.body = Prism{{moved(outline, PlaneMotion::turn(-angle, -1.0 * low)), {}, {}}, depth};
   for (const double middle : middles) {
-    part.places.push_back(plane_of_track(job.placement, plane.origin, plane.angle, -middle - 0.5 * depth));
+    part.places.push_back(plane_of_track(job.placement, origin, angle, -middle - 0.5 * depth));
   }
   weigh(part);
   return part;

@@ -82,9 +82,13 @@ struct Leg {
 /// @return height of the ground below x
 [[nodiscard]] double ground_at(const std::vector<Vec2>& ground, double x);
 
+/// @return angle of the chord of a stretch of track [rad]
+[[nodiscard]] double chord_angle(const TimberJob& job, const Span& span);
+
 /// A part that stands in the plane of the track, with the pattern that is cut where it comes from a sheet.
+/// @param angle  of what lies level in the part's own plane, in that of the track [rad]
 /// @param middles  of the pieces, across to the left [m]
-[[nodiscard]] ShopPart upright_part(const TimberJob& job, const ArcPath& outline, double depth,
+[[nodiscard]] ShopPart upright_part(const TimberJob& job, const ArcPath& outline, double angle, double depth,
                                     const std::vector<double>& middles, const StockMaterial& material);
 
 }  // namespace glissade::parts
