@@ -246,8 +246,8 @@ std::string build_summary(const Design& design, const Build& build) {
                               ": watertight, one piece, facing outward, no self-intersection,\n"
                               "no degenerate facet; measured at the precision of each file, each read back";
   return track_summary(design, build.track) + "\n" +
-         (build.has_solid() ? labelled("Solid", solid_lines(design, build)) : std::string()) +
-         labelled("Mesh", verdict) + "\n" +
+         (build.has_solid() ? labelled("Solid", solid_lines(design, build)) + labelled("Mesh", verdict) + "\n"
+                            : std::string()) +
          (build.fabrication ? parts_lines(*build.fabrication) + "\n" : "") +
          labelled("Files", file_lines(build.files)) + earlier_file_lines(build);
 }

@@ -396,3 +396,19 @@ TEST_CASE("every shipped design builds, and admesh finds nothing to repair in it
   }
   CHECK(count >= 10);
 }
+
+TEST_CASE("a build without a cross-section tells of the track alone") {
+  const TempDir place;
+  put_bytes(place / "track.yaml",
+            "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
+            "body: {friction_coefficient: 0.2}\nexport: [csv]\n");
+  RunLimits limits;
+  limits.directory = place.path();
+  const Outcome outcome = glissade_run({"build", "track.yaml"}, limits);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output, Contains("track.csv") && Contains("track.report.html") && !Contains("Solid") &&
+                                 !Contains("Mesh"));
+  const Outcome refused = glissade_run({"build", "track.yaml", "--set", "export=[stl, csv]"}, limits);
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.errors, Contains("there is no cross_section") && Contains("export: [csv]"));
+}

@@ -197,17 +197,16 @@ TEST_CASE("limits that contradict each other are named with the smallest relaxat
   }
 }
 
-TEST_CASE("of a waypoint out of reach it is told by how far it would have to move") {
+TEST_CASE("a waypoint out of reach is named by itself, not by a distance below none") {
   const DesignFile file(
       "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\nbody: "
       "{friction_coefficient: 0.2}\n"
       "limits: {waypoints: [[5 m, 6 m]]}\n");
   const Outcome outcome = solve(file, {});
   CHECK(outcome.exit_code == 3);
-  CHECK_THAT(outcome.errors,
-             Contains("waypoints[0] and arrival at the finish cannot be met together; it would take "
-                      "waypoints[0] moved by ") &&
-                 Contains("Try: waypoints[0] moved by "));
+  CHECK_THAT(outcome.errors, Contains("waypoints[0] and arrival at the finish cannot be met together") &&
+                                 !Contains("waypoints[0] 0 m") && !Contains("waypoints[0] -") &&
+                                 !Contains("waypoints[0]: -"));
 }
 
 TEST_CASE("a mirrored track has the same time, prices and places as its image") {
