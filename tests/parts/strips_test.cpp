@@ -167,6 +167,14 @@ TEST_CASE("mitred pipe: a tube's moments are those of points strewn through it")
   CHECK(std::fabs(sum.z / inside - moments.centroid.z) < 5e-3);
 }
 
+TEST_CASE("strips: a point beside an arc that is all but straight is where it is") {
+  // Sagitta 1e-13 m: the radius is 5e12 m, and a double there is worth a millimetre.
+  const SweptBody body{{{{{0.0, 0.0}, 1e-13}, {{2.0, 0.0}, 0.0}}, false},
+                       {{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.2}, {0.0, 0.2}}};
+  CHECK(std::fabs(parts::depth_inside(body, {1.0, 0.06, 0.1}) - 0.04) < 1e-8);
+  CHECK(std::fabs(parts::depth_inside(body, {1.0, 0.1001, 0.1}) + 1e-4) < 1e-8);
+}
+
 TEST_CASE("strips: random tracks and sections make plates that add up, with no clash") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

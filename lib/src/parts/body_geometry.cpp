@@ -221,7 +221,9 @@ double depth_in(const SweptBody& body, Vec3 point) {
     // Along the piece from its start, and above it; ends of the body alone count as faces.
     double along = 0.0;
     double above = 0.0;
-    if (piece.straight()) {
+    // The circle of an arc that rises less than this is so large that the distance from it is lost in rounding.
+    constexpr double kFlatRise = 1e-8;
+    if (0.5 * std::fabs(piece.bulge) * norm(piece.to - piece.from) < kFlatRise) {
       const Vec2 tangent = tangent_at(piece, 0.0);
       along = dot(flat - piece.from, tangent);
       above = cross(tangent, flat - piece.from);

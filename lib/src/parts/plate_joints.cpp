@@ -134,11 +134,13 @@ std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
   const double sheet_shorter = std::min(split.sheet.x, split.sheet.y);
   if (longer > sheet_longer || shorter > sheet_shorter) {
     return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of 5 mm",
-                  "the sheet is " + length_text(sheet_longer) + " x " + length_text(sheet_shorter)};
+                  "the sheet is " + length_text(sheet_longer) + " x " + length_text(sheet_shorter),
+                  longer / sheet_longer};
   }
   if (split.heaviest && part.mass > *split.heaviest) {
     return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
-                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg"};
+                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg",
+                  part.mass / *split.heaviest};
   }
   return std::nullopt;
 }
@@ -156,9 +158,13 @@ void split_until_it_fits(const SplitOptions& split, double length,
                       "longest: " + length_text(length / 3.0, 2)});
   }
   std::string last;
-  for (; count <= kMostUnits; ++count) {
+  constexpr double kSafe = 0.8;  // of the count that lengths ask for: ends of units are not even
+  double next = static_cast<double>(count);
+  for (; count <= kMostUnits; count = static_cast<std::size_t>(next)) {
     const std::optional<Excess> found = make(count);
     if (!found) return;
+    const double whole = static_cast<double>(count);
+    next = std::max(whole + 1.0, std::floor(kSafe * whole * found->times));
     if (!split.allowed) {
       throw InputError({"split", found->what, "One piece is asked for, and " + found->bound + ".",
                         "split without allowed: false, a larger sheet, or a larger heaviest"});

@@ -18,6 +18,7 @@ inline constexpr std::size_t kMostUnits = 400;
 struct Excess {
   std::string what;
   std::string bound;
+  double times = 1.0;  ///< what may be, of a length or mass that shorter units make smaller
 };
 [[nodiscard]] std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part);
 
