@@ -50,7 +50,7 @@ TEST_CASE("ride asks for a friction, and names the option that is wrong") {
 }
 
 TEST_CASE("the JSON of limits that no track keeps has every key of a track") {
-  const std::vector<std::string> impossible = {"--set", "limits.speed.highest=1m/s", "--json"};
+  const std::vector<std::string> impossible = {"--set", "limits.arc_length.highest=5m", "--json"};
   const std::string design = shipped("grain_chute_with_limits");
   const Outcome found = glissade_run({"solve", design, "--json"});
   std::vector<std::string> arguments = {"solve", design};

@@ -197,7 +197,7 @@ void add_cubic_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfi
       bent = bent || is_bend(to - 1);
       if (!bent) continue;
       const double turn = turn_of(pieces, from, to);
-      if (from == 0 || is_straight(from - 1)) {
+      if (from > 0 && is_straight(from - 1)) {
         if (auto cubic = cubic_piece(length, turn, false)) {
           PiecewiseProfile next = replaced(profile, from, to, *cubic);
           if (from + 1 < next.pieces.size() && next.pieces[from + 1].tied) {
@@ -207,7 +207,7 @@ void add_cubic_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfi
           ways.push_back(std::move(next));
         }
       }
-      if (to == pieces.size() || is_straight(to)) {
+      if (is_straight(to)) {
         if (auto cubic = cubic_piece(length, turn, true)) {
           PiecewiseProfile next = replaced(profile, from, to, *cubic);
           if (from + 1 < next.pieces.size()) next.pieces[from + 1].tied = false;

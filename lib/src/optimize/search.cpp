@@ -26,6 +26,8 @@ constexpr double kArrived = 0.1;  // taste
 constexpr double kActive = 1e-6;  // accuracy: ten times that of a limit
 // ... and Newton steps bring those that do this close to it.
 constexpr double kTight = 1e-8;  // accuracy: a tenth of that of a limit
+// Newton steps end there, and what is frozen or drawn has its finish to the nanometre.
+constexpr double kOnFinish = 1e-11;  // accuracy: of conditions that hold exactly, in chords
 
 Matrix jacobian_of(const Rows& rows, const State& state, const std::vector<Row>& set, std::size_t n) {
   Matrix jacobian(set.size(), n);
@@ -316,7 +318,7 @@ class Minimiser {
     if (!solved(point) || point.distance > kArrived * control_.tolerance) return false;
     const Vector& values = point.program.inequality_value;
     const auto is_tight = [&](std::size_t row) { return std::fabs(values[row]) <= kTight; };
-    return greatest_size(point.program.equality_value) <= control_.limit_tolerance &&
+    return greatest_size(point.program.equality_value) <= kOnFinish &&
            greatest_of(values) <= control_.limit_tolerance &&
            std::all_of(point.solution.active.begin(), point.solution.active.end(), is_tight);
   }
