@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace glissade::optimizer {
@@ -42,7 +43,7 @@ class LeastBound {
     double low = 0.0;
     Optimum best = std::move(loose);
     bool settled = false;
-    double bound = 0.95 * high;
+    double bound = std::min(0.95 * high, of_a_short_bend(best.centerline));
     while (searches_ < kMostSearches && !out_of_time()) {
       Optimum next = within(bound);
       const bool there = next.centerline != nullptr;
@@ -53,8 +54,8 @@ class LeastBound {
       if (settled || (there && excess >= 0.0)) best = std::move(next);
       settled = settled || high - low <= kBoundAccuracy * high;
       if (settled) break;
-      const double newton = price > 0.0 ? bound - excess / price : low;
-      bound = newton > low && newton < high ? newton : 0.5 * (low + high);
+      const double newton = price > 0.0 ? newton_step(bound, excess, price) : low;
+      bound = newton > low && newton < high ? newton : between(low, high);
     }
     return priced(std::move(best), settled);
   }
@@ -97,9 +98,26 @@ class LeastBound {
     for (const LimitCheck& check : check_limits(problem, track)) {
       if (check.limit == name_ && std::isfinite(check.reached)) return check.reached;
     }
-    // A jump of the curvature: any bound is tighter. A bend over a hundredth of the track is as good as a jump.
+    // A jump of the curvature: any bound is tighter.
+    return of_a_short_bend(track);
+  }
+  /// A rate of curvature that is as good as a jump: it turns the track within a hundredth of its length. The bend that
+  /// the mesh puts in a jump's place may be sharper by orders of magnitude. A load knows no such bound.
+  [[nodiscard]] double of_a_short_bend(const CenterlinePtr& track) const {
+    if (name_.id == LimitId::highest_normal_load) return std::numeric_limits<double>::infinity();
     const double length = track->length();
     return 1e4 / (length * length);
+  }
+  /// Newton's step to the bound that gives the speed wanted, not in the bound but in the length of the bends that it
+  /// allows, which goes with 1/load or 1/sqrt(rate): the speed that a bend costs is nearly linear in its length.
+  [[nodiscard]] double newton_step(double bound, double excess, double price) const {
+    const double power = name_.id == LimitId::highest_normal_load ? 1.0 : 0.5;
+    const double longer = 1.0 + power * excess / (price * bound);
+    return longer > 0.0 ? bound * std::pow(longer, -1.0 / power) : std::numeric_limits<double>::infinity();
+  }
+  /// By their ratio, since they may be orders of magnitude apart.
+  [[nodiscard]] static double between(double low, double high) {
+    return low > 0.0 ? std::sqrt(low * high) : 0.5 * high;
   }
   [[nodiscard]] double price_in(const OptimizeReport& report) const {
     for (const ActiveLimit& active : report.active) {

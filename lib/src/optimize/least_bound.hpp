@@ -7,8 +7,9 @@ namespace glissade::optimizer {
 /// The tightest bound of one limit at which a given exit speed is still reached: least_load, least_curvature_rate.
 ///
 /// Method: the greatest exit speed within a bound grows with it, and its derivative is the price of the bound: Newton
-///   steps between a bound that is too tight and one that is loose find where it is the speed wanted. Each step is a
-///   search of its own. Prices are those of the last search over that of the bound.
+///   steps between a bound that is too tight and one that is loose find where it is the speed wanted. They are taken in
+///   the length of the bends that the bound allows, in which the speed is nearly linear. Each step is a search of its
+///   own. Prices are those of the last search over that of the bound.
 /// @param problem  its objective is_least_bound(); sound, as require_searchable() has it
 [[nodiscard]] Optimum least_bound(const Problem& problem, const OptimizeOptions& options,
                                   const std::stop_token& stop, const Progress& progress);
