@@ -14,6 +14,11 @@ std::string written_material(const StockMaterial& material) {
   return group.inlined();
 }
 
+std::string written_ground(const std::vector<Vec2>& ground) {
+  if (ground.size() == 1) return written_quantity(ground.front().y, Dimension::length);
+  return list_of(ground, point);
+}
+
 std::string written_fabrication(const FabricationDesign& design) {
   Group group;
   std::visit(

@@ -5,6 +5,7 @@
 #include "design/written_text.hpp"
 
 #include <string>
+#include <vector>
 
 namespace glissade::design_file {
 
@@ -19,5 +20,7 @@ void add_process(Group& group, const TimberOptions& timber);
 
 /// Of what several processes have.
 [[nodiscard]] std::string written_material(const StockMaterial& material);
+/// @param ground  (x, z); one point: level
+[[nodiscard]] std::string written_ground(const std::vector<Vec2>& ground);
 
 }  // namespace glissade::design_file

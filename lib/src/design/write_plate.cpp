@@ -104,11 +104,7 @@ std::string lifting(const LiftingOptions& options) {
 
 std::string supports(const SupportOptions& options) {
   Group group;
-  if (options.ground.size() == 1) {
-    group.add("ground", options.ground.front().y, Dimension::length);
-  } else {
-    group.add("ground", list_of(options.ground, point));
-  }
+  group.add("ground", written_ground(options.ground));
   group.add("spacing", options.spacing, Dimension::length);
   group.add("tube", options.tube, Dimension::length);
   group.add("wall", options.wall, Dimension::length);

@@ -22,11 +22,7 @@ std::string cross_members(const CrossMemberOptions& options) {
 
 std::string legs(const LegOptions& options) {
   Group group;
-  if (options.ground.size() == 1) {
-    group.add("ground", options.ground.front().y, Dimension::length);
-  } else {
-    group.add("ground", list_of(options.ground, point));
-  }
+  group.add("ground", written_ground(options.ground));
   group.add("spacing", options.spacing, Dimension::length);
   group.add("side", options.side, Dimension::length);
   return group.inlined();

@@ -7,6 +7,7 @@
 
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
+#include "parts/shop_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,60 +24,25 @@ constexpr double kLeastEdge = 1.2;   // hole diameters from its centre to an edg
 constexpr double kLeastPitch = 2.4;  // hole diameters between centres, across the force
 constexpr double kEdgeAtTop = 1.5;   // hole diameters below the top of a frame, as frame_plate() has it
 
-/// One rule: a value must not be below (or above) a bound.
-struct Rule {
-  const char* name;
-  bool at_least;       // else: at most
-  ShopVerdict broken;  // what a breach is
-  const char* source;
-};
-
-constexpr Rule kHoleDiameter{"hole diameter", true, ShopVerdict::fail,
-                             "laser cutters' tables: 0.7 to 1.5 thicknesses, most 1"};
-constexpr Rule kHoleToEdge{"hole to edge", true, ShopVerdict::fail,
-                           "EN 1993-1-8 table 3.3: 1.2 hole diameters"};
-constexpr Rule kHolePitch{"distance of bolts, least", true, ShopVerdict::fail,
-                          "EN 1993-1-8 table 3.3: 2.4 hole diameters"};
-constexpr Rule kWidePitch{"distance of bolts, greatest", false, ShopVerdict::warn,
-                          "chute practice, uncertain: 100 to 150 mm"};
-constexpr Rule kSheet{"largest part", false, ShopVerdict::fail, "sheet of the design"};
-constexpr Rule kSmallest{"smallest part", true, ShopVerdict::warn, "laser cutters' tables: 25 mm"};
-constexpr Rule kRolling{"rolling radius", true, ShopVerdict::warn,
-                        "shop practice, uncertain: 20 to 50 thicknesses; pre-bend or press below"};
-constexpr Rule kPunch{"inner radius of bends", true, ShopVerdict::fail,
-                      "shop practice: 1 thickness of mild steel"};
-constexpr Rule kFlat{"flat between bends", true, ShopVerdict::warn,
-                     "half the opening of a die of 8 thicknesses"};
-constexpr Rule kMass{"mass of a part", false, ShopVerdict::fail, "heaviest of the design"};
-constexpr Rule kStep{"step up at a joint", false, ShopVerdict::fail,
-                     "downstream edge never higher than upstream edge"};
-
-/// The worst value that a rule met.
-class Worst {
- public:
-  explicit Worst(const Rule& rule) : rule_(rule) {}
-
-  /// @param text  writes a value or bound with its unit
-  void see(double value, double bound, const std::string& where, std::string (*text)(double)) {
-    const double room = rule_.at_least ? value - bound : bound - value;
-    if (seen_ && room >= room_) return;
-    seen_ = true;
-    room_ = room;
-    const bool kept = room >= -1e-9 * std::fabs(bound);
-    check_ = {rule_.name,  kept ? ShopVerdict::pass : rule_.broken,
-              text(value), std::string(rule_.at_least ? "at least " : "at most ") + text(bound),
-              where,       rule_.source};
-  }
-  void add_to(std::vector<ShopCheck>& checks) const {
-    if (seen_) checks.push_back(check_);
-  }
-
- private:
-  Rule rule_;
-  bool seen_ = false;
-  double room_ = 0.0;
-  ShopCheck check_;
-};
+constexpr ShopRule kHoleDiameter{"hole diameter", true, ShopVerdict::fail,
+                                 "laser cutters' tables: 0.7 to 1.5 thicknesses, most 1"};
+constexpr ShopRule kHoleToEdge{"hole to edge", true, ShopVerdict::fail,
+                               "EN 1993-1-8 table 3.3: 1.2 hole diameters"};
+constexpr ShopRule kHolePitch{"distance of bolts, least", true, ShopVerdict::fail,
+                              "EN 1993-1-8 table 3.3: 2.4 hole diameters"};
+constexpr ShopRule kWidePitch{"distance of bolts, greatest", false, ShopVerdict::warn,
+                              "chute practice, uncertain: 100 to 150 mm"};
+constexpr ShopRule kSheet{"largest part", false, ShopVerdict::fail, "sheet of the design"};
+constexpr ShopRule kSmallest{"smallest part", true, ShopVerdict::warn, "laser cutters' tables: 25 mm"};
+constexpr ShopRule kRolling{"rolling radius", true, ShopVerdict::warn,
+                            "shop practice, uncertain: 20 to 50 thicknesses; pre-bend or press below"};
+constexpr ShopRule kPunch{"inner radius of bends", true, ShopVerdict::fail,
+                          "shop practice: 1 thickness of mild steel"};
+constexpr ShopRule kFlat{"flat between bends", true, ShopVerdict::warn,
+                         "half the opening of a die of 8 thicknesses"};
+constexpr ShopRule kMass{"mass of a part", false, ShopVerdict::fail, "heaviest of the design"};
+constexpr ShopRule kStep{"step up at a joint", false, ShopVerdict::fail,
+                         "downstream edge never higher than upstream edge"};
 
 std::string as_length(double metres) {
   return length_text(metres, 4);
@@ -94,10 +60,10 @@ double edge_distance(const ArcPath& outline, Vec2 point) {
 }
 
 void check_holes(const Workshop& workshop, std::vector<ShopCheck>& checks) {
-  Worst diameter(kHoleDiameter);
-  Worst edge(kHoleToEdge);
-  Worst pitch(kHolePitch);
-  Worst wide(kWidePitch);
+  ShopCase diameter(kHoleDiameter);
+  ShopCase edge(kHoleToEdge);
+  ShopCase pitch(kHolePitch);
+  ShopCase wide(kWidePitch);
   for (const ShopPart& part : workshop.parts) {
     if (!part.pattern) continue;
     const std::vector<Circle>& holes = part.pattern->region.holes;
@@ -117,13 +83,13 @@ void check_holes(const Workshop& workshop, std::vector<ShopCheck>& checks) {
       if (frame) wide.see(nearest, 0.15, part.name, as_length);
     }
   }
-  for (const Worst* worst : {&diameter, &edge, &pitch, &wide}) worst->add_to(checks);
+  for (const ShopCase* worst : {&diameter, &edge, &pitch, &wide}) worst->add_to(checks);
 }
 
 void check_sizes(const SplitOptions& split, const Workshop& workshop, std::vector<ShopCheck>& checks) {
-  Worst largest(kSheet);
-  Worst smallest(kSmallest);
-  Worst mass(kMass);
+  ShopCase largest(kSheet);
+  ShopCase smallest(kSmallest);
+  ShopCase mass(kMass);
   constexpr double kLeastSide = 25e-3;
   for (const ShopPart& part : workshop.parts) {
     if (part.pattern) {
@@ -136,15 +102,15 @@ void check_sizes(const SplitOptions& split, const Workshop& workshop, std::vecto
     }
     if (split.heaviest) mass.see(part.mass, *split.heaviest, part.name, as_mass);
   }
-  for (const Worst* worst : {&largest, &smallest, &mass}) worst->add_to(checks);
+  for (const ShopCase* worst : {&largest, &smallest, &mass}) worst->add_to(checks);
 }
 
 void check_floor(const Job& job, const std::vector<Unit>& units, std::vector<ShopCheck>& checks) {
   const double thickness = job.channel.thickness;
-  Worst rolling(kRolling);
-  Worst punch(kPunch);
-  Worst flat(kFlat);
-  Worst step(kStep);
+  ShopCase rolling(kRolling);
+  ShopCase punch(kPunch);
+  ShopCase flat(kFlat);
+  ShopCase step(kStep);
   for (const Unit& unit : units) {
     const bool bent = unit.face.facets.has_value();
     for (const TrackArc& arc : unit.face.line.arcs()) {
@@ -159,7 +125,7 @@ void check_floor(const Job& job, const std::vector<Unit>& units, std::vector<Sho
       punch.see(bend_radius(job), thickness, unit.floor.name, as_length);
   }
   if (units.size() > 1) step.see(0.0 - job.options.joint_step, 0.0, "every joint", as_length);
-  for (const Worst* worst : {&rolling, &punch, &flat, &step}) worst->add_to(checks);
+  for (const ShopCase* worst : {&rolling, &punch, &flat, &step}) worst->add_to(checks);
 }
 
 /// Collects what is wrong with the measures, all of it.
@@ -256,7 +222,7 @@ std::vector<ShopCheck> part_checks(const PlateOptions& options, const Workshop& 
 }
 
 ShopCheck rolling_check(double radius, double thickness, const std::string& where) {
-  Worst rolling(kRolling);
+  ShopCase rolling(kRolling);
   rolling.see(radius, 20.0 * thickness, where, as_length);
   std::vector<ShopCheck> checks;
   rolling.add_to(checks);
