@@ -1,5 +1,6 @@
 #include "optimize/least_bound.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/referee/referee.hpp"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ class LeastBound {
   [[nodiscard]] double newton_step(double bound, double excess, double price) const {
     const double power = name_.id == LimitId::highest_normal_load ? 1.0 : 0.5;
     const double longer = 1.0 + power * excess / (price * bound);
-    return longer > 0.0 ? bound * std::pow(longer, -1.0 / power) : std::numeric_limits<double>::infinity();
+    return longer > 0.0 ? bound * math::pow(longer, -1.0 / power) : std::numeric_limits<double>::infinity();
   }
   /// By their ratio, since they may be orders of magnitude apart.
   [[nodiscard]] static double between(double low, double high) {

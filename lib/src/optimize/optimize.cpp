@@ -152,6 +152,93 @@ Resolve resolve_with(const OptimizeOptions& options, SearchControl& control) {
   return {anew, from};
 }
 
+/// The clock and the caller's wish to stop, as a search asks for them.
+class Patience {
+ public:
+  Patience(double time_budget, const std::stop_token& stop) : time_budget_(time_budget), stop_(stop) {}
+
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+  [[nodiscard]] bool ends() {
+    if (stop_.stop_requested()) return true;
+    out_of_time_ = seconds() > time_budget_;
+    return out_of_time_;
+  }
+  [[nodiscard]] bool out_of_time() const { return out_of_time_; }
+
+ private:
+  double time_budget_;
+  const std::stop_token& stop_;
+  Clock::time_point begin_ = Clock::now();
+  bool out_of_time_ = false;
+};
+
+std::string ended_text(const Objective& objective, OptimizeStatus status, bool stopped, bool out_of_time) {
+  if (status == OptimizeStatus::optimal) {
+    return std::string("every limit holds and no neighbouring track is ") + better_text(objective);
+  }
+  if (!stopped) return "every limit holds, but the first-order residual stayed above its tolerance";
+  return out_of_time ? "the time budget ran out: the best track so far" : "stopped: the best track so far";
+}
+
+/// Tells of the best track that keeps every limit.
+void tell_track(const Candidate& best, const OptimizeOptions& options, SearchControl& control,
+                OptimizeReport& report) {
+  const Found& found = *best.found;
+  report.travel_time = best.judgement.travel_time;
+  report.exit_speed = best.judgement.exit_speed;
+  report.checks = best.judgement.checks;
+  report.first_order_residual = found.residual;
+  report.finer_mesh_wins = best.finer_mesh_wins;
+  report.active = active_limits(*best.problem, priced(*best.problem, found, options, control));
+}
+
+/// Tells why there is no track.
+void tell_none(Conflict conflict, bool certain, bool stopped, OptimizeReport& report) {
+  report.status = certain ? OptimizeStatus::infeasible : OptimizeStatus::no_track_found;
+  if (stopped) {
+    report.message = "ended early, before any track kept every limit";
+    return;
+  }
+  report.message = certain ? conflict.text : none_found_text(conflict);
+  report.conflict = std::move(conflict);
+}
+
+/// The search itself, of a problem that is sound.
+Optimum searched(const Problem& problem, const OptimizeOptions& options, Patience& patience,
+                 SearchControl& control, const Progress& progress) {
+  Optimum optimum;
+  OptimizeReport& report = optimum.report;
+  report.objective = problem.objective;
+  report.unlimited_travel_time = unlimited_travel_time(problem);
+
+  std::optional<Conflict> at_once = beyond_reach(problem);
+  if (!at_once) at_once = too_close_at_an_end(problem);
+  if (at_once) {
+    tell_none(*std::move(at_once), true, false, report);
+    return optimum;
+  }
+
+  Course course(problem, options, control, progress);
+  course.from_starts();
+  Conflict conflict;
+  bool certain = false;
+  if (!course.kept() && !course.stopped())
+    conflict = course.explained(resolve_with(options, control), certain);
+  report.ended_early = course.stopped();
+  if (!course.kept()) {
+    tell_none(std::move(conflict), certain, course.stopped(), report);
+    return optimum;
+  }
+  optimum.centerline = course.best().track;
+  tell_track(course.best(), options, control, report);
+  const bool converged = report.first_order_residual <= options.tolerance && !course.stopped();
+  report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
+  report.message = ended_text(problem.objective, report.status, course.stopped(), patience.out_of_time());
+  return optimum;
+}
+
 }  // namespace
 }  // namespace optimizer
 
@@ -162,76 +249,14 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
   require_passable_in_order(problem);
   require_valid(options);
   if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);
-  const auto begin = Clock::now();
+  Patience patience(options.time_budget, stop);
   SearchControl control;
   control.limit_tolerance = 0.1 * options.limit_tolerance;
-  bool out_of_time = false;
-  bool stopped = false;
-  control.stop = [&] {
-    if (stop.stop_requested()) return true;
-    out_of_time = std::chrono::duration<double>(Clock::now() - begin).count() > options.time_budget;
-    return out_of_time;
-  };
-
-  Optimum optimum;
-  OptimizeReport& report = optimum.report;
-  report.objective = problem.objective;
-  report.unlimited_travel_time = unlimited_travel_time(problem);
-  const auto finish = [&] {
-    report.ended_early = stopped;
-    report.iterations = control.rounds;
-    report.evaluations = control.evaluations;
-    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  };
-
-  std::optional<Conflict> at_once = beyond_reach(problem);
-  if (!at_once) at_once = too_close_at_an_end(problem);
-  if (const std::optional<Conflict>& conflict = at_once) {
-    report.status = OptimizeStatus::infeasible;
-    report.conflict = *conflict;
-    report.message = conflict->text;
-    finish();
-    return optimum;
-  }
-
-  Course course(problem, options, control, progress);
-  course.from_starts();
-  Conflict conflict;
-  bool certain = false;
-  if (!course.kept() && !course.stopped())
-    conflict = course.explained(resolve_with(options, control), certain);
-  stopped = course.stopped();
-
-  if (course.kept()) {
-    const Candidate& best = course.best();
-    const Found& found = *best.found;
-    optimum.centerline = best.track;
-    report.travel_time = best.judgement.travel_time;
-    report.exit_speed = best.judgement.exit_speed;
-    report.checks = best.judgement.checks;
-    report.first_order_residual = found.residual;
-    report.finer_mesh_wins = best.finer_mesh_wins;
-    report.active = active_limits(*best.problem, priced(*best.problem, found, options, control));
-    const bool converged = found.residual <= options.tolerance && !stopped;
-    report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
-    if (converged) {
-      report.message =
-          std::string("every limit holds and no neighbouring track is ") + better_text(problem.objective);
-    } else if (stopped) {
-      report.message =
-          out_of_time ? "the time budget ran out: the best track so far" : "stopped: the best track so far";
-    } else {
-      report.message = "every limit holds, but the first-order residual stayed above its tolerance";
-    }
-  } else if (stopped) {
-    report.status = OptimizeStatus::no_track_found;
-    report.message = "ended early, before any track kept every limit";
-  } else {
-    report.status = certain ? OptimizeStatus::infeasible : OptimizeStatus::no_track_found;
-    report.message = certain ? conflict.text : none_found_text(conflict);
-    report.conflict = std::move(conflict);
-  }
-  finish();
+  control.stop = [&] { return patience.ends(); };
+  Optimum optimum = searched(problem, options, patience, control, progress);
+  optimum.report.iterations = control.rounds;
+  optimum.report.evaluations = control.evaluations;
+  optimum.report.seconds = patience.seconds();
   return optimum;
 }
 
