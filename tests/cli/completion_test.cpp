@@ -130,7 +130,7 @@ TEST_CASE("completion offers the commands, and of each the options that its help
 }
 
 TEST_CASE("completion knows kinds, keys and their words, formats, figures, units, shells and files") {
-  CHECK(offered({"init", "ch"}) == Words{"chute"});
+  CHECK(offered({"init", "ch"}) == Words{"chute", "chute-in-plates"});
   CHECK(offered({"solve", "--centerline", "c"}) == Words{"constant-speed", "cycloid"});
   CHECK(offered({"solve", "--centerline=c"}) == Words{"--centerline=constant-speed", "--centerline=cycloid"});
   CHECK(offered({"build", "x.yaml", "--set", "cross_section.kind=u"}) ==

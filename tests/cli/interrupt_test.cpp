@@ -144,7 +144,9 @@ TEST_CASE("SIGTERM ends a search at once, Ctrl-C ends it with the best track so 
   CHECK(terminated.exit_code == 130);
   CHECK(terminated.time <= kPatience);
   const Ending ended = interrupted(arguments, place.path(), "finer track", SIGINT);
+  INFO(ended.errors);
   CHECK((ended.exit_code == 4 || ended.exit_code == 0));
+  if (ended.exit_code == 4) CHECK_THAT(ended.errors, Contains("stopped: the best track so far"));
   CHECK(ended.time <= kPatience);
 }
 
@@ -172,5 +174,6 @@ TEST_CASE("a sweep of searches ends at once and goes on where it was") {
     INFO(ending.errors);
     CHECK(ending.exit_code == 130);
     CHECK(ending.time <= kPatience);
+    CHECK_THAT(ending.errors, Contains("interrupted"));
   }
 }

@@ -39,9 +39,14 @@ RunningProgram::RunningProgram(const std::string& program, const std::vector<std
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  // What an earlier program wrote there is not this one's.
+  std::filesystem::remove(directory_ / "output");
+  std::filesystem::remove(directory_ / "errors");
   child_ = ::fork();
   if (child_ < 0) throw std::runtime_error("fork failed");
   if (child_ > 0) return;
+  // Until the program is there, the test's own handlers would answer a signal.
+  for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
   if (::chdir(directory_.c_str()) != 0) ::_exit(126);
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect("output", O_WRONLY | O_CREAT | O_APPEND, STDOUT_FILENO);

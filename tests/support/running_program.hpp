@@ -10,7 +10,8 @@
 /// A program that runs beside the test.
 class RunningProgram {
  public:
-  /// @param directory  where it runs; its output goes to the files "output" and "errors" there
+  /// @param directory  where it runs; its output goes to the files "output" and "errors" there,
+  ///                   in place of those of an earlier one
   RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
                  const std::filesystem::path& directory);
   /// Kills it, if it still runs.
