@@ -17,6 +17,8 @@
 namespace glissade::optimizer {
 namespace {
 
+using WouldDo = std::function<bool(const LimitName&, double)>;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kDirections = 2048;  // accuracy: 0.18 deg apart
 
@@ -131,7 +133,8 @@ double best_clearance(const End& end, const Envelope& envelope, const std::vecto
   return best;
 }
 
-Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles) {
+Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles,
+                     const WouldDo& would_do) {
   Conflict conflict;
   std::vector<std::string> names;
   std::string remedies;
@@ -144,8 +147,10 @@ Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector
     if (!others.empty() && lacking(end, envelope, others) > 0.0) continue;
     conflict.limits.push_back({obstacle.limit, obstacle.clearance});
     names.push_back(obstacle.limit.key());
-    const double left = best_clearance(end, envelope, obstacles, obstacle);
-    if (left < 0.0) continue;
+    // A little less than all there is: the track has to lead on from there.
+    constexpr double kLess = 1e-3;  // taste
+    const double left = (1.0 - kLess) * best_clearance(end, envelope, obstacles, obstacle);
+    if (left < 0.0 || !would_do || !would_do(obstacle.limit, left)) continue;
     conflict.relaxations.push_back({obstacle.limit, obstacle.clearance, left});
     remedies += (remedies.empty() ? "" : ", ") + obstacle.limit.key() + " " + length_text(left, 3);
   }
@@ -174,7 +179,7 @@ Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector
 
 }  // namespace
 
-std::optional<Conflict> too_close_at_an_end(const Problem& problem) {
+std::optional<Conflict> too_close_at_an_end(const Problem& problem, const WouldDo& would_do) {
   const Limits& limits = problem.limits;
   if (limits.envelope.is_line()) return std::nullopt;
   const std::vector<Obstructed> obstacles = obstacles_of(limits);
@@ -187,7 +192,7 @@ std::optional<Conflict> too_close_at_an_end(const Problem& problem) {
   for (const End& end : ends) {
     const bool given = end.flattest <= end.steepest;
     if (given && lacking(end, limits.envelope, obstacles) > 0.0) {
-      return conflict_at(end, limits.envelope, obstacles);
+      return conflict_at(end, limits.envelope, obstacles, would_do);
     }
   }
   return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include "glissade/optimize/optimize.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace glissade::optimizer {
@@ -11,7 +12,9 @@ namespace glissade::optimizer {
 /// Method: at an end the envelope holds at least the normal of the centerline, from the underside to the top,
 ///   and its direction is the only thing that a track may choose. All slope angles that the limits allow are
 ///   tried, some thousand of them; none keeps the clearances by so much that one in between could.
+/// @param would_do  whether a track is found with another clearance; empty: none is told that would do
 /// @return the obstacles that no direction keeps clear of, and what would do; none if both ends have room
-[[nodiscard]] std::optional<Conflict> too_close_at_an_end(const Problem& problem);
+[[nodiscard]] std::optional<Conflict> too_close_at_an_end(
+    const Problem& problem, const std::function<bool(const LimitName&, double)>& would_do);
 
 }  // namespace glissade::optimizer

@@ -454,8 +454,9 @@ std::vector<Relaxation> relaxations_of(const Problem& problem, const std::vector
       const double needed = as_told(*least, limit.bound_si, limit.name.dimension());
       const auto changed = with_bound(problem, limit.name, needed);
       if (!changed) break;
-      // Where tracks wind, all starts have been tried for the one that has the limit give way least.
-      if (!(winding ? resolve.from(*changed, way.foothold) : resolve.anew(*changed))) continue;
+      // Where tracks wind, most fail from the one that has the limit give way least; all have to be found anew.
+      if (winding && !resolve.from(*changed, way.foothold)) continue;
+      if (!resolve.anew(*changed)) continue;
       relaxations.push_back({limit.name, limit.bound_si, needed});
       break;
     }

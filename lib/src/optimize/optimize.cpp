@@ -5,6 +5,7 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
 
+#include "optimize/changed_bound.hpp"
 #include "optimize/end_conflict.hpp"
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_bound.hpp"
@@ -214,7 +215,14 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   report.unlimited_travel_time = unlimited_travel_time(problem);
 
   std::optional<Conflict> at_once = beyond_reach(problem);
-  if (!at_once) at_once = too_close_at_an_end(problem);
+  if (!at_once) {
+    // What would do at one end has to do along the whole track.
+    const Resolve resolve = resolve_with(options, control);
+    at_once = too_close_at_an_end(problem, [&](const LimitName& limit, double value) {
+      const auto changed = with_bound(problem, limit, value);
+      return !changed || (!too_close_at_an_end(*changed, {}) && resolve.anew(*changed));
+    });
+  }
   if (at_once) {
     tell_none(*std::move(at_once), true, false, report);
     return optimum;
