@@ -1,4 +1,4 @@
-#include "box_search.hpp"
+#include "optimize/box_search.hpp"
 
 #include <cmath>
 #include <exception>
