@@ -1,0 +1,235 @@
+#include "parts/body_mesh.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+
+#include "solid/cap_triangulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+using Index = std::uint32_t;
+
+struct Fineness {
+  double sagitta;
+  int round_corners;
+};
+
+Index count_of(const TriangleMesh& mesh) {
+  return static_cast<Index>(mesh.vertices.size());
+}
+
+void add_quad(TriangleMesh& mesh, Index a, Index b, Index c, Index d) {
+  mesh.triangles.push_back({a, b, c});
+  mesh.triangles.push_back({a, c, d});
+}
+
+int chords_of(double sweep, double radius, const Fineness& fineness) {
+  const double cosine = std::clamp(1.0 - fineness.sagitta / radius, -1.0, 1.0);
+  const double widest = std::min(2.0 * math::acos(cosine), kTurn / fineness.round_corners);
+  return std::max(1, static_cast<int>(std::ceil(std::fabs(sweep) / widest - 1e-9)));
+}
+
+int chords_of(const PathPiece& piece, const Fineness& fineness) {
+  if (piece.straight()) return 1;
+  const CircularArc arc = arc_of(piece);
+  return chords_of(arc.sweep, arc.radius, fineness);
+}
+
+// --- prisms
+
+/// Corners of a closed path; of a circle as two half circles.
+std::vector<Vec2> corners_of(const ArcPath& path, const Fineness& fineness) {
+  std::vector<Vec2> corners;
+  for (const PathPiece& piece : pieces_of(path)) {
+    const int chords = chords_of(piece, fineness);
+    corners.push_back(piece.from);
+    for (int i = 1; i < chords; ++i) corners.push_back(point_on(piece, static_cast<double>(i) / chords));
+  }
+  return corners;
+}
+
+void run(std::vector<Vec2>& loop, bool counter_clockwise) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) twice += cross(loop[i], loop[(i + 1) % loop.size()]);
+  if ((twice > 0.0) != counter_clockwise) std::reverse(loop.begin(), loop.end());
+}
+
+std::vector<std::vector<Vec2>> loops_of(const PlaneRegion& region, const Fineness& fineness) {
+  std::vector<std::vector<Vec2>> loops{corners_of(region.outline, fineness)};
+  for (const ArcPath& cutout : region.cutouts) loops.push_back(corners_of(cutout, fineness));
+  for (const Circle& hole : region.holes) loops.push_back(corners_of(path_of(hole), fineness));
+  for (std::size_t i = 0; i < loops.size(); ++i) run(loops[i], i == 0);
+  return loops;
+}
+
+TriangleMesh prism_of(const Prism& prism, const Fineness& fineness) {
+  const std::vector<std::vector<Vec2>> loops = loops_of(prism.region, fineness);
+  const std::vector<std::array<Index, 3>> faces = solid::triangulate_loops(loops);
+  TriangleMesh mesh;
+  for (const double z : {0.0, prism.depth}) {
+    for (const std::vector<Vec2>& loop : loops) {
+      for (const Vec2 corner : loop) mesh.vertices.push_back({corner.x, corner.y, z});
+    }
+  }
+  const Index above = count_of(mesh) / 2;
+  for (const auto& [a, b, c] : faces) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({above + a, above + b, above + c});
+  }
+  Index first = 0;
+  for (const std::vector<Vec2>& loop : loops) {
+    const auto size = static_cast<Index>(loop.size());
+    for (Index i = 0; i < size; ++i) {
+      const Index a = first + i;
+      const Index b = first + (i + 1) % size;
+      add_quad(mesh, a, b, above + b, above + a);
+    }
+    first += size;
+  }
+  return mesh;
+}
+
+TriangleMesh mesh_of(const Prism& prism, Fineness fineness) {
+  constexpr int kTries = 16;
+  for (int i = 1; i < kTries; ++i) {
+    try {
+      return prism_of(prism, fineness);
+    } catch (const InternalError&) {
+      // Chords of two arcs beside each other crossed.
+      fineness.sagitta /= 4.0;
+      fineness.round_corners *= 2;
+    }
+  }
+  return prism_of(prism, fineness);
+}
+
+// --- sections along a path
+
+struct PathFrame {
+  Vec2 at;
+  Vec2 left;
+};
+
+PathFrame frame_on(const PathPiece& piece, double share) {
+  const Vec2 chord = piece.to - piece.from;
+  const auto [sine, cosine] = math::sine_cosine(4.0 * math::atan(piece.bulge) * (share - 0.5));
+  const Vec2 along =
+      (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
+  return {point_on(piece, share), {-along.y, along.x}};
+}
+
+std::vector<PathFrame> frames_along(const ArcPath& path, double reach, const Fineness& fineness) {
+  std::vector<PathFrame> frames;
+  for (const PathPiece& piece : pieces_of(path)) {
+    int chords = 1;
+    if (!piece.straight()) {
+      const CircularArc arc = arc_of(piece);
+      chords = chords_of(arc.sweep, arc.radius + reach, fineness);
+    }
+    if (frames.empty()) frames.push_back(frame_on(piece, 0.0));
+    for (int i = 1; i <= chords; ++i) frames.push_back(frame_on(piece, static_cast<double>(i) / chords));
+  }
+  return frames;
+}
+
+TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
+  std::vector<Vec2> section = body.section;
+  run(section, true);
+  double reach = 0.0;
+  for (const Vec2 corner : section) reach = std::max(reach, std::fabs(corner.x));
+  TriangleMesh mesh;
+  const std::vector<PathFrame> frames = frames_along(body.path, reach, fineness);
+  for (const PathFrame& frame : frames) {
+    for (const Vec2 corner : section) {
+      const Vec2 at = frame.at + corner.x * frame.left;
+      mesh.vertices.push_back({at.x, at.y, corner.y});
+    }
+  }
+  const auto size = static_cast<Index>(section.size());
+  for (Index ring = 0; ring + 1 < frames.size(); ++ring) {
+    for (Index i = 0; i < size; ++i) {
+      const Index a = ring * size + i;
+      const Index b = ring * size + (i + 1) % size;
+      add_quad(mesh, a, b, b + size, a + size);
+    }
+  }
+  const Index last = count_of(mesh) - size;
+  for (const auto& [a, b, c] : solid::triangulate_loops({section})) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({last + a, last + b, last + c});
+  }
+  return mesh;
+}
+
+// --- tubes
+
+TriangleMesh mesh_of(const TubeGore& gore, const Fineness& fineness) {
+  const double outer = gore.inner_radius + gore.thickness;
+  const auto corners = static_cast<Index>(std::max(chords_of(kTurn, outer, fineness), 3));
+  TriangleMesh mesh;
+  const auto add_ring = [&](double radius, double height, Angle tilt) {
+    const double rise = math::tan(tilt.radians());
+    for (Index i = 0; i < corners; ++i) {
+      const auto [sine, cosine] = math::sine_cosine(kTurn * i / corners);
+      const double x = radius * cosine;
+      mesh.vertices.push_back({x, radius * sine, height + rise * x});
+    }
+  };
+  add_ring(outer, 0.0, gore.start_tilt);
+  add_ring(gore.inner_radius, 0.0, gore.start_tilt);
+  add_ring(outer, gore.length, gore.end_tilt);
+  add_ring(gore.inner_radius, gore.length, gore.end_tilt);
+  for (Index i = 0; i < corners; ++i) {
+    const Index next = (i + 1) % corners;
+    const auto at = [corners](Index ring, Index corner) { return ring * corners + corner; };
+    add_quad(mesh, at(0, i), at(0, next), at(2, next), at(2, i));
+    add_quad(mesh, at(1, next), at(1, i), at(3, i), at(3, next));
+    add_quad(mesh, at(0, next), at(0, i), at(1, i), at(1, next));
+    add_quad(mesh, at(2, i), at(2, next), at(3, next), at(3, i));
+  }
+  return mesh;
+}
+
+TriangleMesh mesh_of(const MeshBody& body, const Fineness& /*fineness*/) {
+  return body.mesh;
+}
+
+}  // namespace
+
+TriangleMesh facets_of(const PartBody& body, double tolerance, int round_corners) {
+  const Fineness fineness{tolerance, round_corners};
+  return std::visit([&](const auto& shape) { return mesh_of(shape, fineness); }, body);
+}
+
+TriangleMesh coarsened(const TriangleMesh& mesh, double cell) {
+  TriangleMesh coarse;
+  std::map<std::array<long long, 3>, Index> cells;
+  std::vector<Index> kept;
+  kept.reserve(mesh.vertices.size());
+  const auto on_grid = [cell](double value) { return std::llround(value / cell); };
+  for (const Vec3& vertex : mesh.vertices) {
+    const auto [at, is_new] =
+        cells.try_emplace({on_grid(vertex.x), on_grid(vertex.y), on_grid(vertex.z)}, count_of(coarse));
+    if (is_new) coarse.vertices.push_back(vertex);
+    kept.push_back(at->second);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (kept[a] == kept[b] || kept[b] == kept[c] || kept[c] == kept[a]) continue;
+    coarse.triangles.push_back({kept[a], kept[b], kept[c]});
+  }
+  return coarse;
+}
+
+}  // namespace glissade::parts
