@@ -54,9 +54,10 @@ std::string checks_text(const std::vector<ShopCheck>& checks) {
       continue;
     }
     const bool failed = check.verdict == ShopVerdict::fail;
-    text += "\n" + emphasised(failed ? "fails" : "warns", failed ? Emphasis::bad : Emphasis::heading) + ": " +
-            check.rule + " " + check.value + ", " + check.bound + " (" + check.where + "; " + check.source +
-            ")";
+    text += "\n" +
+            emphasised(std::string(to_text(check.verdict)), failed ? Emphasis::bad : Emphasis::heading) +
+            ": " + check.rule + " " + check.value + ", " + check.bound + " (" + check.where + "; " +
+            check.source + (check.needs_checking ? " [" + check.certainty + "]" : "") + ")";
   }
   return std::to_string(passed) + " of " + std::to_string(checks.size()) + " rules of the shop kept" + text;
 }

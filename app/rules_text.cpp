@@ -119,9 +119,10 @@ std::string rule_text(const Rule& rule) {
 }
 
 std::string quantities_table() {
-  Table table({"quantity", "unit", "meaning", ""});
+  Table table({"quantity", "unit", "of", "meaning", ""});
   for (const RuleQuantity& quantity : rule_quantities()) {
     table.add({std::string(quantity.key), std::string(unit_for_people(quantity.dimension)),
+               quantity.subject == RuleSubject::track ? "track" : "fabrication",
                std::string(quantity.label)});
   }
   return table.text();

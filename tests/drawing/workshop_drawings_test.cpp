@@ -125,5 +125,6 @@ TEST_CASE("tables as CSV: units in the header, one row each, texts with commas i
   const std::string out = setting_out_csv(workshop);
   CHECK(out.find("ordinate_mm,underside mm\nstart,0,0,0,0,0,0,") != std::string::npos);
   CHECK(shop_checks_csv(workshop) ==
-        "rule,verdict,value,bound,where,source\nsmallest hole,pass,14 mm,at least 4 mm,part 1,a source\n");
+        "rule,verdict,value,bound,where,source,sentence,certainty\n"
+        "smallest hole,pass,14 mm,at least 4 mm,part 1,a source,Holes are wide enough.,secondary\n");
 }

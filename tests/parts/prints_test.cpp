@@ -13,6 +13,7 @@
 #include "parts/print_pose.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/shop_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,7 @@ TEST_CASE(
   CHECK(std::fabs(build.proof.volume - exact) < 1e-9 * exact);
   CHECK(std::fabs(volume - build.proof.volume - build.proof.added_volume) < 2e-3 * exact);
   CHECK(build.proof.edge_mismatch < 1e-12);
-  for (const ShopCheck& check : build.workshop.checks) {
+  for (const ShopCheck& check : testing::shop_checks(build.workshop, "print")) {
     INFO(check.rule << " " << check.value << " " << check.bound << " " << check.where);
     CHECK(check.verdict == ShopVerdict::pass);
   }
@@ -153,17 +154,14 @@ TEST_CASE(
     "prints: layers follow a groove on its side without a step; a channel stands on its end, its steps the "
     "sine of its turn") {
   const auto rule = [](const WorkshopBuild& build, const std::string& name) {
-    for (const ShopCheck& check : build.workshop.checks) {
-      if (check.rule == name) return check.value;
-    }
-    return std::string("none");
+    return testing::check_of(testing::shop_checks(build.workshop, "print"), name).value;
   };
-  CHECK(rule(prints(run(), groove()), "step of the layers on the run surface") == "0 m");
-  CHECK(rule(prints(run(), groove()), "overhang") == "35.5 deg");  // of the groove's side, atan(5/7)
+  CHECK(rule(prints(run(), groove()), "print.run-surface-step") == "0 m");
+  CHECK(rule(prints(run(), groove()), "print.overhang") == "35.54 deg");  // of the groove's side, atan(5/7)
   const WorkshopBuild channel = prints(run(), CrossSection::u_channel(30e-3, 15e-3, 3e-3));
   for (const PrintPiece& piece : channel.prints) CHECK(size_of(piece.mesh).z <= 0.25 + 1e-12);
-  CHECK(rule(channel, "overhang") != "none");
-  CHECK(rule(channel, "step of the layers on the run surface") != "0 m");
+  CHECK(rule(channel, "print.overhang") != "");
+  CHECK(rule(channel, "print.run-surface-step") != "0 m");
 }
 
 TEST_CASE(
@@ -175,11 +173,10 @@ TEST_CASE(
   options.number_depth = 0.0;
   const WorkshopBuild build = prints(run(), thin, options);
   CHECK(build.workshop.parts.back().name != "pin");
-  const bool told =
-      std::any_of(build.workshop.checks.begin(), build.workshop.checks.end(), [](const auto& check) {
-        return check.rule == "pins at the joints" && check.verdict == ShopVerdict::warn;
-      });
-  CHECK(told);
+  const ShopCheck told = testing::check_of(testing::shop_checks(build.workshop, "print"), "print.joint");
+  CHECK(told.verdict == ShopVerdict::warn);
+  CHECK(told.value == "0");
+  CHECK(told.bound == "at least 2");
   options.dowels.diameter = 1.5e-3;
   const std::string text = refusal(options, thin);
   INFO(text);

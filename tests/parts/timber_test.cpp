@@ -10,6 +10,7 @@
 #include "parts/timber_frame.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/shop_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +102,7 @@ TEST_CASE(
   const auto upper = named(build, "deck_1_");
   for (std::size_t i = 0; i + 2 < upper.size(); ++i)
     CHECK(bounds(upper[i]->pattern->region.outline).width() == Approx(2.5).epsilon(1e-12));
-  for (const ShopCheck& check : build.workshop.checks) {
+  for (const ShopCheck& check : testing::shop_checks(build.workshop, "timber")) {
     INFO(check.rule << ": " << check.value << ", " << check.bound << ", " << check.where);
     CHECK(check.verdict == ShopVerdict::pass);
   }

@@ -362,7 +362,7 @@ TEST_CASE("a function is a page long: longer ones are known by name, and are to 
   constexpr std::size_t kPage = 65;
   CHECK(long_functions("int f(int a,\n      int b) {\n  g();\n}\nint h() {\n}\n", 3) ==
         std::vector<std::string>{"int f(int a, 4"});
-  const std::set<std::string> known = {"void Transcription::add_law_parts(", "rule_quantities() {"};
+  const std::set<std::string> known = {"void Transcription::add_law_parts("};
   std::vector<std::string> found;
   for (const char* folder : {"lib", "app"}) {
     for (const fs::path& file : sources_below(folder)) {

@@ -146,7 +146,8 @@ TEST_CASE("every file below lib/data/rules is carried by the program, and no rul
     CHECK(in_folder.contains(set.name));
     for (const Rule& rule : set.rules) {
       INFO(rule.id);
-      CHECK(needs_checking(rule.certainty));
+      // Nobody read a standard; what the design says is read.
+      CHECK(needs_checking(rule.certainty) != rule.source.ends_with(" of the design"));
       CHECK(rule.source.size() > 10);
       CHECK(rule.sentence.ends_with('.'));
     }

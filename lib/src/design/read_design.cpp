@@ -422,7 +422,7 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.gates = read_gates(top, findings);
   read_rules(top, design, findings);
   design.cross_section = read_cross_section(top, findings);
-  design.fabrication = read_fabrication(top, findings);
+  design.fabrication = read_fabrication(top, design.file.parent_path(), findings);
   design.mesh = read_mesh(top, findings);
   design.exports = read_export(top, findings);
   top.refuse_unknown_keys();

@@ -1,9 +1,11 @@
 #include "design/read_fabrication.hpp"
 
 #include "design/read_process.hpp"
+#include "design/read_rules.hpp"
 
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace glissade::design_file {
 namespace {
@@ -21,12 +23,13 @@ StockMaterial read_material(const Value& value, StockMaterial material, Findings
   return material;
 }
 
-std::optional<FabricationDesign> read_fabrication(MapReader& top, Findings& findings) {
+std::optional<FabricationDesign> read_fabrication(MapReader& top, const std::filesystem::path& folder,
+                                                  Findings& findings) {
   const auto value = top.find("fabrication");
   if (!value) return {};
   constexpr std::string_view kExample = "{process: plate}";
   MapReader map(*value, "A fabrication", kExample, findings);
-  map.expect({"process", "material", "arc_tolerance"});
+  map.expect({"process", "material", "arc_tolerance", "rules"});
   FabricationDesign design;
   Process kind = Process::plate;
   if (const auto process = map.need("process", "process: plate")) {
@@ -36,6 +39,7 @@ std::optional<FabricationDesign> read_fabrication(MapReader& top, Findings& find
             .value_or(kind);
   }
   const auto material = map.find("material");
+  const auto rules = map.find("rules");
   const auto tolerance = map.quantity("arc_tolerance", Dimension::length);
   switch (kind) {
     case Process::plate:
@@ -54,6 +58,9 @@ std::optional<FabricationDesign> read_fabrication(MapReader& top, Findings& find
         design.arc_tolerance = tolerance.value_or(process.kArcTolerance);
       },
       design.process);
+  const std::vector<std::string> suggested = {"shop-" + std::string(process_word(design))};
+  design.rules = rules ? read_rule_group(*rules, suggested, RuleSubject::workshop, folder, findings)
+                       : suggested_rules(suggested);
   map.refuse_unknown_keys();
   return design;
 }

@@ -37,12 +37,29 @@ std::string needed_text(MapReader& map, std::string_view key, std::string_view e
   return value ? as_text(*value, findings).value_or("") : std::string();
 }
 
+/// What rules of a group may speak of; none: of anything, as those of a file that may be used anywhere.
+using Subject = std::optional<RuleSubject>;
+
+/// Why a quantity is of no use where it stands; none where it is.
+std::optional<Issue> misplaced(const RuleQuantity& quantity, const Subject& subject) {
+  if (!subject || *subject == quantity.subject) return {};
+  const bool of_track = quantity.subject == RuleSubject::track;
+  return Issue{"", "quantity: " + shown(quantity.key) + " is of " + (of_track ? "tracks" : "workshops"),
+               of_track ? "Rules of a workshop judge the parts, not the track."
+                        : "Rules of a track judge its shape and its ride, not the parts that are made of it.",
+               of_track ? "the rule below rules:" : "the rule below fabrication: {rules: {own: ...}}"};
+}
+
 /// A quantity by its key, or a finding that names the nearest.
-const RuleQuantity* read_quantity_key(MapReader& map, Findings& findings) {
+const RuleQuantity* read_quantity_key(MapReader& map, const Subject& subject, Findings& findings) {
   const auto value = map.need("quantity", "quantity: steepest_slope_angle");
   const auto key = value ? as_text(*value, findings) : std::nullopt;
   if (!key) return nullptr;
-  if (const RuleQuantity* const quantity = rule_quantity(*key)) return quantity;
+  if (const RuleQuantity* const quantity = rule_quantity(*key)) {
+    if (auto issue = misplaced(*quantity, subject))
+      findings.add(value->node->at, value->key_path, *std::move(issue));
+    return quantity;
+  }
   std::vector<std::string_view> keys;
   for (const RuleQuantity& quantity : rule_quantities()) keys.push_back(quantity.key);
   const std::string_view near = nearest_word(*key, keys);
@@ -80,30 +97,30 @@ Range read_bound(MapReader& map, const Value& value, const RuleQuantity* quantit
   return bound;
 }
 
-RuleCondition read_condition(const Value& value, Findings& findings) {
+RuleCondition read_condition(const Value& value, const Subject& subject, Findings& findings) {
   MapReader map(value, "A condition", "{quantity: hill_size, lowest: 110 m}", findings);
   map.expect({"quantity", "lowest", "highest"});
   RuleCondition condition;
-  const RuleQuantity* const quantity = read_quantity_key(map, findings);
+  const RuleQuantity* const quantity = read_quantity_key(map, subject, findings);
   if (quantity != nullptr) condition.quantity = quantity->key;
   condition.range = read_bound(map, value, quantity, findings);
   map.refuse_unknown_keys();
   return condition;
 }
 
-Rule read_rule(const Value& value, Findings& findings) {
+Rule read_rule(const Value& value, const Subject& subject, Findings& findings) {
   MapReader map(value, "A rule", kExampleRule, findings);
   map.expect({"id", "sentence", "quantity", "lowest", "highest", "advice", "when", "source", "certainty"});
   Rule rule;
   rule.id = needed_text(map, "id", "id: own.exit-speed", findings);
   rule.sentence = needed_text(map, "sentence", "sentence: what the rule asks, in one sentence", findings);
-  const RuleQuantity* const quantity = read_quantity_key(map, findings);
+  const RuleQuantity* const quantity = read_quantity_key(map, subject, findings);
   if (quantity != nullptr) rule.quantity = quantity->key;
   rule.bound = read_bound(map, value, quantity, findings);
   if (const auto advice = map.find("advice")) rule.advice = as_flag(*advice, findings).value_or(false);
   if (const auto when = map.find("when")) {
     for (const Value& item : as_list(*when, "[{quantity: hill_size, lowest: 110 m}]", findings)) {
-      rule.when.push_back(read_condition(item, findings));
+      rule.when.push_back(read_condition(item, subject, findings));
     }
   }
   rule.source = needed_text(map, "source", "source: document, clause", findings);
@@ -114,11 +131,11 @@ Rule read_rule(const Value& value, Findings& findings) {
   return rule;
 }
 
-std::vector<Rule> read_rule_list(const Value& list, Findings& findings) {
+std::vector<Rule> read_rule_list(const Value& list, const Subject& subject, Findings& findings) {
   std::vector<Rule> rules;
   std::set<std::string> ids;
   for (const Value& item : as_list(list, kExampleRule, findings)) {
-    rules.push_back(read_rule(item, findings));
+    rules.push_back(read_rule(item, subject, findings));
     const std::string& id = rules.back().id;
     if (id.empty() || ids.insert(id).second) continue;
     findings.add(
@@ -142,7 +159,7 @@ RuleSet read_set(const Node& root, Findings& findings) {
   }
   set.name = needed_text(top, "name", "name: our-rules", findings);
   if (const auto title = top.find("title")) set.title = as_text(*title, findings).value_or("");
-  if (const auto list = top.need("rules", "rules:")) set.rules = read_rule_list(*list, findings);
+  if (const auto list = top.need("rules", "rules:")) set.rules = read_rule_list(*list, {}, findings);
   top.refuse_unknown_keys();
   return set;
 }
@@ -159,10 +176,31 @@ const RuleSet* shipped(std::string_view name) {
   return nullptr;
 }
 
-std::vector<Rule> rules_of_set(const Value& value, const std::string& name,
+/// @return the first rule whose quantity is of no use to rules of a subject; null if there is none
+const Rule* misplaced_rule(const std::vector<Rule>& rules, RuleSubject subject) {
+  for (const Rule& rule : rules) {
+    if (misplaced(*rule_quantity(rule.quantity), subject)) return &rule;
+  }
+  return nullptr;
+}
+
+/// The rules of a set, or none and a finding where it is not of the subject.
+std::vector<Rule> fitting_rules(const std::vector<Rule>& rules, const Value& value, RuleSubject subject,
+                                Findings& findings) {
+  const Rule* const stranger = misplaced_rule(rules, subject);
+  if (stranger == nullptr) return rules;
+  Issue issue = *misplaced(*rule_quantity(stranger->quantity), subject);
+  issue.what = value.key + ": its rule " + shown(stranger->id) + " is not of this place, " + issue.what;
+  issue.hint = subject == RuleSubject::track ? "the set below fabrication: {rules: {sets: ...}}"
+                                             : "the set below rules: {sets: ...}";
+  findings.add(value.node->at, value.key_path, std::move(issue));
+  return {};
+}
+
+std::vector<Rule> rules_of_set(const Value& value, const std::string& name, RuleSubject subject,
                                const std::filesystem::path& folder, Findings& findings) {
   if (!is_file(name)) {
-    if (const RuleSet* const set = shipped(name)) return set->rules;
+    if (const RuleSet* const set = shipped(name)) return fitting_rules(set->rules, value, subject, findings);
     std::vector<std::string_view> names;
     for (const RuleSet& set : shipped_rule_sets()) names.push_back(set.name);
     findings.add(value.node->at, value.key_path,
@@ -172,7 +210,7 @@ std::vector<Rule> rules_of_set(const Value& value, const std::string& name,
     return {};
   }
   try {
-    return read_rule_set(folder / name).rules;
+    return fitting_rules(read_rule_set(folder / name).rules, value, subject, findings);
   } catch (const Error& error) {
     for (const Issue& issue : error.issues()) {
       findings.add(value.node->at, value.key_path,
@@ -216,18 +254,19 @@ void leave_out(const Value& list, RulesDesign& rules, Findings& findings) {
 
 }  // namespace
 
-void read_rules(MapReader& top, Design& design, Findings& findings) {
-  RulesDesign& rules = design.rules;
-  const std::optional<Value> value = top.find("rules");
-  constexpr std::string_view kExample = "{sets: [fis-in-run]}";
-  if (!value) {
-    for (const std::string& name : suggested_sets(design)) {
-      for (const Rule& rule : shipped(name)->rules) replace_or_add(rules.in_force, rule);
-    }
-    return;
+RulesDesign suggested_rules(const std::vector<std::string>& suggested) {
+  RulesDesign rules;
+  for (const std::string& name : suggested) {
+    for (const Rule& rule : shipped(name)->rules) replace_or_add(rules.in_force, rule);
   }
-  MapReader map(*value, "A group of rules", kExample, findings);
+  return rules;
+}
+
+RulesDesign read_rule_group(const Value& value, const std::vector<std::string>& suggested,
+                            RuleSubject subject, const std::filesystem::path& folder, Findings& findings) {
+  MapReader map(value, "A group of rules", "{sets: [fis-in-run]}", findings);
   map.expect({"sets", "own", "leave_out"});
+  RulesDesign rules;
   const auto add = [&](const std::vector<Rule>& more) {
     for (const Rule& rule : more) replace_or_add(rules.in_force, rule);
   };
@@ -237,17 +276,26 @@ void read_rules(MapReader& top, Design& design, Findings& findings) {
       const std::string name = as_text(item, findings).value_or("");
       if (name.empty()) continue;
       rules.sets->push_back(name);
-      add(rules_of_set(item, name, design.file.parent_path(), findings));
+      add(rules_of_set(item, name, subject, folder, findings));
     }
   } else {
-    for (const std::string& name : suggested_sets(design)) add(shipped(name)->rules);
+    add(suggested_rules(suggested).in_force);
   }
   if (const auto own = map.find("own")) {
-    rules.own = read_rule_list(*own, findings);
+    rules.own = read_rule_list(*own, subject, findings);
     add(rules.own);
   }
   if (const auto list = map.find("leave_out")) leave_out(*list, rules, findings);
   map.refuse_unknown_keys();
+  return rules;
+}
+
+void read_rules(MapReader& top, Design& design, Findings& findings) {
+  const std::vector<std::string> suggested = suggested_sets(design);
+  const auto value = top.find("rules");
+  design.rules =
+      value ? read_rule_group(*value, suggested, RuleSubject::track, design.file.parent_path(), findings)
+            : suggested_rules(suggested);
 }
 
 }  // namespace design_file

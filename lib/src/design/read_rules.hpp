@@ -4,7 +4,22 @@
 
 #include "design/map_reader.hpp"
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace glissade::design_file {
+
+/// @return the rules of shipped sets, by their names
+[[nodiscard]] RulesDesign suggested_rules(const std::vector<std::string>& suggested);
+
+/// Reads a group of rules: sets, own, leave_out.
+/// @param suggested  the sets that hold where none are named
+/// @param subject    what its rules may speak of
+/// @param folder     that relative paths of files are taken from
+[[nodiscard]] RulesDesign read_rule_group(const Value& value, const std::vector<std::string>& suggested,
+                                          RuleSubject subject, const std::filesystem::path& folder,
+                                          Findings& findings);
 
 /// Reads the group `rules` of a design, and with it what it names; the design's centerline is known by then.
 void read_rules(MapReader& top, Design& design, Findings& findings);

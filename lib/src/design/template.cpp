@@ -64,6 +64,7 @@ fabrication:                           # {process: plate} alone will do; docs/de
   # liner: {thickness: 6 mm}           # tiles; with floor: rolled
   # lifting: {hole: 22 mm}
   supports: {ground: 0 m, spacing: 2 m}
+  # rules: {leave_out: [plate.bolt-pitch]}   # of the shop: "glissade rules shop-plate" lists them
 mesh: {tolerance: 0.5 mm}
 export: workshop                       # the solid, and all that the shop gets
 )";

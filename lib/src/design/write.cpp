@@ -6,6 +6,7 @@
 
 #include "design/read_in_run.hpp"
 #include "design/write_fabrication.hpp"
+#include "design/write_rules.hpp"
 #include "design/written_text.hpp"
 
 #include <cmath>
@@ -571,41 +572,6 @@ std::string probe(const ProbeDesign& design) {
   return group.inlined();
 }
 
-void add_bound(Group& group, const Range& bound, std::string_view quantity) {
-  const RuleQuantity* const known = rule_quantity(quantity);
-  if (known == nullptr) return;
-  group.add("lowest", bound.lowest, known->dimension);
-  group.add("highest", bound.highest, known->dimension);
-}
-
-std::string rule_condition(const RuleCondition& condition) {
-  Group group;
-  group.add("quantity", condition.quantity);
-  add_bound(group, condition.range, condition.quantity);
-  return group.inlined();
-}
-
-std::string rule(const Rule& rule) {
-  Group group;
-  group.add("id", in_quotes(rule.id));
-  group.add("sentence", in_quotes(rule.sentence));
-  group.add("quantity", rule.quantity);
-  add_bound(group, rule.bound, rule.quantity);
-  if (rule.advice) group.add("advice", "true");
-  if (!rule.when.empty()) group.add("when", list_of(rule.when, rule_condition));
-  group.add("source", in_quotes(rule.source));
-  if (rule.certainty != Certainty::own) group.add("certainty", std::string(word(rule.certainty)));
-  return group.inlined();
-}
-
-std::string rules(const RulesDesign& design) {
-  Group group;
-  if (design.sets) group.add("sets", list_of(*design.sets, in_quotes));
-  if (!design.own.empty()) group.add("own", list_of(design.own, rule));
-  if (!design.left_out.empty()) group.add("leave_out", list_of(design.left_out, in_quotes));
-  return group.lines();
-}
-
 std::string mesh(const MeshDesign& design) {
   Group group;
   group.add("tolerance", design.tolerance, Dimension::length);
@@ -633,9 +599,7 @@ std::string design_text(const Design& design) {
   if (!design.probes.empty()) text += "probes: " + list_of(design.probes, probe) + "\n";
   if (design.hill != HillDesign{}) text += "hill:" + hill(design.hill);
   if (design.gates) text += "gates:" + gates(*design.gates);
-  if (design.rules.sets || !design.rules.own.empty() || !design.rules.left_out.empty()) {
-    text += "rules:" + rules(design.rules);
-  }
+  if (are_given(design.rules)) text += "rules:" + written_rules(design.rules).lines();
   if (design.cross_section) text += "cross_section:" + cross_section(*design.cross_section);
   if (design.fabrication) text += "fabrication:" + written_fabrication(*design.fabrication);
   text += "mesh:" + mesh(design.mesh);

@@ -1,6 +1,7 @@
 #include "design/write_fabrication.hpp"
 
 #include "design/schema_words.hpp"
+#include "design/write_rules.hpp"
 
 #include <type_traits>
 #include <variant>
@@ -26,6 +27,7 @@ std::string written_fabrication(const FabricationDesign& design) {
         group.add("process", std::string(std::decay_t<decltype(process)>::kProcess));
         group.add("material", written_material(process.material));
         group.add("arc_tolerance", design.arc_tolerance, Dimension::length);
+        if (are_given(design.rules)) group.add("rules", written_rules(design.rules).inlined());
         add_process(group, process);
       },
       design.process);

@@ -211,9 +211,7 @@ SheetTable check_table(const Workshop& workshop) {
   table.widths_mm = {46.0, 14.0, 30.0, 34.0, 38.0};
   table.header = {"rule", "verdict", "value", "bound", "where"};
   for (const ShopCheck& check : workshop.checks) {
-    const char* const verdict = check.verdict == ShopVerdict::pass   ? "pass"
-                                : check.verdict == ShopVerdict::warn ? "warn"
-                                                                     : "FAIL";
+    const std::string verdict(check.verdict == ShopVerdict::fail ? "FAIL" : to_text(check.verdict));
     table.rows.push_back({check.rule, verdict, check.value, check.bound, check.where});
   }
   return table;

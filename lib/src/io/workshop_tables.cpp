@@ -127,12 +127,10 @@ std::string setting_out_csv(const Workshop& workshop) {
 }
 
 std::string shop_checks_csv(const Workshop& workshop) {
-  Csv csv("rule,verdict,value,bound,where,source");
+  Csv csv("rule,verdict,value,bound,where,source,sentence,certainty");
   for (const ShopCheck& check : workshop.checks) {
-    const std::string verdict = check.verdict == ShopVerdict::pass   ? "pass"
-                                : check.verdict == ShopVerdict::warn ? "warn"
-                                                                     : "fail";
-    csv.row() << check.rule << verdict << check.value << check.bound << check.where << check.source;
+    csv.row() << check.rule << std::string(to_text(check.verdict)) << check.value << check.bound
+              << check.where << check.source << check.sentence << check.certainty;
   }
   return csv.text();
 }

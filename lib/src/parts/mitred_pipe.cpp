@@ -6,7 +6,7 @@
 
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
-#include "parts/plate_checks.hpp"
+#include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"
@@ -451,8 +451,8 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   const FacetRide ride = ride_facets({facets}, body, gravity, options.joint_step);
   build.ride = {ride.arrives,        ride.time,      ride.speed,       design.travel_time(),
                 design.exit_speed(), facets.bends(), units.size() - 1, ride.highest_load};
-  workshop.checks = part_checks(options, workshop);
-  workshop.checks.push_back(rolling_check(job.radius(), pipe.thickness, "every tube"));
+  measure_plates(options, workshop);
+  measure_rolling(job.radius(), workshop.parts.front(), "every tube", workshop);
   workshop.notes = {
       "Tubes are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
       " and welded along their seams, which lie 20 deg from the crown, to either side in turn."};

@@ -1,13 +1,13 @@
-// Rules of thumb and of standards, as data: who says so stands beside each.
+// What no shop can make of options, whatever the track is.
 
 #include "parts/plate_checks.hpp"
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
-#include "parts/shop_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,110 +23,6 @@ namespace {
 constexpr double kLeastEdge = 1.2;   // hole diameters from its centre to an edge
 constexpr double kLeastPitch = 2.4;  // hole diameters between centres, across the force
 constexpr double kEdgeAtTop = 1.5;   // hole diameters below the top of a frame, as frame_plate() has it
-
-constexpr ShopRule kHoleDiameter{"hole diameter", true, ShopVerdict::fail,
-                                 "laser cutters' tables: 0.7 to 1.5 thicknesses, most 1"};
-constexpr ShopRule kHoleToEdge{"hole to edge", true, ShopVerdict::fail,
-                               "EN 1993-1-8 table 3.3: 1.2 hole diameters"};
-constexpr ShopRule kHolePitch{"distance of bolts, least", true, ShopVerdict::fail,
-                              "EN 1993-1-8 table 3.3: 2.4 hole diameters"};
-constexpr ShopRule kWidePitch{"distance of bolts, greatest", false, ShopVerdict::warn,
-                              "chute practice, uncertain: 100 to 150 mm"};
-constexpr ShopRule kSheet{"largest part", false, ShopVerdict::fail, "sheet of the design"};
-constexpr ShopRule kSmallest{"smallest part", true, ShopVerdict::warn, "laser cutters' tables: 25 mm"};
-constexpr ShopRule kRolling{"rolling radius", true, ShopVerdict::warn,
-                            "shop practice, uncertain: 20 to 50 thicknesses; pre-bend or press below"};
-constexpr ShopRule kPunch{"inner radius of bends", true, ShopVerdict::fail,
-                          "shop practice: 1 thickness of mild steel"};
-constexpr ShopRule kFlat{"flat between bends", true, ShopVerdict::warn,
-                         "half the opening of a die of 8 thicknesses"};
-constexpr ShopRule kMass{"mass of a part", false, ShopVerdict::fail, "heaviest of the design"};
-constexpr ShopRule kStep{"step up at a joint", false, ShopVerdict::fail,
-                         "downstream edge never higher than upstream edge"};
-
-std::string as_length(double metres) {
-  return length_text(metres, 4);
-}
-
-std::string as_mass(double kilograms) {
-  return rounded_text(kilograms, 4) + " kg";
-}
-
-double edge_distance(const ArcPath& outline, Vec2 point) {
-  const PathPiece here{point, point + Vec2{1e-9, 0.0}, 0.0};
-  double least = std::numeric_limits<double>::infinity();
-  for (const PathPiece& piece : pieces_of(outline)) least = std::min(least, distance(here, piece));
-  return least;
-}
-
-void check_holes(const Workshop& workshop, std::vector<ShopCheck>& checks) {
-  ShopCase diameter(kHoleDiameter);
-  ShopCase edge(kHoleToEdge);
-  ShopCase pitch(kHolePitch);
-  ShopCase wide(kWidePitch);
-  for (const ShopPart& part : workshop.parts) {
-    if (!part.pattern) continue;
-    const std::vector<Circle>& holes = part.pattern->region.holes;
-    for (std::size_t i = 0; i < holes.size(); ++i) {
-      const double hole = 2.0 * holes[i].radius;
-      diameter.see(hole, part.thickness, part.name, as_length);
-      edge.see(edge_distance(part.pattern->region.outline, holes[i].centre), kLeastEdge * hole, part.name,
-               as_length);
-      double nearest = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < holes.size(); ++k) {
-        if (k != i) nearest = std::min(nearest, norm(holes[k].centre - holes[i].centre));
-      }
-      if (holes.size() < 2) continue;
-      pitch.see(nearest, kLeastPitch * hole, part.name, as_length);
-      const bool frame =
-          part.name.find("frame") != std::string::npos || part.name.find("flange") != std::string::npos;
-      if (frame) wide.see(nearest, 0.15, part.name, as_length);
-    }
-  }
-  for (const ShopCase* worst : {&diameter, &edge, &pitch, &wide}) worst->add_to(checks);
-}
-
-void check_sizes(const SplitOptions& split, const Workshop& workshop, std::vector<ShopCheck>& checks) {
-  ShopCase largest(kSheet);
-  ShopCase smallest(kSmallest);
-  ShopCase mass(kMass);
-  constexpr double kLeastSide = 25e-3;
-  for (const ShopPart& part : workshop.parts) {
-    if (part.pattern) {
-      const PlaneBox box = bounds(part.pattern->region.outline);
-      largest.see(std::max(box.width(), box.height()), std::max(split.sheet.x, split.sheet.y), part.name,
-                  as_length);
-      largest.see(std::min(box.width(), box.height()), std::min(split.sheet.x, split.sheet.y), part.name,
-                  as_length);
-      smallest.see(std::min(box.width(), box.height()), kLeastSide, part.name, as_length);
-    }
-    if (split.heaviest) mass.see(part.mass, *split.heaviest, part.name, as_mass);
-  }
-  for (const ShopCase* worst : {&largest, &smallest, &mass}) worst->add_to(checks);
-}
-
-void check_floor(const Job& job, const std::vector<Unit>& units, std::vector<ShopCheck>& checks) {
-  const double thickness = job.channel.thickness;
-  ShopCase rolling(kRolling);
-  ShopCase punch(kPunch);
-  ShopCase flat(kFlat);
-  ShopCase step(kStep);
-  for (const Unit& unit : units) {
-    const bool bent = unit.face.facets.has_value();
-    for (const TrackArc& arc : unit.face.line.arcs()) {
-      const std::string where =
-          unit.floor.name + " at " + length_text(unit.span.from + arc.start, 3) + " along the track";
-      if (!bent && arc.curvature != 0.0) {
-        rolling.see(1.0 / std::fabs(arc.curvature), 20.0 * thickness, where, as_length);
-      }
-      if (bent && arc.curvature == 0.0) flat.see(arc.length, 4.0 * thickness, where, as_length);
-    }
-    if (bent && unit.face.facets->bends() > 0)
-      punch.see(bend_radius(job), thickness, unit.floor.name, as_length);
-  }
-  if (units.size() > 1) step.see(0.0 - job.options.joint_step, 0.0, "every joint", as_length);
-  for (const ShopCase* worst : {&rolling, &punch, &flat, &step}) worst->add_to(checks);
-}
 
 /// Collects what is wrong with the measures, all of it.
 class Objections {
@@ -201,7 +97,8 @@ void object_to_split(const SplitOptions& split, Objections& objections) {
   objections.positive(split.sheet.y, "split.sheet");
   if (split.longest) objections.positive(*split.longest, "split.longest");
   if (split.heaviest && !(*split.heaviest > 0.0)) {
-    objections.add("split.heaviest", "heaviest: " + as_mass(*split.heaviest) + " is not positive", "",
+    objections.add("split.heaviest",
+                   "heaviest: " + quantity_text(*split.heaviest, Dimension::mass) + " is not positive", "",
                    "25 kg");
   }
 }
@@ -213,27 +110,6 @@ void object_to_step(double step, Objections& objections) {
 }
 
 }  // namespace
-
-std::vector<ShopCheck> part_checks(const PlateOptions& options, const Workshop& workshop) {
-  std::vector<ShopCheck> checks;
-  check_sizes(options.split, workshop, checks);
-  check_holes(workshop, checks);
-  return checks;
-}
-
-ShopCheck rolling_check(double radius, double thickness, const std::string& where) {
-  ShopCase rolling(kRolling);
-  rolling.see(radius, 20.0 * thickness, where, as_length);
-  std::vector<ShopCheck> checks;
-  rolling.add_to(checks);
-  return checks.front();
-}
-
-std::vector<ShopCheck> shop_checks(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
-  std::vector<ShopCheck> checks = part_checks(job.options, workshop);
-  check_floor(job, units, checks);
-  return checks;
-}
 
 std::vector<Issue> common_problems(const PlateOptions& options) {
   Objections objections;

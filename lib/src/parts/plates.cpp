@@ -11,6 +11,7 @@
 #include "parts/fittings.hpp"
 #include "parts/mitred_pipe.hpp"
 #include "parts/plate_checks.hpp"
+#include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_proof.hpp"
 #include "parts/setting_out.hpp"
@@ -152,7 +153,8 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   workshop.setting_out = setting_out(job.track, build.joints, placement);
   add_fittings(job, units, workshop);
   build.ride = ride_as_built(job, units, smooth, body, gravity);
-  workshop.checks = shop_checks(job, units, workshop);
+  measure_plates(options, workshop);
+  measure_floor(job, units, workshop);
   build.proof = prove(job, units, workshop);
   return build;
 }

@@ -9,7 +9,7 @@
 
 #include "parts/as_built.hpp"
 #include "parts/piece_mesh.hpp"
-#include "parts/print_checks.hpp"
+#include "parts/print_facts.hpp"
 #include "parts/print_split.hpp"
 #include "parts/print_unit.hpp"
 #include "parts/setting_out.hpp"
@@ -235,7 +235,7 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
   build.workshop.setting_out = setting_out(job.track, build.joints, placement);
   build.workshop.notes = notes_of(job, plan, dowels);
   build.ride = ride_prints(units, smooth, body, gravity, dowels ? options.dowels.fit : 0.0);
-  build.workshop.checks = print_checks(job, units, dowels);
+  measure_prints(job, units, dowels, build.workshop);
   build.proof = prove_prints(job, units, dowels, build.workshop);
   return build;
 }

@@ -2,6 +2,9 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include <array>
+#include <cstddef>
+#include <limits>
 #include <string>
 
 namespace glissade {
@@ -24,6 +27,16 @@ std::string as_file_word(const std::string& text) {
 }
 
 }  // namespace
+
+double ShopMeasurement::in_units() const {
+  if (unit != 0.0) return value / unit;
+  return value > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
+}
+
+std::string_view to_text(ShopVerdict verdict) {
+  constexpr std::array<std::string_view, 4> kTexts = {"pass", "warn", "fail", "cannot be judged"};
+  return kTexts[static_cast<std::size_t>(verdict)];
+}
 
 std::string file_stem(const ShopPart& part) {
   const std::string number = (part.number < 10 ? "0" : "") + std::to_string(part.number);

@@ -8,7 +8,7 @@
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/offset_line.hpp"
-#include "parts/plate_checks.hpp"
+#include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"
@@ -412,17 +412,16 @@ void list_strips(std::vector<Strip>& strips, Workshop& workshop) {
   }
 }
 
-void add_checks(const StripJob& job, const std::vector<Strip>& strips, std::vector<ShopCheck>& checks) {
-  double least = std::numeric_limits<double>::infinity();
-  std::string where;
+void measure_strips(const std::vector<Strip>& strips, Workshop& workshop) {
   for (const Strip& strip : strips) {
     for (const BendStep& step : strip.steps) {
-      if (!(std::fabs(step.radius) < least)) continue;
-      least = std::fabs(step.radius);
-      where = strip.part.name + " at " + length_text(strip.span.from + step.distance, 3) + " along the track";
+      if (!std::isfinite(step.radius)) continue;
+      measure_rolling(
+          std::fabs(step.radius), strip.part,
+          strip.part.name + " at " + length_text(strip.span.from + step.distance, 3) + " along the track",
+          workshop);
     }
   }
-  if (std::isfinite(least)) checks.push_back(rolling_check(least, job.section.thickness, where));
 }
 
 void add_notes(const StripJob& job, Workshop& workshop) {
@@ -509,8 +508,8 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   const FacetRide ride = ride_lines(lines, body, gravity, options.joint_step);
   build.ride = {ride.arrives,        ride.time, ride.speed,       design.travel_time(),
                 design.exit_speed(), 0,         lines.size() - 1, ride.highest_load};
-  workshop.checks = part_checks(options, workshop);
-  add_checks(job, strips, workshop.checks);
+  measure_plates(options, workshop);
+  measure_strips(strips, workshop);
   add_notes(job, workshop);
   build.proof = prove(job, strips, workshop);
   return build;

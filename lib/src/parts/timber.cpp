@@ -10,7 +10,7 @@
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"
-#include "parts/timber_checks.hpp"
+#include "parts/timber_facts.hpp"
 #include "parts/timber_frame.hpp"
 
 #include <algorithm>
@@ -330,7 +330,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   for (const DeckRow& row : rows.front()) build.joints.push_back(row.span.from);
   build.joints.push_back(job.track.length());
   build.ride = ride_deck(job, rows.front(), smooth, body, gravity);
-  workshop.checks = timber_checks(job, rows, members, bearers, legs, workshop);
+  measure_timber(job, rows, members, bearers, legs, workshop);
   build.proof = prove_timber(job, made, members, rows, workshop);
   return build;
 }

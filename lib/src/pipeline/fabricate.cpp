@@ -5,6 +5,7 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/parts/prints.hpp"
 #include "glissade/parts/timber.hpp"
+#include "glissade/pipeline/shop_rules.hpp"
 
 #include "pipeline/located.hpp"
 #include "pipeline/workshop_files.hpp"
@@ -72,6 +73,7 @@ std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track
                       design.fabrication->process);
   });
   build.workshop.name = design.name;
+  build.workshop.checks = judge_shop(design.fabrication->rules.in_force, build.workshop);
   // Parts lie in the frame of the mesh files, what is set out on site in that of the site.
   const Vec3 offset = track.placement.start() - frame.start();
   for (SettingOutPoint& point : build.workshop.setting_out) point.site = point.site + offset;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/workshop_format.hpp"
+#include "glissade/design/rules_design.hpp"
 #include "glissade/parts/plate_options.hpp"
 #include "glissade/parts/print_options.hpp"
 #include "glissade/parts/timber_options.hpp"
@@ -16,6 +17,7 @@ struct FabricationDesign {
   double arc_tolerance =
       PlateOptions::kArcTolerance;  ///< greatest distance between the track and its arcs [m]; > 0
   std::variant<PlateOptions, PrintOptions, TimberOptions> process;
+  RulesDesign rules;  ///< of the shop: without `sets` the set that is named "shop-" and the process
 
   friend bool operator==(const FabricationDesign&, const FabricationDesign&) = default;
 };

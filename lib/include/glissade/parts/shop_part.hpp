@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/arc_path.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -141,16 +143,35 @@ struct SettingOutPoint {
   std::vector<double> offsets;  ///< heights z of the lines that the table follows below the track [m]
 };
 
-/// How a rule of the shop is kept.
-enum class ShopVerdict { pass, warn, fail };
-/// A rule of the shop held against one number.
-struct ShopCheck {
-  std::string rule;
-  ShopVerdict verdict = ShopVerdict::pass;
-  std::string value;  ///< with its unit
-  std::string bound;  ///< with its relation and unit: "at least 4 mm"
+/// A value at one place of the parts that rules of the shop may bound (`trades/rules.hpp`).
+struct ShopMeasurement {
+  std::string_view quantity;  ///< its key: "hole_thicknesses"
+  double value = 0.0;         ///< as it is measured: the hole's diameter [SI, rad]
+  double unit = 1.0;          ///< what the quantity counts it in, the plate's thickness [the same]; 1: in SI
+  Dimension dimension = Dimension::length;  ///< of `value`
   std::string where;
+  std::optional<double> thickness;  ///< of the part, if it is of one [m]
+  std::optional<double> density;    ///< [kg/m^3]
+
+  /// @return the quantity; of a unit of 0: 0 or infinity
+  [[nodiscard]] double in_units() const;
+};
+
+/// How a rule of the shop is kept.
+enum class ShopVerdict { pass, warn, fail, cannot_be_judged };
+/// @return "pass", "warn", "fail", "cannot be judged"
+[[nodiscard]] std::string_view to_text(ShopVerdict verdict);
+/// A rule of the shop held against its worst place.
+struct ShopCheck {
+  std::string rule;  ///< its id: "plate.hole-diameter"
+  ShopVerdict verdict = ShopVerdict::pass;
+  std::string value;  ///< with its unit; "-" if there is none
+  std::string bound;  ///< with its relation and unit: "at least 4 mm"
+  std::string where;  ///< of a rule that cannot be judged: why
   std::string source;
+  std::string sentence;         ///< what the rule asks
+  std::string certainty;        ///< of its bound, as rule files have it: "secondary"
+  bool needs_checking = false;  ///< nobody read the bound in its document
 };
 
 /// Everything that a workshop gets told.
@@ -161,8 +182,9 @@ struct Workshop {
   std::vector<BendStep> bends;
   std::vector<SettingOutPoint> setting_out;
   std::vector<std::string> offset_names;  ///< of SettingOutPoint::offsets
-  std::vector<ShopCheck> checks;
-  std::vector<std::string> notes;  ///< in words, for a drawing: fits, kerf, trims
+  std::vector<ShopMeasurement> measured;  ///< what rules of the shop may bound
+  std::vector<ShopCheck> checks;          ///< what they say of it: judge_shop() of pipeline/shop_rules.hpp
+  std::vector<std::string> notes;         ///< in words, for a drawing: fits, kerf, trims
 };
 
 /// @return NUMBER_name_material_thickness_quantity without an ending, as a shop sorts files: "03_left_wall_S235_4mm_2x"

@@ -33,11 +33,18 @@ enum class Certainty {
 /// @return true for a bound that nobody read in its document
 [[nodiscard]] bool needs_checking(Certainty certainty);
 
-/// Something that rules may bound. One number for a whole track, with its place where it has one.
+/// What rules judge.
+enum class RuleSubject {
+  track,    ///< one number for a whole track: `rules` of a design
+  workshop  ///< one a place of the parts that are made of it: `fabrication: rules`
+};
+
+/// Something that rules may bound, with its place where it has one.
 struct RuleQuantity {
   std::string_view key;  ///< as in rule files: "table_time"
   Dimension dimension = Dimension::number;
   std::string_view label;  ///< for people: "time on the take-off table"
+  RuleSubject subject = RuleSubject::track;
 };
 
 /// @return every quantity, in the order of docs/rules.md

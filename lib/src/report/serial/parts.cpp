@@ -5,18 +5,6 @@
 namespace glissade::report {
 namespace {
 
-const char* word_of(ShopVerdict verdict) {
-  switch (verdict) {
-    case ShopVerdict::warn:
-      return "warn";
-    case ShopVerdict::fail:
-      return "fail";
-    case ShopVerdict::pass:
-      break;
-  }
-  return "pass";
-}
-
 Json master_json(const MasterCurve& master) {
   return {{"arcs", master.arcs},
           {"lower_bound", master.lower_bound},
@@ -71,11 +59,14 @@ void add_parts(Json& json, const WorkshopBuild* build) {
   json["shop_checks"] = Json::array();
   for (const ShopCheck& check : workshop.checks) {
     json["shop_checks"].push_back({{"rule", check.rule},
-                                   {"verdict", word_of(check.verdict)},
+                                   {"verdict", to_text(check.verdict)},
                                    {"value", check.value},
                                    {"bound", check.bound},
                                    {"where", check.where},
-                                   {"source", check.source}});
+                                   {"source", check.source},
+                                   {"sentence", check.sentence},
+                                   {"certainty", check.certainty},
+                                   {"needs_checking", check.needs_checking}});
   }
   json["parts_volume_m3"] = build->proof.volume + build->proof.added_volume;
   json["channel_volume_m3"] = build->proof.volume;

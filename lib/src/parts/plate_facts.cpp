@@ -1,0 +1,105 @@
+// What rules of the shop (lib/data/rules/shop-plate.yaml) may bound of plates.
+
+#include "parts/plate_facts.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/fittings.hpp"
+#include "parts/shop_facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace glissade::parts {
+namespace {
+
+double edge_distance(const ArcPath& outline, Vec2 point) {
+  const PathPiece here{point, point + Vec2{1e-9, 0.0}, 0.0};
+  double least = std::numeric_limits<double>::infinity();
+  for (const PathPiece& piece : pieces_of(outline)) least = std::min(least, distance(here, piece));
+  return least;
+}
+
+bool is_frame(const ShopPart& part) {
+  return part.name.find("frame") != std::string::npos || part.name.find("flange") != std::string::npos;
+}
+
+void measure_holes(const ShopPart& part, ShopFacts& facts) {
+  const std::vector<Circle>& holes = part.pattern->region.holes;
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    const double hole = 2.0 * holes[i].radius;
+    const double edge = edge_distance(part.pattern->region.outline, holes[i].centre);
+    double nearest = std::numeric_limits<double>::infinity();
+    double web = edge - holes[i].radius;
+    for (std::size_t k = 0; k < holes.size(); ++k) {
+      if (k == i) continue;
+      const double apart = norm(holes[k].centre - holes[i].centre);
+      nearest = std::min(nearest, apart);
+      web = std::min(web, apart - holes[i].radius - holes[k].radius);
+    }
+    facts.of(part, "hole_thicknesses", hole, part.thickness);
+    facts.of(part, "hole_edge_diameters", edge, hole);
+    facts.of(part, "web_thicknesses", web, part.thickness);
+    if (holes.size() < 2) continue;
+    facts.of(part, "hole_pitch_diameters", nearest, hole);
+    if (is_frame(part)) facts.of(part, "bolt_pitch", nearest);
+  }
+}
+
+std::string on_floor(const Unit& unit, double s) {
+  return unit.floor.name + " at " + length_text(unit.span.from + s, 3) + " along the track";
+}
+
+void measure_arcs(const Unit& unit, double thickness, ShopFacts& facts, Workshop& workshop) {
+  const bool bent = unit.face.facets.has_value();
+  for (const TrackArc& arc : unit.face.line.arcs()) {
+    const std::string where = on_floor(unit, arc.start);
+    if (!bent && arc.curvature != 0.0)
+      measure_rolling(1.0 / std::fabs(arc.curvature), unit.floor, where, workshop);
+    if (bent && arc.curvature == 0.0) facts.at(where, "flat_thicknesses", arc.length, thickness);
+  }
+}
+
+}  // namespace
+
+void measure_plates(const PlateOptions& options, Workshop& workshop) {
+  ShopFacts facts(workshop);
+  facts.parts(options.split.heaviest);
+  const Vec2 sheet = options.split.sheet;
+  for (const ShopPart& part : workshop.parts) {
+    if (!part.pattern) continue;
+    const PlaneBox box = bounds(part.pattern->region.outline);
+    const auto [shorter, longer] = std::minmax({box.width(), box.height()});
+    facts.of(part, "part_sheet_share", longer, std::max(sheet.x, sheet.y));
+    facts.of(part, "part_sheet_share", shorter, std::min(sheet.x, sheet.y));
+    facts.of(part, "part_width", shorter);
+    measure_holes(part, facts);
+  }
+}
+
+void measure_rolling(double radius, const ShopPart& part, const std::string& where, Workshop& workshop) {
+  ShopFacts(workshop).of(part, "rolling_radius_thicknesses", radius, part.thickness);
+  workshop.measured.back().where = where;
+}
+
+void measure_floor(const Job& job, const std::vector<Unit>& units, Workshop& workshop) {
+  ShopFacts facts(workshop);
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Unit& unit = units[i];
+    measure_arcs(unit, job.channel.thickness, facts, workshop);
+    if (unit.face.facets && unit.face.facets->bends() > 0)
+      facts.of(unit.floor, "bend_radius_thicknesses", bend_radius(job), job.channel.thickness);
+    if (i == 0) continue;
+    // The end of the floor above the joint and the start of the one below it, as they are made.
+    const FloorFace& before = units[i - 1].face;
+    const Vec2 end = before.origin + before.line.path().vertices.back().at;
+    const double slope = unit.face.line.slope_angle(0.0);
+    const Vec2 up{math::sin(slope), math::cos(slope)};
+    facts.at(on_floor(unit, 0.0), "step_up", dot(unit.face.origin - end, up) - job.options.joint_step);
+  }
+}
+
+}  // namespace glissade::parts

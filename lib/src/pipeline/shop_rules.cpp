@@ -1,0 +1,97 @@
+#include "glissade/pipeline/shop_rules.hpp"
+
+#include "glissade/core/quantity.hpp"
+#include "glissade/design/rule_sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace glissade {
+namespace {
+
+/// One place as the rules of a track are judged: by what was measured there.
+Measurements at_place(const ShopMeasurement& measured) {
+  Measurements measurements;
+  if (measured.thickness) measurements.set("part_thickness", *measured.thickness);
+  if (measured.density) measurements.set("part_density", *measured.density);
+  measurements.set(measured.quantity, measured.in_units());
+  return measurements;
+}
+
+bool is_shipped(const Rule& rule) {
+  const std::vector<RuleSet>& sets = shipped_rule_sets();
+  return std::any_of(sets.begin(), sets.end(), [&](const RuleSet& set) {
+    return std::any_of(set.rules.begin(), set.rules.end(),
+                       [&](const Rule& one) { return one.id == rule.id; });
+  });
+}
+
+ShopCheck check_of(const Rule& rule) {
+  ShopCheck check;
+  check.rule = rule.id;
+  check.value = "-";
+  check.bound = bound_text(rule);
+  check.source = rule.source;
+  check.sentence = rule.sentence;
+  check.certainty = word(rule.certainty);
+  check.needs_checking = needs_checking(rule.certainty);
+  return check;
+}
+
+/// A check with value and bound as they are measured at a place: in millimetres where the rule counts in thicknesses.
+ShopCheck check_at(const Judgement& judgement, const ShopMeasurement& measured) {
+  ShopCheck check = check_of(judgement.rule);
+  const auto text = [&](double value) { return quantity_text(value, measured.dimension); };
+  check.value = text(measured.value);
+  check.where = measured.where;
+  if (judgement.verdict == RuleVerdict::cannot_be_judged) {
+    check.verdict = ShopVerdict::cannot_be_judged;
+    check.where += ": " + judgement.reason;
+    return check;
+  }
+  check.verdict = judgement.verdict == RuleVerdict::pass   ? ShopVerdict::pass
+                  : judgement.verdict == RuleVerdict::warn ? ShopVerdict::warn
+                                                           : ShopVerdict::fail;
+  check.bound =
+      (judgement.bound_is_highest ? "at most " : "at least ") + text(*judgement.bound * measured.unit);
+  return check;
+}
+
+/// How well a place keeps a rule: its margin, of a bound other than 0 as a share of it.
+double room_of(const Judgement& judgement) {
+  if (!judgement.margin) return std::numeric_limits<double>::infinity();
+  return *judgement.bound == 0.0 ? *judgement.margin : *judgement.margin / std::fabs(*judgement.bound);
+}
+
+}  // namespace
+
+std::vector<ShopCheck> judge_shop(const std::vector<Rule>& rules, const Workshop& workshop) {
+  std::vector<ShopCheck> checks;
+  for (const Rule& rule : rules) {
+    std::optional<std::pair<Judgement, const ShopMeasurement*>> worst_place;
+    bool measured_somewhere = false;
+    for (const ShopMeasurement& measured : workshop.measured) {
+      if (measured.quantity != rule.quantity) continue;
+      measured_somewhere = true;
+      for (Judgement& judgement : judge({rule}, at_place(measured))) {
+        if (worst_place && room_of(judgement) >= room_of(worst_place->first)) continue;
+        worst_place.emplace(std::move(judgement), &measured);
+      }
+    }
+    if (worst_place) {
+      checks.push_back(check_at(worst_place->first, *worst_place->second));
+    } else if (!measured_somewhere && !is_shipped(rule)) {
+      ShopCheck check = check_of(rule);
+      check.verdict = ShopVerdict::cannot_be_judged;
+      check.where = "nothing in this build has a " + std::string(rule_quantity(rule.quantity)->label);
+      checks.push_back(std::move(check));
+    }
+  }
+  return checks;
+}
+
+}  // namespace glissade
