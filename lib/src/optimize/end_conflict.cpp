@@ -5,7 +5,7 @@
 #include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
 
-#include "clearance/region.hpp"
+#include "task/obstacles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,39 +21,6 @@ using WouldDo = std::function<bool(const LimitName&, double)>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kDirections = 2048;  // accuracy: 0.18 deg apart
-
-struct Obstructed {
-  LimitName limit;
-  double clearance = 0.0;
-  clearance::Region region;
-};
-
-std::vector<Obstructed> obstacles_of(const Limits& limits) {
-  std::vector<Obstructed> obstacles;
-  const auto name = [](LimitId id, std::size_t i) { return LimitName{id, Bound::lowest, i}; };
-  for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
-    const HalfPlane& plane = limits.half_planes[i];
-    obstacles.push_back({name(LimitId::half_planes, i), plane.clearance,
-                         clearance::Region::half_plane(plane.point, plane.forbidden)});
-  }
-  for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
-    const KeepOut& area = limits.keep_outs[i];
-    const auto pass = area.passage == Passage::above   ? clearance::Pass::above
-                      : area.passage == Passage::below ? clearance::Pass::below
-                                                       : clearance::Pass::either;
-    obstacles.push_back(
-        {name(LimitId::keep_outs, i), area.clearance, clearance::Region::area(area.outline, pass)});
-  }
-  for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
-    obstacles.push_back({name(LimitId::stay_above, i), limits.stay_above[i].clearance,
-                         clearance::Region::line(limits.stay_above[i].line, true)});
-  }
-  for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
-    obstacles.push_back({name(LimitId::stay_below, i), limits.stay_below[i].clearance,
-                         clearance::Region::line(limits.stay_below[i].line, false)});
-  }
-  return obstacles;
-}
 
 /// One end of the track, and the directions that it may have.
 struct End {
@@ -84,11 +51,11 @@ double value_at(const End& end, double direction, const Envelope& envelope, cons
 }
 
 /// By how much the end lacks room in its best direction; not above 0 where it has some.
-double lacking(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles) {
+double lacking(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles) {
   double best = -kInfinity;
   for (int i = 0; i <= kDirections; ++i) {
     double spare = kInfinity;
-    for (const Obstructed& obstacle : obstacles) {
+    for (const task::Obstacle& obstacle : obstacles) {
       spare =
           std::min(spare, value_at(end, end.direction(i), envelope, obstacle.region) - obstacle.clearance);
     }
@@ -99,7 +66,7 @@ double lacking(const End& end, const Envelope& envelope, const std::vector<Obstr
 }
 
 /// The largest top of the envelope that has room, the underside kept; below 0 if none does.
-double largest_top(const End& end, Envelope envelope, const std::vector<Obstructed>& obstacles) {
+double largest_top(const End& end, Envelope envelope, const std::vector<task::Obstacle>& obstacles) {
   const auto fits = [&](double top) {
     envelope.above = std::min(envelope.above, top);
     envelope.headroom = top;
@@ -119,12 +86,12 @@ double largest_top(const End& end, Envelope envelope, const std::vector<Obstruct
 }
 
 /// The clearance that is left in the best direction, all other obstacles kept.
-double best_clearance(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles,
-                      const Obstructed& asked) {
+double best_clearance(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles,
+                      const task::Obstacle& asked) {
   double best = -kInfinity;
   for (int i = 0; i <= kDirections; ++i) {
     bool kept = true;
-    for (const Obstructed& other : obstacles) {
+    for (const task::Obstacle& other : obstacles) {
       if (&other == &asked) continue;
       kept = kept && value_at(end, end.direction(i), envelope, other.region) >= other.clearance;
     }
@@ -133,15 +100,15 @@ double best_clearance(const End& end, const Envelope& envelope, const std::vecto
   return best;
 }
 
-Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector<Obstructed>& obstacles,
+Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles,
                      const WouldDo& would_do) {
   Conflict conflict;
   std::vector<std::string> names;
   std::string remedies;
-  for (const Obstructed& obstacle : obstacles) {
+  for (const task::Obstacle& obstacle : obstacles) {
     // What can do without is not to blame.
-    std::vector<Obstructed> others;
-    for (const Obstructed& other : obstacles) {
+    std::vector<task::Obstacle> others;
+    for (const task::Obstacle& other : obstacles) {
       if (&other != &obstacle) others.push_back(other);
     }
     if (!others.empty() && lacking(end, envelope, others) > 0.0) continue;
@@ -156,7 +123,7 @@ Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector
   }
   // Two of them, each of which is too close alone.
   if (names.empty()) {
-    for (const Obstructed& obstacle : obstacles) {
+    for (const task::Obstacle& obstacle : obstacles) {
       if (lacking(end, envelope, {obstacle}) <= 0.0) continue;
       conflict.limits.push_back({obstacle.limit, obstacle.clearance});
       names.push_back(obstacle.limit.key());
@@ -182,7 +149,7 @@ Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector
 std::optional<Conflict> too_close_at_an_end(const Problem& problem, const WouldDo& would_do) {
   const Limits& limits = problem.limits;
   if (limits.envelope.is_line()) return std::nullopt;
-  const std::vector<Obstructed> obstacles = obstacles_of(limits);
+  const std::vector<task::Obstacle> obstacles = task::obstacles_of(limits);
   if (obstacles.empty()) return std::nullopt;
   std::vector<End> ends{end_of("the start", {0.0, 0.0}, limits.entry_slope_angle, limits.slope_angle)};
   if (problem.finish.kind == FinishKind::point) {

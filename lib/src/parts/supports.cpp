@@ -85,6 +85,7 @@ ShopPart bought_tube(const Job& job, const std::string& name, double length, con
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = supports.wall;
+  part.stands = true;
   part.bought_in = true;
   part.body = Prism{
       {rectangle({-half, -half}, {half, half}), {rectangle({-inner, -inner}, {inner, inner})}, {}}, length};
@@ -100,6 +101,7 @@ ShopPart plate_part(const Job& job, const std::string& name, const PlaneRegion& 
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = thickness;
+  part.stands = true;
   part.body = Prism{region, thickness};
   part.places = places;
   FlatPattern pattern;

@@ -219,6 +219,7 @@ void add_legs(const TimberJob& job, const std::vector<Leg>& legs, const BearerPl
     ShopPart part =
         upright_part(job, outline, kRightAngle, job.options.legs->side, plan.across, job.options.lumber);
     part.name = "leg_" + std::to_string(i + 1);
+    part.stands = true;
     part.bought_in = true;
     set_own_pattern(part);
     add(workshop, std::move(part), kLegColour);

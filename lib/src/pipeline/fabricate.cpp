@@ -2,15 +2,19 @@
 
 #include "pipeline/fabricate.hpp"
 
+#include "glissade/core/number_text.hpp"
 #include "glissade/parts/plates.hpp"
 #include "glissade/parts/prints.hpp"
 #include "glissade/parts/timber.hpp"
 #include "glissade/pipeline/shop_rules.hpp"
 
+#include "parts/shop_facts.hpp"
 #include "pipeline/located.hpp"
+#include "pipeline/parts_clearance.hpp"
 #include "pipeline/workshop_files.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -64,6 +68,18 @@ WorkshopBuild make(const Design& design, const Track& track, const Placement& fr
                      frame, body_of(design), design.gravity);
 }
 
+/// What rules of the shop may ask of parts that stand out of the channel, beside what the design keeps clear of.
+void measure_clearances(const Design& design, const Placement& frame, Workshop& workshop) {
+  parts::ShopFacts facts(workshop);
+  for (const PartApproach& near : closest_parts(design, frame, workshop)) {
+    const std::string where = near.name + " (part " + std::to_string(near.part) + "), " + near.limit + ": " +
+                              length_text(near.reached) + " of " + length_text(near.asked) + ", " +
+                              length_text(near.point.x) + " out and " + length_text(near.point.y) +
+                              " below the start";
+    facts.at(where, "part_clearance_margin", near.reached - near.asked + design.fabrication->arc_tolerance);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track& track,
@@ -73,6 +89,7 @@ std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track
                       design.fabrication->process);
   });
   build.workshop.name = design.name;
+  measure_clearances(design, frame, build.workshop);
   build.workshop.checks = judge_shop(design.fabrication->rules.in_force, build.workshop);
   // Parts lie in the frame of the mesh files, what is set out on site in that of the site.
   const Vec3 offset = track.placement.start() - frame.start();

@@ -6,9 +6,9 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/motion/motion.hpp"
 
-#include "clearance/region.hpp"
 #include "clearance/strip.hpp"
 #include "core/plane_geometry.hpp"
+#include "task/obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -167,18 +167,6 @@ std::vector<double> sampled(const Centerline& track, const Limits& limits, int s
 /// By so much, as a share of the chord, the least clearance of an envelope may be overstated.
 constexpr double kClearanceAccuracy = 1e-9;
 
-clearance::Pass pass_of(Passage passage) {
-  switch (passage) {
-    case Passage::either:
-      return clearance::Pass::either;
-    case Passage::above:
-      return clearance::Pass::above;
-    case Passage::below:
-      return clearance::Pass::below;
-  }
-  return clearance::Pass::either;
-}
-
 /// All watches of a problem, and how to feed them.
 class Watches {
  public:
@@ -216,30 +204,12 @@ class Watches {
     const Limits& limits = problem_.limits;
     if (limits.envelope.is_line()) return;
     const clearance::Strip strip(track, limits.envelope, points);
-    const auto see = [&](LimitId id, std::size_t index, double bound, const clearance::Region& region) {
-      Watch& clear = watch({id, Bound::lowest, index}, bound, chord_);
-      const std::vector<clearance::Approach> stations = strip.along(region);
+    for (const task::Obstacle& obstacle : task::obstacles_of(limits)) {
+      Watch& clear = watch(obstacle.limit, obstacle.clearance, chord_);
+      const std::vector<clearance::Approach> stations = strip.along(obstacle.region);
       for (const clearance::Approach& near : stations) clear.see(near.value, near.arc_length, {}, near.place);
-      const clearance::Approach least = strip.least(region, stations, kClearanceAccuracy * chord_);
+      const clearance::Approach least = strip.least(obstacle.region, stations, kClearanceAccuracy * chord_);
       clear.see(least.value, least.arc_length, {}, least.place);
-    };
-    for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
-      const HalfPlane& plane = limits.half_planes[i];
-      see(LimitId::half_planes, i, plane.clearance,
-          clearance::Region::half_plane(plane.point, plane.forbidden));
-    }
-    for (std::size_t i = 0; i < limits.keep_outs.size(); ++i) {
-      const KeepOut& keep_out = limits.keep_outs[i];
-      see(LimitId::keep_outs, i, keep_out.clearance,
-          clearance::Region::area(keep_out.outline, pass_of(keep_out.passage)));
-    }
-    for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
-      const Profile& profile = limits.stay_above[i];
-      see(LimitId::stay_above, i, profile.clearance, clearance::Region::line(profile.line, true));
-    }
-    for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
-      const Profile& profile = limits.stay_below[i];
-      see(LimitId::stay_below, i, profile.clearance, clearance::Region::line(profile.line, false));
     }
   }
 

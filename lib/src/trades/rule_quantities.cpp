@@ -85,6 +85,9 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"part_mass_share", number, "mass of a part over the heaviest that the design allows"},
     {"part_sheet_share", number, "side of a flat pattern over that of its sheet"},
     {"part_width", length, "shorter side of a flat pattern"},
+    {"part_clearance_margin", length,
+     "distance of a part from what the design keeps clear of, less what it asks, plus the tolerance of the "
+     "arcs"},
     // plates
     {"hole_thicknesses", number, "diameter of a hole over the thickness of its plate"},
     {"hole_edge_diameters", number, "distance of a hole's middle from the edge over its diameter"},

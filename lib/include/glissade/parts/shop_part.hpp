@@ -103,6 +103,7 @@ struct ShopPart {
   std::optional<FlatPattern> pattern;           ///< of what is cut from a sheet
   PartBody body;                                ///< finished, in the part's own frame
   std::vector<Frame> places;                    ///< one a piece, in the frame of the assembly
+  bool stands = false;                          ///< of a support, which reaches down to the ground
   bool bought_in = false;                       ///< a bar or fitting that nobody cuts from a sheet
   std::vector<std::string> files;               ///< of this part alone, below the folder of the build
 

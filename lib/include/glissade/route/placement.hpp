@@ -39,6 +39,11 @@ class Placement {
     return {start_.x + (x * cos_ - across * sin_), start_.y + (x * sin_ + across * cos_), start_.z - drop};
   }
 
+  /// @return x and drop of a point in space, seen square to the plane of the centerline [m]
+  [[nodiscard]] Vec2 to_plane(Vec3 point) const {
+    return {(point.x - start_.x) * cos_ + (point.y - start_.y) * sin_, start_.z - point.z};
+  }
+
   friend bool operator==(const Placement&, const Placement&) = default;
 
  private:
