@@ -39,6 +39,8 @@ std::string kind_text(const Design& design, const Track& track) {
   const bool point = is_sliding_point(track.motion.body());
   if (track.search && design.objective.kind == ObjectiveKind::least_wear)
     return "least wear within the limits: least work of rubbing on floor and walls";
+  if (track.search && design.objective.kind == ObjectiveKind::least_peak_wear)
+    return "least peak wear within the limits: the floor wears least where it wears most";
   if (track.search && design.objective.kind == ObjectiveKind::even_speed)
     return "most even speed within the limits, and with it the most even burden depth";
   if (track.search) return searched_name(design);
@@ -68,7 +70,7 @@ std::string against(double time, double other, const std::string& whose) {
   return amount + (change < 0.0 ? " less" : " more") + " than " + whose + " " + time_text(other);
 }
 
-std::string comparison_lines(const Track& track) {
+std::string comparison_lines(const Design& design, const Track& track) {
   const bool fastest = track.centerline->kind() == "fastest";
   const double time = track.motion.travel_time();
   std::string text;
@@ -84,9 +86,16 @@ std::string comparison_lines(const Track& track) {
   if (const auto& fastest_within = track.fastest_within) {
     const MotionState end = track.motion.at(track.motion.distance());
     const double less = 100.0 * (1.0 - end.friction_loss / fastest_within->friction_loss);
-    add(rounded_text(time - fastest_within->travel_time, 3) +
-        " s more than the fastest within these limits; it rubs " + rounded_text(std::fabs(less), 3) + " % " +
-        (less < 0.0 ? "more" : "less"));
+    std::string line = rounded_text(time - fastest_within->travel_time, 3) +
+                       " s more than the fastest within these limits; it rubs " +
+                       rounded_text(std::fabs(less), 3) + " % " + (less < 0.0 ? "more" : "less");
+    if (fastest_within->floor_wear && design.objective.kind == ObjectiveKind::least_peak_wear) {
+      const double peak = wear_at_frictions(track).floor.value;
+      line += ",\nand its floor wears " +
+              rounded_text(100.0 * (1.0 - peak / *fastest_within->floor_wear), 3) +
+              " % less where it wears most";
+    }
+    add(line);
   }
   if (track.centerline->kind() == "straight") return text;
   add(track.straight ? against(time, track.straight->travel_time(), "the straight line's")
@@ -94,10 +103,10 @@ std::string comparison_lines(const Track& track) {
   return text;
 }
 
-std::string ride_lines(const Track& track) {
+std::string ride_lines(const Design& design, const Track& track) {
   const Motion& motion = track.motion;
   if (motion.arrived()) {
-    return labelled("Travel time", time_text(motion.travel_time()) + comparison_lines(track)) +
+    return labelled("Travel time", time_text(motion.travel_time()) + comparison_lines(design, track)) +
            labelled("Exit speed", speed_text(motion.exit_speed()));
   }
   if (motion.stall()) {
@@ -232,7 +241,7 @@ std::string task_line(const Design& design, const Endpoints& endpoints) {
 std::string track_summary(const Design& design, const Track& track) {
   const std::string heading = design.name.empty() ? std::string("Track") : design.name;
   return emphasised(heading, Emphasis::heading) + "\n  " + task_line(design, track.endpoints) + "\n\n" +
-         labelled("Centerline", kind_text(design, track)) + ride_lines(track) +
+         labelled("Centerline", kind_text(design, track)) + ride_lines(design, track) +
          labelled("Slope angle", slope_text(track)) +
          labelled("Arc length", length_text(track.centerline->length())) +
          labelled("Normal load", load_lines(track.motion)) + law_lines(design, track) +

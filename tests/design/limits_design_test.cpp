@@ -193,6 +193,9 @@ TEST_CASE("a track to an edge has a start that is free both ways, or one way") {
              Contains("edge alone, which is where the track ends"));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  start: {x: 7 m, z: free}", speed)),
              Contains("the start lies on the vertical through the edge"));
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", objective: least_peak_wear")),
+             Contains("objective: least_peak_wear, of a body that is no stream") &&
+                 Contains("What rubs on the floor follows from a mass flow."));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", objective: least_load")),
              Contains("objective: least_load, with an end that is free both ways"));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  start: {x: free, z: 4 m}",

@@ -169,7 +169,8 @@ TEST_CASE("every key is written back") {
         "highest_floor_wear: 90 W/m^2, lowest_slope_margin: 5 deg, objective: least_wear}");
   check("friction_angle: 17 deg",
         "friction_angle: 17 deg\nstream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3}\n"
-        "feed: {kind: hopper, outlet_speed: 0.5 m/s, drop: 0.8 m}");
+        "feed: {kind: hopper, outlet_speed: 0.5 m/s, drop: 0.8 m}\n"
+        "limits: {objective: least_peak_wear}");
   check("mesh:", "probes: [{from_start: 2 m, name: gate}, {from_finish: 10 cm}, {x: 3.1 m}]\nmesh:");
 }
 

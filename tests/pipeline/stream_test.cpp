@@ -226,6 +226,35 @@ TEST_CASE(
   CHECK(told["loss_mm_per_1000_h"].get<double>() == Approx(rate * 3.6e9).epsilon(1e-9));
 }
 
+TEST_CASE(
+    "least peak wear: between two points without crests the straight chute, priced in seconds and in wear") {
+  const Design design = parse_design(R"(glissade: 1
+name: ore
+track:
+  start: {x: 0 m, z: 5.9 m}
+  finish: {x: 4.3 m, z: 0 m}
+body:
+  friction_angle: {low: 24 deg, nominal: 27 deg, high: 31 deg}
+  entry_speed: 2.5 m/s
+stream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}
+centerline: {kind: fastest}
+limits: {concave: true, objective: least_peak_wear}
+cross_section: {kind: u-channel, width: 800 mm, wall_height: 500 mm, thickness: 10 mm}
+)",
+                                     "d.yaml");
+  const Track track = solve(design);
+  const double straight = 650.0 / 3.6 * 0.6 * math::tan(Angle::from_degrees(31.0).radians()) *
+                          design.gravity * 4.3 / math::hypot(4.3, 5.9) / 0.8;
+  const json told = json::parse(track_json(design, track));
+  CHECK(told["wear"]["highest_floor_wear_w_per_m2"].get<double>() == Approx(straight).epsilon(1e-4));
+  const json& fastest = told["fastest_within_limits"];
+  CHECK(fastest["highest_floor_wear_w_per_m2"].get<double>() > 1.5 * straight);
+  CHECK(fastest["price_s"].get<double>() > 0.0);
+  CHECK(fastest["price_s"].get<double>() + fastest["travel_time_s"].get<double>() ==
+        Approx(track.straight_travel_time().value()).epsilon(1e-4));
+  CHECK(track.search->objective.kind == ObjectiveKind::least_peak_wear);
+}
+
 TEST_CASE("a stream of next to nothing stands where a sliding point stalls") {
   Chute chute = arc(2.0, 20.0, 88.0);
   chute.mu = 0.7;

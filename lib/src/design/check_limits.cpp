@@ -320,6 +320,11 @@ void check_of_stream(const Design& design, Collected& findings) {
             "A stream of even speed is of even depth; a single body has its constant-speed curve.",
             "centerline: {kind: constant-speed}"});
   }
+  if (objective == ObjectiveKind::least_peak_wear && !design.stream) {
+    report(findings, {path("objective")},
+           {"", "objective: least_peak_wear, of a body that is no stream",
+            "What rubs on the floor follows from a mass flow.", "objective: least_wear"});
+  }
   const bool wears = objective == ObjectiveKind::least_wear;
   if (wears && (design.track.free_finish != FinishKind::point || design.body.drag_per_metre > 0.0)) {
     report(findings, {path("objective")},

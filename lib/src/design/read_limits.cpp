@@ -203,6 +203,7 @@ void read_objective(MapReader& limits_map, Objective& objective, Findings& findi
   static const Words<ObjectiveKind> kinds = {{"travel_time", ObjectiveKind::travel_time},
                                              {"exit_speed", ObjectiveKind::exit_speed},
                                              {"least_wear", ObjectiveKind::least_wear},
+                                             {"least_peak_wear", ObjectiveKind::least_peak_wear},
                                              {"even_speed", ObjectiveKind::even_speed},
                                              {"least_drop", ObjectiveKind::least_drop},
                                              {"least_length", ObjectiveKind::least_length},

@@ -473,6 +473,9 @@ std::string objective(const Objective& objective) {
     case ObjectiveKind::least_wear:
       group.add("kind", "least_wear");
       break;
+    case ObjectiveKind::least_peak_wear:
+      group.add("kind", "least_peak_wear");
+      break;
     case ObjectiveKind::even_speed:
       group.add("kind", "even_speed");
       break;

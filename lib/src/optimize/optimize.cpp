@@ -9,6 +9,8 @@
 #include "optimize/end_conflict.hpp"
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_bound.hpp"
+#include "optimize/least_peak.hpp"
+#include "optimize/passages.hpp"
 #include "optimize/prices.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/searcher.hpp"
@@ -23,29 +25,6 @@ namespace optimizer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kMostPassages = 16;  // budget: 2^4 ways past four keep-outs
-
-/// Every combination of sides for the keep-outs that leave it open, up to kMostPassages.
-std::vector<Passages> all_passages(const Limits& limits) {
-  std::vector<Passages> all{{}};
-  for (const KeepOut& keep_out : limits.keep_outs) {
-    std::vector<Passages> longer;
-    for (const Passages& begun : all) {
-      for (const Passage side : {Passage::above, Passage::below}) {
-        if (keep_out.passage != Passage::either && keep_out.passage != side) continue;
-        // Beyond the cap the earlier keep-outs have branched already; the later ones go above.
-        if (keep_out.passage == Passage::either && side == Passage::below && all.size() >= kMostPassages)
-          continue;
-        Passages passages = begun;
-        passages.push_back(side);
-        longer.push_back(std::move(passages));
-      }
-    }
-    all = std::move(longer);
-  }
-  return all;
-}
 
 std::string none_found_text(const Conflict& nearest) {
   std::string text = "no track was found that keeps every limit, and no conflict between them is certain";
@@ -257,6 +236,8 @@ Optimum optimize(const Problem& problem, const OptimizeOptions& options, const s
   require_passable_in_order(problem);
   require_valid(options);
   if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);
+  if (problem.objective.kind == ObjectiveKind::least_peak_wear)
+    return least_peak(problem, options, stop, progress);
   Patience patience(options.time_budget, stop);
   SearchControl control;
   control.limit_tolerance = 0.1 * options.limit_tolerance;

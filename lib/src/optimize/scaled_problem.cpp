@@ -384,6 +384,8 @@ double chord_of(const Problem& problem) {
 void set_objective(const Objective& objective, double entry_speed, ScaledProblem& out) {
   switch (objective.kind) {
     case ObjectiveKind::travel_time:
+    // What is searched for within a bound just above the least (least_peak.cpp).
+    case ObjectiveKind::least_peak_wear:
       break;
     case ObjectiveKind::even_speed:
       for (Ride& ride : out.rides) ride.even_speed = entry_speed;

@@ -7,6 +7,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/referee/referee.hpp"
+#include "glissade/trades/chute/wear.hpp"
 
 #include "optimize/box_search.hpp"
 #include "pipeline/friction_range.hpp"
@@ -223,6 +224,23 @@ class Choices {
   std::vector<Range HoodDesign::*> free_;
 };
 
+/// The greatest wear below a hood and on the floor of its track, over the frictions of a design [W/m^2].
+double highest_wear(const Design& design, const CenterlinePtr& centerline) {
+  std::vector<Friction> frictions{design.body.friction};
+  for (const auto& friction : {design.body.low_friction, design.body.high_friction}) {
+    if (friction) frictions.push_back(*friction);
+  }
+  double highest = 0.0;
+  for (const Friction& friction : frictions) {
+    Body body = body_of(design);
+    body.friction = friction;
+    const Motion track(centerline, body, design.gravity);
+    const HoodPassage passage = hood_passage(design, body);
+    highest = std::max(highest, wear_of({&track, &passage.motion}).floor.value);
+  }
+  return highest;
+}
+
 /// What a transfer is judged by: the objective of its design over feed, hood and track. Less is better.
 double cost_of(const Design& design, const CenterlinePtr& centerline) {
   Body body = body_of(design);
@@ -239,6 +257,8 @@ double cost_of(const Design& design, const CenterlinePtr& centerline) {
       const Motion below = hood_passage(design, motion.body()).motion;
       return motion.at(motion.distance()).friction_loss + below.at(below.distance()).friction_loss;
     }
+    case ObjectiveKind::least_peak_wear:
+      return highest_wear(design, centerline);
     default:
       return time;
   }

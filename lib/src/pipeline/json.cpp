@@ -111,6 +111,8 @@ Json fastest_within_json(const Track& track) {
   if (!track.fastest_within) return nullptr;
   return {{"travel_time_s", track.fastest_within->travel_time},
           {"friction_loss_j_per_kg", track.fastest_within->friction_loss},
+          {"highest_floor_wear_w_per_m2",
+           track.fastest_within->floor_wear ? Json(*track.fastest_within->floor_wear) : Json(nullptr)},
           {"price_s", track.motion.travel_time() - track.fastest_within->travel_time}};
 }
 

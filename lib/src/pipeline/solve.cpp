@@ -277,16 +277,29 @@ Track ride(const Design& design, CenterlinePtr centerline) {
 
 namespace {
 
+/// The greatest wear of the floor of a track over the frictions of a design [W/m^2].
+double highest_floor_wear(const Design& design, const CenterlinePtr& centerline) {
+  const Motion nominal(centerline, body_of(design), design.gravity);
+  const std::vector<RangeRide> range = rides_of_range(design, centerline);
+  std::vector<const Motion*> motions{&nominal};
+  for (const RangeRide& ride : range) motions.push_back(&ride.motion);
+  return wear_of(motions).floor.value;
+}
+
 /// The same search for the travel time, which prices what it was given up for.
 std::optional<FastestWithin> fastest_within(Design design, const RunContext& context) {
   const ObjectiveKind kind = design.objective.kind;
-  if (kind != ObjectiveKind::least_wear && kind != ObjectiveKind::even_speed) return {};
+  if (kind != ObjectiveKind::least_wear && kind != ObjectiveKind::least_peak_wear &&
+      kind != ObjectiveKind::even_speed)
+    return {};
   design.objective.kind = ObjectiveKind::travel_time;
   try {
     const Optimum optimum = search_within_limits(design, context);
     const Motion motion(optimum.centerline, body_of(design), design.gravity);
     if (!motion.arrived()) return {};
-    return FastestWithin{motion.travel_time(), motion.at(motion.distance()).friction_loss};
+    FastestWithin fastest{motion.travel_time(), motion.at(motion.distance()).friction_loss};
+    if (design.stream) fastest.floor_wear = highest_floor_wear(design, optimum.centerline);
+    return fastest;
   } catch (const Interrupted&) {
     throw;
   } catch (const Error&) {
@@ -346,6 +359,8 @@ std::string searched_name(const Design& design) {
       return "lowest within the limits";
     case ObjectiveKind::least_length:
       return "shortest within the limits";
+    case ObjectiveKind::least_peak_wear:
+      return "of the least peak wear within the limits";
     case ObjectiveKind::least_load:
       return "of the least load within the limits";
     case ObjectiveKind::least_curvature_rate:

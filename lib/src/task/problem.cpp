@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
 #include <cmath>
@@ -91,6 +92,11 @@ void check_objective(const Problem& problem, Checker& check) {
     check.require(speed_given, "finish: free both ways, without a lowest exit speed above the entry speed",
                   "it is the speed to be reached that says how far the track has to fall",
                   "exit_speed.lowest, or a finish with a run or a drop");
+  }
+  if (problem.objective.kind == ObjectiveKind::least_peak_wear) {
+    check.require(dynamic_cast<const BulkStream*>(problem.body.law.get()) != nullptr,
+                  "objective: least_peak_wear, of a body that is no stream",
+                  "what rubs on the floor follows from a mass flow", "objective: least_wear");
   }
   if (!is_least_bound(problem.objective.kind)) return;
   check.require(speed_given, "objective: a least bound, without a lowest exit speed above the entry speed",

@@ -52,6 +52,8 @@ struct LevelRide {
 struct FastestWithin {
   double travel_time = 0.0;    ///< [s]
   double friction_loss = 0.0;  ///< work of rubbing on floor and walls per mass [J/kg]
+  /// Of a stream: the greatest wear of its floor over all frictions [W/m^2].
+  std::optional<double> floor_wear = {};
 };
 
 /// A centerline with the ride down it and the two rides that it is measured by.
@@ -74,7 +76,7 @@ struct Track {
   /// How the search within the limits ended, of the kind fastest with limits; none otherwise. Limits have the
   /// names and the frame of the design file: finish.x, finish.z.
   std::optional<OptimizeReport> search;
-  /// Of a search for less wear or more even speed: the fastest track within the same limits; none where the
+  /// Of a search for less wear, less peak wear or more even speed: the fastest track within the same limits; none where the
   /// search is for that, or where it failed.
   std::optional<FastestWithin> fastest_within;
   /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without

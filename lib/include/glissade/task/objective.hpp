@@ -10,6 +10,8 @@ enum class ObjectiveKind {
   /// Least work of friction on floor and walls for each kilogram. With the ends given and no drag that is the
   /// greatest exit speed: what is not rubbed off arrives.
   least_wear,
+  /// Of a stream: least highest wear of the floor, Roberts' wear factor W_c, over the track and all frictions
+  least_peak_wear,
   /// Of a stream: least integral of (u/u(0) - 1)^2 along the track; even speed is even burden depth
   even_speed,
   least_drop,    ///< least drop from start to finish: of a ski jump, the lowest tower
@@ -48,6 +50,8 @@ struct Objective {
       return "m/s^2";
     case ObjectiveKind::least_curvature_rate:
       return "1/m^2";
+    case ObjectiveKind::least_peak_wear:
+      return "W/m^2";
     default:
       return "s";
   }
