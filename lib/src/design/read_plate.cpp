@@ -88,6 +88,26 @@ FlangeOptions read_flanges(const Value& value, Findings& findings) {
   return flanges;
 }
 
+/// A word, or a map with measures.
+CornerOptions read_corners(MapReader& whole, const Value& value, Findings& findings) {
+  const std::vector<std::pair<std::string_view, CornerJoint>> words = {
+      {"butt", CornerJoint::butt}, {"lap", CornerJoint::lap}, {"tab-and-slot", CornerJoint::tab_and_slot}};
+  CornerOptions corners;
+  if (value.node->kind != Node::Kind::map) {
+    corners.kind = whole.choice(value, words).value_or(corners.kind);
+    return corners;
+  }
+  MapReader map(value, "A set of corners", "{kind: tab-and-slot, overlap: 15 mm, tab: 40 mm}", findings);
+  if (const auto kind = map.need("kind", "kind: tab-and-slot"))
+    corners.kind = map.choice(*kind, words).value_or(corners.kind);
+  corners.overlap = map.quantity("overlap", Dimension::length).value_or(corners.overlap);
+  corners.tab = map.quantity("tab", Dimension::length).value_or(corners.tab);
+  corners.spacing = map.quantity("spacing", Dimension::length).value_or(corners.spacing);
+  corners.clearance = map.quantity("clearance", Dimension::length).value_or(corners.clearance);
+  map.refuse_unknown_keys();
+  return corners;
+}
+
 /// A group that stands for its defaults where it is `true`, and for nothing where it is `none`.
 template <typename Options, typename Read>
 std::optional<Options> optional_group(MapReader& map, std::string_view key, Findings& findings, Read read) {
@@ -217,6 +237,7 @@ PlateOptions read_plate(MapReader& map, Findings& findings) {
   plate.walls =
       chosen<WallSeat>(map, "walls", plate.walls,
                        {{"beside-floor", WallSeat::beside_floor}, {"on-floor", WallSeat::on_floor}});
+  if (const auto corners = map.find("corners")) plate.corners = read_corners(map, *corners, findings);
   if (const auto split = map.find("split")) plate.split = read_split(*split, findings);
   if (const auto flanges = map.find("flanges")) plate.flanges = read_flanges(*flanges, findings);
   plate.round = chosen<RoundMake>(map, "round", plate.round,

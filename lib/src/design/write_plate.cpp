@@ -51,6 +51,19 @@ std::string bolt(int size) {
   return "M" + std::to_string(size);
 }
 
+std::string corners(const CornerOptions& options) {
+  const char* const kind = options.kind == CornerJoint::butt  ? "butt"
+                           : options.kind == CornerJoint::lap ? "lap"
+                                                              : "tab-and-slot";
+  Group group;
+  group.add("kind", kind);
+  group.add("overlap", options.overlap, Dimension::length);
+  group.add("tab", options.tab, Dimension::length);
+  group.add("spacing", options.spacing, Dimension::length);
+  group.add("clearance", options.clearance, Dimension::length);
+  return group.inlined();
+}
+
 std::string rim(const RimOptions& options) {
   Group group;
   group.add("width", options.width, Dimension::length);
@@ -121,6 +134,7 @@ void add_process(Group& group, const PlateOptions& plate) {
   group.add("floor", plate.floor == FloorMake::bent ? "bent" : "rolled");
   group.add("bend", bend(plate.bend));
   group.add("walls", plate.walls == WallSeat::on_floor ? "on-floor" : "beside-floor");
+  group.add("corners", corners(plate.corners));
   group.add("split", split(plate.split));
   group.add("flanges", flanges(plate.flanges));
   group.add("round", plate.round == RoundMake::staves ? "staves" : "mitred");

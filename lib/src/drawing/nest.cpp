@@ -5,6 +5,8 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 
+#include "core/least_rectangle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,52 +23,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSagitta = 2e-5;
 
 // --- shapes
-
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](Vec2 a, Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::vector<Vec2> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t base = hull.size();
-    for (const Vec2 point : points) {
-      while (hull.size() >= base + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.0) {
-        hull.pop_back();
-      }
-      hull.push_back(point);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-/// @return the angle that lays the least rectangle round the points along x, its long side level
-double lying_angle(const std::vector<Vec2>& points) {
-  const std::vector<Vec2> hull = hull_of(points);
-  double least = kInfinity;
-  double angle = 0.0;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vec2 edge = hull[(i + 1) % hull.size()] - hull[i];
-    const double size = norm(edge);
-    if (size == 0.0) continue;
-    const Vec2 along = (1.0 / size) * edge;
-    double low = kInfinity, high = -kInfinity, up = 0.0;
-    for (const Vec2 point : hull) {
-      const double x = dot(along, point - hull[i]);
-      low = std::min(low, x);
-      high = std::max(high, x);
-      up = std::max(up, cross(along, point - hull[i]));
-    }
-    const double area = (high - low) * up;
-    if (area >= least * (1.0 - 1e-9)) continue;
-    least = area;
-    const double turn = -math::atan2(along.y, along.x);
-    angle = high - low >= up ? turn : turn + kRightAngle;
-  }
-  return angle;
-}
 
 /// Underside and top of a piece in one of its attitudes, column by column; infinite where it has nothing.
 struct Attitude {
@@ -227,7 +183,7 @@ Piece piece_of(const ShopPart& part, std::size_t index, double column) {
   piece.part = index;
   piece.area = moments(part.pattern->region).area;
   const ArcPath& outline = part.pattern->region.outline;
-  const double lying = lying_angle(flattened(outline, kSagitta));
+  const double lying = core::lying_angle(flattened(outline, kSagitta));
   // Along the sheet and across it, end for end; and as it was drawn, whose box is the one that a designer sees.
   for (const double angle :
        {lying, lying + 2.0 * kRightAngle, lying + kRightAngle, lying + 3.0 * kRightAngle, 0.0, kRightAngle}) {

@@ -57,37 +57,120 @@ double curvature_of(const PathPiece& piece) {
   return 4.0 * math::atan(piece.bulge) / length(piece);
 }
 
+/// The section of a body at a share of a piece of its path.
+std::vector<Vec2> section_at(const SweptBody& body, std::size_t piece, double share) {
+  std::vector<Vec2> section = body.section;
+  if (body.shifts.empty()) return section;
+  for (std::size_t j = 0; j < section.size(); ++j)
+    section[j].y += (1.0 - share) * body.shifts[piece][j] + share * body.shifts[piece + 1][j];
+  return section;
+}
+
 BodyMoments moments_of(const Prism& prism) {
   const AreaMoments area = glissade::moments(prism.region);
   return {area.area * prism.depth, {area.centroid.x, area.centroid.y, 0.5 * prism.depth}};
 }
 
+// Gauss, four points on each of four panels a piece.
+constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                          0.9305681557970263};
+constexpr std::array<double, 4> kWeights = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                            0.1739274225687269};
+constexpr int kPanels = 4;
+
 BodyMoments moments_of(const SweptBody& body) {
-  const SectionMoments section = moments_of(body.section);
-  // Gauss, four points on each of four panels a piece.
-  constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
-                                            0.9305681557970263};
-  constexpr std::array<double, 4> kWeights = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
-                                              0.1739274225687269};
-  constexpr int kPanels = 4;
+  SectionMoments section = moments_of(body.section);
   BodyMoments all;
   Vec3 first;
-  for (const PathPiece& piece : pieces_of(body.path)) {
-    const double whole = length(piece);
-    const double curvature = curvature_of(piece);
-    const double volume = whole * (section.area - curvature * section.x);
-    all.volume += volume;
-    first.z += whole * (section.y - curvature * section.xy);
+  const std::vector<PathPiece> pieces = pieces_of(body.path);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const double whole = length(pieces[i]);
+    const double curvature = curvature_of(pieces[i]);
     for (int panel = 0; panel < kPanels; ++panel) {
       for (std::size_t k = 0; k < kNodes.size(); ++k) {
         const double share = (panel + kNodes[k]) / kPanels;
-        const Vec2 along = tangent_at(piece, share);
+        if (!body.shifts.empty()) section = moments_of(section_at(body, i, share));
+        const Vec2 along = tangent_at(pieces[i], share);
         const double weight = kWeights[k] * whole / kPanels;
-        const Vec2 at = point_on(piece, share);
+        const Vec2 at = point_on(pieces[i], share);
+        const double volume = section.area - curvature * section.x;
         const double up = section.x - curvature * section.xx;
-        first.x += weight * (at.x * (section.area - curvature * section.x) - along.y * up);
-        first.y += weight * (at.y * (section.area - curvature * section.x) + along.x * up);
+        all.volume += weight * volume;
+        first.x += weight * (at.x * volume - along.y * up);
+        first.y += weight * (at.y * volume + along.x * up);
+        first.z += weight * (section.y - curvature * section.xy);
       }
+    }
+  }
+  all.centroid = (1.0 / all.volume) * first;
+  return all;
+}
+
+/// What lies across a sheet between two places along its path, its edges being parallel to them.
+struct Slab {
+  std::size_t piece = 0;
+  double from = 0.0;  ///< along the path
+  double to = 0.0;
+  double width = 0.0;   ///< of all that is there
+  double moment = 0.0;  ///< of it about y = 0
+};
+
+std::vector<Slab> slabs_of(const RolledSheet& sheet, const std::vector<PathPiece>& pieces) {
+  std::vector<double> breaks = {0.0};
+  std::vector<double> joints = {0.0};
+  for (const PathPiece& piece : pieces) joints.push_back(joints.back() + length(piece));
+  std::vector<const ArcPath*> loops = {&sheet.region.outline};
+  for (const ArcPath& cutout : sheet.region.cutouts) loops.push_back(&cutout);
+  breaks.insert(breaks.end(), joints.begin(), joints.end());
+  for (const ArcPath* loop : loops) {
+    for (const PathVertex& vertex : loop->vertices) breaks.push_back(vertex.at.x);
+  }
+  std::sort(breaks.begin(), breaks.end());
+  std::vector<Slab> slabs;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    const double middle = 0.5 * (breaks[k] + breaks[k + 1]);
+    if (!(breaks[k + 1] > breaks[k]) || middle > joints.back()) continue;
+    Slab slab{0, breaks[k], breaks[k + 1], 0.0, 0.0};
+    while (slab.piece + 1 < pieces.size() && middle > joints[slab.piece + 1]) ++slab.piece;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+      // Of the edges above and below the middle, those that run on count for what lies below them.
+      const bool left = (signed_area(*loops[l]) > 0.0) == (l == 0);
+      for (const PathPiece& edge : pieces_of(*loops[l])) {
+        const bool spans = std::min(edge.from.x, edge.to.x) <= middle && middle < std::max(edge.from.x, edge.to.x);
+        if (!spans) continue;
+        const double sense = (edge.to.x < edge.from.x) == left ? 1.0 : -1.0;
+        slab.width += sense * edge.from.y;
+        slab.moment += sense * 0.5 * edge.from.y * edge.from.y;
+      }
+    }
+    slabs.push_back(slab);
+  }
+  return slabs;
+}
+
+BodyMoments moments_of(const RolledSheet& sheet) {
+  const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  std::vector<double> starts = {0.0};
+  for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
+  const double t = sheet.thickness;
+  BodyMoments all;
+  Vec3 first;
+  for (const Slab& slab : slabs_of(sheet, pieces)) {
+    const PathPiece& piece = pieces[slab.piece];
+    const double curvature = curvature_of(piece);
+    const double whole = length(piece);
+    const double through = t + 0.5 * curvature * t * t;
+    const double below = -0.5 * t * t - curvature * t * t * t / 3.0;
+    const double size = slab.to - slab.from;
+    all.volume += size * slab.width * through;
+    first.z += size * slab.moment * through;
+    for (std::size_t k = 0; k < kNodes.size(); ++k) {
+      const double share = (slab.from + kNodes[k] * size - starts[slab.piece]) / whole;
+      const Vec2 at = point_on(piece, share);
+      const Vec2 along = tangent_at(piece, share);
+      const double weight = kWeights[k] * size * slab.width;
+      first.x += weight * (at.x * through - along.y * below);
+      first.y += weight * (at.y * through + along.x * below);
     }
   }
   all.centroid = (1.0 / all.volume) * first;
@@ -106,6 +189,26 @@ BodyMoments moments_of(const TubeGore& gore) {
   const double x = second * (end - start);
   const double z = 0.5 * (area * gore.length * gore.length + second * (end * end - start * start));
   const double volume = area * gore.length;
+  return {volume, {x / volume, 0.0, z / volume}};
+}
+
+BodyMoments moments_of(const TroughGore& gore) {
+  const double inner = gore.inner_radius;
+  const double outer = inner + gore.thickness;
+  constexpr double kPi = std::numbers::pi;
+  // Of the section: area, and its moments of x, the sides' and the half ring's.
+  const double high = gore.side;
+  const double area = 0.5 * kPi * (outer * outer - inner * inner) + 2.0 * gore.thickness * high;
+  const double first =
+      gore.thickness * high * high - 2.0 / 3.0 * (outer * outer * outer - inner * inner * inner);
+  const double second = 0.125 * kPi * (outer * outer * outer * outer - inner * inner * inner * inner) +
+                        2.0 / 3.0 * gore.thickness * high * high * high;
+  const double start = math::tan(gore.start_tilt.radians());
+  const double end = math::tan(gore.end_tilt.radians());
+  const double volume = area * gore.length + first * (end - start);
+  const double x = first * gore.length + second * (end - start);
+  const double z = 0.5 * (area * gore.length * gore.length + 2.0 * first * gore.length * end +
+                          second * (end * end - start * start));
   return {volume, {x / volume, 0.0, z / volume}};
 }
 
@@ -142,26 +245,85 @@ std::vector<Vec3> points_of(const Prism& prism, double inset) {
 }
 
 std::vector<Vec3> points_of(const SweptBody& body, double inset) {
-  const SectionMoments section = moments_of(body.section);
-  const Vec2 middle{section.x / section.area, section.y / section.area};
-  std::vector<Vec2> places = {middle};
-  for (const Vec2 corner : body.section) {
-    const Vec2 inward = middle - corner;
-    // Inside both faces of a sharp corner.
-    places.push_back(corner + std::min(1.0, 4.0 * inset / norm(inward)) * inward);
-  }
   std::vector<Vec3> points;
   const std::vector<PathPiece> pieces = pieces_of(body.path);
-  for (const PathPiece& piece : pieces) {
-    const double edge = inset / length(piece);
+  std::vector<Vec2> places;
+  const auto look_at = [&](const std::vector<Vec2>& corners) {
+    const SectionMoments section = moments_of(corners);
+    const Vec2 middle{section.x / section.area, section.y / section.area};
+    places = {middle};
+    for (const Vec2 corner : corners) {
+      const Vec2 inward = middle - corner;
+      // Inside both faces of a sharp corner.
+      places.push_back(corner + std::min(1.0, 4.0 * inset / norm(inward)) * inward);
+    }
+  };
+  look_at(body.section);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const double edge = inset / length(pieces[i]);
     for (const double share : {edge, 0.25, 0.5, 0.75, 1.0 - edge}) {
-      const Vec2 at = point_on(piece, share);
-      const Vec2 along = tangent_at(piece, share);
+      if (!body.shifts.empty()) look_at(section_at(body, i, share));
+      const Vec2 at = point_on(pieces[i], share);
+      const Vec2 along = tangent_at(pieces[i], share);
       const Vec2 up{-along.y, along.x};
       for (const Vec2 place : places) {
         const Vec2 here = at + place.x * up;
         points.push_back({here.x, here.y, place.y});
       }
+    }
+  }
+  return points;
+}
+
+std::vector<Vec3> points_of(const RolledSheet& sheet, double inset) {
+  const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  std::vector<double> starts = {0.0};
+  for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
+  std::vector<Vec3> points;
+  const auto put = [&](Vec2 place) {
+    std::size_t i = 0;
+    while (i + 1 < pieces.size() && place.x > starts[i + 1]) ++i;
+    const double share = (place.x - starts[i]) / length(pieces[i]);
+    const Vec2 along = tangent_at(pieces[i], share);
+    const Vec2 at = point_on(pieces[i], share);
+    for (const double depth : {inset, 0.5 * sheet.thickness, sheet.thickness - inset})
+      points.push_back({at.x + depth * along.y, at.y - depth * along.x, place.y});
+  };
+  const auto along_edges = [&](const ArcPath& path, bool outline) {
+    const bool left = (signed_area(path) > 0.0) == outline;  // the material's side
+    for (const PathPiece& edge : pieces_of(path)) {
+      const Vec2 step = edge.to - edge.from;
+      const double whole = norm(step);
+      if (!(whole > 0.0)) continue;
+      const Vec2 inward = ((left ? inset : -inset) / whole) * Vec2{-step.y, step.x};
+      const int count = 4 + static_cast<int>(4.0 * whole / starts.back() * static_cast<double>(pieces.size()));
+      for (int k = 0; k < count; ++k) put(edge.from + ((k + 0.5) / count) * step + inward);
+    }
+  };
+  along_edges(sheet.region.outline, true);
+  for (const ArcPath& cutout : sheet.region.cutouts) along_edges(cutout, false);
+  return points;
+}
+
+std::vector<Vec3> points_of(const TroughGore& gore, double inset) {
+  std::vector<Vec3> points;
+  const double start = math::tan(gore.start_tilt.radians());
+  const double end = math::tan(gore.end_tilt.radians());
+  const auto put = [&](double x, double y) {
+    const double low = x * start + 2.0 * inset;
+    const double high = gore.length + x * end - 2.0 * inset;
+    for (const double z : {low, 0.5 * (low + high), high}) points.push_back({x, y, z});
+  };
+  constexpr int kPoints = 13;
+  for (const double radius : {gore.inner_radius + inset, gore.inner_radius + gore.thickness - inset}) {
+    for (int k = 0; k < kPoints; ++k) {
+      const auto [sine, cosine] = math::sine_cosine(std::numbers::pi * k / (kPoints - 1));
+      put(-radius * sine, radius * cosine);
+    }
+    if (gore.side < 2.0 * inset) continue;
+    for (const double height : {0.5 * gore.side, gore.side - inset}) {
+      put(height, radius);
+      put(height, -radius);
     }
   }
   return points;
@@ -206,36 +368,36 @@ double depth_in(const Prism& prism, Vec3 point) {
   return flat > 0.0 ? std::min(flat, between) : flat;
 }
 
-double depth_in(const SweptBody& body, Vec3 point) {
-  const ArcPath section{[&] {
-                          std::vector<PathVertex> corners;
-                          for (const Vec2 corner : body.section) corners.push_back({corner, 0.0});
-                          return corners;
-                        }(),
-                        true};
-  const Vec2 flat{point.x, point.y};
-  const std::vector<PathPiece> pieces = pieces_of(body.path);
+/// Where a point lies beside a piece of a path.
+struct Beside {
+  double along = 0.0;  ///< from the piece's start
+  double above = 0.0;  ///< to its left
+};
+
+Beside beside(const PathPiece& piece, Vec2 point) {
+  // The circle of an arc that rises less than this is so large that the distance from it is lost in rounding.
+  constexpr double kFlatRise = 1e-8;
+  if (0.5 * std::fabs(piece.bulge) * norm(piece.to - piece.from) < kFlatRise) {
+    const Vec2 tangent = tangent_at(piece, 0.0);
+    return {dot(point - piece.from, tangent), cross(tangent, point - piece.from)};
+  }
+  const CircularArc arc = arc_of(piece);
+  const Vec2 spoke = point - arc.centre;
+  const Vec2 start = piece.from - arc.centre;
+  const double sense = arc.sweep > 0.0 ? 1.0 : -1.0;
+  return {sense * arc.radius * math::atan2(cross(start, spoke), dot(start, spoke)),
+          sense * (arc.radius - norm(spoke))};
+}
+
+/// The depth of a point inside what lies along a path.
+/// @param across  (piece, share of it, height above it): depth square to the path
+template <typename Across>
+double depth_along(const std::vector<PathPiece>& pieces, Vec2 point, Across across) {
   double deepest = -kFar;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const PathPiece& piece = pieces[i];
-    // Along the piece from its start, and above it; ends of the body alone count as faces.
-    double along = 0.0;
-    double above = 0.0;
-    // The circle of an arc that rises less than this is so large that the distance from it is lost in rounding.
-    constexpr double kFlatRise = 1e-8;
-    if (0.5 * std::fabs(piece.bulge) * norm(piece.to - piece.from) < kFlatRise) {
-      const Vec2 tangent = tangent_at(piece, 0.0);
-      along = dot(flat - piece.from, tangent);
-      above = cross(tangent, flat - piece.from);
-    } else {
-      const CircularArc arc = arc_of(piece);
-      const Vec2 spoke = flat - arc.centre;
-      const Vec2 start = piece.from - arc.centre;
-      const double sense = arc.sweep > 0.0 ? 1.0 : -1.0;
-      along = sense * arc.radius * math::atan2(cross(start, spoke), dot(start, spoke));
-      above = sense * (arc.radius - norm(spoke));
-    }
-    const double whole = length(piece);
+    // Ends of the body alone count as faces.
+    const auto [along, above] = beside(pieces[i], point);
+    const double whole = length(pieces[i]);
     const double from_start = i == 0 ? along : along + kInset;
     const double from_end = (i + 1 == pieces.size() ? 0.0 : kInset) + whole - along;
     const double lengthwise = std::min(i == 0 ? from_start : kFar, i + 1 == pieces.size() ? from_end : kFar);
@@ -243,10 +405,41 @@ double depth_in(const SweptBody& body, Vec3 point) {
       deepest = std::max(deepest, std::min(from_start, from_end));
       continue;
     }
-    const double flat_depth = depth_in(PlaneRegion{section, {}, {}}, Vec2{above, point.z});
+    const double flat_depth = across(i, std::clamp(along / whole, 0.0, 1.0), above);
     deepest = std::max(deepest, flat_depth > 0.0 ? std::min(flat_depth, lengthwise) : flat_depth);
   }
   return deepest;
+}
+
+double depth_in(const SweptBody& body, Vec3 point) {
+  return depth_along(pieces_of(body.path), {point.x, point.y}, [&](std::size_t i, double share, double above) {
+    ArcPath section{{}, true};
+    for (const Vec2 corner : section_at(body, i, share)) section.vertices.push_back({corner, 0.0});
+    return depth_in(PlaneRegion{section, {}, {}}, Vec2{above, point.z});
+  });
+}
+
+double depth_in(const RolledSheet& sheet, Vec3 point) {
+  const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  std::vector<double> starts = {0.0};
+  for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
+  return depth_along(pieces, {point.x, point.y}, [&](std::size_t i, double share, double above) {
+    const double between = std::min(-above, above + sheet.thickness);
+    if (between <= 0.0) return between;
+    const double x = starts[i] + share * length(pieces[i]);
+    const double flat = depth_in(sheet.region, Vec2{x, point.z});
+    return flat > 0.0 ? std::min(flat, between) : flat;
+  });
+}
+
+double depth_in(const TroughGore& gore, Vec3 point) {
+  const double radius = point.x < 0.0 ? math::hypot(point.x, point.y) : std::fabs(point.y);
+  const double start =
+      (point.z - point.x * math::tan(gore.start_tilt.radians())) * math::cos(gore.start_tilt.radians());
+  const double end = (gore.length + point.x * math::tan(gore.end_tilt.radians()) - point.z) *
+                     math::cos(gore.end_tilt.radians());
+  return std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end,
+                   gore.side - point.x});
 }
 
 double depth_in(const MeshBody& /*body*/, Vec3 /*point*/) {

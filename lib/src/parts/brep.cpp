@@ -4,6 +4,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/brep_building.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,70 +13,6 @@
 
 namespace glissade::parts {
 namespace {
-
-constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr Vec3 kUp{0.0, 0.0, 1.0};
-constexpr Vec3 kDown{0.0, 0.0, -1.0};
-constexpr Vec3 kAcross{1.0, 0.0, 0.0};
-
-Vec3 at_height(Vec2 point, double z) {
-  return {point.x, point.y, z};
-}
-
-Vec3 unit(Vec3 direction) {
-  return (1.0 / norm(direction)) * direction;
-}
-
-InputError bad_body(const ShopPart& part, const std::string& what) {
-  return InputError({"part " + std::to_string(part.number) + ", " + part.name, what, "", ""});
-}
-
-std::size_t add_vertex(Brep& brep, Vec3 point) {
-  brep.vertices.push_back(point);
-  return brep.vertices.size() - 1;
-}
-
-std::size_t add_line(Brep& brep, std::size_t from, std::size_t to) {
-  BrepEdge edge;
-  edge.from = from;
-  edge.to = to;
-  brep.edges.push_back(edge);
-  return brep.edges.size() - 1;
-}
-
-/// Part of a circle that lies level, turning to the left or right.
-std::size_t add_arc(Brep& brep, std::size_t from, std::size_t to, Vec2 centre, bool left) {
-  BrepEdge edge;
-  edge.from = from;
-  edge.to = to;
-  edge.kind = CurveKind::circle;
-  edge.centre = at_height(centre, brep.vertices[from].z);
-  edge.axis = left ? kUp : kDown;
-  const Vec3 spoke = brep.vertices[from] - edge.centre;
-  edge.radius = norm(spoke);
-  edge.reference = unit(spoke);
-  brep.edges.push_back(edge);
-  return brep.edges.size() - 1;
-}
-
-BrepFace level_plane(double z, bool up) {
-  BrepFace face;
-  face.origin = {0.0, 0.0, z};
-  face.axis = up ? kUp : kDown;
-  face.reference = kAcross;
-  return face;
-}
-
-BrepFace upright_cylinder(Vec2 centre, Vec3 reference, double radius, bool outward) {
-  BrepFace face;
-  face.kind = SurfaceKind::cylinder;
-  face.origin = at_height(centre, 0.0);
-  face.axis = kUp;
-  face.reference = reference;
-  face.radius = radius;
-  face.outward = outward;
-  return face;
-}
 
 // --- prisms
 
@@ -160,10 +98,6 @@ class ContourFaces {
   std::vector<std::vector<BrepUse>> above_;
 };
 
-ArcPath turning(const ArcPath& path, bool left) {
-  return (signed_area(path) > 0.0) == left ? path : reversed(path);
-}
-
 Brep brep_of(const Prism& prism, const ShopPart& part) {
   const std::vector<std::string> faults = faults_of(prism.region);
   if (!faults.empty()) throw bad_body(part, faults.front());
@@ -179,21 +113,6 @@ Brep brep_of(const Prism& prism, const ShopPart& part) {
 }
 
 // --- sections along a path
-
-/// @return the unit tangent of a piece at its start
-Vec2 start_tangent(const PathPiece& piece) {
-  const Vec2 along = piece.to - piece.from;
-  const double b = piece.bulge;
-  // The chord turned back by half the sweep: cos and sin of 2 atan(b).
-  const double cosine = (1.0 - b * b) / (1.0 + b * b);
-  const double sine = 2.0 * b / (1.0 + b * b);
-  return (1.0 / norm(along)) * Vec2{cosine * along.x + sine * along.y, cosine * along.y - sine * along.x};
-}
-
-Vec2 end_tangent(const PathPiece& piece) {
-  const PathPiece back{piece.to, piece.from, -piece.bulge};
-  return -1.0 * start_tangent(back);
-}
 
 class SweptFaces {
  public:
@@ -344,15 +263,6 @@ std::size_t add_ring(Brep& brep, double radius, double height, double slope, boo
   return brep.edges.size() - 1;
 }
 
-BrepFace ring_plane(double height, double slope, bool up) {
-  BrepFace face;
-  const double stretch = math::hypot(1.0, slope);
-  face.origin = {0.0, 0.0, height};
-  face.axis = (up ? 1.0 : -1.0) * Vec3{-slope / stretch, 0.0, 1.0 / stretch};
-  face.reference = {1.0 / stretch, 0.0, slope / stretch};
-  return face;
-}
-
 Brep brep_of(const TubeGore& gore, const ShopPart& part) {
   const double inner = gore.inner_radius * kMillimetres;
   const double outer = inner + gore.thickness * kMillimetres;
@@ -388,6 +298,14 @@ Brep brep_of(const MeshBody& /*body*/, const ShopPart& part) {
 
 Brep brep_of(const SweptBody& body, const ShopPart& part) {
   return SweptFaces(body, part).whole();
+}
+
+Brep brep_of(const RolledSheet& sheet, const ShopPart& part) {
+  return brep_of_sheet(sheet, part);
+}
+
+Brep brep_of(const TroughGore& gore, const ShopPart& part) {
+  return brep_of_trough(gore, part);
 }
 
 }  // namespace

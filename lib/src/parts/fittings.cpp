@@ -5,12 +5,14 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/corners.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace glissade::parts {
 namespace {
@@ -18,6 +20,7 @@ namespace {
 constexpr double kAside = 1e-3;      // between a rim and the frame that it ends before [m]
 constexpr double kLap = 30e-3;       // of a lid beyond its opening, all round [m]
 constexpr double kLeastWeb = 20e-3;  // of a wall above and below an opening [m]
+constexpr double kLeastRound = 20e-3;  // of a stiffener, beyond a corner that laps [m]
 constexpr double kLugHalf = 40e-3;   // of a lug, along the track [m]
 constexpr double kLugHigh = 60e-3;   // above the wall's top [m]
 constexpr double kLugLow = 60e-3;    // below it, on a wall without a rim [m]
@@ -144,6 +147,25 @@ void add_rims(const Fitting& fitting) {
   }
 }
 
+namespace {
+
+/// The free place nearest to `about`; below a bent floor one where a flat touches the track, since elsewhere it lies off it.
+std::optional<double> stiffener_place(const Fitting& fitting, const Unit& unit, double about, double half) {
+  const Span room = between_frames(fitting.job, unit.span);
+  if (!unit.face.facets) return fitting.below.free_place(about, half, room);
+  std::vector<double> touches = unit.face.facets->touches;
+  std::sort(touches.begin(), touches.end(), [&](double a, double b) {
+    return std::pair(std::fabs(a - about), a) < std::pair(std::fabs(b - about), b);
+  });
+  for (const double touch : touches) {
+    const auto place = fitting.below.free_place(touch, half, room);
+    if (place && *place == touch) return place;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 void add_stiffeners(const Fitting& fitting) {
   const Job& job = fitting.job;
   if (!job.options.stiffeners) return;
@@ -153,7 +175,7 @@ void add_stiffeners(const Fitting& fitting) {
   const double top = job.channel.wall_height - (rim ? job.options.rim->thickness + gap : 0.0);
   ShopPart part = in_material(job, "stiffener", stiffener.thickness);
   FlatPattern pattern;
-  pattern.region = frame_region(job, stiffener.width, top);
+  pattern.region = frame_region(job, stiffener.width, top, true);
   part.body = Prism{pattern.region, stiffener.thickness};
   part.pattern = std::move(pattern);
   for (const Unit& unit : fitting.units) {
@@ -162,7 +184,7 @@ void add_stiffeners(const Fitting& fitting) {
     for (double k = 1.0; k < count; k += 1.0) {
       const double about = unit.span.from + room * k / count;
       const double half = 0.5 * stiffener.thickness + 15e-3;
-      const auto at = fitting.below.free_place(about, half, between_frames(job, unit.span));
+      const auto at = stiffener_place(fitting, unit, about, half);
       // Where the floor bends within the plate's thickness, the gap would close.
       if (!at || std::fabs(job.track.at(*at).curvature) * stiffener.thickness * stiffener.thickness > gap)
         continue;
@@ -237,9 +259,10 @@ std::vector<Vec2> lid_bolts(const ArcSpline& track, const InspectionOptions& ope
 void cut_wall(const Fitting& fitting, const Unit& unit, const std::vector<ArcPath>& openings,
               const std::vector<Circle>& holes) {
   const Job& job = fitting.job;
-  const Span heights = wall_heights(job);
   const double inner = 0.5 * job.channel.width;
-  PlaneRegion region{*band(job.track, unit.span, heights.from, heights.to), openings, holes};
+  PlaneRegion region = *wall_region(job, unit.span, unit.face, unit.tabs);
+  region.cutouts.insert(region.cutouts.end(), openings.begin(), openings.end());
+  region.holes = holes;
   ShopPart part = upright_plate(job, region, job.channel.wall(), {-inner - job.channel.wall()});
   part.name = unit.wall->name;
   part.name.insert(0, "left_");
@@ -568,6 +591,14 @@ std::vector<Issue> fitting_problems(const ChannelMeasures& channel, const PlateO
                    "spacing: 800 mm");
     }
     refusals.positive(options.stiffeners->width, "stiffeners.width", "width");
+    const double lap = options.corners.kind != CornerJoint::butt && walls ? options.corners.overlap : 0.0;
+    if (lap > 0.0 && options.stiffeners->width < lap + kLeastRound) {
+      refusals.add("stiffeners.width",
+                   "width: " + length_text(options.stiffeners->width) + " leaves nothing round corners that lap by " +
+                       length_text(lap),
+                   "At least " + length_text(kLeastRound) + " of it go round them.",
+                   "width: " + length_text(lap + 0.04));
+    }
     refusals.positive(options.stiffeners->thickness, "stiffeners.thickness", "thickness");
   }
   if (options.liner) object_to_liner(channel, options, refusals);

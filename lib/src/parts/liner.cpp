@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/corners.hpp"
 #include "parts/fittings.hpp"
 #include "parts/workshop_list.hpp"
 

@@ -7,6 +7,7 @@
 #include "glissade/core/quantity.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/corners.hpp"
 #include "parts/fittings.hpp"
 
 #include <algorithm>
@@ -123,6 +124,7 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
   };
   objections.positive(options.stave_tolerance, "stave_tolerance");
   objections.positive(options.polygon_thickness, "thickness");
+  only_on_channels(options.corners.kind != CornerJoint::butt, "corners");
   only_on_channels(options.rim.has_value(), "rim");
   only_on_channels(options.stiffeners.has_value(), "stiffeners");
   only_on_channels(options.liner.has_value(), "liner");
@@ -158,6 +160,7 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
   }
   object_to_step(options.joint_step, objections);
   std::vector<Issue> issues = std::move(objections).all();
+  for (Issue& issue : corner_problems(channel, options)) issues.push_back(std::move(issue));
   for (Issue& issue : fitting_problems(channel, options)) issues.push_back(std::move(issue));
   return issues;
 }

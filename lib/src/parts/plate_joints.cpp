@@ -4,6 +4,9 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/calm_joints.hpp"
+#include "parts/corners.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,27 +19,6 @@ constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where 
 constexpr double kPressFlat =
     4.0;  // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
 
-double curvature_near(const ArcSpline& track, double s) {
-  return std::fabs(track.at(s).curvature);
-}
-
-/// The place near `about` where the track bends least, the nearest of equals.
-double calm_place(const ArcSpline& track, double about, double room) {
-  double best = about;
-  constexpr int kPlaces = 40;
-  for (int k = 1; k <= kPlaces; ++k) {
-    for (const double side : {-1.0, 1.0}) {
-      const double s = about + side * room * k / kPlaces;
-      if (curvature_near(track, s) < (1.0 - 1e-6) * curvature_near(track, best) - 1e-9) best = s;
-    }
-  }
-  // Where arcs of the floor join, so that no sliver of one is left beside the joint.
-  for (const TrackArc& arc : track.arcs()) {
-    if (std::fabs(arc.start - best) < 0.1 * room) return arc.start;
-  }
-  return best;
-}
-
 std::string fold_text(const Job& job) {
   double height = job.channel.wall_height;
   const Span whole{0.0, job.track.length()};
@@ -44,7 +26,7 @@ std::string fold_text(const Job& job) {
   return "wall_height of at most " + length_text(height, 3);
 }
 
-Unit make_unit(const Job& job, const Span& span, double largest_kink) {
+Unit make_unit(const Job& job, const Span& span, std::size_t number, double largest_kink) {
   const bool bent = job.options.floor == FloorMake::bent;
   Unit unit{span,
             {},
@@ -52,9 +34,10 @@ Unit make_unit(const Job& job, const Span& span, double largest_kink) {
             bent ? bent_floor_face(job, facets_of(job, span, largest_kink))
                  : rolled_face(job.track, span, floor_depth(job)),
             {}};
-  unit.floor = floor_plate(job, unit.face, unit.steps);
+  unit.tabs = tab_places(job, unit.face, number);
+  unit.floor = floor_plate(job, unit.face, unit.tabs, unit.steps);
   if (job.channel.wall_height == 0.0) return unit;
-  unit.wall = wall_plate(job, span);
+  unit.wall = wall_plate(job, span, unit.face, unit.tabs);
   if (unit.wall) return unit;
   throw InputError({"",
                     "walls of " + length_text(job.channel.wall_height) + " fold over between " +
@@ -66,7 +49,7 @@ Unit make_unit(const Job& job, const Span& span, double largest_kink) {
 std::vector<Unit> units_between(const Job& job, const std::vector<double>& joints, double largest_kink) {
   std::vector<Unit> units;
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
-    units.push_back(make_unit(job, {joints[i], joints[i + 1]}, largest_kink));
+    units.push_back(make_unit(job, {joints[i], joints[i + 1]}, i + 1, largest_kink));
   }
   return units;
 }
@@ -114,16 +97,10 @@ double kink_for_speed(const ArcSpline& track, const BendOptions& bend,
 }
 
 std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split, std::size_t count) {
-  const double length = track.length();
-  const double even = length / static_cast<double>(count);
+  const double even = track.length() / static_cast<double>(count);
   double room = kRoom * even;
   if (split.longest) room = std::min(room, 0.5 * std::max(0.0, *split.longest - even));
-  std::vector<double> joints = {0.0};
-  for (std::size_t k = 1; k < count; ++k) {
-    joints.push_back(calm_place(track, even * static_cast<double>(k), room));
-  }
-  joints.push_back(length);
-  return joints;
+  return calm_joints(track, count, room);
 }
 
 std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {

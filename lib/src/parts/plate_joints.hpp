@@ -35,6 +35,7 @@ struct Unit {
   std::optional<ShopPart> wall;
   FloorFace face;
   std::vector<BendStep> steps;
+  std::vector<Span> tabs = {};  ///< along the face, of floor or walls
 };
 
 /// Units of about even length, their ends where the track bends least nearby, as few as sheet, transport and mass allow.

@@ -2,11 +2,14 @@
 
 #include "glissade/core/math.hpp"
 
+#include "core/least_rectangle.hpp"
 #include "parts/bolts.hpp"
+#include "parts/corners.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace glissade::parts {
@@ -22,12 +25,18 @@ struct Across {
   Vec2 from;
   Vec2 to;
 };
-Across across_at(double distance, double width) {
-  return {{distance, 0.0}, {distance, width}};
+Across across_at(double distance, const Span& base) {
+  return {{distance, base.from}, {distance, base.to}};
 }
 
 double radius_of(double curvature) {
   return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
+}
+
+/// From the plane of the track into a part's own.
+PlaneMotion into(const OwnPlane& plane) {
+  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
+  return PlaneMotion::turn(-plane.angle, -1.0 * back);
 }
 
 }  // namespace
@@ -62,14 +71,18 @@ void set_number_place(FlatPattern& pattern, const PlaneBox& box) {
 }
 
 OwnPlane own_plane(const ArcPath& outline) {
-  // Along the chord of the lower line: from the first vertex to the one farthest from it.
+  constexpr double kSagitta = 20e-6;  // of chords that stand for arcs; corners, which chords lie on, are exact
   const Vec2 first = outline.vertices.front().at;
   Vec2 far = first;
   for (const PathVertex& vertex : outline.vertices) {
     if (norm(vertex.at - first) > norm(far - first)) far = vertex.at;
   }
+  // Of its four attitudes the one whose x runs along the plate.
+  const double quarter = 0.5 * std::numbers::pi;
+  const double lying = -core::lying_angle(flattened(outline, kSagitta));
+  const double heading = math::atan2(far.y - first.y, far.x - first.x);
   OwnPlane plane;
-  plane.angle = math::atan2(far.y - first.y, far.x - first.x);
+  plane.angle = lying + quarter * std::nearbyint((heading - lying) / quarter);
   const ArcPath turned = moved(outline, PlaneMotion::turn(-plane.angle));
   const PlaneBox box = bounds(turned);
   plane.origin = PlaneMotion::turn(plane.angle)(box.low);
@@ -87,16 +100,11 @@ double neutral_fibre(const Job& job) {
 
 Span wall_heights(const Job& job) {
   const bool beside = job.options.walls == WallSeat::beside_floor;
-  return {-floor_depth(job) - (beside ? job.channel.thickness : 0.0), job.channel.wall_height};
+  return {-floor_depth(job) - (beside ? job.channel.thickness + overlap(job) : 0.0), job.channel.wall_height};
 }
 
 double floor_depth(const Job& job) {
   return job.options.liner ? job.options.liner->thickness : 0.0;
-}
-
-double floor_width(const Job& job) {
-  const bool under = job.options.walls == WallSeat::on_floor && job.channel.wall_height > 0.0;
-  return job.channel.width + (under ? 2.0 * job.channel.wall() : 0.0);
 }
 
 Frame plane_of_track(const Placement& placement, Vec2 origin, double angle, double shift) {
@@ -110,12 +118,11 @@ Frame plane_of_track(const Placement& placement, Vec2 origin, double angle, doub
 ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
                        const std::vector<double>& shifts) {
   const OwnPlane plane = own_plane(region.outline);
-  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
   ShopPart part;
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = depth;
-  part.body = Prism{moved(region, PlaneMotion::turn(-plane.angle, -1.0 * back)), depth};
+  part.body = Prism{moved(region, into(plane)), depth};
   for (const double shift : shifts) {
     part.places.push_back(plane_of_track(job.placement, plane.origin, plane.angle, shift));
   }
@@ -143,7 +150,8 @@ double flat_length(const TrackArc& arc, double thickness, double neutral, bool b
   return arc.length + from_face * thickness * turned;
 }
 
-ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep>& steps) {
+ShopPart floor_plate(const Job& job, const FloorFace& face, const std::vector<Span>& tabs,
+                     std::vector<BendStep>& steps) {
   const double thickness = job.channel.thickness;
   const double width = floor_width(job);
   const ArcSpline& line = face.line;
@@ -152,17 +160,25 @@ ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep
   ShopPart part = upright_plate(job, side, width, {-0.5 * width});
   part.thickness = thickness;
   part.name = "floor";
+  const PlaneRegion sheet = floor_sheet(job, line, tabs);
+  if (sheet.outline.vertices.size() > 4 || !sheet.cutouts.empty()) {
+    ArcPath path = line.path();
+    for (PathVertex& vertex : path.vertices) vertex.at = vertex.at + face.origin;
+    part.body = RolledSheet{moved(path, into(own_plane(side.outline))), thickness, sheet};
+    weigh(part);
+  }
   FlatPattern pattern;
   double reached = 0.0;
   double sum = 0.0;
   int hit = 0;
   const bool bent = face.facets.has_value();
+  const Span base = floor_base(job);
   for (const TrackArc& arc : line.arcs()) {
     const double length = flat_length(arc, thickness, neutral_fibre(job), bent);
     const double turned = arc.curvature * arc.length;
     if (bent && turned != 0.0) {
       sum += turned;
-      const Across at = across_at(reached + 0.5 * length, width);
+      const Across at = across_at(reached + 0.5 * length, base);
       pattern.bends.push_back(
           {at.from, at.to, Angle::from_radians(std::fabs(turned)), bend_radius(job), turned > 0.0});
       const double miss = face.facets->misses[static_cast<std::size_t>(hit)];
@@ -171,7 +187,7 @@ ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep
                        Angle::from_radians(sum), bend_radius(job), miss});
     } else if (!bent) {
       sum += turned;
-      const Across at = across_at(reached, width);
+      const Across at = across_at(reached, base);
       pattern.rolls.push_back({at.from, at.to, radius_of(arc.curvature)});
       ++hit;
       steps.push_back({0, hit, reached, length, Angle::from_radians(turned), Angle::from_radians(sum),
@@ -179,19 +195,18 @@ ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep
     }
     reached += length;
   }
-  pattern.region.outline = rectangle({}, {reached, width});
+  pattern.region = developed(job, face, sheet);
   set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
   return part;
 }
 
-std::optional<ShopPart> wall_plate(const Job& job, const Span& span) {
-  const Span heights = wall_heights(job);
-  const auto outline = band(job.track, span, heights.from, heights.to);
-  if (!outline) return std::nullopt;
+std::optional<ShopPart> wall_plate(const Job& job, const Span& span, const FloorFace& face,
+                                   const std::vector<Span>& tabs) {
+  const auto region = wall_region(job, span, face, tabs);
+  if (!region) return std::nullopt;
   const double inner = 0.5 * job.channel.width;
-  ShopPart part =
-      upright_plate(job, {*outline, {}, {}}, job.channel.wall(), {-inner - job.channel.wall(), inner});
+  ShopPart part = upright_plate(job, *region, job.channel.wall(), {-inner - job.channel.wall(), inner});
   part.name = "wall";
   FlatPattern pattern;
   pattern.region = std::get<Prism>(part.body).region;
@@ -209,7 +224,7 @@ Frame frame_place(const Job& job, double s, bool downstream) {
   return {in_space(job.placement, at.at) + shift * tangent, across(job.placement), up, tangent};
 }
 
-PlaneRegion frame_region(const Job& job, double width, double top) {
+PlaneRegion frame_region(const Job& job, double width, double top, bool over_laps) {
   const double gap = job.options.flanges.gap;
   const double inner = 0.5 * job.channel.width + job.channel.wall() + gap;
   const double low = -floor_depth(job) - job.channel.thickness - gap;
@@ -217,11 +232,27 @@ PlaneRegion frame_region(const Job& job, double width, double top) {
   const double bottom = low - width;
   PlaneRegion region;
   region.outline.closed = true;
-  const bool walls = job.channel.wall_height > 0.0;
-  const std::vector<Vec2> corners =
-      walls ? std::vector<Vec2>{{-outer, bottom}, {outer, bottom}, {outer, top},  {inner, top},
-                                {inner, low},     {-inner, low},   {-inner, top}, {-outer, top}}
-            : std::vector<Vec2>{{-outer, bottom}, {outer, bottom}, {outer, low}, {-outer, low}};
+  std::vector<Vec2> corners = {{-outer, bottom}, {outer, bottom}};
+  if (job.channel.wall_height > 0.0) {
+    // The right half of the opening, from the top down.
+    std::vector<Vec2> right = {{inner, top}, {inner, low}};
+    const double lap = over_laps ? overlap(job) : 0.0;
+    if (lap > 0.0 && job.options.walls == WallSeat::beside_floor) {
+      const double beside = 0.5 * job.channel.width - gap;
+      right = {{inner, top}, {inner, low - lap}, {beside, low - lap}, {beside, low}};
+    } else if (lap > 0.0) {
+      const double over = -floor_depth(job) + gap;
+      right = {{inner, top}, {inner, over}, {inner + lap, over}, {inner + lap, low}};
+    }
+    corners.push_back({outer, top});
+    corners.insert(corners.end(), right.begin(), right.end());
+    for (auto corner = right.rbegin(); corner != right.rend(); ++corner)
+      corners.push_back({-corner->x, corner->y});
+    corners.push_back({-outer, top});
+  } else {
+    corners.push_back({outer, low});
+    corners.push_back({-outer, low});
+  }
   for (const Vec2 corner : corners) region.outline.vertices.push_back({corner, 0.0});
   return region;
 }
@@ -232,7 +263,7 @@ ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& plac
   const double low = -floor_depth(job) - job.channel.thickness - flange.gap;
   const double top = job.channel.wall_height;
   const bool walls = top > 0.0;
-  PlaneRegion region = frame_region(job, flange.width, top);
+  PlaneRegion region = frame_region(job, flange.width, top, false);
 
   const double radius = 0.5 * clearance_hole(flange.bolt, fit);
   const double side = inner + 0.5 * flange.width;

@@ -33,7 +33,6 @@ struct Job {
 [[nodiscard]] double neutral_fibre(const Job& job);
 /// @return heights between which the walls stand
 [[nodiscard]] Span wall_heights(const Job& job);
-[[nodiscard]] double floor_width(const Job& job);
 /// @return how far the floor plate's upper face lies below the track: by its liner
 [[nodiscard]] double floor_depth(const Job& job);
 
@@ -47,7 +46,7 @@ struct Job {
 [[nodiscard]] ShopPart upright_plate(const Job& job, const PlaneRegion& region, double depth,
                                      const std::vector<double>& shifts);
 
-/// The smallest upright rectangle round a region lies at the origin, the chord of its lower line level.
+/// The least rectangle round a region lies along the axes with its lower left corner at the origin, x along the plate.
 struct OwnPlane {
   Vec2 origin;
   double angle = 0.0;
@@ -68,14 +67,18 @@ struct FloorFace {
 [[nodiscard]] FloorFace bent_floor_face(const Job& job, Facets facets);
 
 /// The floor of a unit, its pattern and the steps that make it.
-[[nodiscard]] ShopPart floor_plate(const Job& job, const FloorFace& face, std::vector<BendStep>& steps);
+/// @param tabs  along the face (corners.hpp)
+[[nodiscard]] ShopPart floor_plate(const Job& job, const FloorFace& face, const std::vector<Span>& tabs,
+                                   std::vector<BendStep>& steps);
 /// @return none where the wall folds away: its length at the top is nothing
-[[nodiscard]] std::optional<ShopPart> wall_plate(const Job& job, const Span& span);
+[[nodiscard]] std::optional<ShopPart> wall_plate(const Job& job, const Span& span, const FloorFace& face,
+                                                 const std::vector<Span>& tabs);
 
 /// What goes round the channel from the top of one wall to that of the other; without holes.
 /// @param width  from the channel outwards
 /// @param top    height to which it reaches; no more than 0: a bar below the floor
-[[nodiscard]] PlaneRegion frame_region(const Job& job, double width, double top);
+/// @param over_laps  with room for plates that reach beyond their corners
+[[nodiscard]] PlaneRegion frame_region(const Job& job, double width, double top, bool over_laps);
 
 /// A frame round the end of a unit, of one plate.
 /// @param fit     of its holes

@@ -8,6 +8,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/corners.hpp"
 #include "parts/fittings.hpp"
 #include "parts/mitred_pipe.hpp"
 #include "parts/plate_checks.hpp"
@@ -89,6 +90,26 @@ void add_fittings(const Job& job, const std::vector<Unit>& units, Workshop& work
   in_order(workshop.setting_out);
 }
 
+/// How corners meet, and by how much the plates differ from the channel for it.
+void add_corner_notes(const Job& job, const PartsProof& proof, Workshop& workshop) {
+  if (overlap(job) == 0.0) return;
+  const bool beside = job.options.walls == WallSeat::beside_floor;
+  std::string note = beside ? "Walls reach " : "The floor reaches ";
+  note += length_text(overlap(job)) + (beside ? " below the floor" : " beyond the walls") + ", frames excepted";
+  if (has_tabs(job)) {
+    const CornerOptions& corners = job.options.corners;
+    note += std::string("; tabs of the ") + (beside ? "floor" : "walls") + ", " + length_text(corners.tab) +
+            " wide, stand in slots that are " + length_text(corners.clearance) + " larger both ways";
+  }
+  workshop.notes.push_back(note + ".");
+  std::string listed;
+  for (const VolumeDifference& difference : proof.differences) {
+    listed += (listed.empty() ? "" : ", ") + difference.what + " " + (difference.volume > 0.0 ? "+" : "") +
+              rounded_text(1e6 * difference.volume, 6) + " cm^3";
+  }
+  workshop.notes.push_back("Against the plain channel: " + listed + ".");
+}
+
 AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const Motion& design,
                           const Body& body, double gravity) {
   AsBuiltRide ride;
@@ -155,7 +176,9 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   build.ride = ride_as_built(job, units, smooth, body, gravity);
   measure_plates(options, workshop);
   measure_floor(job, units, workshop);
+  measure_corners(job, units, workshop);
   build.proof = prove(job, units, workshop);
+  add_corner_notes(job, build.proof, workshop);
   return build;
 }
 

@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/corners.hpp"
 #include "parts/fittings.hpp"
 #include "parts/setting_out.hpp"
 #include "parts/workshop_list.hpp"
@@ -67,7 +68,9 @@ Trestle trestle_at(const Job& job, double at) {
     low = std::min(low, under.y);
   }
   trestle.x = middle.x;
-  trestle.beam = low - kSaddleLeast;
+  // Below walls that lap the floor, too.
+  const bool laps = job.options.walls == WallSeat::beside_floor;
+  trestle.beam = low - kSaddleLeast - (laps ? overlap(job) / frame_at(job.track, at).up.y : 0.0);
   // The lower of the places of both edges of the base plate: grout fills the rest.
   const double half = 0.5 * base_side(supports);
   trestle.ground =
@@ -124,7 +127,8 @@ Measures measures_of(const Job& job) {
   Measures measures;
   measures.beam_length = std::max(width, 4.0 * supports.tube);
   measures.leg_aside = 0.5 * measures.beam_length - 0.5 * supports.tube - 10e-3;
-  measures.saddle_aside = 0.5 * width - 20e-3;
+  // Inside of walls that reach below the floor.
+  measures.saddle_aside = 0.5 * (overlap(job) > 0.0 ? job.channel.width - kSaddle : width) - 20e-3;
   return measures;
 }
 

@@ -45,6 +45,22 @@ struct BendOptions {
 /// Where walls stand: beside the floor, their lower edges flush with its underside, or on it.
 enum class WallSeat { beside_floor, on_floor };
 
+/// How floor and walls of a channel meet.
+enum class CornerJoint {
+  butt,         ///< edge against face, flush
+  lap,          ///< the plate that passes the other reaches beyond it, with room for a weld
+  tab_and_slot  ///< as lap; tabs of the plate that ends there stand in slots of the one that passes
+};
+struct CornerOptions {
+  CornerJoint kind = CornerJoint::butt;
+  double overlap = 15e-3;      ///< beyond the other plate's far face [m]; > 0
+  double tab = 40e-3;          ///< width of a tab, along the track [m]
+  double spacing = 300e-3;     ///< greatest distance of tabs [m]
+  double clearance = 0.2e-3;   ///< by which a slot is larger than its tab, in all, both ways [m]; >= 0
+
+  friend bool operator==(const CornerOptions&, const CornerOptions&) = default;
+};
+
 /// What no part may exceed. Ends of parts are where the track bends least.
 struct SplitOptions {
   std::optional<double> longest;   ///< length of a transport unit along the track [m]
@@ -67,7 +83,7 @@ struct FlangeOptions {
   friend bool operator==(const FlangeOptions&, const FlangeOptions&) = default;
 };
 
-/// How round sections are made of plates: rolled tubes between mitred planes, or flat strips along the track.
+/// How round sections are made of plates: rolled tubes or troughs between mitred planes, or flat strips along the track.
 enum class RoundMake { mitred, staves };
 
 /// A flat bar along the outside of each wall's top.
@@ -150,6 +166,7 @@ struct PlateOptions {
   FloorMake floor = FloorMake::rolled;
   BendOptions bend;
   WallSeat walls = WallSeat::beside_floor;
+  CornerOptions corners;
   SplitOptions split;
   FlangeOptions flanges;
   RoundMake round = RoundMake::mitred;

@@ -44,6 +44,18 @@ struct SweptBody {
   ArcPath path;  ///< open, in the part's x-y plane; tangents continuous
   std::vector<Vec2>
       section;  ///< counter-clockwise seen against the path; x: to the left of the path, y: along z [m]
+  /// Along z, of every corner at every vertex of the path, linear in the arc length between: plates beside a width that
+  /// changes, faces among them that STEP holds as B-splines. Empty: none moves.
+  std::vector<std::vector<double>> shifts = {};
+};
+
+/// A sheet bent to a chain of lines and arcs: floors with slots and tabs. Its faces are planes and cylinders.
+struct RolledSheet {
+  ArcPath path;  ///< of its upper face: open, in the part's x-y plane; tangents continuous
+  double thickness = 0.0;  ///< below the path, to its right [m]; > 0
+  /// x: arc length along the path, from 0 to its length; y: along z [m]. Edges run along x or y; those along y, and cutouts,
+  /// keep off the joints of the path, but for its ends.
+  PlaneRegion region;
 };
 
 /// A round tube cut off by two planes: a gore of a mitred pipe. Its axis runs along z through the origin.
@@ -55,12 +67,23 @@ struct TubeGore {
   Angle end_tilt;             ///< z of the second one is length + x tan(end_tilt)
 };
 
+/// A trough cut off by two planes: a gore of a mitred half-pipe. Half a round tube whose lowest line is at -x, with upright
+/// sides; the round's axis runs along z through the origin.
+struct TroughGore {
+  double inner_radius = 0.0;  ///< [m]; > 0
+  double thickness = 0.0;     ///< [m]; > 0
+  double side = 0.0;          ///< height of the sides above the axis [m]; >= 0
+  double length = 0.0;        ///< along the axis, between the planes [m]
+  Angle start_tilt;           ///< z of the first plane is x tan(start_tilt)
+  Angle end_tilt;             ///< z of the second one is length + x tan(end_tilt)
+};
+
 /// What only facets show: printed pieces with holes and numbers.
 struct MeshBody {
   TriangleMesh mesh;  ///< closed, outward, in the part's own frame [m]
 };
 
-using PartBody = std::variant<Prism, SweptBody, TubeGore, MeshBody>;
+using PartBody = std::variant<Prism, SweptBody, RolledSheet, TubeGore, TroughGore, MeshBody>;
 
 /// A straight bend across a flat pattern.
 struct BendLine {

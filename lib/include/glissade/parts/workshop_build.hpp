@@ -5,6 +5,7 @@
 #include "glissade/parts/shop_part.hpp"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace glissade {
@@ -22,10 +23,18 @@ struct AsBuiltRide {
   double highest_load = 0.0;
 };
 
+/// By how much the parts hold more (or less) than the solid by design.
+struct VolumeDifference {
+  std::string what;     ///< "tabs", "slots", "laps"
+  double volume = 0.0;  ///< [m^3]
+};
+
 /// How the parts stand to the solid that they make.
 struct PartsProof {
   double volume = 0.0;         ///< of all parts that make up the solid [m^3]
   double exact_volume = 0.0;   ///< of the solid along the arcs, by another route [m^3]
+  /// By which `volume` departs from `exact_volume`, in closed form; none of plain plates.
+  std::vector<VolumeDifference> differences;
   double added_volume = 0.0;   ///< of flanges and what else is not of the channel, holes taken off [m^3]
   double smallest_gap = 0.0;   ///< between parts that do not touch by design [m]
   std::size_t pairs = 0;       ///< of parts that were held against each other

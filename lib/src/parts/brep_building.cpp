@@ -1,0 +1,95 @@
+#include "parts/brep_building.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace glissade::parts {
+
+Vec3 at_height(Vec2 point, double z) {
+  return {point.x, point.y, z};
+}
+
+Vec3 unit(Vec3 direction) {
+  return (1.0 / norm(direction)) * direction;
+}
+
+InputError bad_body(const ShopPart& part, const std::string& what) {
+  return InputError({"part " + std::to_string(part.number) + ", " + part.name, what, "", ""});
+}
+
+std::size_t add_vertex(Brep& brep, Vec3 point) {
+  brep.vertices.push_back(point);
+  return brep.vertices.size() - 1;
+}
+
+std::size_t add_line(Brep& brep, std::size_t from, std::size_t to) {
+  BrepEdge edge;
+  edge.from = from;
+  edge.to = to;
+  brep.edges.push_back(edge);
+  return brep.edges.size() - 1;
+}
+
+std::size_t add_arc(Brep& brep, std::size_t from, std::size_t to, Vec2 centre, bool left) {
+  BrepEdge edge;
+  edge.from = from;
+  edge.to = to;
+  edge.kind = CurveKind::circle;
+  edge.centre = at_height(centre, brep.vertices[from].z);
+  edge.axis = left ? kUp : kDown;
+  const Vec3 spoke = brep.vertices[from] - edge.centre;
+  edge.radius = norm(spoke);
+  edge.reference = unit(spoke);
+  brep.edges.push_back(edge);
+  return brep.edges.size() - 1;
+}
+
+BrepFace level_plane(double z, bool up) {
+  BrepFace face;
+  face.origin = {0.0, 0.0, z};
+  face.axis = up ? kUp : kDown;
+  face.reference = kAcross;
+  return face;
+}
+
+BrepFace upright_cylinder(Vec2 centre, Vec3 reference, double radius, bool outward) {
+  BrepFace face;
+  face.kind = SurfaceKind::cylinder;
+  face.origin = at_height(centre, 0.0);
+  face.axis = kUp;
+  face.reference = reference;
+  face.radius = radius;
+  face.outward = outward;
+  return face;
+}
+
+Vec2 start_tangent(const PathPiece& piece) {
+  const Vec2 along = piece.to - piece.from;
+  const double b = piece.bulge;
+  // The chord turned back by half the sweep: cos and sin of 2 atan(b).
+  const double cosine = (1.0 - b * b) / (1.0 + b * b);
+  const double sine = 2.0 * b / (1.0 + b * b);
+  return (1.0 / norm(along)) * Vec2{cosine * along.x + sine * along.y, cosine * along.y - sine * along.x};
+}
+
+Vec2 end_tangent(const PathPiece& piece) {
+  const PathPiece back{piece.to, piece.from, -piece.bulge};
+  return -1.0 * start_tangent(back);
+}
+
+BrepFace ring_plane(double height, double slope, bool up) {
+  BrepFace face;
+  const double stretch = math::hypot(1.0, slope);
+  face.origin = {0.0, 0.0, height};
+  face.axis = (up ? 1.0 : -1.0) * Vec3{-slope / stretch, 0.0, 1.0 / stretch};
+  face.reference = {1.0 / stretch, 0.0, slope / stretch};
+  return face;
+}
+
+ArcPath turning(const ArcPath& path, bool left) {
+  return (signed_area(path) > 0.0) == left ? path : reversed(path);
+}
+
+}  // namespace glissade::parts

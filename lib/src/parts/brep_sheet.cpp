@@ -1,0 +1,257 @@
+// Sheets along a chain of lines and arcs: each piece of the chain has a face above and one below, sides stand where the
+// region ends.
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/brep_building.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kSamePlace = 1e-6;  // along the path [mm]
+
+/// A corner of the sheet: its vertices in the upper and the lower face.
+struct Corner {
+  Vec2 at;
+  std::size_t upper = 0;
+  std::size_t lower = 0;
+};
+
+class SheetFaces {
+ public:
+  SheetFaces(const RolledSheet& sheet, const ShopPart& part)
+      : part_(part),
+        pieces_(pieces_of(scaled(sheet.path, kMillimetres))),
+        thickness_(sheet.thickness * kMillimetres),
+        region_(scaled(sheet.region, kMillimetres)) {
+    if (pieces_.empty() || sheet.path.closed) throw bad_body(part, "its path is closed or has no piece");
+    if (!(thickness_ > 0.0)) throw bad_body(part, "its thickness is " + length_text(sheet.thickness));
+    const std::vector<std::string> faults = faults_of(sheet.region);
+    if (!faults.empty()) throw bad_body(part, faults.front());
+    starts_ = {0.0};
+    for (const PathPiece& piece : pieces_) {
+      starts_.push_back(starts_.back() + length(piece));
+      const double radius = piece.straight() ? thickness_ + 1.0 : arc_of(piece).radius;
+      if (piece.bulge < 0.0 && !(radius > thickness_))
+        throw bad_body(part, "it is thicker than its path's radius, " + length_text(radius / kMillimetres));
+    }
+  }
+
+  Brep whole() {
+    const std::vector<Vec2> outline = on_joints(turning(region_.outline, true));
+    upper_.resize(pieces_.size());
+    lower_.resize(pieces_.size());
+    add_outline(outline);
+    for (const ArcPath& cutout : region_.cutouts) add_cutout(turning(cutout, false));
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      for (const bool top : {true, false}) {
+        BrepFace made = sheet_face(i, top);
+        made.loops = std::move(top ? upper_[i] : lower_[i]);
+        brep_.faces.push_back(std::move(made));
+      }
+    }
+    return std::move(brep_);
+  }
+
+ private:
+  /// Corners of a loop, those near a joint moved onto it, with one wherever an edge crosses a joint.
+  [[nodiscard]] std::vector<Vec2> on_joints(const ArcPath& loop) const {
+    std::vector<Vec2> corners;
+    for (const PathVertex& vertex : loop.vertices) corners.push_back({snapped(vertex.at.x), vertex.at.y});
+    std::vector<Vec2> all;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec2 from = corners[k];
+      const Vec2 to = corners[(k + 1) % corners.size()];
+      if (from == to) continue;
+      if (from.x != to.x && from.y != to.y) throw bad_body(part_, "an edge of its sheet is neither along nor across");
+      all.push_back(from);
+      std::vector<double> between;
+      for (const double joint : starts_) {
+        if (joint > std::min(from.x, to.x) && joint < std::max(from.x, to.x)) between.push_back(joint);
+      }
+      if (to.x < from.x) std::reverse(between.begin(), between.end());
+      for (const double joint : between) all.push_back({joint, from.y});
+    }
+    return all;
+  }
+
+  [[nodiscard]] double snapped(double x) const {
+    for (const double joint : starts_) {
+      if (std::fabs(joint - x) < kSamePlace) return joint;
+    }
+    return x;
+  }
+
+  /// The piece on which an edge lies; of one across, that with its place.
+  [[nodiscard]] std::size_t piece_of(Vec2 from, Vec2 to) const {
+    const double middle = 0.5 * (from.x + to.x);
+    std::size_t i = 0;
+    while (i + 1 < pieces_.size() && middle > starts_[i + 1]) ++i;
+    return i;
+  }
+
+  Corner corner(Vec2 at) {
+    const auto [entry, fresh] = corners_.try_emplace({at.x, at.y});
+    if (!fresh) return entry->second;
+    std::size_t i = 0;
+    while (i + 1 < pieces_.size() && at.x >= starts_[i + 1]) ++i;
+    const PathPiece& piece = pieces_[i];
+    Vec2 point = piece.from;
+    Vec2 tangent = start_tangent(piece);
+    if (at.x >= starts_[i + 1]) {
+      point = piece.to;
+      tangent = end_tangent(piece);
+    } else if (at.x > starts_[i]) {
+      const double share = (at.x - starts_[i]) / (starts_[i + 1] - starts_[i]);
+      point = point_on(piece, share);
+      if (!piece.straight()) {
+        const CircularArc arc = arc_of(piece);
+        const Vec2 spoke = (1.0 / norm(point - arc.centre)) * (point - arc.centre);
+        point = arc.centre + arc.radius * spoke;
+        tangent = (piece.bulge > 0.0 ? 1.0 : -1.0) * Vec2{-spoke.y, spoke.x};
+      }
+    }
+    const Vec2 below = point - thickness_ * Vec2{-tangent.y, tangent.x};
+    entry->second = {at, add_vertex(brep_, at_height(point, at.y)), add_vertex(brep_, at_height(below, at.y))};
+    return entry->second;
+  }
+
+  /// The edge between two vertices, made once.
+  BrepUse edge(std::size_t from, std::size_t to, std::size_t piece, bool along) {
+    const auto key = std::pair(std::min(from, to), std::max(from, to));
+    const auto known = edges_.find(key);
+    if (known != edges_.end()) return {known->second, brep_.edges[known->second].from == from};
+    std::size_t made = 0;
+    if (!along || pieces_[piece].straight()) {
+      made = add_line(brep_, from, to);
+    } else {
+      // Arcs run as the path does.
+      const CircularArc arc = arc_of(pieces_[piece]);
+      const Vec3 a = brep_.vertices[from];
+      const Vec3 b = brep_.vertices[to];
+      const Vec2 one = Vec2{a.x, a.y} - arc.centre;
+      const Vec2 other = Vec2{b.x, b.y} - arc.centre;
+      made = add_arc(brep_, from, to, arc.centre, cross(one, other) > 0.0);
+    }
+    edges_.emplace(key, made);
+    return {made, true};
+  }
+
+  /// A side between the faces, the material to the left of its edge in the sheet.
+  void add_side(const Corner& from, const Corner& to, std::size_t piece) {
+    const bool along = from.at.x != to.at.x;
+    const BrepUse above = edge(from.upper, to.upper, piece, along);
+    const BrepUse below = edge(from.lower, to.lower, piece, along);
+    const BrepUse first = edge(from.upper, from.lower, piece, false);
+    const BrepUse second = edge(to.upper, to.lower, piece, false);
+    BrepFace face;
+    if (along) {
+      face = level_plane(from.at.y, to.at.x < from.at.x);
+    } else {
+      const Vec3 a = brep_.vertices[from.upper];
+      const Vec3 down = unit(brep_.vertices[from.lower] - a);
+      const double ahead = to.at.y > from.at.y ? 1.0 : -1.0;
+      // Downstream is to the left of down, seen from the right.
+      face.origin = a;
+      face.axis = ahead * Vec3{-down.y, down.x, 0.0};
+      face.reference = kUp;
+    }
+    face.loops = {{above, second, {below.edge, !below.forward}, {first.edge, !first.forward}}};
+    brep_.faces.push_back(std::move(face));
+  }
+
+  /// A loop of one piece, the material on its left in the sheet.
+  void add_loop(std::size_t piece, const std::vector<Corner>& corners) {
+    std::vector<BrepUse> upper;
+    std::vector<BrepUse> lower;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Corner& from = corners[k];
+      const Corner& to = corners[(k + 1) % corners.size()];
+      const bool along = from.at.x != to.at.x;
+      const BrepUse above = edge(from.upper, to.upper, piece, along);
+      upper.push_back({above.edge, !above.forward});
+      lower.push_back(edge(from.lower, to.lower, piece, along));
+    }
+    std::reverse(upper.begin(), upper.end());
+    upper_[piece].push_back(std::move(upper));
+    lower_[piece].push_back(std::move(lower));
+  }
+
+  void add_outline(const std::vector<Vec2>& outline) {
+    std::vector<Corner> all;
+    for (const Vec2 at : outline) all.push_back(corner(at));
+    std::vector<std::vector<Corner>> loops(pieces_.size());
+    // Each piece gets its stretches of the outline in their order; joints close the loop between them.
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Corner& from = all[k];
+      const Corner& to = all[(k + 1) % all.size()];
+      const std::size_t piece = piece_of(from.at, to.at);
+      add_side(from, to, piece);
+      std::vector<Corner>& loop = loops[piece];
+      if (loop.empty() || !(loop.back().at == from.at)) loop.push_back(from);
+      loop.push_back(to);
+    }
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (loops[i].empty()) throw bad_body(part_, "its sheet does not cover its path");
+      if (loops[i].front().at == loops[i].back().at) loops[i].pop_back();
+      add_loop(i, loops[i]);
+    }
+  }
+
+  void add_cutout(const ArcPath& cutout) {
+    std::vector<Corner> all;
+    for (const PathVertex& vertex : cutout.vertices) all.push_back(corner(vertex.at));
+    const std::size_t piece = piece_of(all.front().at, all.front().at);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Corner& to = all[(k + 1) % all.size()];
+      if (piece_of(to.at, to.at) != piece) throw bad_body(part_, "a cutout lies across a joint of its path");
+      add_side(all[k], to, piece);
+    }
+    add_loop(piece, all);
+  }
+
+  [[nodiscard]] BrepFace sheet_face(std::size_t i, bool top) const {
+    const PathPiece& piece = pieces_[i];
+    const Vec2 tangent = start_tangent(piece);
+    const Vec2 up{-tangent.y, tangent.x};
+    if (piece.straight()) {
+      BrepFace face;
+      face.origin = at_height(piece.from - (top ? 0.0 : thickness_) * up, 0.0);
+      face.axis = (top ? 1.0 : -1.0) * at_height(up, 0.0);
+      face.reference = at_height(tangent, 0.0);
+      return face;
+    }
+    const CircularArc arc = arc_of(piece);
+    const bool hollow = piece.bulge > 0.0;
+    const double radius = arc.radius + (top ? 0.0 : (hollow ? thickness_ : -thickness_));
+    const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
+    return upright_cylinder(arc.centre, spoke, radius, top != hollow);
+  }
+
+  const ShopPart& part_;
+  std::vector<PathPiece> pieces_;
+  double thickness_;
+  PlaneRegion region_;
+  std::vector<double> starts_;
+  Brep brep_;
+  std::map<std::pair<double, double>, Corner> corners_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> edges_;
+  std::vector<std::vector<std::vector<BrepUse>>> upper_;
+  std::vector<std::vector<std::vector<BrepUse>>> lower_;
+};
+
+}  // namespace
+
+Brep brep_of_sheet(const RolledSheet& sheet, const ShopPart& part) {
+  return SheetFaces(sheet, part).whole();
+}
+
+}  // namespace glissade::parts
