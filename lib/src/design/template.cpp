@@ -58,6 +58,7 @@ fabrication:                           # {process: plate} alone will do; docs/de
   arc_tolerance: 0.1 mm                # between the track and the arcs that are cut
   floor: bent                          # or rolled
   bend: {speed_loss: 1 %}              # as many bends as cost no more of the exit speed
+  corners: butt                        # or lap, tab-and-slot
   split: {longest: 2.9 m, sheet: [3 m, 1.5 m]}
   flanges: {width: 50 mm, thickness: 6 mm, bolt: M10, pitch: 150 mm}
   rim: {width: 40 mm, thickness: 5 mm}
