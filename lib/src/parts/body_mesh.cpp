@@ -120,6 +120,8 @@ TriangleMesh mesh_of(const Prism& prism, Fineness fineness) {
 struct PathFrame {
   Vec2 at;
   Vec2 left;
+  std::size_t piece = 0;
+  double share = 0.0;  ///< of the piece
 };
 
 PathFrame frame_on(const PathPiece& piece, double share) {
@@ -127,19 +129,23 @@ PathFrame frame_on(const PathPiece& piece, double share) {
   const auto [sine, cosine] = math::sine_cosine(4.0 * math::atan(piece.bulge) * (share - 0.5));
   const Vec2 along =
       (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
-  return {point_on(piece, share), {-along.y, along.x}};
+  return {point_on(piece, share), {-along.y, along.x}, 0, share};
 }
 
 std::vector<PathFrame> frames_along(const ArcPath& path, double reach, const Fineness& fineness) {
   std::vector<PathFrame> frames;
-  for (const PathPiece& piece : pieces_of(path)) {
+  const std::vector<PathPiece> pieces = pieces_of(path);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
     int chords = 1;
-    if (!piece.straight()) {
-      const CircularArc arc = arc_of(piece);
+    if (!pieces[p].straight()) {
+      const CircularArc arc = arc_of(pieces[p]);
       chords = chords_of(arc.sweep, arc.radius + reach, fineness);
     }
-    if (frames.empty()) frames.push_back(frame_on(piece, 0.0));
-    for (int i = 1; i <= chords; ++i) frames.push_back(frame_on(piece, static_cast<double>(i) / chords));
+    if (frames.empty()) frames.push_back(frame_on(pieces[p], 0.0));
+    for (int i = 1; i <= chords; ++i) {
+      frames.push_back(frame_on(pieces[p], static_cast<double>(i) / chords));
+      frames.back().piece = p;
+    }
   }
   return frames;
 }
@@ -147,14 +153,20 @@ std::vector<PathFrame> frames_along(const ArcPath& path, double reach, const Fin
 TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
   std::vector<Vec2> section = body.section;
   run(section, true);
+  const bool turned = section != body.section;
   double reach = 0.0;
   for (const Vec2 corner : section) reach = std::max(reach, std::fabs(corner.x));
   TriangleMesh mesh;
   const std::vector<PathFrame> frames = frames_along(body.path, reach, fineness);
   for (const PathFrame& frame : frames) {
-    for (const Vec2 corner : section) {
+    for (std::size_t j = 0; j < section.size(); ++j) {
+      const Vec2 corner = section[j];
       const Vec2 at = frame.at + corner.x * frame.left;
-      mesh.vertices.push_back({at.x, at.y, corner.y});
+      const std::size_t own = turned ? section.size() - 1 - j : j;
+      const double shift = body.shifts.empty() ? 0.0
+                                               : (1.0 - frame.share) * body.shifts[frame.piece][own] +
+                                                     frame.share * body.shifts[frame.piece + 1][own];
+      mesh.vertices.push_back({at.x, at.y, corner.y + shift});
     }
   }
   const auto size = static_cast<Index>(section.size());
@@ -200,6 +212,160 @@ TriangleMesh mesh_of(const TubeGore& gore, const Fineness& fineness) {
     add_quad(mesh, at(2, i), at(2, next), at(3, next), at(3, i));
   }
   return mesh;
+}
+
+/// The section of a trough, counter-clockwise seen against its axis.
+std::vector<Vec2> trough_section(const TroughGore& gore, const Fineness& fineness) {
+  const double outer = gore.inner_radius + gore.thickness;
+  const int chords = std::max(2, chords_of(0.5 * kTurn, outer, fineness));
+  std::vector<Vec2> section;
+  const auto add_round = [&](double radius, bool from_left) {
+    if (from_left && gore.side > 0.0) section.push_back({gore.side, radius});
+    for (int k = 0; k <= chords; ++k) {
+      const auto [sine, cosine] = math::sine_cosine(0.5 * kTurn * k / chords);
+      section.push_back({-radius * sine, (from_left ? radius : -radius) * cosine});
+    }
+    section.push_back({gore.side, from_left ? -radius : radius});
+    if (gore.side == 0.0) section.pop_back();
+  };
+  add_round(outer, true);
+  if (gore.side > 0.0) section.push_back({gore.side, -gore.inner_radius});
+  add_round(gore.inner_radius, false);
+  return section;
+}
+
+TriangleMesh mesh_of(const TroughGore& gore, const Fineness& fineness) {
+  const std::vector<Vec2> section = trough_section(gore, fineness);
+  TriangleMesh mesh;
+  for (const bool top : {false, true}) {
+    const double rise = math::tan((top ? gore.end_tilt : gore.start_tilt).radians());
+    for (const Vec2 corner : section)
+      mesh.vertices.push_back({corner.x, corner.y, (top ? gore.length : 0.0) + rise * corner.x});
+  }
+  const auto size = static_cast<Index>(section.size());
+  for (Index i = 0; i < size; ++i) {
+    const Index next = (i + 1) % size;
+    add_quad(mesh, i, next, size + next, size + i);
+  }
+  for (const auto& [a, b, c] : solid::triangulate_loops({section})) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({size + a, size + b, size + c});
+  }
+  return mesh;
+}
+
+// --- sheets along a path
+
+/// A grid on a sheet: all places along it at which an edge, a joint or a chord ends, and all across; and which of its cells
+/// are of the sheet.
+struct SheetGrid {
+  std::vector<double> along;
+  std::vector<double> across;
+  std::vector<Vec2> points;  ///< of the path at the places along
+  std::vector<Vec2> lefts;
+
+  [[nodiscard]] std::size_t cells() const { return across.size() - 1; }
+};
+
+void sort_apart(std::vector<double>& places) {
+  constexpr double kSame = 1e-9;  // [m]
+  std::sort(places.begin(), places.end());
+  std::vector<double> apart;
+  for (const double place : places) {
+    if (apart.empty() || place - apart.back() > kSame) apart.push_back(place);
+  }
+  places = std::move(apart);
+}
+
+SheetGrid grid_of(const RolledSheet& sheet, const Fineness& fineness) {
+  SheetGrid grid;
+  const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  std::vector<double> starts = {0.0};
+  for (const PathPiece& piece : pieces) {
+    int chords = 1;
+    if (!piece.straight()) {
+      const CircularArc arc = arc_of(piece);
+      chords = chords_of(arc.sweep, arc.radius + sheet.thickness, fineness);
+    }
+    const double whole = length(piece);
+    for (int k = 0; k < chords; ++k) grid.along.push_back(starts.back() + whole * k / chords);
+    starts.push_back(starts.back() + whole);
+  }
+  grid.along.push_back(starts.back());
+  for (std::size_t l = 0; l <= sheet.region.cutouts.size(); ++l) {
+    const ArcPath& loop = l == 0 ? sheet.region.outline : sheet.region.cutouts[l - 1];
+    for (const PathVertex& vertex : loop.vertices) {
+      grid.along.push_back(std::clamp(vertex.at.x, 0.0, starts.back()));
+      grid.across.push_back(vertex.at.y);
+    }
+  }
+  sort_apart(grid.along);
+  sort_apart(grid.across);
+  for (const double x : grid.along) {
+    std::size_t i = 0;
+    while (i + 1 < pieces.size() && x > starts[i + 1]) ++i;
+    const PathFrame frame = frame_on(pieces[i], std::clamp((x - starts[i]) / length(pieces[i]), 0.0, 1.0));
+    grid.points.push_back(frame.at);
+    grid.lefts.push_back(frame.left);
+  }
+  return grid;
+}
+
+class SheetMesh {
+ public:
+  SheetMesh(const RolledSheet& sheet, const Fineness& fineness) : sheet_(sheet), grid_(grid_of(sheet, fineness)) {}
+
+  TriangleMesh whole() {
+    for (std::size_t i = 0; i + 1 < grid_.along.size(); ++i) {
+      for (std::size_t j = 0; j < grid_.cells(); ++j) {
+        if (filled(i, j)) add_cell(i, j);
+      }
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  [[nodiscard]] bool filled(std::size_t i, std::size_t j) const {
+    if (i + 1 >= grid_.along.size() || j >= grid_.cells()) return false;
+    const Vec2 middle{0.5 * (grid_.along[i] + grid_.along[i + 1]), 0.5 * (grid_.across[j] + grid_.across[j + 1])};
+    if (!contains(sheet_.region.outline, middle)) return false;
+    return std::none_of(sheet_.region.cutouts.begin(), sheet_.region.cutouts.end(),
+                        [&](const ArcPath& cutout) { return contains(cutout, middle); });
+  }
+
+  Index vertex(std::size_t i, std::size_t j, bool upper) {
+    const auto [entry, fresh] = vertices_.try_emplace({i, j, upper ? 1U : 0U}, count_of(mesh_));
+    if (fresh) {
+      const Vec2 at = grid_.points[i] - (upper ? 0.0 : sheet_.thickness) * grid_.lefts[i];
+      mesh_.vertices.push_back({at.x, at.y, grid_.across[j]});
+    }
+    return entry->second;
+  }
+
+  /// A side below an edge of the upper face that has the sheet on its left, seen from below.
+  void add_side(std::size_t i, std::size_t j, std::size_t to_i, std::size_t to_j) {
+    add_quad(mesh_, vertex(i, j, true), vertex(to_i, to_j, true), vertex(to_i, to_j, false), vertex(i, j, false));
+  }
+
+  void add_cell(std::size_t i, std::size_t j) {
+    add_quad(mesh_, vertex(i, j, false), vertex(i + 1, j, false), vertex(i + 1, j + 1, false),
+             vertex(i, j + 1, false));
+    add_quad(mesh_, vertex(i, j + 1, true), vertex(i + 1, j + 1, true), vertex(i + 1, j, true),
+             vertex(i, j, true));
+    if (j == 0 || !filled(i, j - 1)) add_side(i, j, i + 1, j);
+    if (!filled(i + 1, j)) add_side(i + 1, j, i + 1, j + 1);
+    if (!filled(i, j + 1)) add_side(i + 1, j + 1, i, j + 1);
+    if (i == 0 || !filled(i - 1, j)) add_side(i, j + 1, i, j);
+  }
+
+  const RolledSheet& sheet_;
+  SheetGrid grid_;
+  TriangleMesh mesh_;
+  std::map<std::array<std::size_t, 3>, Index> vertices_;
+};
+
+TriangleMesh mesh_of(const RolledSheet& sheet, const Fineness& fineness) {
+  return SheetMesh(sheet, fineness).whole();
 }
 
 TriangleMesh mesh_of(const MeshBody& body, const Fineness& /*fineness*/) {
