@@ -146,6 +146,16 @@ std::string free_text(const Redesign& found) {
   return labelled("Free shape", text);
 }
 
+/// What stands in the way of which shape.
+std::string breaks_text(const Redesign& found) {
+  std::string text;
+  for (const RedesignShape& shape : found.shapes) {
+    if (shape.breaks.empty()) continue;
+    text += (text.empty() ? "" : "\n") + shape.name + " does not keep " + listed(shape.breaks);
+  }
+  return text.empty() ? "" : labelled("In the way", text);
+}
+
 void write_design(const Options& options, const Design& design, const Redesign& found) {
   if (options.output.empty()) return;
   Design made = redesigned(design, found, !options.letters);
@@ -175,7 +185,7 @@ ExitCode show_redesign(const Options& options) {
     print(emphasised(heading, Emphasis::heading) + "\n  take-off speed " + speed_text(found.take_off.speed) +
           ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
           rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
-          "\n" + prices_text(found) + free_text(found));
+          "\n" + prices_text(found) + free_text(found) + breaks_text(found));
   }
   const bool whole = found.shapes.back().track != nullptr;
   return whole ? ExitCode::done : ExitCode::not_converged;
