@@ -357,7 +357,7 @@ void add_compare(CLI::App& program, Action& action) {
   command.add_option("--csv", options->csv, "Write the curves as points, one line each")
       ->type_name("FILE")
       ->group("Options");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  add_json_flag(command, options->json, "the table");
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return compare(*options); }; });
 }

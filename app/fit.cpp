@@ -123,7 +123,7 @@ void add_fit(CLI::App& program, Action& action) {
       ->type_name("NUMBER");
   command.add_option("--drag", options->drag, "Hold the drag at this, and fit the friction")
       ->type_name("1/LENGTH");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  add_json_flag(command, options->json, "the table");
   command.callback([options, &action] { action = [options] { return fit(*options); }; });
 }
 

@@ -39,8 +39,7 @@ constexpr const char* kFooter =
     "  glissade gates designs/hills/garmisch_hs142.yaml --csv gates.csv";
 
 struct Options {
-  std::string design;
-  Overrides overrides;
+  DesignInput design;
   std::string speed;
   std::string wind_change;
   std::string csv;
@@ -120,7 +119,7 @@ void require_arrivals(const Design& design, const GateTable& table) {
 }
 
 ExitCode show_gates(const Options& options) {
-  const Design design = read_design(options.design, options.overrides.values());
+  const Design design = options.design.read();
   if (!design.gates) {
     throw InputError({design.where("centerline"), "the design has no gates", "",
                       "gates: {count: 49}; with a centerline that is no in-run, their start_area too"});
@@ -146,8 +145,7 @@ ExitCode show_gates(const Options& options) {
 void add_gates(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("gates", kDescription)->footer(kFooter);
   const auto options = std::make_shared<Options>();
-  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
-  options->overrides.add_to(command);
+  options->design.add_to(command);
   command.add_option("--speed", options->speed, "Tell which gate gives this speed at the measuring place")
       ->type_name("SPEED");
   command
@@ -158,7 +156,7 @@ void add_gates(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command.add_flag("--slopes", options->slopes,
                    "Tell how the speed answers to friction, drag and length of in-run instead");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  add_json_flag(command, options->json, "the table");
   command.callback([options, &action] { action = [options] { return show_gates(*options); }; });
 }
 

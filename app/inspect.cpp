@@ -6,6 +6,7 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
+#include "app/option_value.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
 
@@ -79,7 +80,7 @@ void add_inspect(CLI::App& program, Action& action) {
       ->required();
   command.add_option("--unit", options->unit, "Unit of the file's coordinates, mm or m [default: mm]")
       ->type_name("UNIT");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
+  add_json_flag(command, options->json, "the summary");
   command.callback([options, &action] { action = [options] { return inspect_mesh(*options); }; });
 }
 

@@ -6,7 +6,13 @@
 #include <cmath>
 #include <system_error>
 
+#include <CLI/CLI.hpp>
+
 namespace glissade::app {
+
+void add_json_flag(CLI::App& command, bool& json, const std::string& instead) {
+  command.add_flag("--json", json, "Print one JSON object with SI values instead of " + instead);
+}
 
 double option_value(const std::string& text, Dimension dimension, const std::string& name) {
   double number = 0.0;

@@ -6,7 +6,15 @@
 #include <string>
 #include <utility>
 
+namespace CLI {
+class App;
+}
+
 namespace glissade::app {
+
+/// Adds --json to a command.
+/// @param instead  what it prints otherwise: "the table"
+void add_json_flag(CLI::App& command, bool& json, const std::string& instead);
 
 /// The value of an option: a plain number counts in SI units, anything else as in a design file ("400 mm",
 /// "11deg"). An angle needs its unit.

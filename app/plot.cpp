@@ -90,7 +90,7 @@ Figure figure_of(RideQuantity quantity, const Design& design, const Track& track
   if (track.straight && kind != "straight") rides.push_back({"straight line", &*track.straight, true});
   Figure figure = ride_figure(quantity, rides);
   add_envelope(figure, design, track);
-  add_keep_outs(figure, design);
+  add_keep_outs(figure, as_solved(design, track));
   return figure;
 }
 

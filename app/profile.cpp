@@ -39,8 +39,7 @@ constexpr const char* kFooter =
     "  glissade profile designs/hills/garmisch_hs142.yaml --offset beam=-350mm --offset tube=120mm";
 
 struct Options {
-  std::string design;
-  Overrides overrides;
+  DesignInput design;
   std::string directory;
   std::string step;
   std::string row = "arc-length";
@@ -85,7 +84,7 @@ ProfileOptions options_of(const Options& options) {
 
 ExitCode draw_profile(const Options& options) {
   const ProfileOptions wanted = options_of(options);
-  const Design design = read_design(options.design, options.overrides.values());
+  const Design design = options.design.read();
   const Track track = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
@@ -107,8 +106,7 @@ ExitCode draw_profile(const Options& options) {
 void add_profile(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("profile", kDescription)->footer(kFooter);
   const auto options = std::make_shared<Options>();
-  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
-  options->overrides.add_to(command);
+  options->design.add_to(command);
   command.add_option("-d,--directory", options->directory, "Directory for the files [default: out/NAME]")
       ->type_name("DIR");
   command.add_option("--step", options->step, "Between stations of the coordinate table [default: 1 m]")

@@ -47,8 +47,7 @@ constexpr const char* kFooter =
     "  glissade redesign designs/hills/garmisch_hs142.yaml --letters -o letters.yaml   a certificate again";
 
 struct Options {
-  std::string design;
-  Overrides overrides;
+  DesignInput design;
   std::string goal = "least-drop";
   std::string speed;
   std::string rate;
@@ -146,6 +145,16 @@ std::string free_text(const Redesign& found) {
   return labelled("Free shape", text);
 }
 
+/// What stands in the way of which shape.
+std::string breaks_text(const Redesign& found) {
+  std::string text;
+  for (const RedesignShape& shape : found.shapes) {
+    if (shape.breaks.empty()) continue;
+    text += (text.empty() ? "" : "\n") + shape.name + " does not keep " + listed(shape.breaks);
+  }
+  return text.empty() ? "" : labelled("In the way", text);
+}
+
 void write_design(const Options& options, const Design& design, const Redesign& found) {
   if (options.output.empty()) return;
   Design made = redesigned(design, found, !options.letters);
@@ -161,7 +170,7 @@ void write_design(const Options& options, const Design& design, const Redesign& 
 
 ExitCode show_redesign(const Options& options) {
   const RedesignOptions asked = wanted(options);
-  const Design design = read_design(options.design, options.overrides.values());
+  const Design design = options.design.read();
   const Redesign found = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
@@ -175,7 +184,7 @@ ExitCode show_redesign(const Options& options) {
     print(emphasised(heading, Emphasis::heading) + "\n  take-off speed " + speed_text(found.take_off.speed) +
           ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
           rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
-          "\n" + prices_text(found) + free_text(found));
+          "\n" + prices_text(found) + free_text(found) + breaks_text(found));
   }
   const bool whole = found.shapes.back().track != nullptr;
   return whole ? ExitCode::done : ExitCode::not_converged;
@@ -186,10 +195,7 @@ ExitCode show_redesign(const Options& options) {
 void add_redesign(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("redesign", kDescription)->footer(kFooter);
   const auto options = std::make_shared<Options>();
-  command.add_option("design", options->design, "Design file, of kind in-run")
-      ->type_name("DESIGN.yaml")
-      ->required();
-  options->overrides.add_to(command);
+  options->design.add_to(command, "Design file, of kind in-run");
   command
       .add_option(
           "--for", options->goal,
@@ -209,7 +215,7 @@ void add_redesign(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command.add_flag("--letters", options->letters,
                    "Write the certificate's letters within the rules instead, a design of kind in-run");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  add_json_flag(command, options->json, "the table");
   options->time_budget.add_to(command);
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return show_redesign(*options); }; });

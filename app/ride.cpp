@@ -120,7 +120,7 @@ void add_ride(CLI::App& program, Action& action) {
       ->allow_extra_args(false);
   options->overrides.add_to(command);
   options->time_budget.add_to(command);
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  add_json_flag(command, options->json, "the table");
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return ride_track(*options); }; });
 }

@@ -5,6 +5,7 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
+#include "app/option_value.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
@@ -83,7 +84,7 @@ void add_solve(CLI::App& program, Action& action) {
       .add_option("--frozen", options->frozen,
                   "Write the track found as a design in which nothing is searched for")
       ->type_name("FILE");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the summary");
+  add_json_flag(command, options->json, "the summary");
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return solve_track(*options); }; });
 }

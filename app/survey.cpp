@@ -38,9 +38,8 @@ constexpr const char* kFooter =
     "      --offset 120mm --svg survey.svg --csv deviations.csv";
 
 struct Options {
-  std::string design;
+  DesignInput design;
   std::string points;
-  Overrides overrides;
   std::string offset;
   std::string tolerance;
   std::string slope_tolerance;
@@ -132,7 +131,7 @@ std::string survey_summary(const Design& design, const Survey& survey, const Sur
 
 ExitCode survey(const Options& options) {
   const SurveyOptions wanted = options_of(options);
-  const Design design = read_design(options.design, options.overrides.values());
+  const Design design = options.design.read();
   const Track track = solve(design);
   const Survey found = survey_of(*track.centerline, read_survey(options.points, track.placement), wanted);
   const SurveyRides rides = ride_survey(track.centerline, found, track.motion.body(), design.gravity);
@@ -152,11 +151,10 @@ ExitCode survey(const Options& options) {
 void add_survey(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("survey", kDescription)->footer(kFooter);
   const auto options = std::make_shared<Options>();
-  command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
+  options->design.add_to(command);
   command.add_option("points", options->points, "CSV file of the measured points")
       ->type_name("POINTS.csv")
       ->required();
-  options->overrides.add_to(command);
   const auto add = [&](const std::string& name, std::string& text, const std::string& unit,
                        const std::string& description) {
     command.add_option(name, text, description)->type_name(unit);
@@ -170,7 +168,7 @@ void add_survey(CLI::App& program, Action& action) {
       "A point farther from the profile does not belong to it [default: 1 m]");
   add("--csv", options->csv, "FILE", "Write the table");
   add("--svg", options->svg, "FILE", "Draw deviation, slope angle and speed along the track");
-  command.add_flag("--json", options->json, "Print one JSON object with SI values instead of the table");
+  add_json_flag(command, options->json, "the table");
   command.callback([options, &action] { action = [options] { return survey(*options); }; });
 }
 

@@ -51,6 +51,15 @@ std::vector<Override> Overrides::values() const {
   return values;
 }
 
+void DesignInput::add_to(CLI::App& command, const char* what) {
+  command.add_option("design", file_, what)->type_name("DESIGN.yaml")->required();
+  overrides_.add_to(command);
+}
+
+Design DesignInput::read() const {
+  return read_design(file_, overrides_.values());
+}
+
 void TrackInput::add_to(CLI::App& command) {
   command.add_option("design", file_, "Design file; without one, the options below say what is needed")
       ->type_name("DESIGN.yaml");

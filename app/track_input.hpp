@@ -24,6 +24,19 @@ class Overrides {
   std::vector<std::string> texts_;
 };
 
+/// The design file that a command works on, and what --set replaces in it.
+class DesignInput {
+ public:
+  /// @param what  told of the file in the help
+  void add_to(CLI::App& command, const char* what = "Design file");
+  /// @throws as read_design()
+  [[nodiscard]] Design read() const;
+
+ private:
+  std::string file_;
+  Overrides overrides_;
+};
+
 /// Where a track comes from: a design file, or the options that say the same in one line.
 class TrackInput {
  public:

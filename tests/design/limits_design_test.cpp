@@ -187,8 +187,14 @@ TEST_CASE("a track to an edge has a start that is free both ways, or one way") {
 
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", "")),
              Contains("the start is free both ways, and no exit speed above the entry speed is asked for"));
-  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", waypoints: [[3 m, 3 m]]")),
-             Contains("limits that are places, with a start that is free"));
+  CHECK(parse_design(design("edge: {x: 7 m, z: 1 m}", speed + ", waypoints: [[3 m, 3 m]]"), "d.yaml")
+            .limits->waypoints.size() == 1);
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", waypoints: [[8 m, 3 m]]")),
+             Contains("waypoints[0] lies 1 m past the edge"));
+  CHECK_THAT(problems_of(design(
+                 "edge: {x: 7 m, z: 1 m}",
+                 speed + ", keep_outs: [{outline: [[6 m, 0 m], [8 m, 0 m], [8 m, 2 m], [6 m, 2 m]]}]")),
+             Contains("the edge lies in keep_outs[0]"));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  finish: {x: 7 m, z: 1 m}", speed)),
              Contains("edge alone, which is where the track ends"));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  start: {x: 7 m, z: free}", speed)),

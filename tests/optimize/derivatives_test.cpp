@@ -6,6 +6,7 @@
 #include "glissade/motion/laws/rolling_ball.hpp"
 
 #include "optimize/differences.hpp"
+#include "optimize/places.hpp"
 #include "optimize/rows.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/transcription.hpp"
@@ -61,7 +62,7 @@ std::vector<Rider> riders() {
            true}};
 }
 
-Setup make_setup(const Rider& rider) {
+Setup make_setup(const Rider& rider, PlacesFrom from = PlacesFrom::start) {
   Problem given;
   given.endpoints = {10.0, 5.0};
   const double entry_speed = rider.entry_speed;
@@ -94,6 +95,7 @@ Setup make_setup(const Rider& rider) {
   if (rider.lands) given.body.landing = Landing{entry_speed, Angle::from_radians(1.4)};
   limits.exit_speed.highest = 9.0;
   Setup setup;
+  if (from == PlacesFrom::finish) given = testing::counted_from_finish(given, {10.0, 5.0});
   setup.problem = scaled(given, {});
   setup.mesh.knots = {0.0, 0.1, 0.25, 0.5, 0.8, 1.0};
   setup.mesh.extra_breaks = {0.33};
@@ -120,6 +122,7 @@ std::vector<Setup> setups() {
     all.push_back(make_setup(rider));
     all.push_back(make_fine_setup(rider));
   }
+  all.push_back(make_setup(riders()[1], PlacesFrom::finish));
   return all;
 }
 

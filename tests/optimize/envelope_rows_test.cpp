@@ -5,6 +5,7 @@
 
 #include "clearance/strip.hpp"
 #include "optimize/differences.hpp"
+#include "optimize/places.hpp"
 #include "optimize/rows.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/transcription.hpp"
@@ -30,7 +31,7 @@ struct Setup {
 };
 
 /// A track that starts steeply with a small radius, so that the planes of both ends cut the walls.
-Setup make_setup() {
+Setup make_setup(PlacesFrom from = PlacesFrom::start) {
   Setup setup;
   Problem& given = setup.given;
   given.endpoints = {10.0, 5.0};
@@ -50,6 +51,7 @@ Setup make_setup() {
   limits.stay_above.push_back({{{1.0, 5.0}, {4.0, 6.0}, {7.0, 7.5}}, 0.2});
   limits.stay_below.push_back({{{-1.0, -1.0}, {2.0, -1.5}, {5.0, 0.3}, {9.0, 2.0}, {12.0, 2.5}}, 0.2});
   setup.passages = {Passage::below, Passage::below, Passage::above, Passage::below, Passage::above};
+  if (from == PlacesFrom::finish) given = testing::counted_from_finish(given, {10.0, 5.0});
   setup.problem = scaled(given, setup.passages);
   setup.mesh.knots = {0.0, 0.1, 0.25, 0.5, 0.8, 1.0};
   setup.mesh.lead_out = setup.problem.lead_out;
@@ -67,7 +69,7 @@ struct Sorts {
 }  // namespace
 
 TEST_CASE("rows of an envelope: gradients are those of their values") {
-  const Setup setup = make_setup();
+  const Setup setup = make_setup(GENERATE(PlacesFrom::start, PlacesFrom::finish));
   const Transcription track(setup.mesh);
   const Rows rows(setup.problem, track);
   const State state = rows.state(setup.z, true);
@@ -115,7 +117,7 @@ TEST_CASE("rows of an envelope: a normal that an end plane cuts keeps its value 
 }
 
 TEST_CASE("rows of an envelope: the Hessian is that of their gradients where no plane cuts") {
-  Setup setup = make_setup();
+  Setup setup = make_setup(GENERATE(PlacesFrom::start, PlacesFrom::finish));
   setup.problem.envelope_high = 0.05;  // below every radius
   const Transcription track(setup.mesh);
   const Rows rows(setup.problem, track);

@@ -244,6 +244,64 @@ TEST_CASE("every goal is met from the height or the speed of the certificate, an
   }
 }
 
+TEST_CASE("a redesign passes under a bridge that the certificate and its neighbours run into") {
+  Design design = garmisch_design();
+  design.limits.emplace();
+  design.limits->envelope.headroom = 2.2;
+  design.limits->keep_outs.push_back(
+      {{{-50.0, 19.0}, {-40.0, 19.0}, {-40.0, 26.0}, {-50.0, 26.0}}, 0.1, Passage::below});
+  const Redesign found = redesign(design, {}, {});
+  for (const RedesignShape& shape : found.shapes) {
+    INFO(shape.name << ": " << shape.problem);
+    const bool free = &shape == &found.shapes.back();
+    CHECK(shape.breaks == (free ? std::vector<std::string>{} : std::vector<std::string>{"keep_outs[0]"}));
+  }
+  CHECK(found.shapes.back().ends.drop > found.shapes.front().ends.drop);
+  // What was found past it, as a design of its own, is held against the same bridge where it stands.
+  const Design made = parse_design(design_text(redesigned(design, found, true)), "made.yaml");
+  CHECK_FALSE(limits_problem(made, solve(made)));
+}
+
+TEST_CASE("an in-run with a free start is the same wherever its edge and what stands before it lie") {
+  const auto design = [](const std::string& edge, const std::string& beam, const std::string& ground) {
+    return parse_design(
+        "glissade: 1\ntrack: {edge: " + edge +
+            "}\nbody: {friction_coefficient: 0.03, drag: 0.0013 1/m}\ncenterline: {kind: fastest}\n"
+            "limits:\n  objective: least_drop\n  exit_speed: {lowest: 27 m/s}\n"
+            "  slope_angle: {highest: 35 deg}\n  exit_slope_angle: 11 deg\n  lead_out: 6.9 m\n"
+            "  highest_curvature_rate: 0.00055 1/m^2\n  concave: true\n  headroom: 2.2 m\n"
+            "  keep_outs: [{outline: " +
+            beam + ", pass: below}]\n  stay_above: [{line: " + ground + "}]\n",
+        "d.yaml");
+  };
+  const std::string here = "[[-50 m, 18 m], [-40 m, 18 m], [-40 m, 26 m], [-50 m, 26 m]]";
+  const std::string ground = "[[-120 m, 50 m], [-60 m, 10 m], [-10 m, -3 m]]";
+  const Track track = solve(design("{x: 0 m, z: 0 m}", here, ground));
+  const auto price = [](const Track& found) {
+    for (const ActiveLimit& active : found.search->active) {
+      if (active.limit.id == LimitId::keep_outs) return active.price;
+    }
+    return 0.0;
+  };
+  CHECK(price(track) > 0.0);
+  const Track mirrored = solve(design("{x: 0 m, z: 0 m}, azimuth: 180 deg",
+                                      "[[50 m, 18 m], [40 m, 18 m], [40 m, 26 m], [50 m, 26 m]]",
+                                      "[[10 m, -3 m], [60 m, 10 m], [120 m, 50 m]]"));
+  CHECK(mirrored.placement.start().x > 0.0);
+  const Track far =
+      solve(design("{x: 5000000 m, y: 3000000 m, z: 2000 m}",
+                   "[[4999950 m, 2018 m], [4999960 m, 2018 m], [4999960 m, 2026 m], [4999950 m, 2026 m]]",
+                   "[[4999880 m, 2050 m], [4999940 m, 2010 m], [4999990 m, 1997 m]]"));
+  const Track turned = solve(design("{x: 9 m, y: 5 m, z: 0 m}, azimuth: 37 deg", here, ground));
+  for (const Track* const other : {&mirrored, &far, &turned}) {
+    CHECK(std::fabs(other->endpoints.drop / track.endpoints.drop - 1.0) < 1e-7);
+    CHECK(std::fabs(price(*other) / price(track) - 1.0) < 1e-4);
+    for (const LimitCheck& check : other->limit_checks) CHECK(check.kept());
+  }
+  const Vec3 edge = turned.placement.to_space(turned.endpoints.run, turned.endpoints.drop, 0.0);
+  CHECK(norm(edge - Vec3{9.0, 5.0, 0.0}) < 1e-9);
+}
+
 TEST_CASE("a design that is no in-run has no letters to redesign") {
   const Design design = read_design(designs_path("grain_chute.yaml"));
   CHECK_THROWS_WITH(redesign(design, {}, {}), contains_text("is no in-run by its letters"));

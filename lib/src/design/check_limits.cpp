@@ -1,6 +1,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "design/checks.hpp"
@@ -175,7 +176,8 @@ void check_line(const std::vector<Vec2>& line, const std::string& key, Collected
 /// The point of the track's vertical plane, in the coordinates that limits are given in.
 Vec2 in_limit_plane(const TrackDesign& track, Vec3 point) {
   if (track.start.y == track.finish.y) return {point.x, point.z};
-  return {math::hypot(point.x - track.start.x, point.y - track.start.y), point.z};
+  const Vec3& origin = track.free_start ? track.finish : track.start;
+  return {math::hypot(point.x - origin.x, point.y - origin.y), point.z};
 }
 
 struct NamedPoint {
@@ -187,7 +189,11 @@ struct NamedPoint {
 std::vector<NamedPoint> fixed_points(const Design& design) {
   const TrackDesign& track = design.track;
   std::vector<NamedPoint> points;
-  if (!track.free_start) points.push_back({"the start", in_limit_plane(track, track.start), "track.start"});
+  if (!track.free_start) {
+    points.push_back({"the start", in_limit_plane(track, track.start), "track.start"});
+  } else {
+    points.push_back({"the edge", in_limit_plane(track, track.finish), "track.edge"});
+  }
   if (track.free_finish == FinishKind::point) {
     points.push_back({"the finish", in_limit_plane(track, track.finish), "track.finish"});
   }
@@ -208,6 +214,21 @@ std::optional<double> height_at(const std::vector<Vec2>& line, double x) {
     return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
   }
   return {};
+}
+
+/// To an edge the track comes from one side alone, as long as it keeps within the vertical.
+void check_waypoints_to_edge(const Design& design, Collected& findings) {
+  if (!design.track.free_start) return;
+  const Limits& limits = *design.limits;
+  if (limits.slope_angle.highest.value_or(kRightAngle) > kRightAngle) return;
+  for (std::size_t index = 0; index < limits.waypoints.size(); ++index) {
+    const double past = in_edge_plane(design.track, limits.waypoints[index]).x;
+    if (past <= 0.0) continue;
+    report(findings, {path("waypoints." + std::to_string(index)), path("waypoints")},
+           {"", "waypoints[" + std::to_string(index) + "] lies " + length_text(past) + " past the edge",
+            "A track that keeps within the vertical does not run back to where it ends.",
+            "a point before the edge"});
+  }
 }
 
 void report_breach(const NamedPoint& point, const std::string& key, const std::string& what,
@@ -299,6 +320,7 @@ void check_clearances(const Design& design, Collected& findings) {
   check_shapes(*design.limits, findings);
   if (findings.size() != before || !design.track.finish_given) return;
   for (const NamedPoint& point : fixed_points(design)) check_fixed_point(*design.limits, point, findings);
+  check_waypoints_to_edge(design, findings);
 }
 
 /// Limits and objectives that only a stream can have.

@@ -94,13 +94,6 @@ void check_free_start(const Design& design, Collected& findings) {
            {"", "the start lies on the vertical through the edge",
             "With a free height the track could begin where it ends.", "a start to the side"});
   }
-  if (!design.limits || (!design.limits->has_clearances() && design.limits->waypoints.empty())) return;
-  report(findings,
-         {"limits.waypoints", "limits.keep_outs", "limits.half_planes", "limits.stay_above",
-          "limits.stay_below", "limits"},
-         {"", "limits that are places, with a start that is free",
-          "The search counts places from the start, which it has yet to find.",
-          "a start with a value for x and z"});
 }
 
 void check_free_finish(const Design& design, Collected& findings) {

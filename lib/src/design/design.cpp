@@ -39,9 +39,20 @@ bool Design::asks_the_same(const Design& other) const {
 
 Vec2 in_track_plane(const TrackDesign& track, Vec2 point) {
   const double drop = track.start.z - point.y;
-  if (track.start.y != track.finish.y) return {point.x, drop};
+  if (track.start.y != track.finish.y) {
+    const double edge =
+        track.free_start ? math::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y) : 0.0;
+    return {edge + point.x, drop};
+  }
   const double side = track.finish.x < track.start.x ? -1.0 : 1.0;
   return {side * (point.x - track.start.x), drop};
+}
+
+Vec2 in_edge_plane(const TrackDesign& track, Vec2 point) {
+  const double drop = track.finish.z - point.y;
+  if (track.start.y != track.finish.y) return {point.x, drop};
+  const double side = track.finish.x < track.start.x ? -1.0 : 1.0;
+  return {side * (point.x - track.finish.x), drop};
 }
 
 std::optional<Issue> missed_finish(const TrackDesign& track, const std::string& who, Vec2 end,

@@ -163,6 +163,16 @@ std::optional<double> read_start_coordinate(const std::optional<Value>& value, F
   return as_quantity(*value, Dimension::length, findings);
 }
 
+/// The direction of an azimuth, exactly along x or y where it is meant to be: limits count x differently there.
+Vec2 heading_of(const TrackDesign& track) {
+  const auto snapped = [](double share) {
+    constexpr double kRounding = 1e-15;
+    return std::fabs(share) < kRounding ? 0.0 : share;
+  };
+  const double azimuth = track.azimuth.radians();
+  return {snapped(math::cos(azimuth)), snapped(math::sin(azimuth))};
+}
+
 /// The start of a track to an edge where it says something: `free` both ways where it does not.
 void read_start_to_edge(const std::optional<Value>& value, TrackDesign& track, Findings& findings) {
   std::optional<double> x;
@@ -190,8 +200,9 @@ void read_start_to_edge(const std::optional<Value>& value, TrackDesign& track, F
     track.start.x = *x;
     return;
   }
-  track.start.x = track.finish.x - run * math::cos(track.azimuth.radians());
-  track.start.y = track.finish.y - run * math::sin(track.azimuth.radians());
+  const Vec2 heading = heading_of(track);
+  track.start.x = track.finish.x - run * heading.x;
+  track.start.y = track.finish.y - run * heading.y;
 }
 
 /// A track that ends at a given edge, as an in-run does, and whose start the search may choose.
@@ -364,8 +375,8 @@ ExportDesign read_export(MapReader& top, Findings& findings) {
 void place_in_run(Design& design) {
   TrackDesign& track = design.track;
   const Endpoints end = InRun(design.centerline.in_run.shape()).endpoints();
-  const Vec3 way{end.run * math::cos(track.azimuth.radians()), end.run * math::sin(track.azimuth.radians()),
-                 -end.drop};
+  const Vec2 heading = heading_of(track);
+  const Vec3 way{end.run * heading.x, end.run * heading.y, -end.drop};
   if (track.edge) {
     track.finish = *track.edge;
     track.start = track.finish - way;

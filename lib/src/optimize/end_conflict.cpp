@@ -151,10 +151,17 @@ std::optional<Conflict> too_close_at_an_end(const Problem& problem, const WouldD
   if (limits.envelope.is_line()) return std::nullopt;
   const std::vector<task::Obstacle> obstacles = task::obstacles_of(limits);
   if (obstacles.empty()) return std::nullopt;
-  std::vector<End> ends{end_of("the start", {0.0, 0.0}, limits.entry_slope_angle, limits.slope_angle)};
-  if (problem.finish.kind == FinishKind::point) {
-    ends.push_back(end_of("the finish", {std::fabs(problem.endpoints.run), problem.endpoints.drop},
-                          limits.exit_slope_angle, limits.slope_angle));
+  const bool from_start = problem.places_from == PlacesFrom::start;
+  const bool both = problem.finish.kind == FinishKind::point;
+  const Vec2 way{std::fabs(problem.endpoints.run), problem.endpoints.drop};
+  std::vector<End> ends;
+  if (from_start || both) {
+    ends.push_back(
+        end_of("the start", from_start ? Vec2{} : -1.0 * way, limits.entry_slope_angle, limits.slope_angle));
+  }
+  if (!from_start || both) {
+    ends.push_back(
+        end_of("the finish", from_start ? way : Vec2{}, limits.exit_slope_angle, limits.slope_angle));
   }
   for (const End& end : ends) {
     const bool given = end.flattest <= end.steepest;

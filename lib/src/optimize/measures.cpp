@@ -351,13 +351,15 @@ class ArcLength final : public Measure {
 class FinishCoordinate final : public Measure {
  public:
   [[nodiscard]] double value(const RowAt& at) const override {
-    return is_run(at) ? at.state.shape.x.back() : at.state.shape.y.back();
+    return is_run(at) ? at.state.run() : at.state.drop();
   }
   void gradient(const RowAt& at, double* out) const override {
-    at.track.add(is_run(at) ? at.state.shape.dx : at.state.shape.dy, last_station(at), 1.0, out);
+    const Derivatives& places = is_run(at) ? at.state.shape.dx : at.state.shape.dy;
+    at.track.add(places, last_station(at), 1.0, out);
+    at.track.add(places, 0, -1.0, out);
   }
   void add_weights(const RowAt& at, double factor, StationWeights& weights) const override {
-    (is_run(at) ? weights.x : weights.y)[last_station(at)] += factor;
+    weigh_across(is_run(at) ? weights.x : weights.y, factor);
   }
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override { add_last(at, 0, rows); }
 

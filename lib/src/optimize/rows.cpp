@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace glissade::optimizer {
 namespace {
@@ -58,6 +59,7 @@ State Rows::state(const Vector& z, bool derivatives) const {
   State state;
   state.z = z;
   track_.shape(z, state.shape, derivatives);
+  if (problem_.places_from == PlacesFrom::finish) track_.count_from_finish(state.shape);
   // One waypoint has no order.
   if (problem_.waypoints.size() > 1)
     state.waypoint_stations = passed_in_order(state.shape, problem_.waypoints);
@@ -77,7 +79,7 @@ double Rows::objective(const State& state) const {
     const double v = flow.v.back();
     value -= problem_.speed_weight * std::copysign(std::sqrt(std::fabs(v)), v);
   }
-  value += problem_.drop_weight * state.shape.y.back();
+  value += problem_.drop_weight * state.drop();
   value += problem_.length_weight * state.z[track_.layout().length()];
   return value;
 }
@@ -91,10 +93,14 @@ Vector Rows::objective_gradient(const State& state) const {
     const double root = std::sqrt(std::max(std::fabs(flow.v[last]), 1e-12));
     track_.add(flow.dv, last, -problem_.speed_weight * 0.5 / root, gradient.data());
   }
-  if (problem_.drop_weight > 0.0)
-    track_.add(state.shape.dy, state.shape.y.size() - 1, problem_.drop_weight, gradient.data());
+  if (problem_.drop_weight > 0.0) add_across(state.shape.dy, problem_.drop_weight, gradient.data());
   gradient[track_.layout().length()] += problem_.length_weight;
   return gradient;
+}
+
+void Rows::add_across(const Derivatives& derivatives, double factor, double* out) const {
+  track_.add(derivatives, track_.stations().size() - 1, factor, out);
+  track_.add(derivatives, 0, -factor, out);
 }
 
 double Rows::effective_bound(const LimitSpec& limit) const {
@@ -123,8 +129,8 @@ Vector Rows::equality_values(const State& state) const {
   const Layout& layout = track_.layout();
   Vector value;
   value.reserve(equality_count());
-  if (fixes_run(problem_.finish)) value.push_back(state.shape.x.back() - problem_.run);
-  if (fixes_drop(problem_.finish)) value.push_back(state.shape.y.back() - problem_.drop);
+  if (fixes_run(problem_.finish)) value.push_back(state.run() - problem_.run);
+  if (fixes_drop(problem_.finish)) value.push_back(state.drop() - problem_.drop);
   if (problem_.lead_in > 0.0) value.push_back(state.z[layout.turn(0)]);
   if (problem_.lead_out > 0.0) value.push_back(state.z[layout.turn(layout.knots - 1)]);
   for (std::size_t i = fixed_equalities_; i < equality_count(); ++i) {
@@ -138,12 +144,11 @@ Vector Rows::equality_values(const State& state) const {
 void Rows::equalities(const State& state, Vector& value, Matrix& jacobian) const {
   const Layout& layout = track_.layout();
   const std::size_t n = layout.size();
-  const std::size_t last = track_.stations().size() - 1;
   value = equality_values(state);
   jacobian = Matrix(equality_count(), n);
   std::size_t at = 0;
-  if (fixes_run(problem_.finish)) track_.add(state.shape.dx, last, 1.0, jacobian.row(at++));
-  if (fixes_drop(problem_.finish)) track_.add(state.shape.dy, last, 1.0, jacobian.row(at++));
+  if (fixes_run(problem_.finish)) add_across(state.shape.dx, 1.0, jacobian.row(at++));
+  if (fixes_drop(problem_.finish)) add_across(state.shape.dy, 1.0, jacobian.row(at++));
   if (problem_.lead_in > 0.0) jacobian(at++, layout.turn(0)) = 1.0;
   if (problem_.lead_out > 0.0) jacobian(at++, layout.turn(layout.knots - 1)) = 1.0;
   for (; at < equality_count(); ++at) {
@@ -256,10 +261,10 @@ StationWeights Rows::weights(const State& state, const Vector& equality, const s
     weights.v_v[problem_.objective_ride][last] +=
         objective * problem_.speed_weight * 0.25 / (root * root * root);
   }
-  weights.y[last] += objective * problem_.drop_weight;
+  weigh_across(weights.y, objective * problem_.drop_weight);
   std::size_t row = 0;
-  if (fixes_run(problem_.finish)) weights.x[last] += equality[row++];
-  if (fixes_drop(problem_.finish)) weights.y[last] += equality[row++];
+  if (fixes_run(problem_.finish)) weigh_across(weights.x, equality[row++]);
+  if (fixes_drop(problem_.finish)) weigh_across(weights.y, equality[row++]);
   for (row = fixed_equalities_; row < equality.size(); ++row) {
     const Row at = row_of_equality(row);
     const LimitSpec& limit = problem_.limits[at.limit];
@@ -269,6 +274,11 @@ StationWeights Rows::weights(const State& state, const Vector& equality, const s
     if (inequality[i] == 0.0) continue;
     const LimitSpec& limit = problem_.limits[rows[i].limit];
     add_measure_weights(state, limit, rows[i], inequality[i] * limit.side / effective_scale(limit), weights);
+  }
+  // A place that counts from the finish goes along with it.
+  if (problem_.places_from == PlacesFrom::finish) {
+    for (Vector* const places : {&weights.x, &weights.y})
+      places->back() -= std::accumulate(places->begin(), places->end(), 0.0);
   }
   return weights;
 }

@@ -34,7 +34,17 @@ struct State {
   /// The station at which the track comes closest to each waypoint, passing them in their order.
   std::vector<std::size_t> waypoint_stations;
   EnvelopeRows::Zones zones;  ///< where the end planes may cut an envelope
+
+  /// From the start to the finish, whichever of them the shape's positions count from.
+  [[nodiscard]] double run() const { return shape.x.back() - shape.x.front(); }
+  [[nodiscard]] double drop() const { return shape.y.back() - shape.y.front(); }
 };
+
+/// What a run or a drop from the start to the finish weighs the stations with.
+inline void weigh_across(Vector& weights, double factor) {
+  weights.back() += factor;
+  weights.front() -= factor;
+}
 
 /// The limits of a problem as rows over one transcription. Inequalities are kept where value <= 0, in units
 /// of the limit's scale.
@@ -77,6 +87,8 @@ class Rows {
                                        double objective) const;
 
  private:
+  /// out += factor times the derivatives of a run or a drop from the start to the finish
+  void add_across(const Derivatives& derivatives, double factor, double* out) const;
   /// By how much the row is tightened [scale].
   [[nodiscard]] double margin(const Row& row) const;
   [[nodiscard]] Row row_of_equality(std::size_t index) const;

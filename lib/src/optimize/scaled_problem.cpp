@@ -418,6 +418,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   const Limits& limits = problem.limits;
   ScaledProblem out;
   out.finish = problem.finish.kind;
+  out.places_from = problem.places_from;
   const double run = std::fabs(problem.endpoints.run);
   out.chord = chord_of(problem);
   out.gravity = problem.gravity;

@@ -59,6 +59,7 @@ struct ScaledProblem {
   double run = 0.0;
   double drop = 0.0;
   FinishKind finish = FinishKind::point;
+  PlacesFrom places_from = PlacesFrom::start;  ///< of obstacles and waypoints
   double lead_in = 0.0;
   double lead_out = 0.0;
   double lowest_speed_from = 0.0;

@@ -396,6 +396,25 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   }
 }
 
+void Transcription::count_from_finish(Shape& shape) const {
+  const std::size_t last = stations_.size() - 1;
+  for (Vector* const places : {&shape.x, &shape.y}) {
+    const double finish = places->back();
+    for (double& place : *places) place -= finish;
+  }
+  if (shape.dx.empty()) return;
+  const std::size_t n = layout_.size();
+  for (Derivatives* const derivatives : {&shape.dx, &shape.dy}) {
+    Vector finish(n, 0.0);
+    add(*derivatives, last, 1.0, finish.data());
+    // Every station's derivatives are those of where its section begins and more; the start, where nothing moved so far,
+    // has had none.
+    derivatives->local.front()[kOwn] = 1.0;
+    for (std::size_t i = 0; i < sections_.size(); ++i)
+      add_scaled(derivatives->starts.row(i), -1.0, finish.data(), n);
+  }
+}
+
 void Transcription::differentiate_shape(std::size_t p, double scale, Shape& out) const {
   const PanelRule& rule = panel_rule();
   const Panel& panel = panels_[p];

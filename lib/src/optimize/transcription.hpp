@@ -194,6 +194,8 @@ class Transcription {
   void foot_derivatives(const Vector& z, const Shape& shape, const Foot& foot, Vector& dx, Vector& dy) const;
 
   void shape(const Vector& z, Shape& out, bool derivatives) const;
+  /// Positions of a shape, counted from the start, count from the finish afterwards.
+  void count_from_finish(Shape& shape) const;
   void flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out, bool derivatives) const;
 
   /// Second derivative of the Lagrangian that the weights describe.

@@ -38,6 +38,7 @@ HoodShape pipeline::shape_of(const HoodDesign& hood) {
 
 Design as_solved(Design design, const Track& track) {
   if (track.hood) design.hood = track.hood;
+  if (design.track.free_start) design.track.start = track.placement.start();
   return design;
 }
 

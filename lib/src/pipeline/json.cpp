@@ -368,6 +368,7 @@ std::string redesign_json(const Design& design, const Redesign& found) {
     add("max_radial_acceleration_m_per_s2", shape.highest_radial);
     add("curvature_rate_per_m2", shape.curvature_rate);
     add("curvature_jump_per_m", shape.largest_jump);
+    row["breaks"] = shape.breaks;
     json["shapes"].push_back(std::move(row));
   }
   json["letters"] = Json::array();

@@ -25,18 +25,23 @@ bool is_mirrored(const TrackDesign& track) {
   return in_track_plane(track, {track.start.x + 1.0, 0.0}).x < in_track_plane(track, {track.start.x, 0.0}).x;
 }
 
+/// Places count from the end of the track that is given.
+Vec2 in_plane(const TrackDesign& track, Vec2 point) {
+  return track.free_start ? in_edge_plane(track, point) : in_track_plane(track, point);
+}
+
 std::vector<Vec2> in_plane(const TrackDesign& track, const std::vector<Vec2>& points) {
   std::vector<Vec2> result;
   result.reserve(points.size());
-  for (const Vec2 point : points) result.push_back(in_track_plane(track, point));
+  for (const Vec2 point : points) result.push_back(in_plane(track, point));
   return result;
 }
 
-/// The limits of a design as those of a problem: run and drop from the start in place of x and z.
+/// The limits of a design as those of a problem: run and drop in place of x and z.
 Limits in_plane(const TrackDesign& track, Limits limits) {
   for (HalfPlane& plane : limits.half_planes) {
-    const Vec2 point = in_track_plane(track, plane.point);
-    plane.forbidden = in_track_plane(track, plane.point + plane.forbidden) - point;
+    const Vec2 point = in_plane(track, plane.point);
+    plane.forbidden = in_plane(track, plane.point + plane.forbidden) - point;
     plane.point = point;
   }
   for (KeepOut& area : limits.keep_outs) area.outline = in_plane(track, area.outline);
@@ -80,13 +85,17 @@ Finish finish_of(const TrackDesign& track) {
 class FinishNames {
  public:
   explicit FinishNames(const TrackDesign& track)
-      : start_(track.start), mirrored_(is_mirrored(track)), level_(track.start.y == track.finish.y) {}
+      : start_(track.start),
+        origin_(track.free_start ? track.finish : track.start),
+        mirrored_(is_mirrored(track)),
+        level_(track.start.y == track.finish.y) {}
 
   /// Where an envelope comes closest, as the design's limits count.
   void place(LimitCheck& check) const {
     if (!check.closest) return;
     const Vec2 point = check.closest->point;
-    check.closest->point = {(level_ ? start_.x : 0.0) + (mirrored_ ? -point.x : point.x), start_.z - point.y};
+    check.closest->point = {(level_ ? origin_.x : 0.0) + (mirrored_ ? -point.x : point.x),
+                            origin_.z - point.y};
   }
   /// @param values  coordinates that belong to the limit
   void rename(LimitName& limit, std::initializer_list<double*> values) const {
@@ -102,6 +111,7 @@ class FinishNames {
 
  private:
   Vec3 start_;
+  Vec3 origin_;  ///< of places
   bool mirrored_;
   bool level_;
 };
@@ -233,6 +243,7 @@ Problem problem_of(const Design& design) {
   Problem problem;
   problem.endpoints = endpoints_of(design);
   problem.finish = finish_of(design.track);
+  if (design.track.free_start) problem.places_from = PlacesFrom::finish;
   problem.body = body_of(design);
   problem.low_friction = design.body.low_friction;
   problem.high_friction = design.body.high_friction;

@@ -171,6 +171,59 @@ void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, dou
   }));
 }
 
+// --- what is in the way ------------------------------------------------------------------------------
+
+/// The clearances and waypoints of a design, counted from the edge of its in-run; of its other limits rules take the place.
+Problem places_to_edge(const Design& design, const Endpoints& certificate) {
+  Problem places = problem_of(design);
+  const Limits asked = std::exchange(places.limits, {});
+  const Vec2 edge{certificate.run, certificate.drop};
+  const auto counted = [&](std::vector<Vec2> points) {
+    for (Vec2& point : points) point = point - edge;
+    return points;
+  };
+  Limits& limits = places.limits;
+  limits.envelope = asked.envelope;
+  limits.half_planes = asked.half_planes;
+  for (HalfPlane& plane : limits.half_planes) plane.point = plane.point - edge;
+  limits.keep_outs = asked.keep_outs;
+  for (KeepOut& area : limits.keep_outs) area.outline = counted(area.outline);
+  limits.stay_above = asked.stay_above;
+  limits.stay_below = asked.stay_below;
+  for (std::vector<Profile>* const lines : {&limits.stay_above, &limits.stay_below}) {
+    for (Profile& profile : *lines) profile.line = counted(profile.line);
+  }
+  limits.waypoints = counted(asked.waypoints);
+  places.finish = {FinishKind::level, {}, {}};
+  places.places_from = PlacesFrom::finish;
+  return places;
+}
+
+/// The same, counted from a place before the edge.
+Limits moved(Limits limits, Vec2 from_there_to_edge) {
+  const auto move = [&](std::vector<Vec2>& points) {
+    for (Vec2& point : points) point = point + from_there_to_edge;
+  };
+  for (HalfPlane& plane : limits.half_planes) plane.point = plane.point + from_there_to_edge;
+  for (KeepOut& area : limits.keep_outs) move(area.outline);
+  for (Profile& profile : limits.stay_above) move(profile.line);
+  for (Profile& profile : limits.stay_below) move(profile.line);
+  move(limits.waypoints);
+  return limits;
+}
+
+/// Tells of each shape what it runs into.
+void hold_against(Problem places, std::vector<RedesignShape>& shapes) {
+  if (!places.limits.has_clearances() && places.limits.waypoints.empty()) return;
+  for (RedesignShape& shape : shapes) {
+    if (shape.track == nullptr) continue;
+    for (const LimitCheck& check : check_limits(places, shape.track)) {
+      if (check.kept() || entry_of(check.limit.id).form != LimitForm::list) continue;
+      shape.breaks.push_back(check.limit.key());
+    }
+  }
+}
+
 // --- the free shape ----------------------------------------------------------------------------------
 
 /// The rate at which the curvature of a certificate's bend grows at most; none where it jumps at E1.
@@ -194,10 +247,14 @@ std::optional<double> rate_of(const InRunShape& shape) {
 /// curvature may jump there, as the norm has it.
 class FreeShape {
  public:
+  /// @param places  counted from the edge
   FreeShape(const Design& design, const RedesignOptions& options, const InRunShape& certificate,
-            const RuledLetters& ruled, const TakeOff& take_off)
+            const RuledLetters& ruled, const TakeOff& take_off, const Problem& places)
       : options_(options), certificate_(certificate), take_off_(take_off) {
     table_ = ruled.table ? ruled.table->value : certificate.t;
+    const double alpha = certificate.alpha.radians();
+    problem_.limits = moved(places.limits, {table_ * math::cos(alpha), table_ * math::sin(alpha)});
+    problem_.places_from = PlacesFrom::finish;
     problem_.body = take_off.body;
     problem_.gravity = take_off.gravity;
     Limits& limits = problem_.limits;
@@ -371,9 +428,11 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   result.prices = prices_of(result.within_rules, take_off, ruled);
   const double radius = ruled.radius ? ruled.radius->value : certificate.r1;
   add_comparisons(certificate, take_off, v0 * v0 / radius, result.shapes);
+  const Problem places = places_to_edge(design, result.shapes.front().ends);
   result.shapes.push_back(attempted("free, " + std::string(word(options.goal)), take_off, [&] {
-    return FreeShape(design, options, certificate, ruled, take_off).found(context, result.search);
+    return FreeShape(design, options, certificate, ruled, take_off, places).found(context, result.search);
   }));
+  hold_against(places, result.shapes);
   return result;
 }
 

@@ -533,8 +533,31 @@ const LimitCheck* Judgement::find(const LimitName& limit) const {
   return found == checks.end() ? nullptr : &*found;
 }
 
-Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int samples,
+namespace {
+
+/// The problem with all places counted from the start of a track.
+Problem from_start_of(Problem problem, const Centerline& track) {
+  if (problem.places_from == PlacesFrom::start) return problem;
+  const Endpoints ends = track.endpoints();
+  const Vec2 finish{ends.run, ends.drop};
+  Limits& limits = problem.limits;
+  const auto shift = [&](std::vector<Vec2>& points) {
+    for (Vec2& point : points) point = point + finish;
+  };
+  for (HalfPlane& plane : limits.half_planes) plane.point = plane.point + finish;
+  for (KeepOut& area : limits.keep_outs) shift(area.outline);
+  for (Profile& profile : limits.stay_above) shift(profile.line);
+  for (Profile& profile : limits.stay_below) shift(profile.line);
+  shift(limits.waypoints);
+  problem.places_from = PlacesFrom::start;
+  return problem;
+}
+
+}  // namespace
+
+Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samples,
                       BrokenRides broken_rides) {
+  const Problem problem = from_start_of(asked, *track);
   const CenterlinePoint end = track->at(track->length());
   const double chord = math::hypot(end.x, end.drop);
   const std::vector<double> stations = sampled(*track, problem.limits, samples);
@@ -583,6 +606,11 @@ Judgement judge_track(const Problem& problem, const CenterlinePtr& track, int sa
   watches.at_end(*track);
   judgement.checks = watches.checks();
   judgement.broken = watches.broken();
+  if (asked.places_from == PlacesFrom::finish) {
+    for (LimitCheck& check : judgement.checks) {
+      if (check.closest) check.closest->point = check.closest->point - Vec2{end.x, end.drop};
+    }
+  }
   for (const LimitCheck& check : judgement.checks) {
     judgement.worst = std::max(judgement.worst, check.violation / check.scale);
   }

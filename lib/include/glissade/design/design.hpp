@@ -66,6 +66,8 @@ inline constexpr double kFinishAgreement = 1e-3;
 /// @param point  (x, z) as a design file gives the points of its limits
 /// @return (run, drop) in the plane of the centerline: run from the start, positive towards the finish
 [[nodiscard]] Vec2 in_track_plane(const TrackDesign& track, Vec2 point);
+/// @return the same of a track whose start is free, run and drop from its edge: negative runs before it, negative drops above
+[[nodiscard]] Vec2 in_edge_plane(const TrackDesign& track, Vec2 point);
 
 enum class CenterlineKind {
   fastest,

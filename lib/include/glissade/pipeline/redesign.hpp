@@ -45,6 +45,8 @@ struct RedesignShape {
   double curvature_rate = 0.0;
   double largest_jump =
       0.0;  ///< of the curvature, where it jumps most but for the end of the transition [1/m]
+  std::vector<std::string>
+      breaks;  ///< clearances and waypoints of the design that it does not keep: "keep_outs[0]"
 };
 
 /// What one letter of the certificate costs in drop, at the take-off speed.
@@ -69,7 +71,8 @@ struct Redesign {
 /// Compares an in-run with others that give the same take-off speed: its own letters at the bounds of the rules, other
 /// transitions, Zanevskyy's power curve, a load-controlled bend, and the free shape that a search finds within the
 /// rules: no steeper than gamma may be, no tighter than r1, no crest, curvature growing no faster than asked, straight
-/// along the start area, alpha and the table at its end.
+/// along the start area, alpha and the table at its end. It keeps the clearances and waypoints of the design's limits, which
+/// the others are held against; of its other limits the rules take the place.
 ///
 /// Bounds of gamma, r1 and t come from the design's rules on in_run_slope_angle, transition_radius or
 /// design_radial_acceleration, table_length or table_time; a letter that no rule bounds stays. alpha stays, too: the jump

@@ -116,7 +116,7 @@ class LimitsConflict : public InfeasibleError {
 /// @throws InputError if a measure of the body breaks its bound, or if something of the hood is still to be chosen
 [[nodiscard]] Body body_of(const Design& design);
 
-/// The design that a track is of: with the hood that its search chose. body_of(), feed_fall() and what stands on them
+/// The design that a track is of: with the hood and the start that its search chose. body_of(), feed_fall() and what stands on them
 /// take such a design.
 [[nodiscard]] Design as_solved(Design design, const Track& track);
 

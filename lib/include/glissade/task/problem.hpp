@@ -11,14 +11,21 @@
 
 namespace glissade {
 
+/// Which end of the track places count from.
+enum class PlacesFrom {
+  start,
+  finish  ///< where it is the start that is free: what lies before the finish has a negative run, above it a negative drop
+};
+
 /// What is asked: a body, two ends, and the limits between them.
 struct Problem {
   Endpoints endpoints;  ///< run != 0; runs of limits count towards the finish, whichever side it lies on
   Finish finish;
-  Body body;                              ///< body.friction is the nominal friction
-  std::optional<Friction> low_friction;   ///< <= body.friction; limits hold there too
-  std::optional<Friction> high_friction;  ///< >= body.friction; limits hold there too
-  double gravity = kDefaultGravity;       ///< [m/s^2]; > 0
+  PlacesFrom places_from = PlacesFrom::start;  ///< of half_planes, keep_outs, lines and waypoints
+  Body body;                                   ///< body.friction is the nominal friction
+  std::optional<Friction> low_friction;        ///< <= body.friction; limits hold there too
+  std::optional<Friction> high_friction;       ///< >= body.friction; limits hold there too
+  double gravity = kDefaultGravity;            ///< [m/s^2]; > 0
   Limits limits;
   Objective objective;
 };
