@@ -3,22 +3,22 @@
 #include "glissade/core/version.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
+#include "report/parts_view.hpp"
 #include "report/ride_stations.hpp"
+#include "report/serial/packed.hpp"
 #include "report/serial/parts.hpp"
+#include "report/serial/pattern.hpp"
 #include "report/serial/stream.hpp"
 #include "report/serial/vocabulary.hpp"
 #include "report/view_mesh.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <openssl/evp.h>
 
 namespace glissade::report {
 namespace {
@@ -175,20 +175,6 @@ Json mesh_of(const ReportInput& input) {
   return mesh;
 }
 
-/// Integers as base64 of their little-endian bytes; the target machines of the product are little-endian,
-/// like base64 readers in browsers.
-template <class Integer>
-Json packed(const char* type, const std::vector<Integer>& values) {
-  static_assert(std::endian::native == std::endian::little);
-  const std::size_t bytes = values.size() * sizeof(Integer);
-  std::string text(4 * ((bytes + 2) / 3) + 1, '\0');
-  const int written =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                      reinterpret_cast<const unsigned char*>(values.data()), static_cast<int>(bytes));
-  text.resize(static_cast<std::size_t>(written));
-  return {{"type", type}, {"data", std::move(text)}};
-}
-
 Json view_of(const ReportInput& input) {
   if (input.solid.solid == nullptr) return nullptr;
   const ViewMesh view = make_view(input);
@@ -266,13 +252,15 @@ Json envelope_of(const ReportInput& input) {
           {"edges", std::move(edges)}};
 }
 
-/// As --json has it; null without plates.
+/// As --json has it, each part with its flat pattern; null where nothing is made of parts.
 Json fabrication_of(const ReportInput& input) {
   if (input.workshop == nullptr) return nullptr;
   Json json;
   add_parts(json, input.workshop);
-  for (Json& part : json["parts"]) part.erase("files");
+  const std::vector<ShopPart>& parts = input.workshop->workshop.parts;
+  for (std::size_t i = 0; i < parts.size(); ++i) json["parts"][i]["pattern"] = pattern_json(parts[i]);
   json["design_exit_speed_m_per_s"] = input.workshop->ride.design_exit_speed;
+  json["view"] = parts_view_json(input);
   return json;
 }
 

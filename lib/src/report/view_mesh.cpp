@@ -40,12 +40,6 @@ double arc_length_beside(const std::vector<Station>& stations, double x, double 
   return arc_length;
 }
 
-std::uint16_t on_grid(double value, double low, double high) {
-  if (high <= low) return 0;
-  return static_cast<std::uint16_t>(
-      std::lround(std::clamp((value - low) / (high - low), 0.0, 1.0) * ViewMesh::kSteps));
-}
-
 /// A sweep that the view can hold: fewer facets for their shape alone, then a tolerance that doubles until it
 /// fits.
 Solid coarser(const ReportInput& input, double& tolerance) {
@@ -89,6 +83,12 @@ void pack(const ReportInput& input, const TriangleMesh& mesh, ViewMesh& view) {
 }
 
 }  // namespace
+
+std::uint16_t on_grid(double value, double low, double high) {
+  if (high <= low) return 0;
+  return static_cast<std::uint16_t>(
+      std::lround(std::clamp((value - low) / (high - low), 0.0, 1.0) * ViewMesh::kSteps));
+}
 
 ViewMesh make_view(const ReportInput& input) {
   ViewMesh view;

@@ -20,6 +20,9 @@ struct ViewMesh {
   std::string note;  ///< what the reader must know where the view is not the solid to the facet; may be empty
 };
 
+/// @return where a value lies between two bounds, in steps of ViewMesh::kSteps
+[[nodiscard]] std::uint16_t on_grid(double value, double low, double high);
+
 [[nodiscard]] ViewMesh make_view(const ReportInput& input);
 
 }  // namespace glissade::report

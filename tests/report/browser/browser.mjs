@@ -1,4 +1,7 @@
 // Starts Debian's Chromium without a network of its own, and opens report pages while watching what they do.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readdirSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
@@ -12,6 +15,20 @@ const QUIET = [
   "--disable-quic",
 ];
 const SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+// A browser without a graphics card draws every pixel by hand: where the size does not matter, a small window.
+export const SMALL = { viewport: { width: 640, height: 480 } };
+
+// Gives a function that builds a design below `work`, and tells its report page and what --json says.
+export function builder(program, work) {
+  return (design, ...options) => {
+    const folder = path.join(work, path.basename(design, ".yaml") + options.join("").replace(/\W/g, ""));
+    const json = execFileSync(program, ["build", design, "-o", folder, "--json", ...options], { encoding: "utf8" });
+    const report = readdirSync(folder).find((name) => name.endsWith(".report.html"));
+    assert.ok(report, `no report page among ${readdirSync(folder)}`);
+    return { file: path.join(folder, report), json: JSON.parse(json) };
+  };
+}
 
 export function launch({ webgl = true } = {}) {
   return chromium.launch({

@@ -6,26 +6,16 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, afterEach, before, describe, test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { drawn, launch, open } from "./browser.mjs";
+import { builder, drawn, launch, open, SMALL } from "./browser.mjs";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const designs = path.join(here, "../../../designs");
 const program = process.env.GLISSADE;
 const work = mkdtempSync(path.join(tmpdir(), "glissade-report-"));
+const build = builder(program, work);
 const shipped = readdirSync(designs).filter((name) => name.endsWith(".yaml")).sort();
 
-function build(design, ...options) {
-  const folder = path.join(work, path.basename(design, ".yaml") + options.join("").replace(/\W/g, ""));
-  const json = execFileSync(program, ["build", design, "-o", folder, "--json", ...options], { encoding: "utf8" });
-  const report = readdirSync(folder).find((name) => name.endsWith(".report.html"));
-  assert.ok(report, `no report page among ${readdirSync(folder)}`);
-  return { file: path.join(folder, report), json: JSON.parse(json) };
-}
-
 const nearly = (a, b, what) => assert.ok(Math.abs(a - b) <= 1e-9 * Math.max(Math.abs(a), Math.abs(b), 1e-12), `${what}: ${a} against ${b}`);
-
-// A browser without a graphics card draws every pixel by hand: where the size does not matter, a small window.
-const SMALL = { viewport: { width: 640, height: 480 } };
 
 let browser;
 let chute;

@@ -3,6 +3,7 @@ import "./page.css";
 import { readDocument } from "./data.js";
 import { element, select } from "./dom.js";
 import { gatesSection } from "./gates.js";
+import { partsSection } from "./parts.js";
 import { plotSection } from "./plots.js";
 import { profileSection } from "./profile.js";
 import { Rides } from "./ranges.js";
@@ -44,23 +45,25 @@ function start() {
   const rides = new Rides(doc);
   document.title = doc.design.name;
   const units = new Units();
-  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false, friction: "nominal", whatIf: null });
+  const store = new Store({ station: 0, axis: "arc_length_m", units: units.system, theme: "auto", paper: false, friction: "nominal", whatIf: null, part: null });
   const profile = profileSection(doc, store, units);
   const plots = plotSection(doc, store, units, rides);
   const view = viewSection(doc, store, units);
+  const parts = partsSection(doc, store, units);
   const whatIf = whatIfSection(doc, store, units);
 
   const holder = element("div", {}, summary(doc, units));
   for (const key of ["units", "friction"]) store.on(key, () => holder.replaceChildren(summary(doc, units)));
   document.getElementById("page").replaceChildren(
     header(doc, store, units, rides),
-    element("main", {}, holder, limitTable(doc, store, units) ?? "", profile.node, view?.node ?? "", whatIf ?? "", plots.node, gatesSection(doc, store, units) ?? "", stationTable(doc, store, units)),
+    element("main", {}, holder, limitTable(doc, store, units) ?? "", profile.node, view?.node ?? "", parts?.node ?? "", whatIf ?? "", plots.node, gatesSection(doc, store, units) ?? "", stationTable(doc, store, units)),
     element("footer", {}, element("p", {}, `Made by ${doc.generator.name} ${doc.generator.version}. Every number comes from the `
       + "document embedded in this page; the ride is re-integrated along the centerline that was built.")));
 
   profile.draw();
   plots.draw();
   view?.draw();
+  parts?.draw();
   // Paper is white: what is drawn on canvases is drawn anew for it, and again for the screen.
   const paper = (printing) => {
     document.documentElement.dataset.printing = String(printing);
@@ -72,7 +75,7 @@ function start() {
   print.addEventListener("change", () => paper(print.matches));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => store.set("theme", `auto-${event.matches}`));
   // For readers who want the numbers from the console.
-  window.glissadeReport = { document: doc, store, charts: plots.charts };
+  window.glissadeReport = { document: doc, store, charts: plots.charts, parts };
   document.documentElement.dataset.ready = "true";
 }
 

@@ -1,7 +1,7 @@
 import { element, scrollable, section } from "./dom.js";
 import { bytesText, countText, number, volumeText } from "./units.js";
 
-const NO_BREAK = "\u00a0";
+export const NO_BREAK = "\u00a0";
 
 function against(time, other) {
   const percent = 100 * (time / other - 1);
@@ -188,7 +188,7 @@ function probes(doc, units) {
       element("td", {}, units.text("time", state.time_s, 5))))))));
 }
 
-const SIGNS = { pass: "\u2713", warn: "!", fail: "\u2717", "cannot be judged": "?" };
+export const SIGNS = { pass: "\u2713", warn: "!", fail: "\u2717", "cannot be judged": "?" };
 
 // Rules that the design is held against: what each asks, what there is, and how sure its bound is.
 function rules(doc) {
@@ -206,35 +206,6 @@ function rules(doc) {
       element("td", {}, bound(rule)),
       element("td", {}, place(rule)),
       element("td", { class: "words" }, rule.source, element("span", { class: "detail" }, rule.certainty + (rule.needs_checking ? ", to be checked" : ""))))))));
-}
-
-// What a workshop makes: arcs, parts, the ride as built, and the rules of the shop.
-function fabrication({ fabrication: made }, units) {
-  const master = made.master_curve;
-  const ride = made.as_built;
-  const cost = ride.exit_speed_change === null ? "" : `, ${number(100 * ride.exit_speed_change, 2)} % against the design`;
-  const built = ride.arrives
-    ? `${units.text("time", ride.travel_time_s, 5)}, ${units.text("speed", ride.exit_speed_m_per_s, 4)}${cost}; ${ride.bends} bends, ${ride.joints} joints`
-    : "the body does not arrive";
-  const heads = ["No.", "Part", "Material", "Thickness", "Pieces", "Mass of one"];
-  return [
-    element("p", {}, `${master.arcs} arcs; no fewer than ${master.lower_bound} reach ${units.text("length", master.tolerance_m, 3)}. As built: ${built}.`),
-    scrollable("Table of parts", element("table", { class: "parts" },
-      element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
-      element("tbody", {}, made.parts.map((part) => element("tr", {},
-        element("td", {}, String(part.number)),
-        element("th", { scope: "row" }, part.name),
-        element("td", {}, part.material),
-        element("td", {}, units.text("length", part.thickness_m, 4)),
-        element("td", {}, String(part.quantity)),
-        element("td", {}, `${number(part.mass_kg, 4)}${NO_BREAK}kg`)))))),
-    scrollable("Rules of the shop", element("table", { class: "rules" },
-      element("thead", {}, element("tr", {}, ["Verdict", "Rule", "Value", "Bound", "Where", "Source"].map((head) => element("th", { scope: "col" }, head)))),
-      element("tbody", {}, made.shop_checks.map((check) => element("tr", { class: check.verdict === "fail" ? "violated" : "" },
-        element("th", { scope: "row" }, `${SIGNS[check.verdict]} ${check.verdict}`),
-        element("td", {}, check.rule), element("td", {}, check.value), element("td", {}, check.bound),
-        element("td", {}, check.where), element("td", { class: "words" }, check.source)))))),
-  ];
 }
 
 // Every friction with every flow of a stream.
@@ -265,7 +236,6 @@ export function summary(doc, units) {
     doc.probes.length === 0 ? null : [heading("Probes"), probes(doc, units)],
     doc.cases.length === 0 ? null : [heading("Frictions and flows"), cases(doc, units)],
     doc.rules.length === 0 ? null : [heading("Rules"), rules(doc)],
-    doc.fabrication === null ? null : [heading("Parts"), fabrication(doc, units)],
     heading("Verdicts"), tally(doc), checks(doc),
     heading("Task"), task(doc, units),
     heading("Track"), track(doc, units),

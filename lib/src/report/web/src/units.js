@@ -83,6 +83,12 @@ export function countText(count) {
   return String(count).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
 }
 
+// What a workshop measures is in millimetres, whatever the unit of the track; what is below a tenth of a micrometre is
+// rounding.
+export function millimetres(metres) {
+  return `${number(Math.round(1e7 * metres) / 1e4, 6)}\u00a0mm`;
+}
+
 export function volumeText(cubicMetres) {
   return cubicMetres < 1 ? `${number(1e3 * cubicMetres, 4)}\u00a0litres` : `${number(cubicMetres, 4)}\u00a0m\u00b3`;
 }

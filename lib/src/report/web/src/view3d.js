@@ -1,11 +1,12 @@
 import {
-  AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, Mesh,
-  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Scene, ShapeUtils, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
+  Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh,
+  MeshBasicMaterial, MeshLambertMaterial, Plane, ShapeUtils, SphereGeometry, SRGBColorSpace, Vector2, Vector3,
 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { decodeArray, interpolate } from "./data.js";
-import { button, element, section, select, themeColour } from "./dom.js";
+import { button, element, section, select } from "./dom.js";
 import { colourAt, stops } from "./colours.js";
+import { DIRECTIONS, paintedSize, Stage } from "./stage.js";
+import { stillPicture } from "./still.js";
 import { countText } from "./units.js";
 
 const COLOURINGS = [
@@ -13,8 +14,6 @@ const COLOURINGS = [
   ["normal_load_m_per_s2", "normal load", "load"],
   ["slope_angle_deg", "slope angle", "angle"],
 ];
-
-const DIRECTIONS = { "Three-quarter": [-0.75, -1.1, 0.75], Side: [0, -1, 0.02], Top: [0, -0.02, 1], "Along the track": [1, 0, 0.35] };
 
 // Section planes, by the direction in which they are moved; what lies before the plane goes.
 const SECTIONS = { None: null, Lengthwise: "left", Across: "along", Level: "up" };
@@ -48,16 +47,12 @@ function colouring(doc, arcLength, key) {
   return { colours, low, high };
 }
 
-class View {
+class View extends Stage {
   constructor(doc, canvas, solid) {
+    super(canvas, (doc.placement.azimuth_deg * Math.PI) / 180);
     this.doc = doc;
     this.solid = solid;
-    this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.localClippingEnabled = true;
-    this.scene = new Scene();
-    this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
-    this.camera.up.set(0, 0, 1);
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute("position", new BufferAttribute(solid.positions, 3));
     this.geometry.setIndex(new BufferAttribute(solid.indices, 1));
@@ -70,21 +65,9 @@ class View {
     this.frame = new Box3Helper(this.box, new Color(0x888888));
     this.marker = new Mesh(new SphereGeometry(0.012 * this.radius, 16, 12), new MeshBasicMaterial({ color: 0xd0342c }));
     this.scene.add(this.marker);
-    this.scene.add(this.frame, new AmbientLight(0xffffff, 1.7));
-    this.lamp = new DirectionalLight(0xffffff, 1.9);
-    this.scene.add(this.lamp);
+    this.scene.add(this.frame);
     this.addObstacles();
     this.addStream(null);
-    this.controls = new OrbitControls(this.camera, canvas);
-    // The wheel scrolls the page past the view unless the view is what the reader works with.
-    canvas.addEventListener("wheel", (event) => {
-      this.controls.enableZoom = event.ctrlKey || document.activeElement === canvas;
-    }, { capture: true, passive: true });
-    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
-    this.controls.addEventListener("change", () => this.render());
-    this.controls.addEventListener("start", () => {
-      this.direction = null;
-    });
     this.look("Three-quarter");
   }
 
@@ -187,10 +170,6 @@ class View {
     return [0, 1, 2].map((axis) => (view.lower_m[axis] + view.upper_m[axis]) / 2 + mesh.offset_m[axis]);
   }
 
-  get azimuth() {
-    return (this.doc.placement.azimuth_deg * Math.PI) / 180;
-  }
-
   // Puts the marker beside a station of the ride.
   mark(station) {
     const { placement, stations } = this.doc;
@@ -199,46 +178,6 @@ class View {
       placement.start_m[0] + x * Math.cos(this.azimuth), placement.start_m[1] + x * Math.sin(this.azimuth), stations.z_m[station],
     ];
     this.marker.position.set(...at.map((value, axis) => value - this.middle[axis]));
-    this.render();
-  }
-
-  corners() {
-    const { min, max } = this.box;
-    return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
-  }
-
-  // Where a camera that looks along -`direction` sees the whole box, as near as that goes.
-  framing(direction) {
-    const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
-    const above = new Vector3().crossVectors(direction, right);
-    const tall = Math.tan(((this.camera.fov / 2) * Math.PI) / 180) / 1.12;
-    const wide = tall * this.camera.aspect;
-    const seen = this.corners().map((corner) => [corner.dot(right), corner.dot(above), corner.dot(direction)]);
-    // Each side of the picture bounds a wedge; the camera stands where opposite wedges meet, at the greater depth.
-    const span = (index, slope) => {
-      const low = Math.max(...seen.map((p) => p[2] - p[index] / slope));
-      const high = Math.max(...seen.map((p) => p[2] + p[index] / slope));
-      return { middle: (slope * (high - low)) / 2, depth: (high + low) / 2 };
-    };
-    const [across, upward] = [span(0, wide), span(1, tall)];
-    const target = right.multiplyScalar(across.middle).add(above.multiplyScalar(upward.middle));
-    return { target, distance: Math.max(across.depth, upward.depth) };
-  }
-
-  // Directions are told relative to the run: x along it, y to its left.
-  look(name) {
-    const [along, left, up] = DIRECTIONS[name];
-    const { azimuth } = this;
-    this.direction = name;
-    const direction = new Vector3(
-      along * Math.cos(azimuth) - left * Math.sin(azimuth), along * Math.sin(azimuth) + left * Math.cos(azimuth), up).normalize();
-    const { target, distance } = this.framing(direction);
-    this.camera.position.copy(target).addScaledVector(direction, distance);
-    this.camera.near = Math.max(distance - 3 * this.radius, 0.005 * this.radius);
-    this.camera.far = distance + 20 * this.radius;
-    this.camera.updateProjectionMatrix();
-    this.controls.target.copy(target);
-    this.controls.update();
     this.render();
   }
 
@@ -274,15 +213,6 @@ class View {
     return { low, high };
   }
 
-  resize(width, height) {
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    if (this.direction !== null) this.look(this.direction);
-    this.render();
-  }
-
   // Labels of the three sides of the box, each at an edge that faces the reader.
   dimensions(labels) {
     this.labels = labels;
@@ -290,6 +220,7 @@ class View {
   }
 
   placeLabels() {
+    if (!this.labels) return;
     const { min, max } = this.box;
     const { position } = this.camera;
     const near = { x: position.x < 0 ? min.x : max.x, y: position.y < 0 ? min.y : max.y, z: min.z };
@@ -305,92 +236,14 @@ class View {
     });
   }
 
-  // Draws with the next frame, once for all that changed until then.
-  render() {
-    this.pending ??= requestAnimationFrame(() => this.renderNow());
-  }
-
-  renderNow() {
-    cancelAnimationFrame(this.pending);
-    this.pending = undefined;
-    this.renderer.setClearColor(new Color(themeColour("--panel") || "#ffffff"));
-    this.lamp.position.copy(this.camera.position).add(new Vector3(0, 0, this.radius));
-    this.renderer.render(this.scene, this.camera);
-    if (this.labels) this.placeLabels();
-  }
-
-  key(event) {
-    const turn = 0.12;
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const right = new Vector3().crossVectors(this.camera.up, offset).normalize();
-    const actions = {
-      ArrowLeft: () => offset.applyAxisAngle(this.camera.up, -turn),
-      ArrowRight: () => offset.applyAxisAngle(this.camera.up, turn),
-      ArrowUp: () => offset.applyAxisAngle(right, -turn),
-      ArrowDown: () => offset.applyAxisAngle(right, turn),
-      "+": () => offset.multiplyScalar(0.85),
-      "-": () => offset.multiplyScalar(1 / 0.85),
-    };
-    if (!actions[event.key]) return;
-    event.preventDefault();
-    this.direction = null;
-    actions[event.key]();
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.render();
-  }
 }
 
-// Where there is no WebGL: one still picture, facets drawn from back to front.
-function stillPicture(doc, canvas, solid, key) {
+// Where there is no WebGL.
+function stillSolid(doc, canvas, solid, key) {
   const { colours, low, high } = colouring(doc, solid.arcLength, key);
-  const { positions, indices } = solid;
-  const azimuth = (doc.placement.azimuth_deg * Math.PI) / 180;
-  const [c, s] = [Math.cos(azimuth), Math.sin(azimuth)];
-  const count = positions.length / 3;
-  const [screenX, screenY, depth] = [new Float32Array(count), new Float32Array(count), new Float32Array(count)];
-  let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < count; i += 1) {
-    const along = positions[3 * i] * c + positions[3 * i + 1] * s;
-    const left = -positions[3 * i] * s + positions[3 * i + 1] * c;
-    const up = positions[3 * i + 2];
-    screenX[i] = 0.86 * along + 0.5 * left;
-    screenY[i] = 0.82 * up + 0.3 * (0.86 * left - 0.5 * along);
-    depth[i] = 0.5 * along - 0.86 * left + 0.5 * up;
-    x0 = Math.min(x0, screenX[i]);
-    x1 = Math.max(x1, screenX[i]);
-    y0 = Math.min(y0, screenY[i]);
-    y1 = Math.max(y1, screenY[i]);
-  }
-  const order = Uint32Array.from({ length: indices.length / 3 }, (_, t) => t);
-  const far = (t) => depth[indices[3 * t]] + depth[indices[3 * t + 1]] + depth[indices[3 * t + 2]];
-  order.sort((a, b) => far(a) - far(b));
-  const scale = 0.94 * Math.min(canvas.width / (x1 - x0), canvas.height / (y1 - y0));
-  const px = (i) => canvas.width / 2 + scale * (screenX[i] - (x0 + x1) / 2);
-  const py = (i) => canvas.height / 2 - scale * (screenY[i] - (y0 + y1) / 2);
-  const context = canvas.getContext("2d");
-  context.fillStyle = themeColour("--panel");
-  context.fillRect(0, 0, canvas.width, canvas.height);
-  for (const t of order) {
-    const [i, j, k] = [indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]];
-    const light = 0.65 + 0.35 * Math.abs(facing(positions, i, j, k));
-    context.fillStyle = context.strokeStyle =
-      `rgb(${[0, 1, 2].map((axis) => Math.round(255 * light * colours[3 * i + axis])).join(" ")})`;
-    context.beginPath();
-    context.moveTo(px(i), py(i));
-    context.lineTo(px(j), py(j));
-    context.lineTo(px(k), py(k));
-    context.closePath();
-    context.fill();
-    context.stroke();
-  }
+  const colourOf = (t) => [0, 1, 2].map((axis) => colours[3 * solid.indices[3 * t] + axis]);
+  stillPicture(canvas, solid, (doc.placement.azimuth_deg * Math.PI) / 180, colourOf);
   return { low, high };
-}
-
-function facing(positions, i, j, k) {
-  const corner = (v) => new Vector3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
-  const normal = corner(j).sub(corner(i)).cross(corner(k).sub(corner(i))).normalize();
-  return normal.z;
 }
 
 function legend(units) {
@@ -437,12 +290,10 @@ export function viewSection(doc, store, units) {
       labels.forEach((label) => label.remove());
     }
     const paint = () => {
-      const width = Math.max(canvas.parentElement.clientWidth, 200);
-      const height = Math.round(Math.min(Math.max(0.55 * width, 260), 620));
-      canvas.style.height = `${height}px`;
+      const { width, height } = paintedSize(canvas);
       if (view === null) [canvas.width, canvas.height] = [width, height];
       else view.resize(width, height);
-      colours.show(quantity(), view === null ? stillPicture(doc, canvas, solid, key) : view.colour(key));
+      colours.show(quantity(), view === null ? stillSolid(doc, canvas, solid, key) : view.colour(key));
     };
     controls.append(select("Colour by", COLOURINGS.map(([name, text]) => [name, text]), (value) => {
       key = value;

@@ -1,0 +1,73 @@
+// One still picture of facets, drawn from back to front: where there is no WebGL.
+
+import { Vector3 } from "three";
+import { themeColour } from "./dom.js";
+
+// Positions as a reader beside the track sees them, from before it and above.
+function seen(positions, azimuth) {
+  const [c, s] = [Math.cos(azimuth), Math.sin(azimuth)];
+  const count = positions.length / 3;
+  const [x, y, depth] = [new Float32Array(count), new Float32Array(count), new Float32Array(count)];
+  for (let i = 0; i < count; i += 1) {
+    const along = positions[3 * i] * c + positions[3 * i + 1] * s;
+    const left = -positions[3 * i] * s + positions[3 * i + 1] * c;
+    const up = positions[3 * i + 2];
+    x[i] = 0.86 * along + 0.5 * left;
+    y[i] = 0.82 * up + 0.3 * (0.86 * left - 0.5 * along);
+    depth[i] = 0.5 * along - 0.86 * left + 0.5 * up;
+  }
+  return { x, y, depth };
+}
+
+function range(values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of values) {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return { low, high };
+}
+
+// `colourOf` gives red, green and blue of a facet, 0 to 1.
+// Returns which facet lies at a point of the canvas: null where there is none.
+export function stillPicture(canvas, { positions, indices }, azimuth, colourOf) {
+  const { x, y, depth } = seen(positions, azimuth);
+  const order = Uint32Array.from({ length: indices.length / 3 }, (_, t) => t);
+  const far = (t) => depth[indices[3 * t]] + depth[indices[3 * t + 1]] + depth[indices[3 * t + 2]];
+  order.sort((a, b) => far(a) - far(b));
+  const [wide, tall] = [range(x), range(y)];
+  const scale = 0.94 * Math.min(canvas.width / (wide.high - wide.low), canvas.height / (tall.high - tall.low));
+  const px = (i) => canvas.width / 2 + scale * (x[i] - (wide.low + wide.high) / 2);
+  const py = (i) => canvas.height / 2 - scale * (y[i] - (tall.low + tall.high) / 2);
+  const context = canvas.getContext("2d");
+  context.fillStyle = themeColour("--panel");
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  for (const t of order) {
+    const [i, j, k] = [indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]];
+    const light = 0.65 + 0.35 * Math.abs(facing(positions, i, j, k));
+    context.fillStyle = context.strokeStyle = `rgb(${colourOf(t).map((part) => Math.round(255 * light * part)).join(" ")})`;
+    context.beginPath();
+    context.moveTo(px(i), py(i));
+    context.lineTo(px(j), py(j));
+    context.lineTo(px(k), py(k));
+    context.closePath();
+    context.fill();
+    context.stroke();
+  }
+  return (atX, atY) => {
+    const side = (i, j) => (px(j) - px(i)) * (atY - py(i)) - (py(j) - py(i)) * (atX - px(i));
+    for (let n = order.length - 1; n >= 0; n -= 1) {
+      const t = order[n];
+      const [i, j, k] = [indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]];
+      const [a, b, c] = [side(i, j), side(j, k), side(k, i)];
+      if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)) return t;
+    }
+    return null;
+  };
+}
+
+function facing(positions, i, j, k) {
+  const corner = (v) => new Vector3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
+  const normal = corner(j).sub(corner(i)).cross(corner(k).sub(corner(i))).normalize();
+  return normal.z;
+}
