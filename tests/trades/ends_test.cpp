@@ -119,6 +119,25 @@ TEST_CASE("landing on a belt: Roberts' components and wear factor on a level bel
   CHECK(landing.wear == Approx(0.5 * 1600.0 * 64.0 * landing.wear_factor).epsilon(1e-12));
   CHECK(landing.match == Approx(landing.speed_along / 3.5));
   CHECK(landing.reach == 0.0);
+  CHECK_FALSE(std::signbit(landing.speed_across));
+  CHECK_FALSE(std::signbit(landing.off_centre));
+}
+
+TEST_CASE(
+    "landing on a belt: faster or slower than the belt by as much, or beside it, the stream rubs as much") {
+  const Angle slope = Angle::from_degrees(40.0);
+  const auto on = [&](double speed, double direction) {
+    return land_on_belt(4.0, slope, {speed, Angle::from_degrees(direction), Angle{}, 0.3, 0.5}, 1600.0,
+                        kGravity);
+  };
+  const double ahead = on(3.0, 0.0).speed_along;
+  CHECK(on(ahead - 0.7, 0.0).wear_factor == Approx(on(ahead + 0.7, 0.0).wear_factor).epsilon(1e-12));
+  CHECK(on(ahead - 0.7, 0.0).wear_factor > 0.0);
+  CHECK(on(ahead, 0.0).wear == Approx(0.0).margin(1e-9));
+  // Square to the belt: its whole speed and that of the stream, at right angles.
+  const BeltLanding across = on(2.0, 90.0);
+  CHECK(across.wear ==
+        Approx(0.5 * 1600.0 * across.speed_into * across.speed_into * std::hypot(2.0, ahead)).epsilon(1e-12));
 }
 
 TEST_CASE("landing on a belt: its own components are a turn of the stream's, whatever way it runs") {

@@ -42,21 +42,28 @@ double barycentric_weight(std::size_t j) {
   return j % 2 == 0 ? size : -size;
 }
 
+Values barycentric_weights() {
+  Values weights;
+  for (std::size_t j = 0; j < kNodes; ++j) weights[j] = barycentric_weight(j);
+  return weights;
+}
+
 /// The values at x of the polynomials that are 1 at one node and 0 at the others.
 Values basis_at(double x) {
+  static const Values weights = barycentric_weights();
   const Values& x_nodes = nodes();
   Values basis{};
-  double sum = 0.0;
+  // Loops of one kind each, which the compiler does several at a time.
+  Values distance;
+  for (std::size_t j = 0; j < kNodes; ++j) distance[j] = x - x_nodes[j];
   for (std::size_t j = 0; j < kNodes; ++j) {
-    const double distance = x - x_nodes[j];
-    if (distance == 0.0) {
-      basis.fill(0.0);
-      basis[j] = 1.0;
-      return basis;
-    }
-    basis[j] = barycentric_weight(j) / distance;
-    sum += basis[j];
+    if (distance[j] != 0.0) continue;
+    basis[j] = 1.0;
+    return basis;
   }
+  for (std::size_t j = 0; j < kNodes; ++j) basis[j] = weights[j] / distance[j];
+  double sum = 0.0;
+  for (const double value : basis) sum += value;
   for (double& value : basis) value /= sum;
   return basis;
 }

@@ -180,10 +180,11 @@ MotionState Motion::Ride::at(double s) const {
 
 MotionState Motion::Ride::state(const Panel& panel, double s) const {
   const double sigma = std::min(panel.stretch.sigma(s), panel.stretch.width);
-  const RideSums sums =
-      record_.sums_before[static_cast<std::size_t>(&panel - record_.panels.data())] + panel.sums_to(sigma);
+  const chebyshev::Interpolation at = panel.interpolation(sigma);
+  const RideSums sums = record_.sums_before[static_cast<std::size_t>(&panel - record_.panels.data())] +
+                        panel.sums_to(sigma, at);
   const Direction direction = centerline_->direction(s);
-  const double v = panel.v_for(equation(), sigma, direction.slope_angle);
+  const double v = panel.v_for(equation(), sigma, direction.slope_angle, at);
   return {s,
           sums.time,
           std::sqrt(v),

@@ -282,23 +282,23 @@ bool Panel::load_unbounded() const {
   return !std::isfinite(load[0]);
 }
 
-double Panel::scaled_w(double sigma) const {
-  const chebyshev::Interpolation at(sigma / stretch.width);
+double Panel::scaled_w(double sigma, const chebyshev::Interpolation& at) const {
   const double mean = at(mean_push);
   const double weighted_mean = stretch.spacing == Spacing::root ? at(weighted_mean_push) : 0.0;
   const double gain = integral_of_push(stretch, sigma, mean, weighted_mean);
   return anchor_v + (stretch.anchored_at_end ? -gain : gain);
 }
 
-double Panel::v_for(const Equation& equation, double sigma, double zeta) const {
+double Panel::v_for(const Equation& equation, double sigma, double zeta,
+                    const chebyshev::Interpolation& at) const {
   const double s = stretch.arc_length(sigma);
   double keeping = equation.keep(zeta - anchor_zeta, s - stretch.anchor(), friction);
   if (mean_rate) {
-    const double rate = chebyshev::Interpolation(sigma / stretch.width)(*mean_rate);
+    const double rate = at(*mean_rate);
     keeping *= math::exp((stretch.anchored_at_end ? -sigma : sigma) * rate);
   }
   // Rounding alone can take w below zero, where the body comes to rest.
-  return keeping * std::max(0.0, scaled_w(sigma));
+  return keeping * std::max(0.0, scaled_w(sigma, at));
 }
 
 double Panel::v_at(const Equation& equation, double sigma) const {
@@ -325,8 +325,7 @@ RideSums Panel::sums() const {
   return {width * mean_pace.back(), width * mean_load.back(), width * mean_v.back()};
 }
 
-RideSums Panel::sums_to(double sigma) const {
-  const chebyshev::Interpolation at(sigma / stretch.width);
+RideSums Panel::sums_to(double sigma, const chebyshev::Interpolation& at) const {
   const RideSums from_anchor{sigma * at(mean_pace), sigma * at(mean_load), sigma * at(mean_v)};
   if (!stretch.anchored_at_end) return from_anchor;
   const RideSums all = sums();

@@ -138,12 +138,21 @@ struct Panel {
   [[nodiscard]] bool load_unbounded() const;
   [[nodiscard]] double v_at(const Equation& equation, double sigma) const;
   /// @param zeta  the slope angle at sigma, for callers who know it
-  [[nodiscard]] double v_for(const Equation& equation, double sigma, double zeta) const;
+  [[nodiscard]] double v_for(const Equation& equation, double sigma, double zeta) const {
+    return v_for(equation, sigma, zeta, interpolation(sigma));
+  }
+  /// @param at  interpolation(sigma), for callers who ask for more than one thing there
+  [[nodiscard]] double v_for(const Equation& equation, double sigma, double zeta,
+                             const chebyshev::Interpolation& at) const;
+  [[nodiscard]] chebyshev::Interpolation interpolation(double sigma) const {
+    return chebyshev::Interpolation(sigma / stretch.width);
+  }
   [[nodiscard]] double load_at(const Equation& equation, double sigma) const;
   /// @return ds_c/ds at sigma
   [[nodiscard]] double path_rate_at(const Equation& equation, double sigma) const;
   /// @return w, scaled by the weight at the anchor
-  [[nodiscard]] double scaled_w(double sigma) const;
+  [[nodiscard]] double scaled_w(double sigma) const { return scaled_w(sigma, interpolation(sigma)); }
+  [[nodiscard]] double scaled_w(double sigma, const chebyshev::Interpolation& at) const;
   /// @return size of the terms that make up v at the end that is not the anchor: its rounding is in
   /// proportion
   [[nodiscard]] double far_v_terms() const;
@@ -151,7 +160,8 @@ struct Panel {
   [[nodiscard]] double far_v() const { return v.back(); }
   [[nodiscard]] RideSums sums() const;
   /// @return sums from the begin of the panel to sigma
-  [[nodiscard]] RideSums sums_to(double sigma) const;
+  [[nodiscard]] RideSums sums_to(double sigma) const { return sums_to(sigma, interpolation(sigma)); }
+  [[nodiscard]] RideSums sums_to(double sigma, const chebyshev::Interpolation& at) const;
 
  private:
   struct Nodes {

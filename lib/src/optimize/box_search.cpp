@@ -3,6 +3,9 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include <nlopt.h>
 
@@ -17,12 +20,21 @@ struct Search {
   nlopt_opt engine = nullptr;
   std::optional<BoxMinimum> best;
   std::exception_ptr thrown;
+  std::map<std::vector<double>, double> seen;
+  bool met_nothing = false;  ///< at some place there was no value
 
   double see(const std::vector<double>& place) {
+    // A search comes back to corners of the box.
+    const auto known = seen.find(place);
+    if (known != seen.end()) return known->second;
     const double found = (*value)(place);
+    seen.emplace(place, found);
     if (std::isfinite(found) && (!best || found < best->value)) best = BoxMinimum{place, found};
+    met_nothing = met_nothing || !std::isfinite(found);
     return found;
   }
+  /// From the best so far.
+  void go_on(std::size_t variables, nlopt_algorithm method);
 };
 
 /// NLopt is told a large value where there is none: it compares.
@@ -44,34 +56,46 @@ double evaluate(unsigned variables, const double* place, double* /*gradient*/, v
   }
 }
 
+void Search::go_on(std::size_t variables, nlopt_algorithm method) {
+  met_nothing = false;
+  engine = nlopt_create(method, static_cast<unsigned>(variables));
+  nlopt_set_min_objective(engine, evaluate, this);
+  nlopt_set_lower_bounds1(engine, 0.0);
+  nlopt_set_upper_bounds1(engine, 1.0);
+  nlopt_set_initial_step1(engine, 0.2);
+  nlopt_set_xtol_abs1(engine, kBoxAccuracy);
+  nlopt_set_maxeval(engine, kMostEvaluations);
+  std::vector<double> place = best->at;
+  double least = 0.0;
+  nlopt_optimize(engine, place.data(), &least);
+  nlopt_destroy(engine);
+  if (thrown) std::rethrow_exception(thrown);
+}
+
 }  // namespace
 
 std::optional<BoxMinimum> least_in_box(std::size_t variables,
                                        const std::function<double(const std::vector<double>&)>& value,
                                        const std::function<bool()>& ends) {
-  Search search{&value, &ends, nullptr, {}, {}};
+  Search search;
+  search.value = &value;
+  search.ends = &ends;
   const std::vector<double> middle(variables, 0.5);
-  search.see(middle);
+  bool everywhere = std::isfinite(search.see(middle));
   for (std::size_t i = 0; i < variables && !ends(); ++i) {
     for (const double side : {0.0, 1.0}) {
       std::vector<double> place = middle;
       place[i] = side;
-      search.see(place);
+      everywhere = std::isfinite(search.see(place)) && everywhere;
     }
   }
   if (!search.best || ends()) return search.best;
-  search.engine = nlopt_create(NLOPT_LN_SBPLX, static_cast<unsigned>(variables));
-  nlopt_set_min_objective(search.engine, evaluate, &search);
-  nlopt_set_lower_bounds1(search.engine, 0.0);
-  nlopt_set_upper_bounds1(search.engine, 1.0);
-  nlopt_set_initial_step1(search.engine, 0.2);
-  nlopt_set_xtol_abs1(search.engine, kBoxAccuracy);
-  nlopt_set_maxeval(search.engine, kMostEvaluations);
-  std::vector<double> place = search.best->at;
-  double least = 0.0;
-  nlopt_optimize(search.engine, place.data(), &least);
-  nlopt_destroy(search.engine);
-  if (search.thrown) std::rethrow_exception(search.thrown);
+  // A quadratic model takes a third of the evaluations; it has to have a value wherever it looks.
+  if (everywhere && variables > 1) {
+    search.go_on(variables, NLOPT_LN_BOBYQA);
+    if (!search.met_nothing) return search.best;
+  }
+  search.go_on(variables, NLOPT_LN_SBPLX);
   return search.best;
 }
 

@@ -14,8 +14,9 @@ struct BoxMinimum {
   double value = 0.0;
 };
 
-/// The middle of the box and the middles of its sides are looked at; from the best of them NLopt's subplex search
-/// (LN_SBPLX) goes on until the box is known to kBoxAccuracy.
+/// The middle of the box and the middles of its sides are looked at; from the best of them NLopt's search by quadratic
+/// models (LN_BOBYQA, of two variables or more) goes on until the box is known to kBoxAccuracy; where there is no value at
+/// a place that it looks at, the subplex search (LN_SBPLX).
 /// @param value  +infinity where there is none
 /// @param ends   asked before each evaluation beyond the first: whether the best so far is to do
 /// @return none if no value was found

@@ -256,8 +256,9 @@ Problem problem_of(const Design& design) {
   return problem;
 }
 
-Optimum pipeline::search_within_limits(const Design& design, const RunContext& context) {
+Optimum pipeline::search_within_limits(const Design& design, const RunContext& context, int pieces) {
   OptimizeOptions options;
+  options.pieces = pieces;
   options.time_budget = context.time_budget;
   Optimum optimum = at_place(design.where("limits"), [&] {
     return optimize(problem_of(design), options, context.stop, context.progress);

@@ -61,12 +61,13 @@ BeltLanding land_on_belt(double exit_speed, Angle slope_angle, const ReceivingBe
   landing.speed = math::hypot(ahead, down);
   landing.time = (down - sinks) / gravity;
   landing.reach = ahead * landing.time;
-  landing.off_centre = -landing.reach * math::sin(turned);
+  // A belt that runs on as the track does has no side: no minus in front of such zeros.
+  landing.off_centre = 0.0 - landing.reach * math::sin(turned);
   landing.speed_along = ahead * math::cos(turned) * math::cos(climb) - down * math::sin(climb);
   landing.speed_into = down * math::cos(climb) + ahead * math::cos(turned) * math::sin(climb);
-  landing.speed_across = -ahead * math::sin(turned);
+  landing.speed_across = 0.0 - ahead * math::sin(turned);
   landing.match = landing.speed_along / belt.speed;
-  const double slip = belt.speed - landing.speed_along;
+  const double slip = math::hypot(belt.speed - landing.speed_along, landing.speed_across);
   landing.wear = belt.friction * bulk_density * landing.speed_into * landing.speed_into * slip;
   landing.wear_factor =
       landing.speed_into * landing.speed_into * slip / (landing.speed * landing.speed * landing.speed);

@@ -86,7 +86,10 @@ CenterlinePtr hood_arc(const HoodShape& hood, const Landing& feed) {
       entry, std::vector<ClothoidSegment>{{hood.radius * turn, curvature, curvature}});
 }
 
-HoodPassage pass_hood(const HoodShape& hood, const Landing& feed, const Body& body, double gravity) {
+namespace {
+
+/// All but where it is pressed least, which takes a look at many places.
+HoodPassage passage_of(const HoodShape& hood, const Landing& feed, const Body& body, double gravity) {
   const CenterlinePtr arc = hood_arc(hood, feed);
   // The impact is that on a floor at the same angle to the way.
   Impact impact = impact_on({feed.speed, hood.impact_angle}, Angle{}, body.friction,
@@ -97,7 +100,6 @@ HoodPassage pass_hood(const HoodShape& hood, const Landing& feed, const Body& bo
   HoodPassage passage{impact, std::move(motion)};
   const Motion& ride = passage.motion;
   passage.contact = contact_at(ride, hood.radius, 0.0);
-  passage.least_contact = least_contact(ride, hood.radius);
   const CenterlinePoint edge = arc->at(arc->length());
   const CenterlinePoint leaves = arc->at(ride.distance());
   passage.start.y = edge.drop + hood.drop;
@@ -115,8 +117,16 @@ HoodPassage pass_hood(const HoodShape& hood, const Landing& feed, const Body& bo
   return passage;
 }
 
+}  // namespace
+
+HoodPassage pass_hood(const HoodShape& hood, const Landing& feed, const Body& body, double gravity) {
+  HoodPassage passage = passage_of(hood, feed, body, gravity);
+  passage.least_contact = least_contact(passage.motion, hood.radius);
+  return passage;
+}
+
 Landing HoodApproach::landing(const Body& body) const {
-  return pass_hood(hood_, feed_, body, gravity_).landing;
+  return passage_of(hood_, feed_, body, gravity_).landing;
 }
 
 }  // namespace glissade

@@ -63,10 +63,12 @@ struct BeltLanding {
   double reach = 0.0;         ///< horizontal way through the air [m]
   double off_centre = 0.0;    ///< of it across the belt: how far beside the finish it lands [m]
   double match = 0.0;         ///< speed_along over the belt's
-  /// K_b = W_a/(mu_b rho v_e^3), v_e the speed on landing; with a level belt and no drop cos^2(theta_e)(v_b/v_e -
-  /// sin(theta_e)), theta_e from the vertical
+  /// K_b = W_a/(mu_b rho v_e^3), v_e the speed on landing; with a level belt, no drop and the belt ahead
+  /// cos^2(theta_e) |v_b/v_e - sin(theta_e)|, theta_e from the vertical; >= 0
   double wear_factor = 0.0;
-  double wear = 0.0;  ///< W_a = mu_b rho v_into^2 (v_b - v_along) [W/m^2]
+  /// W_a = mu_b rho v_into^2 v_slip [W/m^2]; >= 0. Roberts' v_slip = v_b - v_along is that of a belt ahead of its stream;
+  /// a stream that is faster rubs as much the other way, and one from the side rubs across: v_slip is the size of both.
+  double wear = 0.0;
 };
 
 /// @param slope_angle   of the track at its finish, downhill positive
