@@ -21,7 +21,7 @@ struct Job {
   double side = 1.0;     // +1: towards larger x
   double from = 0.0;     // x of the start [m]
   double beam_z = 2.05;  // top of a beam below the track [m]
-  std::string more;      // of the limits
+  std::string more{};    // of the limits
   std::string fabrication = "{process: plate, split: {longest: 2 m}}";
 };
 
