@@ -282,3 +282,130 @@ TEST_CASE(
   CHECK(taken == Approx(expected).epsilon(0.1));
   CHECK(sharp.proof.volume == Approx(eased.proof.volume).epsilon(1e-12));
 }
+
+TEST_CASE(
+    "prints: dovetails and tongues reach into the next piece, a fit narrower than their notches, and meshes "
+    "hold what "
+    "they add and take") {
+  PrintOptions options;
+  options.number_depth = 0.0;
+  options.ease = 0.0;
+  options.joint = PrintJoint::dowels;
+  options.dowels.wanted = false;
+  const WorkshopBuild butt = prints(run(), groove(), options);
+  for (const PrintJoint joint : {PrintJoint::tongue, PrintJoint::dovetail}) {
+    PrintOptions joined = options;
+    joined.dowels = {};
+    joined.joint = joint;
+    joined.tongue.depth = 3e-3;
+    joined.tongue.height = 4e-3;
+    joined.tongue.chamfer = 0.0;
+    const WorkshopBuild build = prints(run(), groove(), joined);
+    const std::size_t joints = build.joints.size() - 2;
+    REQUIRE(joints >= 2);
+    CHECK(build.prints.size() == joints + 1);
+    CHECK(build.proof.edge_mismatch < 1e-12);
+    const double spread =
+        joint == PrintJoint::dovetail ? 3e-3 * std::tan(Angle::from_degrees(10.0).radians()) : 0.0;
+    const double rise = joint == PrintJoint::dovetail ? std::tan(Angle::from_degrees(10.0).radians()) : 0.0;
+    CHECK(build.proof.smallest_gap == Approx(0.2e-3 / std::hypot(1.0, rise)).epsilon(1e-9));
+    // Trapezoids over the width of the section, 24 mm: the head 4 mm, the notch 0.2 mm deeper and wider both ways.
+    const double tongue = 24e-3 * 3e-3 * (4e-3 - spread);
+    const double notch = 24e-3 * 3.2e-3 * (4e-3 - 2.0 * spread + 0.4e-3 + 3.2e-3 * rise);
+    CHECK(build.proof.added_volume == Approx(static_cast<double>(joints) * (tongue - notch)).epsilon(1e-6));
+    for (const PrintPiece& piece : build.prints) {
+      const MeshFacts facts = measure(piece.mesh);
+      CHECK(facts.valid());
+      CHECK(facts.components == 1);
+      CHECK(std::max(facts.upper.x - facts.lower.x, facts.upper.y - facts.lower.y) <= 0.21 + 1e-12);
+    }
+    const auto checks = testing::shop_checks(build.workshop, "print");
+    CHECK(testing::check_of(checks, "print.joint").rule.empty());
+    CHECK(testing::check_of(checks, "print.step-up").verdict == ShopVerdict::warn);  // nothing is eased
+    CHECK(testing::check_of(checks, "print.hole-wall").verdict == ShopVerdict::pass);
+    CHECK(testing::check_of(checks, "print.play-least").value == "0.2 mm");
+  }
+  CHECK(butt.proof.added_volume == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("prints: tongues are refused where a section has no place for them, with what would do") {
+  PrintOptions options;
+  options.joint = PrintJoint::dovetail;
+  const CrossSection channel = CrossSection::u_channel(30e-3, 15e-3, 3e-3);
+  CHECK(refusal(options, channel)
+            .starts_with("joint|joint: a dovetail does not fit a section that is full from side to "
+                         "side over 3 mm|With walls of 0.9 mm and its fit it takes 4.2 mm.|"));
+  CHECK(refusal(options, CrossSection::pipe(20e-3, 3e-3))
+            .starts_with("joint|joint: this section has no place for a dovetail"));
+  options.pose = PrintPose::end;
+  CHECK(refusal(options, groove()).starts_with("pose|pose: a dovetail would overhang"));
+  options.pose = PrintPose::automatic;
+  options.dowels.fit = 0.3e-3;
+  CHECK(refusal(options, groove()).starts_with("dowels|dowels: the joints have tongues"));
+  options.dowels = {};
+  options.tongue.height = 7e-3;
+  CHECK(refusal(options, groove()).starts_with("tongue.height|height: a dovetail of 7 mm does not fit"));
+  options.tongue.height.reset();
+  options.tongue.depth = 90e-3;
+  CHECK(refusal(options, groove()).starts_with("tongue.depth|depth: a dovetail of 90 mm leaves a wall of "));
+  // A U-channel with a thick floor has the place; on its side it overhangs.
+  options.tongue.depth.reset();
+  CHECK(refusal(options, CrossSection::u_channel(30e-3, 15e-3, 6e-3))
+            .starts_with("joint|joint: tongues and dovetails go with pieces on their side, where this "
+                         "section overhangs"));
+  PrintOptions pinned;
+  pinned.tongue.fit = 0.3e-3;
+  CHECK(refusal(pinned, groove()).starts_with("tongue|tongue: the joints have pins"));
+}
+
+TEST_CASE(
+    "prints: stands below joints, ends and between carry the run a fit below it, in blocks that the printer "
+    "holds") {
+  PrintOptions options;
+  options.stands = StandOptions{};
+  options.stands->spacing = 0.12;
+  const WorkshopBuild build = prints(run(), groove(), options);
+  const ArcSpline& line = *build.master.spline;
+  std::size_t blocks = 0;
+  std::size_t stands = 0;
+  double last = 0.0;
+  for (const SettingOutPoint& row : build.workshop.setting_out) {
+    if (!row.what.starts_with("stand ")) continue;
+    ++stands;
+    if (last > 0.0) CHECK(row.x - last <= 0.12 + 0.02);
+    last = row.x;
+  }
+  double lowest = 0.0;
+  for (int k = 0; k <= 1000; ++k) {
+    const CenterlinePoint at = line.at(line.length() * k / 1000.0);
+    lowest = std::min(lowest, -at.drop - 8e-3 * std::cos(at.slope_angle));
+  }
+  for (const ShopPart& part : build.workshop.parts) {
+    if (!part.name.starts_with("stand_") || part.name == "stand_pin") continue;
+    ++blocks;
+    INFO(part.name);
+    const TriangleMesh& mesh = std::get<MeshBody>(part.body).mesh;
+    const MeshFacts facts = measure(mesh);
+    CHECK(facts.valid());
+    CHECK(facts.volume == Approx(part.volume).epsilon(1e-9));
+    CHECK(facts.upper.z - facts.lower.z <= 0.25 + 1e-9);
+    CHECK(part.places.front().origin.z + facts.lower.z >= lowest - 10e-3 - 1e-6);
+    // Every corner between the cheeks lies 0.2 mm below the underside or deeper.
+    double nearest = 1.0;
+    for (const Vec3& vertex : mesh.vertices) {
+      const Vec3 at = part.places.front().to_space(vertex);
+      if (std::fabs(vertex.y) > 12.2e-3 + 1e-9) continue;
+      for (int k = 0; k <= 2000; ++k) {
+        const CenterlinePoint on = line.at(line.length() * k / 2000.0);
+        nearest = std::min(nearest, std::hypot(at.x - on.x, at.z + on.drop));
+      }
+    }
+    CHECK(nearest >= 8.2e-3 - 2e-6);
+  }
+  CHECK(stands >= 4);
+  CHECK(blocks > stands);  // 0.35 m high, on a printer for 0.25 m
+  CHECK(build.workshop.parts.back().name == "stand_pin");
+  options.stands->ground = {{0.0, -0.2}};
+  CHECK(refusal(options, groove()).find("too high|A stand is at least 4 mm high.|a lower ground") !=
+        std::string::npos);
+}

@@ -23,6 +23,11 @@ StockMaterial read_material(const Value& value, StockMaterial material, Findings
   return material;
 }
 
+std::vector<Vec2> read_ground(const Value& value, Findings& findings) {
+  if (value.node->kind == Node::Kind::sequence) return as_points(value, "[[0 m, 9 m], [5 m, 6 m]]", findings);
+  return {{0.0, as_quantity(value, Dimension::length, findings).value_or(0.0)}};
+}
+
 std::optional<FabricationDesign> read_fabrication(MapReader& top, const std::filesystem::path& folder,
                                                   Findings& findings) {
   const auto value = top.find("fabrication");

@@ -108,19 +108,6 @@ CornerOptions read_corners(MapReader& whole, const Value& value, Findings& findi
   return corners;
 }
 
-/// A group that stands for its defaults where it is `true`, and for nothing where it is `none`.
-template <typename Options, typename Read>
-std::optional<Options> optional_group(MapReader& map, std::string_view key, Findings& findings, Read read) {
-  const auto value = map.find(key);
-  if (!value || (value->node->kind != Node::Kind::map && is_word(*value, "none", findings)))
-    return std::nullopt;
-  return read(*value);
-}
-
-void set_length(MapReader& map, std::string_view key, double& value) {
-  value = map.quantity(key, Dimension::length).value_or(value);
-}
-
 void set_bolt(MapReader& map, std::string_view key, int& bolt, Findings& findings) {
   if (const auto value = map.find(key)) bolt = read_bolt(*value, findings).value_or(bolt);
 }
@@ -193,11 +180,7 @@ SupportOptions read_supports(const Value& value, Findings& findings) {
   MapReader map(value, "A set of supports", "{ground: 0 m, spacing: 2 m}", findings);
   SupportOptions supports;
   if (const auto ground = map.need("ground", "ground: 0 m")) {
-    if (ground->node->kind == Node::Kind::sequence) {
-      supports.ground = as_points(*ground, "[[0 m, 0 m], [6 m, 0.2 m]]", findings);
-    } else if (const auto level = as_quantity(*ground, Dimension::length, findings)) {
-      supports.ground = {{0.0, *level}};
-    }
+    supports.ground = read_ground(*ground, findings);
   }
   set_length(map, "spacing", supports.spacing);
   set_length(map, "tube", supports.tube);

@@ -53,11 +53,44 @@ DowelOptions read_dowels(const Value& value, Findings& findings) {
   return dowels;
 }
 
+TongueOptions read_tongue(const Value& value, Findings& findings) {
+  MapReader map(value, "A tongue", "{height: 4 mm, depth: 3 mm, fit: 0.2 mm}", findings);
+  TongueOptions tongue;
+  tongue.height = map.quantity("height", Dimension::length);
+  tongue.depth = map.quantity("depth", Dimension::length);
+  set_length(map, "fit", tongue.fit);
+  set_length(map, "chamfer", tongue.chamfer);
+  if (const auto flare = map.quantity("flare", Dimension::angle)) tongue.flare = Angle::from_radians(*flare);
+  map.refuse_unknown_keys();
+  return tongue;
+}
+
+StandOptions read_stands(const Value& value, Findings& findings) {
+  MapReader map(value, "A set of stands", "{spacing: 200 mm, clear: 10 mm}", findings);
+  StandOptions stands;
+  if (const auto ground = map.find("ground")) stands.ground = read_ground(*ground, findings);
+  set_length(map, "clear", stands.clear);
+  set_length(map, "spacing", stands.spacing);
+  set_length(map, "thickness", stands.thickness);
+  set_length(map, "cheek", stands.cheek);
+  set_length(map, "fit", stands.fit);
+  if (const auto steepest = map.quantity("steepest", Dimension::angle))
+    stands.steepest = Angle::from_radians(*steepest);
+  map.refuse_unknown_keys();
+  return stands;
+}
+
 }  // namespace
 
 PrintOptions read_print(MapReader& map, Findings& findings) {
   PrintOptions print;
   if (const auto split = map.find("split")) print.split = read_split(*split, findings);
+  print.joint = chosen<PrintJoint>(
+      map, "joint", print.joint,
+      {{"dowels", PrintJoint::dowels}, {"tongue", PrintJoint::tongue}, {"dovetail", PrintJoint::dovetail}});
+  if (const auto tongue = map.find("tongue")) print.tongue = read_tongue(*tongue, findings);
+  print.stands = optional_group<StandOptions>(
+      map, "stands", findings, [&](const Value& value) { return read_stands(value, findings); });
   if (const auto dowels = map.find("dowels")) print.dowels = read_dowels(*dowels, findings);
   print.pose = chosen<PrintPose>(map, "pose", print.pose,
                                  {{"automatic", PrintPose::automatic},

@@ -50,15 +50,6 @@ CrossMemberOptions read_cross_members(const Value& value, Findings& findings) {
   return members;
 }
 
-/// A level, or points of a line.
-std::vector<Vec2> read_ground(const Value& value, Findings& findings) {
-  if (value.node->kind == Node::Kind::scalar) {
-    const auto level = as_quantity(value, Dimension::length, findings);
-    return {{0.0, level.value_or(0.0)}};
-  }
-  return as_points(value, "[[0 m, 9 m], [5 m, 6 m]]", findings);
-}
-
 LegOptions read_legs(const Value& value, Findings& findings) {
   MapReader map(value, "A set of legs", "{ground: 0 m, spacing: 2 m, side: 90 mm}", findings);
   LegOptions legs;

@@ -25,6 +25,28 @@ std::string dowels(const DowelOptions& options) {
   return group.inlined();
 }
 
+std::string tongue(const TongueOptions& options) {
+  Group group;
+  group.add("height", options.height, Dimension::length);
+  group.add("depth", options.depth, Dimension::length);
+  group.add("fit", options.fit, Dimension::length);
+  group.add("chamfer", options.chamfer, Dimension::length);
+  group.add("flare", options.flare.radians(), Dimension::angle);
+  return group.inlined();
+}
+
+std::string stands(const StandOptions& options) {
+  Group group;
+  if (!options.ground.empty()) group.add("ground", written_ground(options.ground));
+  group.add("clear", options.clear, Dimension::length);
+  group.add("spacing", options.spacing, Dimension::length);
+  group.add("thickness", options.thickness, Dimension::length);
+  group.add("cheek", options.cheek, Dimension::length);
+  group.add("fit", options.fit, Dimension::length);
+  group.add("steepest", options.steepest.radians(), Dimension::angle);
+  return group.inlined();
+}
+
 std::string pose(PrintPose pose) {
   switch (pose) {
     case PrintPose::side:
@@ -43,7 +65,13 @@ std::string pose(PrintPose pose) {
 
 void add_process(Group& group, const PrintOptions& print) {
   group.add("split", split(print.split));
-  group.add("dowels", dowels(print.dowels));
+  if (print.joint == PrintJoint::dowels) {
+    group.add("dowels", dowels(print.dowels));
+  } else {
+    group.add("joint", print.joint == PrintJoint::tongue ? "tongue" : "dovetail");
+    group.add("tongue", tongue(print.tongue));
+  }
+  if (print.stands) group.add("stands", stands(*print.stands));
   group.add("pose", pose(print.pose));
   group.add("layer", print.layer, Dimension::length);
   group.add("wall", print.wall, Dimension::length);

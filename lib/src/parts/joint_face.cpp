@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace glissade::parts {
 namespace {
@@ -27,14 +28,6 @@ double distance_between(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double side_b = cross(d - c, b - c);
   if (side_c * side_d < 0.0 && side_a * side_b < 0.0) return 0.0;
   return std::min({distance_to(a, b, c), distance_to(a, b, d), distance_to(c, d, a), distance_to(c, d, b)});
-}
-
-double area_of(const std::vector<Vec2>& corners) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    twice += cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
-  }
-  return 0.5 * twice;
 }
 
 std::vector<Vec2> rectangle_of(Vec2 low, Vec2 high) {
@@ -84,13 +77,31 @@ std::vector<std::vector<Vec2>> bars_of(int digit, Vec2 corner, double height) {
 
 }  // namespace
 
+double area_of(const std::vector<Vec2>& corners) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    twice += cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
+  }
+  return 0.5 * twice;
+}
+
 FaceOutline::FaceOutline(const CrossSection& section, double chord_tolerance) {
   loops_.push_back(section.outline(chord_tolerance));
   if (auto bore = section.bore(chord_tolerance); !bore.empty()) loops_.push_back(std::move(bore));
+  measure();
+}
+
+FaceOutline::FaceOutline(std::vector<std::vector<Vec2>> loops) : loops_(std::move(loops)) {
+  measure();
+}
+
+void FaceOutline::measure() {
   low_ = high_ = loops_.front().front();
-  for (const Vec2 corner : loops_.front()) {
-    low_ = {std::min(low_.x, corner.x), std::min(low_.y, corner.y)};
-    high_ = {std::max(high_.x, corner.x), std::max(high_.y, corner.y)};
+  for (const auto& loop : loops_) {
+    for (const Vec2 corner : loop) {
+      low_ = {std::min(low_.x, corner.x), std::min(low_.y, corner.y)};
+      high_ = {std::max(high_.x, corner.x), std::max(high_.y, corner.y)};
+    }
   }
 }
 

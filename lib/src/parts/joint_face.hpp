@@ -9,10 +9,15 @@
 
 namespace glissade::parts {
 
+/// @return area of a polygon, positive counter-clockwise
+[[nodiscard]] double area_of(const std::vector<Vec2>& corners);
+
 /// The end face of a piece: outline and bore as polygons, in the frame of the section (across to the left, height).
 class FaceOutline {
  public:
   explicit FaceOutline(const CrossSection& section, double chord_tolerance = 1e-5);
+  /// @param loops  of any flat face; a point is within the material where it is inside an odd number of them
+  explicit FaceOutline(std::vector<std::vector<Vec2>> loops);
 
   /// @return distance of a point from the edge: positive within the material [m]
   [[nodiscard]] double clearance(Vec2 at) const;
@@ -27,6 +32,8 @@ class FaceOutline {
   [[nodiscard]] Vec2 roomiest(bool left) const;
 
  private:
+  void measure();
+
   std::vector<std::vector<Vec2>> loops_;
   Vec2 low_;
   Vec2 high_;

@@ -66,6 +66,23 @@ std::uint32_t add_ring(TriangleMesh& mesh, const FacePlane& plane, const Recess:
   return first;
 }
 
+/// A closed line in a face, and the vertices that are its corners.
+struct Loop {
+  std::vector<Vec2> corners;
+  std::vector<std::uint32_t> vertices;
+};
+
+bool contains(const std::vector<Vec2>& loop, Vec2 point) {
+  bool inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 a = loop[i];
+    const Vec2 b = loop[(i + 1) % loop.size()];
+    if ((a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x))
+      inside = !inside;
+  }
+  return inside;
+}
+
 void add_walls(TriangleMesh& mesh, std::uint32_t above, std::uint32_t below, std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t next = (i + 1) % count;
@@ -86,23 +103,26 @@ std::vector<bool> vertices_in(const TriangleMesh& mesh, const FacePlane& plane) 
   return in_plane;
 }
 
+std::vector<std::vector<std::uint32_t>> take_flat_face(TriangleMesh& mesh, const FacePlane& plane) {
+  return edges_of(take_face(mesh, plane));
+}
+
 void sink(TriangleMesh& mesh, const FacePlane& plane, const std::vector<Recess>& recesses) {
   if (recesses.empty()) return;
-  std::vector<std::vector<Vec2>> loops;
-  std::vector<std::uint32_t> vertices;  // of the mesh, by the running numbers of the loops' corners
-  for (const std::vector<std::uint32_t>& edge : edges_of(take_face(mesh, plane))) {
-    std::vector<Vec2> loop;
-    for (const std::uint32_t vertex : edge) {
-      loop.push_back(plane.see(mesh.vertices[vertex]));
-      vertices.push_back(vertex);
-    }
-    loops.push_back(std::move(loop));
+  std::vector<Loop> outer;
+  std::vector<Loop> inner;
+  for (const std::vector<std::uint32_t>& edge : take_flat_face(mesh, plane)) {
+    Loop loop;
+    for (const std::uint32_t vertex : edge) loop.corners.push_back(plane.see(mesh.vertices[vertex]));
+    loop.vertices = edge;
+    (area_of(loop.corners) > 0.0 ? outer : inner).push_back(std::move(loop));
   }
   for (const Recess& recess : recesses) {
     const auto count = static_cast<std::uint32_t>(recess.rings.front().corners.size());
     std::uint32_t above = add_ring(mesh, plane, recess.rings.front());
-    loops.push_back(recess.rings.front().corners);
-    for (std::uint32_t i = 0; i < count; ++i) vertices.push_back(above + i);
+    Loop mouth{recess.rings.front().corners, {}};
+    for (std::uint32_t i = 0; i < count; ++i) mouth.vertices.push_back(above + i);
+    inner.push_back(std::move(mouth));
     for (std::size_t ring = 1; ring < recess.rings.size(); ++ring) {
       const std::uint32_t below = add_ring(mesh, plane, recess.rings[ring]);
       add_walls(mesh, above, below, count);
@@ -112,8 +132,18 @@ void sink(TriangleMesh& mesh, const FacePlane& plane, const std::vector<Recess>&
       mesh.triangles.push_back({above + triangle[0], above + triangle[1], above + triangle[2]});
     }
   }
-  for (const Triangle& triangle : solid::triangulate_loops(loops)) {
-    mesh.triangles.push_back({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
+  // A face that a tongue divides has two outlines.
+  for (const Loop& outline : outer) {
+    std::vector<std::vector<Vec2>> loops = {outline.corners};
+    std::vector<std::uint32_t> vertices = outline.vertices;
+    for (const Loop& hole : inner) {
+      if (!contains(outline.corners, hole.corners.front())) continue;
+      loops.push_back(hole.corners);
+      vertices.insert(vertices.end(), hole.vertices.begin(), hole.vertices.end());
+    }
+    for (const Triangle& triangle : solid::triangulate_loops(loops)) {
+      mesh.triangles.push_back({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
+    }
   }
 }
 

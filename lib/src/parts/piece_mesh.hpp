@@ -5,6 +5,7 @@
 
 #include "parts/joint_face.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace glissade::parts {
@@ -24,6 +25,12 @@ struct FacePlane {
 
 /// @return numbers of the vertices that lie in a plane
 [[nodiscard]] std::vector<bool> vertices_in(const TriangleMesh& mesh, const FacePlane& plane);
+
+/// Takes the triangles of the flat face that a mesh has in a plane out of it.
+/// @return its edges, counter-clockwise round the outside
+/// @throws InternalError if the face is not there
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> take_flat_face(TriangleMesh& mesh,
+                                                                     const FacePlane& plane);
 
 /// Sinks recesses into the flat face that a mesh has in a plane.
 /// @param recesses  apart from one another and from the edges of the face

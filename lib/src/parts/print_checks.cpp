@@ -4,8 +4,11 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/parts/print_options.hpp"
 
+#include "parts/tongue.hpp"
+
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace glissade {
 namespace {
@@ -41,6 +44,45 @@ void check_bed(const PrintBed& bed, Problems& problems) {
   }
 }
 
+void check_tongue(const PrintOptions& options, Problems& problems) {
+  const TongueOptions& tongue = options.tongue;
+  if (tongue.height) problems.positive("tongue.height", *tongue.height, length_text(*tongue.height), "4 mm");
+  if (tongue.depth) problems.positive("tongue.depth", *tongue.depth, length_text(*tongue.depth), "3 mm");
+  problems.not_negative("tongue.fit", tongue.fit, "0.2 mm");
+  problems.not_negative("tongue.chamfer", tongue.chamfer, "0.5 mm");
+  const double flare = tongue.flare.radians();
+  constexpr double kMost = 0.7853981633974483;  // 45 deg
+  if (!(flare > 0.0 && flare <= kMost)) {
+    problems.issues.push_back({"tongue.flare",
+                               "flare: " + angle_text(tongue.flare) + " is no flank of a dovetail",
+                               "It leans by more than 0 deg and at most 45 deg.", "10 deg"});
+  }
+  const bool tongued = options.joint != PrintJoint::dowels;
+  if (tongued && options.dowels != DowelOptions{}) {
+    problems.issues.push_back({"dowels", "dowels: the joints have tongues",
+                               "Pins and tongues are two ways of joining.", "joint: dowels, or no dowels"});
+  }
+  if (!tongued && tongue != TongueOptions{}) {
+    problems.issues.push_back({"tongue", "tongue: the joints have pins",
+                               "It says what tongues and dovetails are like.",
+                               "joint: tongue, or joint: dovetail"});
+  }
+}
+
+void check_stands(const StandOptions& stands, Problems& problems) {
+  problems.positive("stands.clear", stands.clear, length_text(stands.clear), "10 mm");
+  problems.positive("stands.spacing", stands.spacing, length_text(stands.spacing), "200 mm");
+  problems.positive("stands.thickness", stands.thickness, length_text(stands.thickness), "10 mm");
+  problems.positive("stands.cheek", stands.cheek, length_text(stands.cheek), "5 mm");
+  problems.positive("stands.fit", stands.fit, length_text(stands.fit), "0.2 mm");
+  const double steepest = stands.steepest.radians();
+  if (!(steepest > 0.0 && steepest < kRightAngle)) {
+    problems.issues.push_back({"stands.steepest",
+                               "steepest: " + angle_text(stands.steepest) + " is no slope that stands hold",
+                               "It lies between 0 deg and 90 deg.", "60 deg"});
+  }
+}
+
 }  // namespace
 
 std::vector<Issue> print_problems(const CrossSection& section, const PrintOptions& options) {
@@ -58,6 +100,8 @@ std::vector<Issue> print_problems(const CrossSection& section, const PrintOption
   if (dowels.depth) problems.positive("dowels.depth", *dowels.depth, length_text(*dowels.depth), "10 mm");
   problems.not_negative("dowels.fit", dowels.fit, "0.15 mm");
   problems.not_negative("dowels.chamfer", dowels.chamfer, "0.5 mm");
+  check_tongue(options, problems);
+  if (options.stands) check_stands(*options.stands, problems);
   problems.positive("layer", options.layer, length_text(options.layer), "0.2 mm");
   problems.positive("wall", options.wall, length_text(options.wall), "0.9 mm");
   problems.not_negative("number_depth", options.number_depth, "0.4 mm");
@@ -75,6 +119,7 @@ std::vector<Issue> print_problems(const CrossSection& section, const PrintOption
                                    length_text(thin) + " or more",
                                "The edge would have no floor left.", "0.2 mm, or 0 mm for none"});
   }
+  for (Issue& issue : parts::tongue_problems(section, options)) problems.issues.push_back(std::move(issue));
   if (section.varies()) {
     problems.issues.push_back({"cross_section.width",
                                "width: it changes along the track, which prints cannot",

@@ -3,6 +3,7 @@
 #include "parts/print_facts.hpp"
 
 #include "parts/shop_facts.hpp"
+#include "parts/tongue.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,23 +24,30 @@ void measure_size(const PrintJob& job, const PrintUnit& unit, const std::string&
   facts.at(where, "bed_share", size.z, bed.z);
 }
 
-void measure_joints(const PrintJob& job, const std::optional<Dowels>& dowels, ShopFacts& facts) {
+void measure_joints(const PrintJob& job, const Hold& hold, ShopFacts& facts) {
   const std::string where = "all joints";
+  const double ease = job.options.ease;
+  if (hold.tongue) {
+    facts.at(where, "hole_wall_walls", hold.tongue->wall, job.options.wall);
+    facts.at(where, "joint_play", hold.tongue->fit);
+    facts.at(where, "step_up", std::max(0.0, hold.tongue->fit - ease));
+    return;
+  }
   if (job.options.dowels.wanted) {
-    const double pins = dowels ? static_cast<double>(dowels->places.size()) : 0.0;
+    const double pins = hold.dowels ? static_cast<double>(hold.dowels->places.size()) : 0.0;
     facts.at(where, "pins_at_joint", pins, 1.0, Dimension::number);
   }
-  if (!dowels) return;
+  if (!hold.dowels) return;
   const double fit = job.options.dowels.fit;
-  facts.at(where, "hole_wall_walls", dowels->wall, job.options.wall);
+  facts.at(where, "hole_wall_walls", hold.dowels->wall, job.options.wall);
   facts.at(where, "joint_play", fit);
-  facts.at(where, "step_up", std::max(0.0, fit - job.options.ease));
+  facts.at(where, "step_up", std::max(0.0, fit - ease));
 }
 
 }  // namespace
 
-void measure_prints(const PrintJob& job, const std::vector<PrintUnit>& units,
-                    const std::optional<Dowels>& dowels, Workshop& workshop) {
+void measure_prints(const PrintJob& job, const std::vector<PrintUnit>& units, const Hold& hold,
+                    Workshop& workshop) {
   const PrintOptions& options = job.options;
   ShopFacts facts(workshop);
   facts.parts(options.split.heaviest);
@@ -51,7 +59,7 @@ void measure_prints(const PrintJob& job, const std::vector<PrintUnit>& units,
     facts.at(where_of(i), "run_surface_step_layers", unit.pose.step, options.layer);
     if (unit.digit_height > 0.0) facts.at(where_of(i), "number_bar", kBarWidth * unit.digit_height);
   }
-  if (units.size() > 1) measure_joints(job, dowels, facts);
+  if (units.size() > 1) measure_joints(job, hold, facts);
 }
 
 }  // namespace glissade::parts

@@ -3,13 +3,12 @@
 #include "parts/print_split.hpp"
 #include "parts/print_unit.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace glissade::parts {
 
 /// What rules of the shop may bound of prints; the workshop has their parts already.
-void measure_prints(const PrintJob& job, const std::vector<PrintUnit>& units,
-                    const std::optional<Dowels>& dowels, Workshop& workshop);
+void measure_prints(const PrintJob& job, const std::vector<PrintUnit>& units, const Hold& hold,
+                    Workshop& workshop);
 
 }  // namespace glissade::parts

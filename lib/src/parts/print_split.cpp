@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/calm_joints.hpp"
+#include "parts/tongue.hpp"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,8 @@ bool fits(const PrintJob& job, PrintPose kind, const Span& span) {
   const double mass = job.section.area() * length * job.options.material.density;
   if (split.heaviest && mass > *split.heaviest) return false;
   PrintBed bed = split.bed;
-  bed.gap += 1e-4;  // points of the outline stand for the piece
+  // Points of the outline stand for the piece, and its tongue lies beyond them.
+  bed.gap += 1e-4 + 0.5 * tongue_reach(job.section, job.options);
   const std::vector<Vec3> points = outline_points(job.track, span, job.face);
   for (const Pose& pose : poses_of(kind, job.track, span, job.face, job.options.layer)) {
     const bool hangs = kind == PrintPose::end && pose.overhang > job.options.overhang.radians();
@@ -179,7 +181,24 @@ InputError thin_wall(const PrintJob& job, const std::vector<double>& joints, Dow
                      "a smaller " + key + ", a thicker section, or dowels: none"});
 }
 
+/// Pieces with tongues lie on their side.
+PrintPose side_for_tongues(const PrintJob& job, double overhang) {
+  if (overhang <= job.options.overhang.radians() + 1e-9) return PrintPose::side;
+  throw InputError(
+      {"joint",
+       "joint: tongues and dovetails go with pieces on their side, where this section overhangs by " +
+           angle_text(Angle::from_radians(overhang), 3),
+       "No more than " + angle_text(job.options.overhang) + " from upright prints without supports.",
+       "joint: dowels, another section, or pose: side, with supports"});
+}
+
 }  // namespace
+
+Hold hold_joints(const PrintJob& job, const std::vector<double>& joints) {
+  if (job.options.joint == PrintJoint::dowels) return {place_dowels(job, joints), nullptr};
+  const std::optional<Tongue> tongue = place_tongue(job, joints);
+  return {std::nullopt, tongue ? std::make_shared<const Tongue>(*tongue) : nullptr};
+}
 
 std::optional<Pose> pose_on_bed(const PrintJob& job, PrintPose kind, const Span& span,
                                 const std::vector<Vec3>& points) {
@@ -198,6 +217,7 @@ PrintPlan plan_prints(const PrintJob& job) {
         poses_of(PrintPose::side, job.track, whole, job.face, job.options.layer).front().overhang;
     // A side with an overhang comes after the poses that need no support.
     if (on_side > job.options.overhang.radians() + 1e-9) kinds = {PrintPose::end, PrintPose::flat};
+    if (job.options.joint != PrintJoint::dowels) kinds = {side_for_tongues(job, on_side)};
   }
   for (const PrintPose kind : kinds) {
     auto joints = joints_for(job, kind);

@@ -5,6 +5,7 @@
 #include "parts/joint_face.hpp"
 #include "parts/print_pose.hpp"
 
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -44,6 +45,15 @@ struct Dowels {
   double wall = 0.0;         ///< least one left beside a hole [m]
   std::vector<Vec2> places;  ///< in the frame of the section
 };
+
+struct Tongue;
+/// What holds the pieces at every joint.
+struct Hold {
+  std::optional<Dowels> dowels;
+  std::shared_ptr<const Tongue> tongue;
+};
+/// @throws InputError as place_dowels() and place_tongue()
+[[nodiscard]] Hold hold_joints(const PrintJob& job, const std::vector<double>& joints);
 
 /// @return none where none are wanted, or none fit and no diameter was asked for
 /// @throws InputError if the diameter or depth of the design leaves too thin a wall: names the joint

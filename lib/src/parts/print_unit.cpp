@@ -11,9 +11,12 @@
 #include "glissade/solid/sweep.hpp"
 
 #include "parts/piece_mesh.hpp"
+#include "parts/tongue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -93,31 +96,89 @@ void ease_edge(const PrintJob& job, TriangleMesh& mesh, const FacePlane& plane) 
   }
 }
 
-/// Holes and number of a joint face.
-std::vector<Recess> recesses_of(const PrintJob& job, const std::optional<Dowels>& dowels,
-                                const std::string& number, bool downstream, double& digit_height) {
-  std::vector<Recess> recesses;
-  std::vector<Vec2> holes;
-  double radius = 0.0;
-  if (dowels) {
-    const double chamfer = std::min(job.options.dowels.chamfer, 0.25 * dowels->depth);
-    holes = dowels->places;
-    radius = 0.5 * dowels->hole + chamfer;
-    for (const Vec2 place : holes) {
-      const Vec2 centre{downstream ? place.x : -place.x, place.y};
-      recesses.push_back(round_hole(centre, dowels->hole, dowels->depth, chamfer));
-    }
+/// Holes for pins in a joint face.
+std::vector<Recess> holes_in(const PrintJob& job, const Dowels& dowels, bool downstream, double& reach) {
+  std::vector<Recess> holes;
+  const double chamfer = std::min(job.options.dowels.chamfer, 0.25 * dowels.depth);
+  reach = 0.5 * dowels.hole + chamfer;
+  for (const Vec2 place : dowels.places) {
+    holes.push_back(
+        round_hole({downstream ? place.x : -place.x, place.y}, dowels.hole, dowels.depth, chamfer));
   }
-  if (job.options.number_depth <= 0.0) return recesses;
-  const auto place = place_for_digits(job.face, number.size(), holes, radius);
-  digit_height = place ? place->height : 0.0;
-  if (!place) return recesses;
+  return holes;
+}
+
+/// Digits of a number in a face; none where it has no room.
+/// @param mirrored  the face is seen from upstream: its number keeps to the place of the other face
+std::vector<Recess> digits_in(const PrintJob& job, const FaceOutline& face, const std::string& number,
+                              const std::vector<Vec2>& holes, double reach, bool mirrored, double& height) {
+  if (job.options.number_depth <= 0.0) return {};
+  const auto place = place_for_digits(face, number.size(), holes, reach);
+  if (!place) return {};
+  height = height > 0.0 ? std::min(height, place->height) : place->height;
   Vec2 corner = place->corner;
-  if (!downstream) corner.x = -corner.x - width_of_digits(number.size()) * place->height;
-  for (Recess& digit : sunk_digits(number, corner, place->height, job.options.number_depth)) {
+  if (mirrored) corner.x = -corner.x - width_of_digits(number.size()) * place->height;
+  return sunk_digits(number, corner, place->height, job.options.number_depth);
+}
+
+void sink_all(PrintUnit& unit, const FacePlane& plane, const std::vector<Recess>& recesses) {
+  for (const Recess& recess : recesses) unit.sunk_volume += recess.volume();
+  sink(unit.mesh, plane, recesses);
+}
+
+/// A joint face with pins: their holes, and the piece's number.
+void work_pinned(const PrintJob& job, const std::optional<Dowels>& dowels, const std::string& number,
+                 const FacePlane& plane, bool downstream, PrintUnit& unit) {
+  double reach = 0.0;
+  std::vector<Recess> recesses;
+  std::vector<Vec2> places;
+  if (dowels) {
+    recesses = holes_in(job, *dowels, downstream, reach);
+    places = dowels->places;
+  }
+  for (Recess& digit : digits_in(job, job.face, number, places, reach, !downstream, unit.digit_height)) {
     recesses.push_back(std::move(digit));
   }
-  return recesses;
+  sink_all(unit, plane, recesses);
+}
+
+/// A joint face with a tongue (downstream) or its notch (upstream), and the piece's number below or above.
+void work_tongued(const PrintJob& job, const Tongue& tongue, const std::string& number,
+                  const FacePlane& plane, bool downstream, PrintUnit& unit) {
+  const std::vector<Vec2> profile = downstream ? tongue.profile() : tongue.notch();
+  const Vec3 along = downstream ? plane.outward() : -1.0 * plane.outward();
+  const auto faces = shape_end(unit.mesh, plane, along, profile);
+  const double volume = profile_volume(profile, job.face.high().x - job.face.low().x);
+  unit.sunk_volume += downstream ? -volume : volume;
+  const FaceOutline left({faces.begin(), faces.end()});
+  sink_all(unit, plane, digits_in(job, left, number, {}, 0.0, false, unit.digit_height));
+}
+
+/// The piece's number in its left side, where that is flat: joint faces are hidden once it is put together.
+void number_side(const PrintJob& job, const std::string& number, PrintUnit& unit) {
+  if (!level_band(job.face) || job.options.number_depth <= 0.0) return;
+  const LevelBand band = *level_band(job.face);
+  const TrackFrame middle = frame_at(unit.line, 0.5 * unit.line.length());
+  const Vec3 along = upright(middle.along);
+  // Seen from the left, downstream lies to the left.
+  const Vec2 centre = middle.at + 0.5 * (band.low + band.high) * middle.up;
+  const FacePlane side{{centre.x, job.face.high().x, centre.y}, -1.0 * along, upright(middle.up)};
+  std::vector<std::vector<Vec2>> loops;
+  TriangleMesh copy = unit.mesh;
+  for (const std::vector<std::uint32_t>& edge : take_flat_face(copy, side)) {
+    std::vector<Vec2> loop;
+    for (const std::uint32_t vertex : edge) loop.push_back(side.see(unit.mesh.vertices[vertex]));
+    loops.push_back(std::move(loop));
+  }
+  const FaceOutline face(std::move(loops));
+  constexpr std::array<double, 7> kHeights = {8e-3, 7e-3, 6e-3, 5e-3, 4e-3, 3e-3, 2e-3};
+  constexpr double kMargin = 0.6e-3;
+  for (const double height : kHeights) {
+    const Vec2 half{0.5 * width_of_digits(number.size()) * height, 0.5 * height};
+    if (!face.holds(-1.0 * half, half, kMargin)) continue;
+    sink_all(unit, side, sunk_digits(number, -1.0 * half, height, job.options.number_depth));
+    return;
+  }
 }
 
 void require_sound(const TriangleMesh& mesh, const std::string& which, const std::stop_token& stop) {
@@ -149,13 +210,13 @@ Frame place_of(const PrintJob& job, Vec2 origin) {
           {0.0, 0.0, 1.0}};
 }
 
-PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan, const std::optional<Dowels>& dowels,
-                    std::size_t index) {
+PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan, const Hold& hold, std::size_t index) {
   const Span span{plan.joints[index], plan.joints[index + 1]};
   const bool joined_before = index > 0;
   const bool joined_after = index + 2 < plan.joints.size();
   const double ease = joined_before ? job.options.ease : 0.0;
-  const std::string which = "segment " + std::to_string(index + 1);
+  const std::string number = std::to_string(index + 1);
+  const std::string which = "segment " + number;
   PrintUnit unit{
       span, line_of(job, span, ease), frame_at(job.track, span.from).at, {}, {}, 0.0, 0.0, 0.0, 0.0, {}, {}};
   Solid solid =
@@ -172,16 +233,18 @@ PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan, const std::optio
   const double eased = mesh_moments(unit.mesh).volume;
   unit.eased_volume = swept - eased;
   const auto work = [&](const FacePlane& plane, bool downstream) {
-    const std::vector<Recess> recesses =
-        recesses_of(job, dowels, std::to_string(index + 1), downstream, unit.digit_height);
-    for (const Recess& recess : recesses) unit.sunk_volume += recess.volume();
-    sink(unit.mesh, plane, recesses);
+    if (hold.tongue) {
+      work_tongued(job, *hold.tongue, number, plane, downstream, unit);
+    } else {
+      work_pinned(job, hold.dowels, number, plane, downstream, unit);
+    }
   };
   if (joined_before) work(before, false);
   if (joined_after) work(after, true);
+  if (joined_before || joined_after) number_side(job, number, unit);
   const double left = mesh_moments(unit.mesh).volume;
   if (!(std::fabs(left + unit.sunk_volume - eased) <= 1e-9 * swept)) {
-    throw InternalError({which, "its holes do not take their volume off it", "", ""});
+    throw InternalError({which, "its holes and tongues do not add up to its volume", "", ""});
   }
   require_sound(unit.mesh, which, job.stop);
   unit.pose = pose_of(job, plan.kind, span, unit.mesh, which);

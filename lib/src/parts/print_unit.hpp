@@ -5,7 +5,6 @@
 #include "parts/print_split.hpp"
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace glissade::parts {
@@ -19,7 +18,7 @@ struct PrintUnit {
   TriangleMesh mesh;          ///< in the frame of the piece
   double exact_volume = 0.0;  ///< of the sweep, before anything is taken off it [m^3]
   double eased_volume = 0.0;  ///< taken off the edge of the run surface [m^3]
-  double sunk_volume = 0.0;   ///< of holes and numbers [m^3]
+  double sunk_volume = 0.0;   ///< of holes, notches and numbers, less that of the tongue [m^3]
   double digit_height = 0.0;  ///< of the numbers; 0: none [m]
   std::vector<Vec2>
       first_face;  ///< corners of its end faces in the frame of the section, before they are eased
@@ -28,8 +27,8 @@ struct PrintUnit {
 
 /// @param index  of the piece, from 0
 /// @throws InputError as sweep(), or if it fits the bed in no way; InternalError if its mesh turns out faulty
-[[nodiscard]] PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan,
-                                  const std::optional<Dowels>& dowels, std::size_t index);
+[[nodiscard]] PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan, const Hold& hold,
+                                  std::size_t index);
 
 /// @return the frame of a piece in that of the placement
 [[nodiscard]] Frame place_of(const PrintJob& job, Vec2 origin);

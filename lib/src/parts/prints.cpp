@@ -13,11 +13,14 @@
 #include "parts/print_split.hpp"
 #include "parts/print_unit.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/stands.hpp"
+#include "parts/tongue.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -29,6 +32,7 @@ namespace {
 
 constexpr std::array<double, 3> kSegmentColour = {0.85, 0.45, 0.20};
 constexpr std::array<double, 3> kOtherSegmentColour = {0.95, 0.65, 0.35};
+constexpr std::array<double, 3> kStandColour = {0.60, 0.62, 0.66};
 constexpr std::array<double, 3> kPinColour = {0.45, 0.45, 0.50};
 constexpr double kEndPlay = 0.5e-3;     // of a pin at the bottom of each hole [m]
 constexpr double kFoldedVolume = 1e-6;  // relative, where levels are trimmed
@@ -93,6 +97,98 @@ void add_pins(const PrintJob& job, const std::vector<double>& joints, const Dowe
   build.workshop.parts.push_back(std::move(part));
 }
 
+/// The part's number in the right side of a block of a stand.
+TriangleMesh numbered(const PrintJob& job, TriangleMesh mesh, int number, double& taken) {
+  taken = 0.0;
+  if (job.options.number_depth <= 0.0) return mesh;
+  Vec3 corner = mesh.vertices.front();
+  for (const Vec3& vertex : mesh.vertices) {
+    if (vertex.y < corner.y) corner = vertex;
+  }
+  const FacePlane side{corner, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  TriangleMesh copy = mesh;
+  std::vector<std::vector<Vec2>> loops;
+  for (const auto& edge : take_flat_face(copy, side)) {
+    loops.emplace_back();
+    for (const std::uint32_t vertex : edge) loops.back().push_back(side.see(mesh.vertices[vertex]));
+  }
+  const std::string digits = std::to_string(number);
+  const auto place = place_for_digits(FaceOutline(std::move(loops)), digits.size(), {}, 0.0);
+  if (!place) return mesh;
+  const auto recesses = sunk_digits(digits, place->corner, place->height, job.options.number_depth);
+  for (const Recess& recess : recesses) taken += recess.volume();
+  sink(mesh, side, recesses);
+  return mesh;
+}
+
+void add_block(const PrintJob& job, const Stand& stand, const StandBlock& block, const std::string& name,
+               WorkshopBuild& build) {
+  ShopPart part;
+  part.number = static_cast<int>(build.workshop.parts.size()) + 1;
+  part.name = name;
+  part.thickness = job.options.stands->thickness;
+  part.colour = kStandColour;
+  part.places = {place_of(job, {stand.x, 0.0})};
+  double taken = 0.0;
+  const TriangleMesh mesh = numbered(job, block.mesh, part.number, taken);
+  part.volume = block.volume - taken;
+  finish_part(job, part, mesh);
+  Pose pose;
+  pose.right = {1.0, 0.0, 0.0};
+  pose.deep = {0.0, 1.0, 0.0};
+  pose.up = {0.0, 0.0, 1.0};
+  const auto turned = turned_to_fit(pose, mesh.vertices, job.options.split.bed);
+  if (!turned) {
+    throw InputError({"stands", "stands: the one below " + stand.what + " fits the bed in no way",
+                      "It stands on its foot.", "a higher ground, a larger bed, or stands: none"});
+  }
+  build.prints.push_back({name, std::to_string(part.number), posed(mesh, *turned)});
+  build.workshop.parts.push_back(std::move(part));
+}
+
+/// Pins upright between the blocks of stands.
+void add_stand_pins(const PrintJob& job, const std::vector<Stand>& stands, WorkshopBuild& build) {
+  const double length = 2.0 * (kStandPinDepth - kEndPlay);
+  ShopPart part;
+  part.number = static_cast<int>(build.workshop.parts.size()) + 1;
+  part.name = "stand_pin";
+  part.thickness = kStandPin;
+  part.colour = kPinColour;
+  for (const Stand& stand : stands) {
+    for (const Vec3& pin : stand.pins) {
+      Frame place = place_of(job, {stand.x, 0.0});
+      place.origin = place.to_space(pin - Vec3{0.0, 0.0, 0.5 * length});
+      part.places.push_back(place);
+    }
+  }
+  if (part.places.empty()) return;
+  const TriangleMesh mesh =
+      round_bar(kStandPin, length, std::min(job.options.dowels.chamfer, 0.25 * kStandPin));
+  part.volume = mesh_moments(mesh).volume;
+  finish_part(job, part, mesh);
+  for (std::size_t i = 0; i < part.quantity(); ++i) {
+    build.prints.push_back(
+        {"stand pin " + count_of(i + 1, part.quantity()), std::to_string(part.number), mesh});
+  }
+  build.workshop.parts.push_back(std::move(part));
+}
+
+void add_stands(const PrintJob& job, const std::vector<Stand>& stands, const Span& whole,
+                WorkshopBuild& build) {
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    const std::string name = "stand_" + std::to_string(i + 1);
+    const std::vector<StandBlock>& blocks = stands[i].blocks;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const std::string which = blocks.size() == 1 ? name : name + "_" + std::to_string(k + 1);
+      add_block(job, stands[i], blocks[k], which, build);
+    }
+    build.workshop.setting_out.push_back(
+        setting_out_point(job.track, whole, job.placement, "stand " + std::to_string(i + 1), stands[i].at));
+  }
+  add_stand_pins(job, stands, build);
+  in_order(build.workshop.setting_out);
+}
+
 AsBuiltRide ride_prints(const std::vector<PrintUnit>& units, const Motion& design, const Body& body,
                         double gravity, double step) {
   std::vector<std::shared_ptr<const ArcSpline>> floors;
@@ -140,13 +236,25 @@ double mismatch(const CrossSection& section, const std::vector<Vec2>& face) {
   return most;
 }
 
-/// Pieces keep to their side of the planes between them.
-void require_apart(const PrintJob& job, const std::vector<PrintUnit>& units, std::size_t joint) {
+/// @return whether a point, from the joint, lies within a tongue's notch or on its edge
+bool in_notch(const std::vector<Vec2>& notch, double along, double height) {
+  const double share = along / notch[1].x;
+  const double low = notch[0].y + share * (notch[1].y - notch[0].y);
+  const double high = notch[3].y + share * (notch[2].y - notch[3].y);
+  return along >= -kSameFace && along <= notch[1].x + kSameFace && height >= low - kSameFace &&
+         height <= high + kSameFace;
+}
+
+/// Pieces keep to their side of the planes between them, but for the tongue in its notch.
+void require_apart(const PrintJob& job, const std::vector<PrintUnit>& units, const Hold& hold,
+                   std::size_t joint) {
   const TrackFrame at = frame_at(job.track, units[joint].span.from);
+  const std::vector<Vec2> notch = hold.tongue ? hold.tongue->notch() : std::vector<Vec2>{};
   const auto past = [&](const PrintUnit& unit, double sense) {
     double most = -1.0;
     for (const Vec3& vertex : unit.mesh.vertices) {
       const Vec2 point = Vec2{vertex.x, vertex.z} + unit.origin - at.at;
+      if (!notch.empty() && in_notch(notch, dot(point, at.along), dot(point, at.up))) continue;
       if (norm(point) < 4.0 * (job.section.highest() - job.section.lowest()))
         most = std::max(most, sense * dot(point, at.along));
     }
@@ -159,8 +267,42 @@ void require_apart(const PrintJob& job, const std::vector<PrintUnit>& units, std
        "another design, and a report of this one"});
 }
 
-PartsProof prove_prints(const PrintJob& job, const std::vector<PrintUnit>& units,
-                        const std::optional<Dowels>& dowels, const Workshop& workshop) {
+/// @return the least distance between a tongue and its notch [m]
+double gap_of(const Tongue& tongue) {
+  const auto path = [](const std::vector<Vec2>& points) {
+    ArcPath line;
+    for (const Vec2 point : points) line.vertices.push_back({point, 0.0});
+    return line;
+  };
+  // Roots lie in one plane, beside one another.
+  std::vector<Vec2> profile = tongue.profile();
+  return distance(path(profile), path(tongue.notch()));
+}
+
+/// No corner of a stand lies within the run, none of the run within a stand: they are `fit` apart.
+void require_stands_clear(const PrintJob& job, const std::vector<Stand>& stands) {
+  for (const Stand& stand : stands) {
+    for (const Vec3& vertex : stand.blocks.back().mesh.vertices) {
+      const Vec2 point{vertex.x + stand.x, vertex.z};
+      double near = stand.at;
+      double height = 0.0;
+      for (int round = 0; round < 8; ++round) {
+        near = std::clamp(near, 0.0, job.track.length());
+        const TrackFrame at = frame_at(job.track, near);
+        height = dot(point - at.at, at.up);
+        const double stretch = 1.0 - job.track.at(near).curvature * height;
+        if (stretch > 0.1) near += dot(point - at.at, at.along) / stretch;
+      }
+      const TrackFrame at = frame_at(job.track, std::clamp(near, 0.0, job.track.length()));
+      if (std::fabs(dot(point - at.at, at.along)) > kSameFace) continue;  // beyond an end
+      if (job.face.clearance({vertex.y, height}) <= 0.0) continue;
+      throw InternalError({"", "the stand below " + stand.what + " reaches into the run", "", ""});
+    }
+  }
+}
+
+PartsProof prove_prints(const PrintJob& job, const std::vector<PrintUnit>& units, const Hold& hold,
+                        const std::vector<Stand>& stands, const Workshop& workshop) {
   PartsProof proof;
   double made = 0.0;
   for (const PrintUnit& unit : units) proof.volume += unit.exact_volume;
@@ -176,7 +318,7 @@ PartsProof prove_prints(const PrintJob& job, const std::vector<PrintUnit>& units
                          "", ""});
   }
   for (std::size_t i = 1; i < units.size(); ++i) {
-    require_apart(job, units, i);
+    require_apart(job, units, hold, i);
     proof.edge_mismatch = std::max({proof.edge_mismatch, mismatch(job.section, units[i - 1].last_face),
                                     mismatch(job.section, units[i].first_face)});
   }
@@ -184,25 +326,41 @@ PartsProof prove_prints(const PrintJob& job, const std::vector<PrintUnit>& units
   if (!(proof.edge_mismatch <= kSameFace)) {
     throw InternalError({"", "faces of a joint differ by " + length_text(proof.edge_mismatch, 3), "", ""});
   }
-  if (dowels) {
+  if (hold.dowels) {
     proof.smallest_gap = std::min(0.5 * job.options.dowels.fit, kEndPlay);
-    proof.pairs += 2 * dowels->places.size() * (units.size() - 1);
+    proof.pairs += 2 * hold.dowels->places.size() * (units.size() - 1);
   }
+  if (hold.tongue) proof.smallest_gap = gap_of(*hold.tongue);
+  require_stands_clear(job, stands);
+  proof.pairs += stands.size();
   return proof;
 }
 
-std::vector<std::string> notes_of(const PrintJob& job, const PrintPlan& plan,
-                                  const std::optional<Dowels>& dowels) {
+std::string hold_note(const PrintJob& job, const Hold& hold) {
+  if (hold.dowels) {
+    return "Pins of " + length_text(hold.dowels->diameter) + " in holes of " +
+           length_text(hold.dowels->hole) + ", " + length_text(hold.dowels->depth) + " deep in both faces";
+  }
+  if (!hold.tongue) return "";
+  const Tongue& tongue = *hold.tongue;
+  const bool dovetail = job.options.joint == PrintJoint::dovetail;
+  return std::string(dovetail ? "Dovetails" : "Tongues") + " of " +
+         length_text(tongue.high - tongue.low + 2.0 * tongue.spread, 3) + " x " +
+         length_text(tongue.depth, 3) + " at the lower end of each segment, in notches wider by " +
+         length_text(tongue.fit) + " below and above" + (dovetail ? ": put together sideways" : "");
+}
+
+std::vector<std::string> notes_of(const PrintJob& job, const PrintPlan& plan, const Hold& hold,
+                                  const std::vector<Stand>& stands) {
   std::vector<std::string> notes;
   const char* const lies = plan.kind == PrintPose::side  ? "on their side"
                            : plan.kind == PrintPose::end ? "on a joint face"
                                                          : "as they are used";
   notes.push_back("Segments are printed " + std::string(lies) + ", layers of " +
                   length_text(job.options.layer));
-  if (dowels) {
-    notes.push_back("Pins of " + length_text(dowels->diameter) + " in holes of " + length_text(dowels->hole) +
-                    ", " + length_text(dowels->depth) + " deep in both faces");
-  }
+  if (std::string note = hold_note(job, hold); !note.empty()) notes.push_back(std::move(note));
+  if (!stands.empty())
+    notes.emplace_back("Stands are printed as they stand; the table of setting out has their places");
   return notes;
 }
 
@@ -224,19 +382,22 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
                      stop};
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
   const PrintPlan plan = plan_prints(job);
-  const std::optional<Dowels> dowels = place_dowels(job, plan.joints);
+  const Hold hold = hold_joints(job, plan.joints);
+  const std::vector<Stand> stands = make_stands(job, plan.joints);
   std::vector<PrintUnit> units;
   for (std::size_t i = 0; i + 1 < plan.joints.size(); ++i) {
-    units.push_back(make_unit(job, plan, dowels, i));
+    units.push_back(make_unit(job, plan, hold, i));
   }
   build.joints = plan.joints;
   add_segments(job, units, build);
-  if (dowels) add_pins(job, plan.joints, *dowels, build);
+  if (hold.dowels) add_pins(job, plan.joints, *hold.dowels, build);
   build.workshop.setting_out = setting_out(job.track, build.joints, placement);
-  build.workshop.notes = notes_of(job, plan, dowels);
-  build.ride = ride_prints(units, smooth, body, gravity, dowels ? options.dowels.fit : 0.0);
-  measure_prints(job, units, dowels, build.workshop);
-  build.proof = prove_prints(job, units, dowels, build.workshop);
+  add_stands(job, stands, {0.0, job.track.length()}, build);
+  build.workshop.notes = notes_of(job, plan, hold, stands);
+  const double drop = hold.tongue ? hold.tongue->fit : hold.dowels ? options.dowels.fit : 0.0;
+  build.ride = ride_prints(units, smooth, body, gravity, drop);
+  measure_prints(job, units, hold, build.workshop);
+  build.proof = prove_prints(job, units, hold, stands, build.workshop);
   return build;
 }
 

@@ -7,6 +7,7 @@
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
+#include "parts/ground.hpp"
 #include "parts/setting_out.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -28,16 +29,6 @@ constexpr double kLeastLeg = 100e-3;
 constexpr double kApart = 300e-3;  // of the first and last trestle from the ends, about [m]
 
 constexpr Vec3 kUp{0.0, 0.0, 1.0};
-
-double ground_at(const std::vector<Vec2>& ground, double x) {
-  if (x <= ground.front().x || ground.size() == 1) return ground.front().y;
-  for (std::size_t i = 1; i < ground.size(); ++i) {
-    if (x > ground[i].x) continue;
-    const double share = (x - ground[i - 1].x) / (ground[i].x - ground[i - 1].x);
-    return ground[i - 1].y + share * (ground[i].y - ground[i - 1].y);
-  }
-  return ground.back().y;
-}
 
 /// One trestle, in the plane (x, height).
 struct Trestle {

@@ -8,6 +8,7 @@
 
 #include "parts/body_geometry.hpp"
 #include "parts/calm_joints.hpp"
+#include "parts/ground.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 
@@ -270,16 +271,6 @@ BearerPlan plan_bearers(const TimberJob& job) {
            ? "A sheet is " + length_text(split.sheet.x) + " x " + length_text(split.sheet.y) + "."
            : "The longest beam is " + length_text(split.longest) + ".",
        "a smaller depth, a larger sheet, or frame: beams"});
-}
-
-double ground_at(const std::vector<Vec2>& ground, double x) {
-  if (x <= ground.front().x) return ground.front().y;
-  for (std::size_t i = 0; i + 1 < ground.size(); ++i) {
-    if (x > ground[i + 1].x) continue;
-    const double share = (x - ground[i].x) / (ground[i + 1].x - ground[i].x);
-    return ground[i].y + share * (ground[i + 1].y - ground[i].y);
-  }
-  return ground.back().y;
 }
 
 std::vector<Leg> plan_legs(const TimberJob& job) {

@@ -79,9 +79,6 @@ struct Leg {
 /// @throws InputError where the ground lies above the underside of the bearers: names the place, by how much
 [[nodiscard]] std::vector<Leg> plan_legs(const TimberJob& job);
 
-/// @return height of the ground below x
-[[nodiscard]] double ground_at(const std::vector<Vec2>& ground, double x);
-
 /// @return angle of the chord of a stretch of track [rad]
 [[nodiscard]] double chord_angle(const TimberJob& job, const Span& span);
 

@@ -55,8 +55,9 @@ WorkshopBuild make(const Design& design, const Track& track, const Placement& fr
                      frame, body_of(design), design.gravity);
 }
 
-WorkshopBuild make(const Design& design, const Track& track, const Placement& frame,
-                   const PrintOptions& options) {
+WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PrintOptions options) {
+  if (options.stands && !options.stands->ground.empty())
+    options.stands->ground = in_plane(design.track, options.stands->ground);
   return make_prints(*track.centerline, CrossSection(*design.cross_section),
                      {design.fabrication->arc_tolerance}, options, design.mesh.tolerance, frame,
                      body_of(design), design.gravity);

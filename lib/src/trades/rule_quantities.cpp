@@ -109,7 +109,7 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"section_walls", number, "least thickness of the section over the least wall of the printer"},
     {"hole_wall_walls", number, "wall beside a hole over the least wall of the printer"},
     {"joint_play", length, "play of pins, tongues or dovetails at a joint"},
-    {"pins_at_joint", number, "pins, tongues or dovetails at a joint"},
+    {"pins_at_joint", number, "pins at a joint that has no tongue"},
     {"number_bar", length, "width of the bars of a number"},
     // timber
     {"deck_radius_thicknesses", number, "radius of the deck over the thickness of a layer"},

@@ -32,6 +32,40 @@ struct DowelOptions {
   friend bool operator==(const DowelOptions&, const DowelOptions&) = default;
 };
 
+/// What holds two pieces together.
+enum class PrintJoint {
+  dowels,   ///< pins in holes of both faces
+  tongue,   ///< a strip of one piece in a notch of the other, from side to side
+  dovetail  ///< the same, wider at its head: put together sideways
+};
+
+/// Tongues and dovetails.
+struct TongueOptions {
+  std::optional<double>
+      height;  ///< of the head, square to the track [m]; none: half of what is full from side to side
+  std::optional<double>
+      depth;  ///< along the track [m]; none: three quarters of the height, less where the track bends away
+  double fit = 0.2e-3;                      ///< by which the notch is wider below and above, and deeper [m]
+  double chamfer = 0.5e-3;                  ///< of the head's edges [m]
+  Angle flare = Angle::from_degrees(10.0);  ///< of each flank of a dovetail
+
+  friend bool operator==(const TongueOptions&, const TongueOptions&) = default;
+};
+
+/// Stands below the joints, both ends and between, whose cheeks hold the run.
+struct StandOptions {
+  std::vector<Vec2>
+      ground;  ///< (x, height above the start), from left to right; one point: level [m]; none: `clear` below the run
+  double clear = 10e-3;      ///< between the lowest point of the run and a ground that is not given [m]
+  double spacing = 0.2;      ///< greatest distance along the run [m]
+  double thickness = 10e-3;  ///< along the run, at the top [m]
+  double cheek = 5e-3;       ///< height of the cheeks beside the run [m]
+  double fit = 0.2e-3;       ///< between stand and run on every side [m]
+  Angle steepest = Angle::from_degrees(60.0);  ///< slope angle beyond which none stands
+
+  friend bool operator==(const StandOptions&, const StandOptions&) = default;
+};
+
 /// What no piece may exceed beside the bed.
 struct PrintSplit {
   PrintBed bed;
@@ -49,12 +83,15 @@ struct PrintOptions {
 
   StockMaterial material{"PLA", 1240.0};
   PrintSplit split;
+  PrintJoint joint = PrintJoint::dowels;
   DowelOptions dowels;
+  TongueOptions tongue;
+  std::optional<StandOptions> stands;
   PrintPose pose = PrintPose::automatic;
   double layer = 0.2e-3;  ///< height of a layer [m]
   double wall = 0.9e-3;   ///< least wall that the printer makes: two lines of a 0.4 mm nozzle [m]
   Angle overhang = Angle::from_degrees(45.0);  ///< steepest lean from upright that needs no support
-  double number_depth = 0.4e-3;                ///< of the numbers in the joint faces [m]; 0: none
+  double number_depth = 0.4e-3;  ///< of the numbers in joint faces and in a flat side [m]; 0: none
   double ease = 0.2e-3;  ///< by which the run surface of the downstream piece is eased at a joint [m]; 0: not
 
   friend bool operator==(const PrintOptions&, const PrintOptions&) = default;
