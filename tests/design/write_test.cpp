@@ -64,26 +64,36 @@ TEST_CASE("every shipped design, template and sound design of the corpus is writ
 }
 
 TEST_CASE("every key of the processes is written back") {
-  for (const std::string& fabrication :
-       {std::string("{process: plate, corners: lap}"),
-        std::string("{process: plate, walls: on-floor, corners: {kind: tab-and-slot, overlap: 20 mm, tab: 50 mm, "
-                    "spacing: 0.25 m, clearance: 0.3 mm}}"),
-        std::string(
-            "{process: print, material: {name: PETG, density: 1270 kg/m^3}, arc_tolerance: 0.05 mm, "
-            "split: {bed: [180 mm, 190 mm, 200 mm], gap: 3 mm, longest: 150 mm, heaviest: 0.09 kg, allowed: "
-            "false}, "
-            "dowels: {diameter: 3 mm, depth: 7 mm, fit: 0.2 mm, chamfer: 0.4 mm}, pose: end, layer: 0.15 mm, "
-            "wall: 1.2 mm, overhang: 50 deg, number_depth: 0.3 mm, ease: 0.1 mm}"),
-        std::string("{process: print, dowels: none, pose: flat}"),
-        std::string("{process: print, pose: side}"),
-        std::string(
-            "{process: timber, material: {name: spruce plywood, density: 460 kg/m^3}, "
-            "lumber: {name: GL24h, density: 430 kg/m^3}, arc_tolerance: 2 mm, frame: beams, "
-            "bearers: {count: 3, spacing: 0.5 m, width: 100 mm, depth: 300 mm}, deck: {layers: 3}, "
-            "cross_members: {width: 60 mm, height: 80 mm, spacing: 350 mm}, "
-            "legs: {ground: [[0 m, -1 m], [4 m, -2 m]], spacing: 1.5 m, side: 100 mm}, "
-            "split: {sheet: [3 m, 1.5 m], longest: 9 m, heaviest: 80 kg}, fit: 3 mm, joint_step: 0.5 mm}"),
-        std::string("{process: timber, legs: {ground: -2 m}}")}) {
+  for (
+      const std::string& fabrication :
+      {std::string("{process: plate, corners: lap}"),
+       std::string(
+           "{process: plate, walls: on-floor, corners: {kind: tab-and-slot, overlap: 20 mm, tab: 50 mm, "
+           "spacing: 0.25 m, clearance: 0.3 mm}}"),
+       std::string(
+           "{process: print, material: {name: PETG, density: 1270 kg/m^3}, arc_tolerance: 0.05 mm, "
+           "split: {bed: [180 mm, 190 mm, 200 mm], gap: 3 mm, longest: 150 mm, heaviest: 0.09 kg, allowed: "
+           "false}, "
+           "dowels: {diameter: 3 mm, depth: 7 mm, fit: 0.2 mm, chamfer: 0.4 mm}, pose: end, layer: 0.15 mm, "
+           "wall: 1.2 mm, overhang: 50 deg, number_depth: 0.3 mm, ease: 0.1 mm}"),
+       std::string("{process: print, dowels: none, pose: flat}"), std::string("{process: print, pose: side}"),
+       std::string("{process: print, joint: tongue, pose: side}"),
+       std::string(
+           "{process: print, joint: dovetail, tongue: {height: 4 mm, depth: 3 mm, fit: 0.25 mm, chamfer: 0.3 "
+           "mm, flare: 12 deg}, stands: {ground: [[0 m, -1 m], [4 m, -2 m]], clear: 20 mm, spacing: 0.3 m, "
+           "thickness: 12 mm, cheek: 6 mm, fit: 0.3 mm, steepest: 50 deg}}"),
+       std::string(
+           "{process: plate, rules: {sets: [shop-plate], leave_out: [plate.web], own: [{id: a, sentence: S., "
+           "quantity: hole_thicknesses, lowest: 2, source: us}]}}"),
+       std::string(
+           "{process: timber, material: {name: spruce plywood, density: 460 kg/m^3}, "
+           "lumber: {name: GL24h, density: 430 kg/m^3}, arc_tolerance: 2 mm, frame: beams, "
+           "bearers: {count: 3, spacing: 0.5 m, width: 100 mm, depth: 300 mm}, deck: {layers: 3}, "
+           "cross_members: {width: 60 mm, height: 80 mm, spacing: 350 mm}, "
+           "legs: {ground: [[0 m, -1 m], [4 m, -2 m]], spacing: 1.5 m, side: 100 mm, braced_from: 2 m, "
+           "brace_width: 140 mm, brace_thickness: 30 mm}, "
+           "split: {sheet: [3 m, 1.5 m], longest: 9 m, heaviest: 80 kg}, fit: 3 mm, joint_step: 0.5 mm}"),
+       std::string("{process: timber, legs: {ground: -2 m}}")}) {
     const Design design = parse_design(
         "glissade: 1\ntrack: {start: {x: 0 m, z: 6 m}, finish: {x: 5 m, z: 1 m}}\nbody: {friction_angle: 17 "
         "deg}\n"

@@ -234,3 +234,39 @@ TEST_CASE("timber: random bends, widths and layers clash nowhere and keep their 
     CHECK(build.ride.arrives);
   }
 }
+
+TEST_CASE("timber: long legs are braced across and along, boards end on the legs, and short ones are told") {
+  TimberOptions options;
+  options.legs = LegOptions{{{0.0, -9.0}}, 2.0, 90e-3};
+  const ArcSpline track = bend(9.0);
+  const WorkshopBuild build = timber(track, options);
+  const auto check = testing::check_of(testing::shop_checks(build.workshop, "timber"), "timber.brace");
+  CHECK(check.verdict == ShopVerdict::pass);  // those that are left are short
+  const auto rows = named(build, "cross_brace_");
+  const auto bays = named(build, "long_brace_");
+  CHECK(rows.size() > 4);
+  CHECK(bays.size() > 4);
+  for (const ShopPart* board : rows) {
+    INFO(board->name);
+    REQUIRE(board->quantity() == 2);
+    const Prism& body = std::get<Prism>(board->body);
+    const PlaneBox box = bounds(body.region.outline);
+    // From the middle of the outer legs, 45 mm inwards of their faces: 1.5 m and two curbs less two half legs.
+    CHECK(box.width() == Approx(1.5 + 2 * 24e-3 - 18e-3 + 0.9 * 90e-3).epsilon(1e-12));
+    CHECK(body.depth == 24e-3);
+    const Vec3 low = board->places.front().to_space({0.0, 0.0, 0.0});
+    const Vec3 other = board->places.back().to_space({0.0, 0.0, 0.0});
+    CHECK(low.y == Approx(-other.y).epsilon(1e-12));
+    CHECK(std::fabs(low.x - other.x) == Approx(90e-3).epsilon(1e-9));
+    CHECK(low.z == Approx(other.z).epsilon(1e-12));
+    CHECK(board->mass == Approx(420.0 * board->volume).epsilon(1e-12));
+  }
+  // Without braces the longest legs are told.
+  options.legs->braced_from = 100.0;
+  const WorkshopBuild bare = timber(track, options);
+  CHECK(named(bare, "cross_brace_").empty());
+  CHECK(named(bare, "long_brace_").empty());
+  const auto told = testing::check_of(testing::shop_checks(bare.workshop, "timber"), "timber.brace");
+  CHECK(told.verdict == ShopVerdict::warn);
+  CHECK(told.bound == "at most 1.5 m");
+}

@@ -146,7 +146,10 @@ TEST_CASE(
   }
   const std::vector<PrintPiece> read = read_three_mf(place / "out" / "marble_run_printed.3mf");
   REQUIRE(read.size() == pieces);
-  CHECK(pieces == 3 + 4);
+  const auto stands = std::count_if(read.begin(), read.end(),
+                                    [](const PrintPiece& piece) { return piece.name.starts_with("stand"); });
+  CHECK(stands == 9);  // six stands, one of them in two blocks with two pins
+  CHECK(pieces == 3 + 4 + 9);
   for (const PrintPiece& piece : read) {
     INFO(piece.name);
     CHECK(measure(piece.mesh).valid());  // at the precision of the file

@@ -55,7 +55,10 @@ LegOptions read_legs(const Value& value, Findings& findings) {
   LegOptions legs;
   if (const auto ground = map.need("ground", "ground: 0 m")) legs.ground = read_ground(*ground, findings);
   legs.spacing = map.quantity("spacing", Dimension::length).value_or(legs.spacing);
-  legs.side = map.quantity("side", Dimension::length).value_or(legs.side);
+  set_length(map, "side", legs.side);
+  set_length(map, "braced_from", legs.braced_from);
+  set_length(map, "brace_width", legs.brace_width);
+  set_length(map, "brace_thickness", legs.brace_thickness);
   map.refuse_unknown_keys();
   return legs;
 }

@@ -140,7 +140,10 @@ cross_section:
     - [-3 mm, 0 mm]
     - [-10 mm, 5 mm]
     - [-12 mm, 5 mm]
-# fabrication: {process: print}        # pieces for a printer: docs/fabrication.md
+# fabrication:                         # pieces for a printer: docs/fabrication.md
+#   process: print
+#   joint: dovetail                    # or tongue, dowels
+#   stands: {spacing: 200 mm}          # feet below joints and ends
 mesh: {tolerance: 0.02 mm}
 export: {formats: [stl], unit: mm}
 )";

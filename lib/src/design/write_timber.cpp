@@ -25,6 +25,9 @@ std::string legs(const LegOptions& options) {
   group.add("ground", written_ground(options.ground));
   group.add("spacing", options.spacing, Dimension::length);
   group.add("side", options.side, Dimension::length);
+  group.add("braced_from", options.braced_from, Dimension::length);
+  group.add("brace_width", options.brace_width, Dimension::length);
+  group.add("brace_thickness", options.brace_thickness, Dimension::length);
   return group.inlined();
 }
 

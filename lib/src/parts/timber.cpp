@@ -10,6 +10,7 @@
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/timber_braces.hpp"
 #include "parts/timber_facts.hpp"
 #include "parts/timber_frame.hpp"
 
@@ -326,6 +327,9 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   add_cross_members(job, members, workshop);
   add_bearers(job, bearers, workshop);
   add_legs(job, legs, bearers, workshop);
+  if (!legs.empty()) {
+    for (ShopPart& part : brace_parts(job, legs, bearers)) add(workshop, std::move(part), kLegColour);
+  }
   workshop.setting_out = setting_out(job.track, bearers.joints, placement);
   add_offsets(job, workshop);
   for (const DeckRow& row : rows.front()) build.joints.push_back(row.span.from);

@@ -58,6 +58,9 @@ void check_members(const TimberOptions& options, Problems& problems) {
   if (!options.legs) return;
   problems.positive("legs.spacing", options.legs->spacing, "2 m");
   problems.positive("legs.side", options.legs->side, "90 mm");
+  problems.positive("legs.braced_from", options.legs->braced_from, "1.5 m");
+  problems.positive("legs.brace_width", options.legs->brace_width, "120 mm");
+  problems.positive("legs.brace_thickness", options.legs->brace_thickness, "24 mm");
   check_ground(options.legs->ground, problems);
 }
 

@@ -6,6 +6,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/shop_facts.hpp"
+#include "parts/timber_braces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ void measure_seams(const TimberJob& job, const std::vector<std::vector<DeckRow>>
 void measure_legs(const TimberJob& job, const std::vector<Leg>& legs, ShopFacts& facts) {
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const std::string where = "leg " + std::to_string(i + 1);
-    facts.at(where, "unbraced_leg", legs[i].length());
+    if (!is_braced(job, legs[i])) facts.at(where, "unbraced_leg", legs[i].length());
     if (i > 0 && job.options.frame == TimberFrame::ribs)
       facts.at(where, "leg_spacing", legs[i].x - legs[i - 1].x);
   }

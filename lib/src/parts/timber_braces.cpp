@@ -1,0 +1,143 @@
+#include "parts/timber_braces.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/plate_unit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kSteepestBay = 1.2;  // height of one board over the width of its bay
+constexpr double kBeside = 1e-3;      // between boards that end on one leg [m]
+constexpr double kFarthest = 12.0;    // boards in one bay, above that the legs are no timber structure
+
+/// Heights between which boards are fixed to a leg.
+struct Reach {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// @param side  1.5 board widths below the slanted top, a board's half above the ground
+Reach reach_of(const TimberJob& job, const Leg& leg) {
+  const double width = job.options.legs->brace_width;
+  return {leg.ground + width, std::min(leg.top_left.y, leg.top_right.y) - 1.5 * width};
+}
+
+/// A board between two plumb cuts, from the lower left to the upper right or from the upper left to the lower right.
+/// @param run     distance of the cuts
+/// @param from,to heights of its middle line at the left and at the right cut
+ArcPath board(double run, double from, double to, double width) {
+  const double half = 0.5 * width * std::sqrt(1.0 + (to - from) * (to - from) / (run * run));
+  ArcPath outline;
+  outline.closed = true;
+  for (const Vec2 corner :
+       {Vec2{0.0, from - half}, Vec2{run, to - half}, Vec2{run, to + half}, Vec2{0.0, from + half}}) {
+    outline.vertices.push_back({corner, 0.0});
+  }
+  return outline;
+}
+
+ShopPart board_part(const TimberJob& job, const ArcPath& outline, std::string name) {
+  ShopPart part;
+  part.name = std::move(name);
+  part.material = job.options.lumber.name;
+  part.density = job.options.lumber.density;
+  part.thickness = job.options.legs->brace_thickness;
+  part.body = Prism{{outline, {}, {}}, part.thickness};
+  part.stands = true;
+  part.bought_in = true;
+  FlatPattern pattern;
+  pattern.region.outline = outline;
+  part.pattern = std::move(pattern);
+  return part;
+}
+
+/// @return heights at which boards of a bay begin and end, from below
+std::vector<double> levels(double low, double high, double run) {
+  const double count = std::clamp(std::ceil((high - low) / (kSteepestBay * run) - 1e-9), 1.0, kFarthest);
+  std::vector<double> heights;
+  for (double k = 0.0; k <= count; k += 1.0) heights.push_back(low + (high - low) * k / count);
+  return heights;
+}
+
+/// Crossed boards on both faces of a row of legs.
+void brace_row(const TimberJob& job, const Leg& leg, const BearerPlan& plan, const std::string& number,
+               std::vector<ShopPart>& parts) {
+  const LegOptions& options = *job.options.legs;
+  const double outer = 0.45 * options.side;
+  const double left = plan.across.front() + outer;
+  const double right = plan.across.back() - outer;
+  const Reach reach = reach_of(job, leg);
+  const std::vector<double> heights = levels(reach.low, reach.high, left - right);
+  const Vec3 to_left = across(job.placement);
+  const Vec3 downstream = along(job.placement);
+  const Vec3 up = cross(downstream, to_left);
+  const double face = 0.5 * options.side;
+  for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+    const double rise = heights[k + 1] - heights[k];
+    ShopPart part =
+        board_part(job, board(left - right, 0.0, rise, options.brace_width),
+                   "cross_brace_" + number + (heights.size() > 2 ? "_" + std::to_string(k + 1) : ""));
+    // One on the downstream face, rising to the left; the same turned round on the upstream face.
+    const Vec3 low_right = in_space(job.placement, {leg.x + face, heights[k]}) + right * to_left;
+    const Vec3 low_left = in_space(job.placement, {leg.x - face, heights[k]}) + left * to_left;
+    part.places.push_back({low_right, to_left, up, cross(to_left, up)});
+    part.places.push_back({low_left, -1.0 * to_left, up, cross(-1.0 * to_left, up)});
+    weigh(part);
+    parts.push_back(std::move(part));
+  }
+}
+
+/// Boards between two rows, on the outsides of the outer legs; they rise towards the shorter leg.
+void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const BearerPlan& plan,
+               const std::string& number, std::vector<ShopPart>& parts) {
+  const LegOptions& options = *job.options.legs;
+  const Reach a = reach_of(job, before);
+  const Reach b = reach_of(job, after);
+  const bool rises = b.high <= a.high;  // towards the leg downstream
+  const double from = before.x + kBeside;
+  const double run = after.x - kBeside - from;
+  const double low = rises ? a.low : b.low;
+  const double high = rises ? b.high : a.high;
+  if (!(high - low > 2.0 * options.brace_width)) return;
+  const std::vector<double> heights = levels(low, high, run);
+  for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+    const double rise = heights[k + 1] - heights[k];
+    ShopPart part =
+        board_part(job, board(run, rises ? 0.0 : rise, rises ? rise : 0.0, options.brace_width),
+                   "long_brace_" + number + (heights.size() > 2 ? "_" + std::to_string(k + 1) : ""));
+    for (const double shift : {-plan.across.front() - 0.5 * options.side - options.brace_thickness,
+                               -plan.across.back() + 0.5 * options.side}) {
+      part.places.push_back(plane_of_track(job.placement, {from, heights[k]}, 0.0, shift));
+    }
+    weigh(part);
+    parts.push_back(std::move(part));
+  }
+}
+
+}  // namespace
+
+bool is_braced(const TimberJob& job, const Leg& leg) {
+  const Reach reach = reach_of(job, leg);
+  return leg.length() >= job.options.legs->braced_from &&
+         reach.high - reach.low > 2.0 * job.options.legs->brace_width;
+}
+
+std::vector<ShopPart> brace_parts(const TimberJob& job, const std::vector<Leg>& legs,
+                                  const BearerPlan& plan) {
+  std::vector<ShopPart> parts;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    if (is_braced(job, legs[i])) brace_row(job, legs[i], plan, number, parts);
+    if (i + 1 < legs.size() && (is_braced(job, legs[i]) || is_braced(job, legs[i + 1])))
+      brace_bay(job, legs[i], legs[i + 1], plan, number, parts);
+  }
+  return parts;
+}
+
+}  // namespace glissade::parts
