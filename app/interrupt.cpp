@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
@@ -49,6 +50,21 @@ double processor_time() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+/// When the work was asked to end, by both clocks.
+struct Asked {
+  double processor = 0.0;  ///< [s]
+  std::chrono::steady_clock::time_point at;
+};
+
+/// @return whether the work has had its time: of the processor, so that a machine that does much else takes nothing away;
+///         what does not compute at all (nobody takes its output, a disk is gone) has a second by the clock
+bool out_of_patience(const Asked& asked) {
+  constexpr double kOfProcessor = 0.12;  // [s]
+  constexpr std::chrono::seconds kByTheClock{1};
+  return processor_time() - asked.processor > kOfProcessor ||
+         std::chrono::steady_clock::now() - asked.at > kByTheClock;
+}
+
 /// Ends the program wherever the work is; nothing half written stays.
 [[noreturn]] void end_at_once() {
   discard_unfinished();
@@ -67,22 +83,20 @@ Interrupt::Interrupt() {
 }
 
 void Interrupt::listen() {
-  // Of processor time, so that a machine that does much else takes nothing away.
-  constexpr double kPatience = 0.12;  // [s]
-  constexpr int kLook = 10;           // [ms]
-  double asked = 0.0;
+  constexpr int kLook = 10;  // [ms]
+  Asked asked;
   while (true) {
     pollfd incoming{pipe_ends[0], POLLIN, 0};
     const int ready = ::poll(&incoming, 1, source_.stop_requested() && !goes_on_ ? kLook : -1);
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) {
-      if (!goes_on_ && processor_time() - asked > kPatience) end_at_once();
+      if (!goes_on_ && out_of_patience(asked)) end_at_once();
       continue;
     }
     char message = 0;
     if (::read(pipe_ends[0], &message, 1) != 1 || message == 'e') return;
     if (message == 't' || source_.stop_requested()) end_at_once();
-    asked = processor_time();
+    asked = {processor_time(), std::chrono::steady_clock::now()};
     source_.request_stop();
   }
 }

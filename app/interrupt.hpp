@@ -9,7 +9,7 @@
 
 namespace glissade::app {
 
-/// While it lives, the first Ctrl-C asks the work to end; work that has not done so within kPatience is ended. The second
+/// While it lives, the first Ctrl-C asks the work to end; work that has not done so soon (interrupt.cpp) is ended. The second
 /// one, or SIGTERM, ends the program at once, wherever the work is. What was being written is taken away, files that are
 /// finished stay.
 class Interrupt {
@@ -26,7 +26,7 @@ class Interrupt {
   }
 
  private:
-  /// Waits for a signal; ends work that takes longer than kPatience over the request to stop.
+  /// Waits for a signal; ends work that takes too long over the request to stop.
   void listen();
 
   std::stop_source source_;

@@ -33,6 +33,8 @@ void fit(benchmark::State& state, const std::string& design, double tolerance) {
 BENCHMARK_CAPTURE(fit, grain_chute, std::string("grain_chute"), 1e-4)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(fit, grain_chute_with_limits, std::string("grain_chute_with_limits"), 1e-4)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fit, wood_chip_chute, std::string("wood_chip_chute"), 1e-4)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fit, ore_transfer, std::string("ore_transfer"), 1e-4)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(fit, powder_chute, std::string("powder_chute"), 1e-4)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(fit, marble_run, std::string("marble_run"), 2e-5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(fit, sand_ski_ramp, std::string("sand_ski_ramp"), 1e-3)->Unit(benchmark::kMillisecond);

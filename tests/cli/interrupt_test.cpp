@@ -16,7 +16,10 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 using Catch::Matchers::Contains;
 
@@ -181,6 +184,32 @@ TEST_CASE("a second Ctrl-C ends a build at once, whatever it is at") {
   CHECK(running.end_by(SIGINT) == 130);
   CHECK(time_of_children() - others - before <= kPatience);
   CHECK(leftovers(place.path()).empty());
+}
+
+TEST_CASE("Ctrl-C ends a program whose output nobody takes") {
+  const TempDir place;
+  const fs::path pipe = place / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  REQUIRE(reader >= 0);
+  constexpr int kLeast = 4096;
+  REQUIRE(::fcntl(reader, F_SETPIPE_SZ, kLeast) >= kLeast);
+  // The shell becomes the program.
+  RunningProgram running("/bin/sh",
+                         {"-c", R"(exec "$0" build "$1" -v --json -o made > pipe)", glissade_program(),
+                          shipped("grain_chute_fabricated")},
+                         place.path());
+  const auto full = [reader] {
+    int bytes = 0;
+    return ::ioctl(reader, FIONREAD, &bytes) == 0 && bytes >= kLeast;
+  };
+  constexpr int kMostLooks = 30'000;
+  int looks = 0;
+  for (; looks < kMostLooks && !full(); ++looks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  REQUIRE(looks < kMostLooks);
+  CHECK(running.end_by(SIGINT) == 130);
+  CHECK_THAT(running.errors(), Contains("interrupted"));
+  ::close(reader);
 }
 
 TEST_CASE("a sweep of searches ends at once and goes on where it was") {

@@ -154,6 +154,51 @@ TEST_CASE("master curve: lines and arcs of a drawn track stay what they are, wit
   }
 }
 
+TEST_CASE("master curve: what is kept reaches on, never back, and saves arcs") {
+  // A line, a ramp, an arc, a ramp, a line.
+  const ClothoidSpline track(
+      Angle::from_degrees(50.0),
+      {{2.0, 0.0, 0.0}, {1.5, 0.0, 0.2}, {2.0, 0.2, 0.2}, {1.5, 0.2, 0.0}, {1.0, 0.0, 0.0}});
+  for (const double tolerance : {1e-5, 1e-4, 1e-3, 5e-3}) {
+    INFO("tolerance " << tolerance);
+    const MasterCurve curve = fit_arcs(track, {tolerance});
+    CHECK(curve.kept == 3);
+    CHECK(curve.arcs <= goal(curve.lower_bound));
+    CHECK(brute_deviation(*curve.spline, track) <= 1.01 * tolerance + 2e-6);
+    CHECK(brute_deviation(track, *curve.spline) <= 1.01 * tolerance + 2e-6);
+    const std::vector<TrackArc>& arcs = curve.spline->arcs();
+    CHECK(arcs.front().curvature == 0.0);
+    CHECK(arcs.front().length > 2.0 + 1e-3);
+    CHECK(arcs.back().curvature == 0.0);
+    CHECK(arcs.back().length > 1.0 + 1e-3);
+    const auto kept = std::find_if(arcs.begin(), arcs.end(),
+                                   [](const TrackArc& arc) { return std::fabs(arc.curvature - 0.2) < 1e-9; });
+    REQUIRE(kept != arcs.end());
+    CHECK(kept->length > 2.0 + 1e-3);
+    for (const double s : {0.5, 1.99, 4.5, 7.5}) {
+      const CenterlinePoint at = track.at(s);
+      const CenterlinePoint found = curve.spline->at(curve.spline->arc_length_at_run(at.x));
+      CHECK(std::fabs(found.drop - at.drop) < 1e-9);
+      CHECK(std::fabs(found.slope_angle - at.slope_angle) < 1e-9);
+    }
+  }
+  // One arc touches both line and arc where the ramp is short for the tolerance.
+  CHECK(fit_arcs(track, {5e-3}).arcs == 5);
+}
+
+TEST_CASE("master curve: searched tracks with kept pieces reach the goal, too") {
+  for (const auto& [design, tolerance] :
+       {std::pair("grain_chute_with_limits", 1e-4), std::pair("ski_jump_inrun_with_limits", 1e-3)}) {
+    const Track track = solve(read_design(designs_path(std::string(design) + ".yaml")));
+    const MasterCurve curve = fit_arcs(*track.centerline, {tolerance});
+    INFO(design << ", " << curve.kept << " kept, bound " << curve.lower_bound);
+    CHECK(curve.kept >= 2);
+    CHECK(curve.arcs <= goal(curve.lower_bound));
+    CHECK(brute_deviation(*curve.spline, *track.centerline) <= 1.01 * tolerance + 1e-6);
+    CHECK(brute_deviation(*track.centerline, *curve.spline) <= 1.01 * tolerance + 1e-6);
+  }
+}
+
 TEST_CASE("master curve: a track that is lines and arcs is given back") {
   const ClothoidSpline track(Angle::from_degrees(35.0),
                              {{2.0, 0.0, 0.0}, {1.5, 0.3, 0.3}, {0.5, -0.1, -0.1}, {0.5, -0.1, -0.1}});

@@ -68,24 +68,6 @@ TrackPoint between(const TrackSamples& samples, double s) {
   return {samples.point[i - 1] + share * chord + sag * left, samples.heading[i - 1] + share * turned};
 }
 
-/// One arc as it is measured: where it starts, its heading there, its curvature.
-struct Leg {
-  Vec2 from;
-  double heading = 0.0;
-  double curvature = 0.0;
-
-  /// @return signed distance of a point from the leg's circle, positive to the left
-  [[nodiscard]] double distance(Vec2 point) const {
-    const Vec2 along = direction_of(heading);
-    const Vec2 away = point - from;
-    const double u = dot(along, away);
-    const double v = cross(along, away);
-    const double left = 1.0 - curvature * v;
-    const double grade = math::hypot(curvature * u, left);
-    return 2.0 * (v - 0.5 * curvature * (u * u + v * v)) / (1.0 + grade);
-  }
-};
-
 /// The biarc between two points with two headings whose joint comes closest to a given place.
 /// @return its joint; the second arc starts there with the heading that the first one ends with
 Vec2 biarc_joint(Vec2 from, double heading, Vec2 to, double end_heading, Vec2 wanted) {
@@ -99,18 +81,53 @@ Vec2 biarc_joint(Vec2 from, double heading, Vec2 to, double end_heading, Vec2 wa
   return from + distance * direction_of(chord_angle + lean * (1.0 - share));
 }
 
+/// An arc from the end of one leg that touches the circle of another.
+struct Touching {
+  Leg leg;
+  double length = 0.0;
+  double beyond = 0.0;  ///< along the other leg from where that is known, to the place that is touched
+};
+
+/// @return none where the arc would run backwards or turn by more than a right angle
+std::optional<Touching> touching(const Leg& from, const Leg& other) {
+  // Both centres and the place that is touched lie on one line: C - T = N/k, O - T = N/kappa. Multiplied by k and kappa,
+  // so that either may be 0.
+  const Vec2 away = from.from - other.from;
+  const Vec2 normal = left_of(from.heading);
+  const Vec2 other_normal = left_of(other.heading);
+  const double kappa = other.curvature;
+  const double turn = wrapped(other.heading - from.heading);
+  const double above = kappa * dot(away, normal) + 1.0 - math::cos(turn);
+  const double below = 0.5 * kappa * dot(away, away) - dot(away, other_normal);
+  Touching found{from, 0.0, 0.0};
+  const double k = -above / below;
+  if (!std::isfinite(k) || k == 0.0 || k == kappa) return std::nullopt;
+  found.leg.curvature = k;
+  const Vec2 at_touch = (1.0 / (kappa - k)) * ((k * kappa) * away + kappa * normal - k * other_normal);
+  const double heading = math::atan2(-at_touch.x, at_touch.y);
+  found.length = wrapped(heading - from.heading) / k;
+  if (!(found.length > 0.0) || std::fabs(found.length * k) > 0.5 * std::numbers::pi) return std::nullopt;
+  const Vec2 chord = found.leg.after(found.length).from - other.from;
+  const double half = 0.5 * wrapped(heading - other.heading);
+  const double size = norm(chord) / sinc(half);
+  found.beyond = dot(chord, direction_of(other.heading + half)) < 0.0 ? -size : size;
+  return found;
+}
+
 class Fitter {
  public:
   Fitter(const TrackSamples& samples, const Stretch& stretch, std::vector<double> knots, const Band& band)
       : samples_(samples), stretch_(stretch), band_(band), knots_(std::move(knots)) {
     offsets_.assign(knots_.size(), 0.0);
     heading_ = samples.heading[stretch.first];
+    start_ = samples.s[stretch.first];
+    end_ = samples.s[stretch.last];
     opening_ = kRamp * width(0);
     closing_ = kRamp * width(cells() - 1);
     dropped_.assign(2 * cells() + 1, false);
     dropped_.front() = dropped_.back() = true;
-    if (stretch_.keep_first_tangent) dropped_[1] = true;
-    if (stretch_.keep_last_tangent) dropped_[2 * cells() - 1] = true;
+    if (stretch_.before && stretch_.before->reach == 0.0) dropped_[1] = true;
+    if (stretch_.after && stretch_.after->reach == 0.0) dropped_[2 * cells() - 1] = true;
   }
 
   ArcChain best(double tolerance) {
@@ -190,17 +207,29 @@ class Fitter {
     legs_.clear();
     const std::size_t n = cells();
     Vec2 at = samples_.point[stretch_.first];
-    const Vec2 end = samples_.point[stretch_.last];
-    const double end_heading = samples_.heading[stretch_.last];
+    Vec2 end = samples_.point[stretch_.last];
     double heading = heading_;
-    if (n == 1 && stretch_.keep_last_tangent) {
+    double end_heading = samples_.heading[stretch_.last];
+    if (stretch_.before) {
+      chain.first_reach = knots_.front() - start_;
+      const Leg leg = stretch_.before->leg.after(chain.first_reach);
+      at = leg.from;
+      heading = leg.heading;
+    }
+    if (stretch_.after) {
+      chain.last_reach = end_ - knots_.back();
+      const Leg leg = stretch_.after->leg.after(-chain.last_reach);
+      end = leg.from;
+      end_heading = leg.heading;
+    }
+    if (n == 1 && stretch_.after) {
       const Vec2 chord = end - at;
       heading = 2.0 * math::atan2(chord.y, chord.x) - end_heading;
     }
     for (std::size_t i = 1; i < n; ++i) {
       const TrackPoint place = between(samples_, knots_[i]);
       Vec2 to = place.point + offsets_[i] * left_of(place.heading);
-      if (i + 1 == n && stretch_.keep_last_tangent) to = biarc_joint(at, heading, end, end_heading, to);
+      if (i + 1 == n && stretch_.after) to = biarc_joint(at, heading, end, end_heading, to);
       go_to(chain, at, heading, to);
     }
     go_to(chain, at, heading, end);
@@ -215,11 +244,18 @@ class Fitter {
     std::size_t cell = 0;
     for (std::size_t j = stretch_.first + 1; j < stretch_.last; ++j) {
       while (cell + 1 < cells() && samples_.s[j] >= knots_[cell + 1]) ++cell;
-      const double offset = -legs_[cell].distance(samples_.point[j]);
+      const double offset = -leg_at(samples_.s[j], cell).distance(samples_.point[j]);
       offset_at_.push_back(offset);
       const double size = std::fabs(offset - middle_at(samples_.s[j])) / weight_at(samples_.s[j]);
       if (!(size <= chain.deviation)) chain.deviation = size;
     }
+  }
+
+  /// The leg beside a place within a cell, or on a kept piece that reaches so far.
+  [[nodiscard]] const Leg& leg_at(double s, std::size_t cell) const {
+    if (stretch_.before && s < knots_.front()) return stretch_.before->leg;
+    if (stretch_.after && s >= knots_.back()) return stretch_.after->leg;
+    return legs_[cell];
   }
 
   void add_cell_rows(std::vector<MinimaxRow>& rows, std::size_t cell) const {
@@ -247,24 +283,56 @@ class Fitter {
     if (farthest < last) add(farthest);
   }
 
+  /// Of the curvature at a knot; at the ends that against the kept pieces.
   [[nodiscard]] double jump(std::size_t knot) const {
-    return legs_[knot - 1].curvature - legs_[knot].curvature;
+    const double before = knot > 0 ? legs_[knot - 1].curvature : stretch_.before->leg.curvature;
+    const double after = knot < cells() ? legs_[knot].curvature : stretch_.after->leg.curvature;
+    return before - after;
+  }
+  /// Whether a knot may move: within the chain, or along a kept piece that reaches on.
+  [[nodiscard]] bool moves(std::size_t knot) const {
+    if (knot == 0) return stretch_.before && stretch_.before->reach > 0.0;
+    return knot < cells() || (stretch_.after && stretch_.after->reach > 0.0);
+  }
+  /// The shorter of the cells beside a knot.
+  [[nodiscard]] double room_at(std::size_t knot) const {
+    if (knot == 0) return width(0);
+    return knot < cells() ? std::min(width(knot - 1), width(knot)) : width(knot - 1);
+  }
+
+  /// Slope after a knot less slope before it, times a width: a length, as the other rows are.
+  [[nodiscard]] MinimaxRow kink_row(std::size_t knot, double move) const {
+    const double shorter = room_at(knot);
+    MinimaxRow kink{0, {}, 0.0, 0.0, 0.0, 0.0};
+    if (knot == 0) {
+      kink = {0, {-2.0, 2.0, 0.0}, 0.0, 0.0, 0.0, 0.0};
+    } else if (knot == cells()) {
+      kink = {2 * knot - 2, {0.0, 2.0, -2.0}, 0.0, 0.0, 0.0, 0.0};
+    } else {
+      const double before = shorter / width(knot - 1);
+      const double after = shorter / width(knot);
+      kink = {2 * knot - 1, {2.0 * before, -2.0 * (before + after), 2.0 * after}, 0.0, 0.0, 0.0, 0.0};
+    }
+    kink.room = std::max(std::fabs(jump(knot)) * move * shorter * shorter, 1e-9 * shorter * shorter);
+    return kink;
   }
 
   void correct(double move) {
     std::vector<MinimaxRow> rows;
     for (std::size_t cell = 0; cell < cells(); ++cell) add_cell_rows(rows, cell);
-    for (std::size_t i = 1; i < cells(); ++i) {
-      const double shorter = std::min(width(i - 1), width(i));
-      // Slope after the knot less slope before it, times a width: a length, as the other rows are.
-      const double before = shorter / width(i - 1);
-      const double after = shorter / width(i);
-      MinimaxRow kink{2 * i - 1, {2.0 * before, -2.0 * (before + after), 2.0 * after}, 0.0, 0.0, 0.0, 0.0};
-      kink.room = std::max(std::fabs(jump(i)) * move * shorter * shorter, 1e-9 * shorter * shorter);
-      rows.push_back(kink);
+    for (std::size_t i = 0; i <= cells(); ++i) {
+      if (moves(i)) rows.push_back(kink_row(i, move));
     }
     if (rows.empty()) return;
     apply(minimax(rows, dropped_).x, move);
+  }
+
+  /// How far a knot goes for a change of the slope on both its sides.
+  [[nodiscard]] double step_of(std::size_t knot, const std::vector<double>& x, double move) const {
+    const double after = knot < cells() ? 2.0 * (x[2 * knot + 1] - x[2 * knot]) / width(knot) : 0.0;
+    const double before = knot > 0 ? 2.0 * (x[2 * knot] - x[2 * knot - 1]) / width(knot - 1) : 0.0;
+    const double most = move * room_at(knot);
+    return jump(knot) == 0.0 ? 0.0 : std::clamp((after - before) / jump(knot), -most, most);
   }
 
   void apply(const std::vector<double>& x, double move) {
@@ -272,10 +340,7 @@ class Fitter {
     std::vector<double> moved = knots_;
     std::vector<double> offsets = offsets_;
     for (std::size_t i = 1; i < cells(); ++i) {
-      const double kink =
-          2.0 * (x[2 * i + 1] - x[2 * i]) / width(i) - 2.0 * (x[2 * i] - x[2 * i - 1]) / width(i - 1);
-      const double most = move * std::min(width(i - 1), width(i));
-      const double step = jump(i) == 0.0 ? 0.0 : std::clamp(kink / jump(i), -most, most);
+      const double step = step_of(i, x, move);
       const std::size_t cell = step > 0.0 ? i : i - 1;
       moved[i] = old[i] + step;
       const TrackPoint place = between(samples_, moved[i]);
@@ -283,7 +348,11 @@ class Fitter {
       offsets[i] = -legs_[cell].distance(place.point);
       for (std::size_t k = 0; k < 3; ++k) offsets[i] += row.value[k] * x[row.first + k];
     }
-    heading_ += 2.0 * x[1] / width(0);
+    if (moves(0))
+      moved.front() = std::clamp(old.front() + step_of(0, x, move), start_, start_ + stretch_.before->reach);
+    if (moves(cells()))
+      moved.back() = std::clamp(old.back() + step_of(cells(), x, move), end_ - stretch_.after->reach, end_);
+    if (!stretch_.before) heading_ += 2.0 * x[1] / width(0);
     knots_ = std::move(moved);
     offsets_ = std::move(offsets);
   }
@@ -291,6 +360,8 @@ class Fitter {
   const TrackSamples& samples_;
   Stretch stretch_;
   Band band_;
+  double start_ = 0.0;  // arc lengths of the stretch
+  double end_ = 0.0;
   std::vector<double> knots_;    // arc lengths of the joints
   std::vector<double> offsets_;  // of the joints, to the left of the track [m]
   double opening_ = 0.0;         // lengths in which the band opens and closes [m]
@@ -303,9 +374,52 @@ class Fitter {
 
 }  // namespace
 
+double Leg::distance(Vec2 point) const {
+  const Vec2 along = direction_of(heading);
+  const Vec2 away = point - from;
+  const double u = dot(along, away);
+  const double v = cross(along, away);
+  const double left = 1.0 - curvature * v;
+  const double grade = math::hypot(curvature * u, left);
+  return 2.0 * (v - 0.5 * curvature * (u * u + v * v)) / (1.0 + grade);
+}
+
+Leg Leg::after(double length) const {
+  const double half = 0.5 * curvature * length;
+  return {from + (length * sinc(half)) * direction_of(heading + half), heading + 2.0 * half, curvature};
+}
+
 ArcChain fit_chain(const TrackSamples& samples, const Stretch& stretch, std::vector<double> knots,
                    const Band& band, double tolerance) {
   return Fitter(samples, stretch, std::move(knots), band).best(tolerance);
+}
+
+ArcChain tangent_arc(const TrackSamples& samples, const Stretch& stretch) {
+  constexpr int kPlaces = 32;
+  ArcChain best;
+  best.deviation = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double reach = stretch.before->reach * i / kPlaces;
+    const Leg from = stretch.before->leg.after(reach);
+    const auto arc = touching(from, stretch.after->leg);
+    if (!arc || arc->beyond > 0.0 || arc->beyond < -stretch.after->reach) continue;
+    ArcChain chain;
+    chain.first_reach = reach;
+    chain.last_reach = -arc->beyond;
+    const double starts = samples.s[stretch.first] + reach;
+    const double ends = samples.s[stretch.last] - chain.last_reach;
+    for (std::size_t j = stretch.first + 1; j < stretch.last; ++j) {
+      const Leg& leg = samples.s[j] < starts ? stretch.before->leg
+                       : samples.s[j] < ends ? arc->leg
+                                             : stretch.after->leg;
+      chain.deviation = std::max(chain.deviation, std::fabs(leg.distance(samples.point[j])));
+    }
+    if (!(chain.deviation < best.deviation)) continue;
+    chain.vertices = {{from.from, math::tan(0.25 * arc->leg.curvature * arc->length)},
+                      {stretch.after->leg.after(arc->beyond).from, 0.0}};
+    best = std::move(chain);
+  }
+  return best;
 }
 
 }  // namespace glissade::parts

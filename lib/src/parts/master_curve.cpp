@@ -121,43 +121,101 @@ std::vector<double> first_knots(const TrackSamples& samples, const Stretch& stre
   return knots;
 }
 
+std::size_t index_at(const TrackSamples& samples, double s) {
+  return static_cast<std::size_t>(std::lower_bound(samples.s.begin(), samples.s.end(), s) -
+                                  samples.s.begin());
+}
+
+/// The stretch between a kept piece and the one before it; the first begins at the start, the last ends at the finish.
+/// @param next  number of the kept piece after it
+/// @return none where there is nothing in between
+std::optional<Stretch> stretch_before(const TrackSamples& samples, const std::vector<Kept>& kept,
+                                      std::size_t next) {
+  const double from = next == 0 ? 0.0 : kept[next - 1].to;
+  const double to = next == kept.size() ? samples.s.back() : kept[next].from;
+  if (!(to > from)) return std::nullopt;
+  Stretch stretch{index_at(samples, from), index_at(samples, to), {}, {}};
+  const auto leg_at = [&](std::size_t at, double curvature) {
+    return Leg{samples.point[at], samples.heading[at], curvature};
+  };
+  if (next > 0) stretch.before = KeptEnd{leg_at(stretch.first, kept[next - 1].curvature), 0.0};
+  if (next < kept.size()) stretch.after = KeptEnd{leg_at(stretch.last, kept[next].curvature), 0.0};
+  return stretch;
+}
+
+/// How far a kept piece stays within a tolerance of a stretch beside it, at most a part of that.
+/// @param step  1 from its start on, -1 from its end back
+double reach_of(const TrackSamples& samples, const Stretch& stretch, const Leg& leg, double tolerance,
+                int step) {
+  constexpr double kMost = 0.45;  // of the stretch: the other end may reach as far
+  const double most = kMost * (samples.s[stretch.last] - samples.s[stretch.first]);
+  const std::size_t from = step > 0 ? stretch.first : stretch.last;
+  double reached = 0.0;
+  for (std::size_t j = from; j >= stretch.first && j <= stretch.last; j += static_cast<std::size_t>(step)) {
+    const double away = std::fabs(samples.s[j] - samples.s[from]);
+    if (away > most || std::fabs(leg.distance(samples.point[j])) > tolerance) break;
+    reached = away;
+  }
+  return reached;
+}
+
 /// As few arcs as keep the band along a stretch.
 ArcChain fewest_arcs(const TrackSamples& samples, const Stretch& stretch, const Aim& aim) {
-  const std::size_t bound = circle_pieces(samples, stretch.first, stretch.last, aim.width).count();
-  const std::size_t least = stretch.keep_first_tangent && stretch.keep_last_tangent ? 2 : 1;
+  if (stretch.before && stretch.after && stretch.before->reach > 0.0 && stretch.after->reach > 0.0) {
+    ArcChain one = tangent_arc(samples, stretch);
+    if (one.deviation <= aim.width) return one;
+  }
+  // Of what a kept piece may reach, where its joint begins to look for its place.
+  constexpr double kFirstShare = 0.6;
+  Stretch inner = stretch;
+  if (stretch.before)
+    inner.first = index_at(samples, samples.s[stretch.first] + kFirstShare * stretch.before->reach);
+  if (stretch.after)
+    inner.last = index_at(samples, samples.s[stretch.last] - kFirstShare * stretch.after->reach);
+  const std::size_t bound = circle_pieces(samples, inner.first, inner.last, aim.width).count();
+  const std::size_t least = stretch.before && stretch.after ? 2 : 1;
   ArcChain chain;
   for (std::size_t cells = std::max(bound, least); cells <= 2 * bound + kMoreArcs; ++cells) {
-    chain = fit_chain(samples, stretch, first_knots(samples, stretch, aim.width, cells), aim.band, aim.width);
+    chain = fit_chain(samples, stretch, first_knots(samples, inner, aim.width, cells), aim.band, aim.width);
     if (chain.deviation <= aim.width) return chain;
   }
   throw ConvergenceError(
       {"", "no arcs found that follow the track within " + length_text(aim.width), "", "a larger tolerance"});
 }
 
-std::size_t index_at(const TrackSamples& samples, double s) {
-  return static_cast<std::size_t>(std::lower_bound(samples.s.begin(), samples.s.end(), s) -
-                                  samples.s.begin());
+/// The chain between a kept piece and the one before it; no vertices where there is nothing in between.
+ArcChain chain_before(const TrackSamples& samples, const std::vector<Kept>& kept, std::size_t next,
+                      const Aim& aim) {
+  std::optional<Stretch> stretch = stretch_before(samples, kept, next);
+  if (!stretch) return {};
+  // A band to one side closes where a kept piece begins: there that stays as long as it is.
+  if (aim.band.middle == 0.0) {
+    for (auto* end : {&stretch->before, &stretch->after}) {
+      const int step = end == &stretch->before ? 1 : -1;
+      if (*end) (*end)->reach = reach_of(samples, *stretch, (*end)->leg, aim.width, step);
+    }
+  }
+  return fewest_arcs(samples, *stretch, aim);
 }
 
 /// Lines and arcs of the track where it has them, chains in between.
 ArcPath assembled(const TrackSamples& samples, const std::vector<Kept>& kept, const Aim& aim) {
+  std::vector<ArcChain> chains;
+  for (std::size_t i = 0; i <= kept.size(); ++i) chains.push_back(chain_before(samples, kept, i, aim));
   ArcPath path;
-  double reached = 0.0;
-  const auto follow = [&](double to, bool keep_last) {
-    if (!(to > reached)) return;
-    const Stretch stretch{index_at(samples, reached), index_at(samples, to), reached > 0.0, keep_last};
-    ArcChain chain = fewest_arcs(samples, stretch, aim);
-    chain.vertices.pop_back();
-    path.vertices.insert(path.vertices.end(), chain.vertices.begin(), chain.vertices.end());
-    reached = to;
+  const auto add = [&path](const ArcChain& chain) {
+    if (!chain.vertices.empty())
+      path.vertices.insert(path.vertices.end(), chain.vertices.begin(), chain.vertices.end() - 1);
   };
-  for (const Kept& piece : kept) {
-    follow(piece.from, true);
-    const double quarter = 0.25 * piece.curvature * (piece.to - piece.from);
-    path.vertices.push_back({samples.point[index_at(samples, piece.from)], math::tan(quarter)});
-    reached = piece.to;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    add(chains[i]);
+    const Kept& piece = kept[i];
+    const bool begins = chains[i].vertices.empty();
+    const Vec2 from = begins ? samples.point[index_at(samples, piece.from)] : chains[i].vertices.back().at;
+    const double length = chains[i].last_reach + (piece.to - piece.from) + chains[i + 1].first_reach;
+    path.vertices.push_back({from, math::tan(0.25 * piece.curvature * length)});
   }
-  follow(samples.s.back(), false);
+  add(chains.back());
   path.vertices.push_back({samples.point.back(), 0.0});
   return path;
 }

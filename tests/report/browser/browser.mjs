@@ -53,8 +53,9 @@ export async function open(browser, file, options = {}) {
   page.on("request", (request) => {
     if (request.url() !== url && !/^(data|blob):/.test(request.url())) complaints.push(`request: ${request.url()}`);
   });
-  await page.goto(url);
-  await page.waitForSelector("html[data-ready]", { timeout: 30000 });
+  // A busy machine without a graphics card takes its time.
+  await page.goto(url, { timeout: 120000 });
+  await page.waitForSelector("html[data-ready]", { timeout: 120000 });
   await drawn(page);
   return { page, complaints };
 }

@@ -26,7 +26,7 @@ struct MasterCurve {
   std::shared_ptr<const ArcSpline> spline;
   std::size_t arcs = 0;         ///< pieces of the spline, straight ones among them
   std::size_t lines = 0;        ///< straight ones
-  std::size_t kept = 0;         ///< lines and arcs of the track itself, kept exactly
+  std::size_t kept = 0;         ///< lines and arcs of the track itself, kept whole on their lines and circles
   std::size_t lower_bound = 0;  ///< no chain of fewer arcs, joined in whatever way, keeps the tolerance
   double tolerance = 0.0;       ///< that was asked for [m]
   double max_deviation = 0.0;   ///< greatest distance between track and spline, measured both ways [m]
@@ -34,8 +34,8 @@ struct MasterCurve {
 
 /// Puts lines and arcs in place of a track.
 ///
-/// Curve: straight lines and arcs of the track are kept as they are, with their ends and tangents. In between, joints
-///   lie where the error is the same for each arc, and the greatest distance is made least by a linear programme on
+/// Curve: straight lines and arcs of the track are kept on their lines and circles, from end to end; where the tolerance
+///   allows they reach on into what lies beside them (not where the fit is to one side). In between, joints lie where the error is the same for each arc, and the greatest distance is made least by a linear programme on
 ///   the measured distance; arcs are added until that is within the tolerance. Start and finish are those of the
 ///   track; the tangent there may turn by some 4 tolerances a length of the arc.
 /// Source: docs/fabrication.md. |dkappa/ds| h^3/192 is the error of separate arcs of length h, h^3/124.7 that of arcs

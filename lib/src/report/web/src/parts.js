@@ -230,12 +230,22 @@ function facts(part, body) {
     .map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text))));
 }
 
+// How far a bend lies from the edge of the pattern before it, square to the bend.
+function fromEdge(bend, outline) {
+  const [dx, dy] = [bend.to_m[0] - bend.from_m[0], bend.to_m[1] - bend.from_m[1]];
+  const length = Math.hypot(dx, dy);
+  const across = ([x, y]) => (dy * x - dx * y) / length;
+  const sides = outline.map(across);
+  const at = across(bend.from_m);
+  return dy < 0 ? Math.max(...sides) - at : at - Math.min(...sides);
+}
+
 function bends({ pattern }, units) {
   if (!pattern || pattern.bends.length === 0) return null;
   return scrollable("Bends of this part", element("table", { class: "bends" },
-    element("thead", {}, element("tr", {}, ["Bend", "Angle", "Direction", "Inner radius"].map((head) => element("th", { scope: "col" }, head)))),
+    element("thead", {}, element("tr", {}, ["Bend", "From the edge", "Angle", "Direction", "Inner radius"].map((head) => element("th", { scope: "col" }, head)))),
     element("tbody", {}, pattern.bends.map((bend, i) => element("tr", {},
-      element("td", {}, String(i + 1)), element("td", {}, units.text("angle", bend.angle_deg, 4)),
+      element("td", {}, String(i + 1)), element("td", {}, millimetres(fromEdge(bend, pattern.outline_m))), element("td", {}, units.text("angle", bend.angle_deg, 4)),
       element("td", {}, bend.up ? "up" : "down"), element("td", {}, millimetres(bend.inner_radius_m)))))));
 }
 
