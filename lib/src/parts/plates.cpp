@@ -201,9 +201,10 @@ bool is_mitred(const section::Measures& measures, const PlateOptions& options) {
 }
 
 std::vector<Issue> width_changes() {
-  return {{"cross_section.width", "fabrication: plates of a width that changes along the track are not made",
-           "Floor and walls of such a channel are no strips of one width.",
-           "one width, or a design for each part of the track"}};
+  return {{"cross_section.width",
+           "fabrication: plates of curbs or a groove beside a width that changes are not made",
+           "Widths change in plates of a u-channel, a trapezoid and a slab without curbs.",
+           "one width, or another kind of cross_section"}};
 }
 
 }  // namespace
