@@ -155,6 +155,13 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   strip.edge_to = length_along(flat.base, flat.turns);
   strip.edge_from = length_along(flat.upper, flat.turns);
   const std::vector<double> radii = rolled_radii(job, plate, span, strip.steps);
+  for (const BendLine& fold : flat.folds) {
+    const auto at = std::find(flat.base.begin(), flat.base.end(), fold.from) - flat.base.begin();
+    const std::vector<double> turns(flat.turns.begin(), flat.turns.begin() + at);
+    const Angle angle = fold.up ? fold.angle : Angle::from_radians(-fold.angle.radians());
+    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, length_along(flat.base, turns), 0.0, angle,
+                           angle, fold.inner_radius, 0.0});
+  }
 
   ShopPart& part = strip.part;
   part.name = plate.name;
