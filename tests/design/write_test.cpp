@@ -68,7 +68,7 @@ TEST_CASE("every key of the processes is written back") {
       const std::string& fabrication :
       {std::string("{process: plate, corners: lap}"),
        std::string(
-           "{process: plate, walls: on-floor, corners: {kind: tab-and-slot, overlap: 20 mm, tab: 50 mm, "
+           "{process: plate, walls: on-floor, corners: {kind: tab-and-slot, overlap: 30 mm, tab: 50 mm, "
            "spacing: 0.25 m, clearance: 0.3 mm}}"),
        std::string(
            "{process: print, material: {name: PETG, density: 1270 kg/m^3}, arc_tolerance: 0.05 mm, "

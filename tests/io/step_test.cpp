@@ -41,12 +41,12 @@ TEST_CASE(
   write_step(file, workshop);
   require_same_step(file, workshop);
   const StepFacts facts = read_step_facts(file);
-  REQUIRE(facts.solids.size() == 6);
+  REQUIRE(facts.solids.size() == 10);
   for (const StepSolid& solid : facts.solids) {
     CHECK(solid.closed);
     CHECK(solid.worst_gap_mm <= kStepAccuracy);
   }
-  CHECK(facts.occurrences.size() == 8);
+  CHECK(facts.occurrences.size() == 12);
   CHECK(facts.solids[0].name == "01 left_wall");
   // A wall: 7 arcs on both edges, 9 holes, half circles at both ends of a slot; planes: faces, ends, slot.
   CHECK(facts.solids[0].cylinders == 14 + 9 + 2);
@@ -60,7 +60,13 @@ TEST_CASE(
   CHECK(facts.solids[3].planes == 2);
   const std::string text = bytes_of(file);
   CHECK(text == step_text(workshop));
-  CHECK(text.find("B_SPLINE") == std::string::npos);
+  // Splines stand where a section moves across along an arc, and nowhere else.
+  for (std::size_t i = 0; i < 9; ++i) CHECK(facts.solids[i].splines == 0);
+  CHECK(facts.solids[9].splines == 4 * 5);
+  // A floor: both faces and both edges of its 7 pieces, a tab and a step on one side each, a slot a piece, both ends.
+  CHECK(facts.solids[6].cylinders == 2 * 6);
+  CHECK(facts.solids[7].planes == 4 + 2 + 2);
+  CHECK(facts.solids[8].planes == 2 + 2);
   // ISO 10303-21 has capital exponents, after a decimal point.
   CHECK(text.find(",7.5254E-06,") != std::string::npos);
   CHECK(text.find("e-") == std::string::npos);

@@ -130,15 +130,57 @@ double volume_of(const MeshBody& body) {
 }
 
 double volume_of(const SweptBody& body) {
-  ArcPath section{{}, true};
-  for (const Vec2 corner : body.section) section.vertices.push_back({corner});
-  const AreaMoments area = moments({section, {}, {}});
+  const auto section_at = [&](std::size_t vertex) {
+    ArcPath section{{}, true};
+    for (std::size_t j = 0; j < body.section.size(); ++j) {
+      const double shift = body.shifts.empty() ? 0.0 : body.shifts[vertex][j];
+      section.vertices.push_back({body.section[j] + Vec2{0.0, shift}});
+    }
+    return moments({section, {}, {}});
+  };
   double volume = 0.0;
-  for (const PathPiece& piece : pieces_of(body.path)) {
-    const double turned = 4.0 * std::atan(piece.bulge);
-    volume += area.area * (length(piece) - turned * area.centroid.x);
+  const std::vector<PathPiece> pieces = pieces_of(body.path);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const double turned = 4.0 * std::atan(pieces[i].bulge);
+    // Area and moment change evenly where corners move across alone.
+    for (const AreaMoments& area : {section_at(i), section_at(i + 1)})
+      volume += 0.5 * area.area * (length(pieces[i]) - turned * area.centroid.x);
   }
   return volume;
+}
+
+/// Sheet by sheet: area on the path, and what its lower face is longer.
+double volume_of(const RolledSheet& sheet) {
+  double start = 0.0;
+  double volume = 0.0;
+  for (const PathPiece& piece : pieces_of(sheet.path)) {
+    const double whole = length(piece);
+    double area = 0.0;
+    // Shares of every rectangle of the region that lie on this piece, by Green over its edges along the path.
+    for (std::size_t k = 0; k <= sheet.region.cutouts.size(); ++k) {
+      const ArcPath& loop = k == 0 ? sheet.region.outline : sheet.region.cutouts[k - 1];
+      const double sense = (signed_area(loop) > 0.0) == (k == 0) ? -1.0 : 1.0;
+      for (const PathPiece& edge : pieces_of(loop)) {
+        const double from = std::clamp(edge.from.x - start, 0.0, whole);
+        const double to = std::clamp(edge.to.x - start, 0.0, whole);
+        area += sense * (to - from) * edge.from.y;
+      }
+    }
+    const double curvature = 4.0 * std::atan(piece.bulge) / whole;
+    volume += area * sheet.thickness * (1.0 + 0.5 * curvature * sheet.thickness);
+    start += whole;
+  }
+  return volume;
+}
+
+/// Half a tube, whose planes cut off less than at its axis, and two sides.
+double volume_of(const TroughGore& gore) {
+  const double outer = gore.inner_radius + gore.thickness;
+  const double turn = std::tan(gore.end_tilt.radians()) - std::tan(gore.start_tilt.radians());
+  const double ring = 0.5 * kPi * (outer * outer - gore.inner_radius * gore.inner_radius) * gore.length;
+  const double wedge = 2.0 / 3.0 * (std::pow(outer, 3.0) - std::pow(gore.inner_radius, 3.0)) * turn;
+  const double sides = 2.0 * gore.thickness * gore.side * (gore.length + 0.5 * gore.side * turn);
+  return ring - wedge + sides;
 }
 
 }  // namespace
@@ -172,12 +214,14 @@ TEST_CASE("Open CASCADE reads STEP as valid closed solids with the volumes of th
       CHECK(valid == 1);
       CHECK(closed == 1);
       // Open CASCADE integrates over faces between ellipses numerically.
-      const bool exact = !std::holds_alternative<TubeGore>(workshop.parts[i].body);
+      const PartBody& body = workshop.parts[i].body;
+      const bool exact = !std::holds_alternative<TubeGore>(body) && !std::holds_alternative<TroughGore>(body) &&
+                         facts.solids[i].splines == 0;
       CHECK(volume == Approx(meant).epsilon(exact ? 1e-8 : 2e-6));
       CHECK(planes == facts.solids[i].planes);
       CHECK(cylinders == facts.solids[i].cylinders);
       CHECK(cones == facts.solids[i].cones);
-      CHECK(others == 0);
+      CHECK(others == static_cast<int>(facts.solids[i].splines));
     }
   }
 }

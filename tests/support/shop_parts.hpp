@@ -45,6 +45,38 @@ inline glissade::SweptBody leaning_plate(double lean, double height, double thic
   return {path, {{0.0, 0.0}, up, up + out, out}};
 }
 
+/// A floor along bends to either side, with a tab, a step and slots on its arcs and its straight piece.
+inline glissade::RolledSheet slotted_floor() {
+  glissade::RolledSheet sheet;
+  sheet.path = leaning_plate(0.0, 0.2, 0.004).path;
+  sheet.thickness = 0.004;
+  std::vector<double> joints = {0.0};
+  for (const glissade::PathPiece& piece : glissade::pieces_of(sheet.path))
+    joints.push_back(joints.back() + glissade::length(piece));
+  const double whole = joints.back();
+  sheet.region.outline.closed = true;
+  const double tab = joints[1] + 0.2;
+  for (const glissade::Vec2 corner :
+       {glissade::Vec2{0.0, 0.02}, {tab, 0.02}, {tab, 0.0}, {tab + 0.04, 0.0}, {tab + 0.04, 0.02},
+        {whole, 0.02}, {whole, 0.4}, {0.015, 0.4}, {0.015, 0.38}, {0.0, 0.38}})
+    sheet.region.outline.vertices.push_back({corner, 0.0});
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const double middle = 0.5 * (joints[i] + joints[i + 1]);
+    sheet.region.cutouts.push_back(glissade::rectangle({middle - 0.02, 0.05}, {middle + 0.02, 0.0542}));
+  }
+  return sheet;
+}
+
+/// A leaning plate whose section moves across along its arcs, evenly on each.
+inline glissade::SweptBody widening_plate() {
+  glissade::SweptBody body = leaning_plate(0.2, 0.25, 0.004);
+  for (std::size_t i = 0; i < body.path.vertices.size(); ++i) {
+    const double out = i < 2 ? 0.0 : 0.02 * static_cast<double>(i - 1);
+    body.shifts.emplace_back(body.section.size(), out);
+  }
+  return body;
+}
+
 /// Plates, a floor, a leaning wall, gores of a pipe: one of each kind, some in several places.
 inline glissade::Workshop sample_workshop() {
   glissade::Workshop workshop;
@@ -79,6 +111,12 @@ inline glissade::Workshop sample_workshop() {
   const glissade::PathVertex tiny{{0.4, 7.5254e-9}, 0.2};
   glissade::ArcPath plate{{{{0.0, 0.3}}, {{0.0, 0.0}}, tiny, {{0.5, 3e-7}}, {{0.5, 0.3}}}, true};
   workshop.parts.push_back(shop_part(6, "plate", glissade::Prism{{plate, {}, {}}, 0.4}));
+  workshop.parts.push_back(shop_part(7, "slotted_floor", slotted_floor()));
+  workshop.parts.push_back(shop_part(8, "trough",
+                                     glissade::TroughGore{0.1, 0.003, 0.05, 0.3, glissade::Angle::from_radians(-0.1),
+                                                          glissade::Angle::from_radians(0.12)}));
+  workshop.parts.push_back(shop_part(9, "half_round", glissade::TroughGore{0.1, 0.003, 0.0, 0.3, {}, {}}));
+  workshop.parts.push_back(shop_part(10, "widening_wall", widening_plate()));
   workshop.items.push_back({"bolt M12 x 40", "ISO 4017 8.8", 24, "joint 1"});
   workshop.bends.push_back(
       {2, 1, 0.25, 0.0, glissade::Angle::from_radians(0.03), glissade::Angle::from_radians(0.03), 2.5, 2e-4});

@@ -74,6 +74,20 @@ ArcPath seen_round(const PlacedEdge& placed, const Eye& eye) {
   return path;
 }
 
+/// A cubic edge as chords that no pen tells from it.
+ArcPath seen_cubic(const parts::BrepEdge& edge, const Frame& place, const Eye& eye) {
+  constexpr int kChords = 6;
+  ArcPath path;
+  for (int k = 0; k <= kChords; ++k) {
+    const double t = static_cast<double>(k) / kChords;
+    const double u = 1.0 - t;
+    const Vec3 at = (u * u * u) * edge.poles[0] + (3.0 * u * u * t) * edge.poles[1] +
+                    (3.0 * u * t * t) * edge.poles[2] + (t * t * t) * edge.poles[3];
+    path.vertices.push_back({eye.see(place.to_space(at)), 0.0});
+  }
+  return path;
+}
+
 using PathKey = std::vector<std::int64_t>;
 
 /// The same for lines that a pen would draw over each other, whichever way they run.
@@ -227,7 +241,8 @@ void Projection::add(const ShopPart& part, const Frame& place) {
                             turned(place, edge.reference)};
     ArcPath path = edge.kind == parts::CurveKind::line
                        ? ArcPath{{{eye_.see(placed.from)}, {eye_.see(placed.to)}}, false}
-                       : seen_round(placed, eye_);
+                   : edge.kind == parts::CurveKind::cubic ? seen_cubic(edge, millimetres, eye_)
+                                                          : seen_round(placed, eye_);
     if (!is_point(path)) paths_.push_back(std::move(path));
   }
 }

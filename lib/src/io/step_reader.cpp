@@ -110,6 +110,15 @@ class StepEntities {
     return ids;
   }
 
+  /// @return the references of a list of lists, one after the other
+  [[nodiscard]] std::vector<Id> nested_references(std::string_view lists) const {
+    std::vector<Id> ids;
+    for (const std::string_view list : split(inside(lists))) {
+      for (const Id id : references(list)) ids.push_back(id);
+    }
+    return ids;
+  }
+
   [[nodiscard]] double number(std::string_view text) const {
     double value = 0.0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -198,6 +207,10 @@ double gap_from_curve(const StepEntities& step, Id id, Vec3 point) {
     const Vec3 along = step.triple(step.reference(step.parameters(step.reference(parts[2]), 3)[1]));
     return norm(cross(along, point - from));
   }
+  if (curve.keyword == "B_SPLINE_CURVE_WITH_KNOTS") {
+    const std::vector<Id> poles = step.references(step.parameters(id, 3)[2]);
+    return std::min(norm(step.triple(poles.front()) - point), norm(step.triple(poles.back()) - point));
+  }
   const Placement3 place = placement(step, step.reference(parts[1]));
   const Vec3 spoke = point - place.origin;
   const double x = dot(spoke, place.reference);
@@ -210,11 +223,16 @@ double gap_from_curve(const StepEntities& step, Id id, Vec3 point) {
     return std::max(off, std::fabs(math::hypot(x / first, y / second) - 1.0) * second);
   }
   throw step.error("#" + std::to_string(id) + " is a curve of another kind",
-                   "Lines, circles and ellipses are read.");
+                   "Lines, circles, ellipses and cubics are read.");
 }
 
 double gap_from_surface(const StepEntities& step, Id id, Vec3 point) {
   const Entity& surface = step.at(id);
+  if (surface.keyword == "B_SPLINE_SURFACE_WITH_KNOTS") {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Id pole : step.nested_references(step.parameters(id, 4)[3])) least = std::min(least, norm(step.triple(pole) - point));
+    return least;
+  }
   const auto parts = step.parameters(id, 2);
   const Placement3 place = placement(step, step.reference(parts[1]));
   const Vec3 spoke = point - place.origin;
@@ -263,9 +281,11 @@ class SolidCheck {
       ++found_.cylinders;
     else if (kind == "CONICAL_SURFACE")
       ++found_.cones;
+    else if (kind == "B_SPLINE_SURFACE_WITH_KNOTS")
+      ++found_.splines;
     else
       throw step_.error("#" + std::to_string(surface) + " is a surface of another kind",
-                        "Planes, cylinders and cones are read.");
+                        "Planes, cylinders, cones and B-splines are read.");
     for (const Id bound : step_.references(parts[1]))
       add_loop(step_.reference(step_.parameters(bound, 3)[1]), surface);
   }

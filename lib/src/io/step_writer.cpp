@@ -159,6 +159,10 @@ class SolidText {
       const Id vector = text_.add("VECTOR('',", direction((1.0 / norm(along)) * along), ",1.)");
       return text_.add("LINE('',", points_[edge.from], ",", vector, ")");
     }
+    if (edge.kind == CurveKind::cubic) {
+      return text_.add("B_SPLINE_CURVE_WITH_KNOTS('',3,", poles(edge.poles),
+                       ",.UNSPECIFIED.,.F.,.F.,(4,4),(0.,1.),.UNSPECIFIED.)");
+    }
     const Id place = placement(edge.centre, edge.axis, edge.reference);
     if (edge.kind == CurveKind::circle) return text_.add("CIRCLE('',", place, ",", edge.radius, ")");
     return text_.add("ELLIPSE('',", place, ",", edge.radius, ",", edge.second_radius, ")");
@@ -169,13 +173,28 @@ class SolidText {
     return text_.add("EDGE_CURVE('',", vertices_[edge.from], ",", vertices_[edge.to], ",", shape, ",.T.)");
   }
 
+  std::vector<Id> poles(const std::array<Vec3, 4>& places) {
+    std::vector<Id> ids;
+    for (const Vec3 place : places) ids.push_back(point(place));
+    return ids;
+  }
+
+  Id ruled(const BrepFace& face) {
+    const std::vector<Id> first = poles(face.rails[0]);
+    const std::vector<Id> second = poles(face.rails[1]);
+    return text_.add("B_SPLINE_SURFACE_WITH_KNOTS('',1,3,(", first, ",", second,
+                     "),.UNSPECIFIED.,.F.,.F.,.F.,(2,2),(4,4),(0.,1.),(0.,1.),.UNSPECIFIED.)");
+  }
+
   Id surface(const BrepFace& face) {
+    if (face.kind == SurfaceKind::ruled) return ruled(face);
     const Id place = placement(face.origin, face.axis, face.reference);
     switch (face.kind) {
       case SurfaceKind::cylinder:
         return text_.add("CYLINDRICAL_SURFACE('',", place, ",", face.radius, ")");
       case SurfaceKind::cone:
         return text_.add("CONICAL_SURFACE('',", place, ",", face.radius, ",", face.half_angle, ")");
+      case SurfaceKind::ruled:
       case SurfaceKind::plane:
         break;
     }

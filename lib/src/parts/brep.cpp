@@ -117,22 +117,30 @@ Brep brep_of(const Prism& prism, const ShopPart& part) {
 class SweptFaces {
  public:
   SweptFaces(const SweptBody& body, const ShopPart& part)
-      : part_(part), pieces_(pieces_of(scaled(body.path, kMillimetres))), section_(body.section) {
+      : part_(part), pieces_(pieces_of(scaled(body.path, kMillimetres))) {
     if (pieces_.empty() || body.path.closed) throw bad_body(part, "its path is closed or has no piece");
-    if (section_.size() < 3) throw bad_body(part, "its section has fewer than three corners");
+    if (body.section.size() < 3) throw bad_body(part, "its section has fewer than three corners");
+    const bool moves = !body.shifts.empty();
+    if (moves && body.shifts.size() != pieces_.size() + 1)
+      throw bad_body(part, "its section does not move at every vertex of its path");
     double twice = 0.0;
-    for (std::size_t j = 0; j < section_.size(); ++j) {
-      twice += cross(section_[j], section_[(j + 1) % section_.size()]);
+    for (std::size_t j = 0; j < body.section.size(); ++j) {
+      twice += cross(body.section[j], body.section[(j + 1) % body.section.size()]);
     }
-    if (twice < 0.0) std::reverse(section_.begin(), section_.end());
-    for (Vec2& corner : section_) corner = kMillimetres * corner;
+    for (std::size_t i = 0; i <= pieces_.size(); ++i) {
+      std::vector<Vec2> section = body.section;
+      for (std::size_t j = 0; j < section.size(); ++j)
+        section[j] = kMillimetres * (section[j] + Vec2{0.0, moves ? body.shifts[i].at(j) : 0.0});
+      if (twice < 0.0) std::reverse(section.begin(), section.end());
+      sections_.push_back(std::move(section));
+    }
   }
 
   Brep whole() {
     stations();
     for (std::size_t i = 0; i < pieces_.size(); ++i) lengthwise(i);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      for (std::size_t j = 0; j < section_.size(); ++j) brep_.faces.push_back(face(i, j));
+      for (std::size_t j = 0; j < corners(); ++j) brep_.faces.push_back(face(i, j));
     }
     cap(0, start_tangent(pieces_.front()), false);
     cap(pieces_.size(), end_tangent(pieces_.back()), true);
@@ -140,8 +148,10 @@ class SweptFaces {
   }
 
  private:
+  [[nodiscard]] std::size_t corners() const { return sections_.front().size(); }
+  [[nodiscard]] Vec2 corner(std::size_t station, std::size_t j) const { return sections_[station][j % corners()]; }
   [[nodiscard]] std::size_t vertex(std::size_t station, std::size_t corner) const {
-    return station * section_.size() + corner % section_.size();
+    return station * corners() + corner % corners();
   }
   /// Edges come in the order of their making: those across first, then those along.
   [[nodiscard]] std::size_t across(std::size_t station, std::size_t corner) const {
@@ -150,6 +160,7 @@ class SweptFaces {
   [[nodiscard]] std::size_t along(std::size_t piece, std::size_t corner) const {
     return vertex(pieces_.size() + 1 + piece, corner);
   }
+  [[nodiscard]] bool moves(std::size_t i, std::size_t j) const { return corner(i, j).y != corner(i + 1, j).y; }
 
   void stations() {
     constexpr double kKink = 1e-7;  // what bulges rounded to doubles leave is far less
@@ -161,69 +172,83 @@ class SweptFaces {
       }
       const Vec2 left{-tangent.y, tangent.x};
       const Vec2 at = last ? pieces_.back().to : pieces_[i].from;
-      for (const Vec2 corner : section_) add_vertex(brep_, at_height(at + corner.x * left, corner.y));
+      for (const Vec2 corner : sections_[i]) add_vertex(brep_, at_height(at + corner.x * left, corner.y));
     }
     for (std::size_t i = 0; i <= pieces_.size(); ++i) {
-      for (std::size_t j = 0; j < section_.size(); ++j) add_line(brep_, vertex(i, j), vertex(i, j + 1));
+      for (std::size_t j = 0; j < corners(); ++j) add_line(brep_, vertex(i, j), vertex(i, j + 1));
     }
   }
 
   void lengthwise(std::size_t i) {
     const PathPiece& piece = pieces_[i];
-    for (std::size_t j = 0; j < section_.size(); ++j) {
+    for (std::size_t j = 0; j < corners(); ++j) {
       if (piece.straight()) {
         add_line(brep_, vertex(i, j), vertex(i + 1, j));
         continue;
       }
       const CircularArc arc = arc_of(piece);
       const double to_left = piece.bulge > 0.0 ? 1.0 : -1.0;
-      if (!(arc.radius - to_left * section_[j].x > 0.0)) {
+      if (!(arc.radius - to_left * corner(i, j).x > 0.0)) {
         throw bad_body(part_, "its section reaches beyond the centre of arc " + std::to_string(i + 1) +
                                   ", radius " + length_text(arc.radius / kMillimetres));
       }
-      add_arc(brep_, vertex(i, j), vertex(i + 1, j), arc.centre, piece.bulge > 0.0);
+      if (moves(i, j)) {
+        add_helix(brep_, vertex(i, j), vertex(i + 1, j), arc.centre, arc.sweep);
+      } else {
+        add_arc(brep_, vertex(i, j), vertex(i + 1, j), arc.centre, piece.bulge > 0.0);
+      }
     }
   }
 
   BrepFace face(std::size_t i, std::size_t j) {
     const PathPiece& piece = pieces_[i];
-    const Vec2 from = section_[j];
-    const Vec2 step = section_[(j + 1) % section_.size()] - from;
-    BrepFace made = piece.straight() ? flat(i, j, step) : round(piece, j, step);
+    BrepFace made = piece.straight() ? flat(i, j) : round(i, j);
     made.loops = {
         {{across(i, j), true}, {along(i, j + 1), true}, {across(i + 1, j), false}, {along(i, j), false}}};
     return made;
   }
 
-  BrepFace flat(std::size_t i, std::size_t j, Vec2 step) {
-    const Vec2 tangent = start_tangent(pieces_[i]);
-    const Vec2 left{-tangent.y, tangent.x};
+  BrepFace flat(std::size_t i, std::size_t j) {
+    const Vec3 from = brep_.vertices[vertex(i, j)];
     BrepFace made;
-    made.origin = brep_.vertices[vertex(i, j)];
-    made.axis = unit(at_height(step.y * left, -step.x));
-    made.reference = at_height(tangent, 0.0);
+    made.origin = from;
+    made.reference = unit(brep_.vertices[vertex(i + 1, j)] - from);
+    made.axis = unit(cross(brep_.vertices[vertex(i, j + 1)] - from, made.reference));
     return made;
   }
 
-  BrepFace round(const PathPiece& piece, std::size_t j, Vec2 step) {
-    if (step.y == 0.0) return level_plane(section_[j].y, step.x < 0.0);
+  BrepFace round(std::size_t i, std::size_t j) {
+    const PathPiece& piece = pieces_[i];
+    const Vec2 from = corner(i, j);
+    const Vec2 step = corner(i, j + 1) - from;
+    if (step.y == 0.0 && !moves(i, j) && !moves(i, j + 1)) return level_plane(from.y, step.x < 0.0);
     const CircularArc arc = arc_of(piece);
     const double outward_per_left = piece.bulge > 0.0 ? -1.0 : 1.0;  // of the distance from the axis
     const bool outward = step.y * outward_per_left > 0.0;
     const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
-    const double widening = step.x * outward_per_left / step.y;  // per height
-    BrepFace made =
-        upright_cylinder(arc.centre, spoke, arc.radius + outward_per_left * section_[j].x, outward);
+    BrepFace made = upright_cylinder(arc.centre, spoke, arc.radius + outward_per_left * from.x, outward);
     if (step.x == 0.0) return made;
+    if (moves(i, j) || moves(i, j + 1)) return ruled(i, j);
+    const double widening = step.x * outward_per_left / step.y;  // per height
     // A cone is given where it is thinnest, and widens along its axis.
     const bool widens_up = widening > 0.0;
     const std::size_t thin = (step.y > 0.0) == widens_up ? j : j + 1;
-    const Vec2 corner = section_[thin % section_.size()];
     made.kind = SurfaceKind::cone;
     made.axis = widens_up ? kUp : kDown;
-    made.origin.z = corner.y;
-    made.radius = arc.radius + outward_per_left * corner.x;
+    made.origin.z = corner(i, thin).y;
+    made.radius = arc.radius + outward_per_left * corner(i, thin).x;
     made.half_angle = math::atan(std::fabs(widening));
+    return made;
+  }
+
+  /// Straight lines across, between edges that are no arcs.
+  BrepFace ruled(std::size_t i, std::size_t j) {
+    BrepFace made;
+    made.kind = SurfaceKind::ruled;
+    const double sweep = arc_of(pieces_[i]).sweep;
+    const Vec2 centre = arc_of(pieces_[i]).centre;
+    for (std::size_t k = 0; k < 2; ++k)
+      made.rails[k] = helix_poles(brep_.vertices[vertex(i, j + k)], brep_.vertices[vertex(i + 1, j + k)], centre, sweep);
     return made;
   }
 
@@ -233,7 +258,7 @@ class SweptFaces {
     made.axis = (forward ? 1.0 : -1.0) * at_height(tangent, 0.0);
     made.reference = kUp;
     std::vector<BrepUse> loop;
-    for (std::size_t j = 0; j < section_.size(); ++j) loop.push_back({across(station, j), forward});
+    for (std::size_t j = 0; j < corners(); ++j) loop.push_back({across(station, j), forward});
     if (!forward) std::reverse(loop.begin(), loop.end());
     made.loops = {std::move(loop)};
     brep_.faces.push_back(std::move(made));
@@ -241,7 +266,7 @@ class SweptFaces {
 
   const ShopPart& part_;
   std::vector<PathPiece> pieces_;
-  std::vector<Vec2> section_;
+  std::vector<std::vector<Vec2>> sections_;  ///< at every vertex of the path
   Brep brep_;
 };
 

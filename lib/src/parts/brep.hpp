@@ -3,6 +3,7 @@
 #include "glissade/core/vec.hpp"
 #include "glissade/parts/shop_part.hpp"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace glissade::parts {
 
 /// A solid by its faces, edges and vertices, in millimetres: what STEP holds.
 
-enum class CurveKind { line, circle, ellipse };
+enum class CurveKind { line, circle, ellipse, cubic };
 
 /// From one vertex to another, counter-clockwise about the axis where it is round. A closed one has one vertex, at
 /// centre + radius reference.
@@ -23,6 +24,7 @@ struct BrepEdge {
   Vec3 reference;              ///< unit, square to the axis; of an ellipse along its first semi-axis
   double radius = 0.0;         ///< of an ellipse its semi-axis along the reference
   double second_radius = 0.0;  ///< of an ellipse
+  std::array<Vec3, 4> poles{};  ///< of a cubic, in Bezier's form, from its first vertex to its last
 };
 
 struct BrepUse {
@@ -30,7 +32,7 @@ struct BrepUse {
   bool forward = true;
 };
 
-enum class SurfaceKind { plane, cylinder, cone };
+enum class SurfaceKind { plane, cylinder, cone, ruled };
 
 /// Loops run counter-clockwise as seen from outside the solid; the first one is the outer one.
 struct BrepFace {
@@ -41,6 +43,9 @@ struct BrepFace {
   double radius = 0.0;      ///< of a cone where its axis passes the origin
   double half_angle = 0.0;  ///< of a cone, which widens along its axis [rad]
   bool outward = true;      ///< the surface's own normal (away from its axis) points out of the solid
+  /// Of a ruled face: the cubics between which its straight lines lead; its normal is square to the way from the first to the
+  /// second and, after it, to the way along them.
+  std::array<std::array<Vec3, 4>, 2> rails{};
   std::vector<std::vector<BrepUse>> loops;
 };
 

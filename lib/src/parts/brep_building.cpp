@@ -46,6 +46,24 @@ std::size_t add_arc(Brep& brep, std::size_t from, std::size_t to, Vec2 centre, b
   return brep.edges.size() - 1;
 }
 
+std::array<Vec3, 4> helix_poles(Vec3 from, Vec3 to, Vec2 centre, double sweep) {
+  // Tangents of the circle's best cubic; the climb in thirds.
+  const double reach = 4.0 / 3.0 * math::tan(0.25 * sweep);
+  const Vec3 climb = (1.0 / 3.0) * Vec3{0.0, 0.0, to.z - from.z};
+  const auto tangent = [&](Vec3 at) { return reach * Vec3{-(at.y - centre.y), at.x - centre.x, 0.0}; };
+  return {from, from + tangent(from) + climb, to - tangent(to) - climb, to};
+}
+
+std::size_t add_helix(Brep& brep, std::size_t from, std::size_t to, Vec2 centre, double sweep) {
+  BrepEdge edge;
+  edge.from = from;
+  edge.to = to;
+  edge.kind = CurveKind::cubic;
+  edge.poles = helix_poles(brep.vertices[from], brep.vertices[to], centre, sweep);
+  brep.edges.push_back(edge);
+  return brep.edges.size() - 1;
+}
+
 BrepFace level_plane(double z, bool up) {
   BrepFace face;
   face.origin = {0.0, 0.0, z};

@@ -5,6 +5,7 @@
 
 #include "parts/brep.hpp"
 
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -27,6 +28,10 @@ std::size_t add_vertex(Brep& brep, Vec3 point);
 std::size_t add_line(Brep& brep, std::size_t from, std::size_t to);
 /// Part of a circle that lies level, turning to the left or right.
 std::size_t add_arc(Brep& brep, std::size_t from, std::size_t to, Vec2 centre, bool left);
+
+/// A line round an upright axis that climbs evenly: a helix, as a cubic within 1e-7 of its radius up to 6 deg.
+[[nodiscard]] std::array<Vec3, 4> helix_poles(Vec3 from, Vec3 to, Vec2 centre, double sweep);
+std::size_t add_helix(Brep& brep, std::size_t from, std::size_t to, Vec2 centre, double sweep);
 
 [[nodiscard]] BrepFace level_plane(double z, bool up);
 [[nodiscard]] BrepFace upright_cylinder(Vec2 centre, Vec3 reference, double radius, bool outward);

@@ -260,7 +260,7 @@ std::vector<Issue> corner_problems(const ChannelMeasures& channel, const PlateOp
                       "overlap: " + length_text(corners.overlap) + (tabs ? " leaves too little beyond the slots"
                                                                          : " is not positive"),
                       tabs ? "A web is at least as wide as its plate is thick, " + length_text(slotted) + "." : "",
-                      "overlap: 15 mm"});
+                      "overlap: " + length_text(std::max(15e-3, 2.0 * least), 2)});
   }
   if (!tabs) return issues;
   if (!(corners.clearance >= 0.0) || corners.clearance > 0.5 * tabbed) {

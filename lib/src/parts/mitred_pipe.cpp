@@ -24,6 +24,7 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr Angle kHalfTurn = Angle::from_radians(kPi);
 constexpr Angle kWholeTurn = Angle::from_radians(2.0 * kPi);
 constexpr double kLeastCrown = 15e-3;       // length of a tube where it is shortest: room for two welds [m]
 constexpr double kSeam = 20.0 * kPi / 180;  // of a seam from the crown, to either side in turn
@@ -46,12 +47,17 @@ Vec2 up_of(Vec2 along) {
   return {-along.y, along.x};
 }
 
-/// Everything that the tubes of one pipe are made from.
+/// Everything that the tubes of one pipe are made from, or the troughs of half a one.
 struct PipeJob {
   const ArcSpline& track;
   const section::Pipe& pipe;
+  std::optional<double> side;  ///< of half a pipe: height of its upright sides above the axis [m]
   const PlateOptions& options;
   const Placement& placement;
+
+  /// Above the floor line.
+  [[nodiscard]] double top() const { return side ? radius() + *side : pipe.inner_diameter + pipe.thickness; }
+  [[nodiscard]] const char* word() const { return side ? "trough" : "tube"; }
 
   [[nodiscard]] double radius() const { return 0.5 * pipe.inner_diameter; }
   [[nodiscard]] double mean_radius() const { return radius() + 0.5 * pipe.thickness; }
@@ -75,8 +81,7 @@ double length_at(const Facets& facets, std::size_t flat, double height) {
 }
 
 double shortest_line(const PipeJob& job, const Facets& facets, std::size_t flat) {
-  const double top = job.pipe.inner_diameter + job.pipe.thickness;
-  return std::min(length_at(facets, flat, top), length_at(facets, flat, -job.pipe.thickness));
+  return std::min(length_at(facets, flat, job.top()), length_at(facets, flat, -job.pipe.thickness));
 }
 
 /// Flats whose tubes are nowhere shorter than they may be: those of the rule, fewer where the track turns too fast for them.
@@ -94,11 +99,13 @@ Facets flats_of(const PipeJob& job, double largest_kink) {
     if (facets.bends() == 0) break;
     least = std::max(1.15 * least, 0.5 * job.least_crown());
   }
+  const std::string key = job.side ? "width" : "inner_diameter";
+  const std::string words = std::string(job.word()) + "s";
   throw InputError(
-      {"cross_section.inner_diameter",
-       "inner_diameter: " + length_text(job.pipe.inner_diameter) + " is too large for mitred tubes",
-       "Where this track turns fastest, tubes would be shorter than " + length_text(job.least_crown()) +
-           " at the crown.",
+      {"cross_section." + key,
+       key + ": " + length_text(job.pipe.inner_diameter) + " is too large for mitred " + words,
+       "Where this track turns fastest, " + words + " would be shorter than " + length_text(job.least_crown()) +
+           (job.side ? " at the rim." : " at the crown."),
        "a smaller_radius limit of the track above " + length_text(2.0 * job.pipe.inner_diameter, 2) +
            ", a smaller pipe, or round: staves"});
 }
@@ -141,7 +148,7 @@ std::vector<double> reached(const Facets& facets) {
 /// Joints stand square in a tube, far enough from its mitres for the flange: the nearest such places to even ones.
 std::vector<double> joints_along(const PipeJob& job, const Facets& facets, std::size_t count) {
   const std::vector<double> corners = reached(facets);
-  const double high = job.pipe.inner_diameter + job.pipe.thickness;
+  const double high = job.top();
   std::vector<double> joints = {0.0};
   for (std::size_t k = 1; k < count; ++k) {
     const double about = corners.back() * static_cast<double>(k) / static_cast<double>(count);
@@ -224,22 +231,24 @@ void add_biarc(std::vector<PathVertex>& vertices, Vec2 from, Vec2 from_along, Ve
   vertices.push_back({middle, std::fabs(second) < 1e-9 ? 0.0 : second});
 }
 
-/// @return arcs within kSineTolerance of a whole turn of the line, from left to right, its last point included
-ArcPath arcs_of(const SineLine& line) {
+/// @param turn  a whole one, or half a one
+/// @return arcs within kSineTolerance of a turn of the line, from left to right, its last point included
+ArcPath arcs_of(const SineLine& line, double turn = 2.0 * kPi) {
   ArcPath path;
   if (line.amplitude == 0.0) {
-    path.vertices = {{line.at(0.0), 0.0}, {line.at(2.0 * kPi), 0.0}};
+    path.vertices = {{line.at(0.0), 0.0}, {line.at(turn), 0.0}};
     return path;
   }
   // Places every 20 deg or a part of it: seams lie at one, and edges that meet are the same arcs in another order.
-  for (int pieces = 18; pieces <= 360; pieces += 18) {
+  const int least = static_cast<int>(std::nearbyint(turn / kPi)) * 9;
+  for (int pieces = least; pieces <= 20 * least; pieces += least) {
     path.vertices.clear();
     for (int k = 0; k < pieces; ++k) {
-      const double a = 2.0 * kPi * k / pieces;
-      const double b = 2.0 * kPi * (k + 1) / pieces;
+      const double a = turn * k / pieces;
+      const double b = turn * (k + 1) / pieces;
       add_biarc(path.vertices, line.at(a), line.along(a), line.at(b), line.along(b));
     }
-    path.vertices.push_back({line.at(2.0 * kPi), 0.0});
+    path.vertices.push_back({line.at(turn), 0.0});
     double worst = 0.0;
     for (const PathPiece& piece : pieces_of(path)) {
       for (const double share : {0.25, 0.5, 0.75}) {
@@ -253,13 +262,29 @@ ArcPath arcs_of(const SineLine& line) {
   throw InternalError({"", "the edge of a tube does not become arcs", "", ""});
 }
 
-/// Seen from inside, the seam at the left and right edges.
+/// An edge of a trough on the flat, from its left rim to the right one: x of the finished edge times the slope of its plane.
+ArcPath trough_edge(const PipeJob& job, Angle tilt, double level) {
+  const double mean = job.mean_radius();
+  const double slope = math::tan(tilt.radians());
+  // Angles count from where the round begins on the left: x = -mean sin(angle).
+  ArcPath path = arcs_of({mean * slope, mean, -0.5 * kPi, level}, kPi);
+  const double side = *job.side;
+  for (PathVertex& vertex : path.vertices) vertex.at.x += side;
+  if (side == 0.0) return path;
+  path.vertices.insert(path.vertices.begin(), {{0.0, level + slope * side}, 0.0});
+  path.vertices.push_back({{2.0 * side + kPi * mean, level + slope * side}, 0.0});
+  return path;
+}
+
+/// Seen from inside, the seam at the left and right edges; of a trough the rims.
 FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
   const double mean = job.mean_radius();
   const double phase = gore.odd ? -kSeam : kSeam;
-  const ArcPath low = arcs_of({mean * math::tan(gore.body.start_tilt.radians()), mean, phase, 0.0});
+  const ArcPath low = job.side ? trough_edge(job, gore.body.start_tilt, 0.0)
+                               : arcs_of({mean * math::tan(gore.body.start_tilt.radians()), mean, phase, 0.0});
   const ArcPath high =
-      arcs_of({mean * math::tan(gore.body.end_tilt.radians()), mean, phase, gore.body.length});
+      job.side ? trough_edge(job, gore.body.end_tilt, gore.body.length)
+               : arcs_of({mean * math::tan(gore.body.end_tilt.radians()), mean, phase, gore.body.length});
   FlatPattern pattern;
   pattern.region.outline = low;
   for (const PathVertex& vertex : reversed(high).vertices) pattern.region.outline.vertices.push_back(vertex);
@@ -274,11 +299,16 @@ FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
 
 ShopPart part_of(const PipeJob& job, const Gore& gore) {
   ShopPart part;
-  part.name = "tube";
+  part.name = job.word();
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = job.pipe.thickness;
-  part.body = gore.body;
+  if (job.side) {
+    part.body = TroughGore{gore.body.inner_radius, gore.body.thickness,  *job.side,
+                           gore.body.length,       gore.body.start_tilt, gore.body.end_tilt};
+  } else {
+    part.body = gore.body;
+  }
   const Vec3 up = direction_in_space(job.placement, up_of(gore.along));
   const Vec3 axis = direction_in_space(job.placement, gore.along);
   part.places = {{in_space(job.placement, gore.from), up, -1.0 * across(job.placement), axis}};
@@ -287,25 +317,66 @@ ShopPart part_of(const PipeJob& job, const Gore& gore) {
   return part;
 }
 
-/// A ring round the end of a unit.
+/// A closed figure round half a pipe, up to its rims, between two distances from the axis and from the plane of the track.
+ArcPath half_round(double inner, double outer, double side) {
+  ArcPath path{{{{-outer, 0.0}, 1.0}, {{outer, 0.0}, 0.0}}, true};
+  if (side > 0.0) {
+    path.vertices.push_back({{outer, side}, 0.0});
+    path.vertices.push_back({{inner, side}, 0.0});
+  }
+  path.vertices.push_back({{inner, 0.0}, -1.0});
+  path.vertices.push_back({{-inner, 0.0}, 0.0});
+  if (side > 0.0) {
+    path.vertices.push_back({{-inner, side}, 0.0});
+    path.vertices.push_back({{-outer, side}, 0.0});
+  }
+  return path;
+}
+
+/// Bolts round half a pipe, evenly from below one rim to below the other.
+void add_half_round_holes(const PipeJob& job, double pitch_radius, double hole, PlaneRegion& region) {
+  const double edge = 1.5 * clearance_hole(job.options.flanges.bolt, HoleFit::coarse);
+  const double whole = 2.0 * *job.side + kPi * pitch_radius;
+  const double room = whole - 2.0 * edge;
+  const double gaps = std::max(2.0, std::ceil(room / job.options.flanges.pitch - 1e-9));
+  for (double k = 0.0; k <= gaps; k += 1.0) {
+    const double along = edge + room * k / gaps - *job.side;  // from where the round begins on the left
+    Vec2 at{pitch_radius, -along};
+    if (along > kPi * pitch_radius) {
+      at = {-pitch_radius, along - kPi * pitch_radius};
+    } else if (along > 0.0) {
+      const auto [sine, cosine] = math::sine_cosine(along / pitch_radius);
+      at = {pitch_radius * cosine, -pitch_radius * sine};
+    }
+    region.holes.push_back({at, 0.5 * hole});
+  }
+}
+
+/// A ring round the end of a unit; of half a pipe, up to its rims.
 ShopPart ring_of(const PipeJob& job, HoleFit fit) {
   const FlangeOptions& flange = job.options.flanges;
   const double inner = job.radius() + job.pipe.thickness + flange.gap;
   const double pitch_radius = inner + 0.5 * flange.width;
   ShopPart part;
-  part.name = fit == HoleFit::coarse ? "pipe_flange_loose" : "pipe_flange";
+  const std::string name = job.side ? "trough_flange" : "pipe_flange";
+  part.name = fit == HoleFit::coarse ? name + "_loose" : name;
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = flange.thickness;
   FlatPattern pattern;
-  pattern.region.outline = path_of(Circle{{}, inner + flange.width});
-  pattern.region.cutouts = {path_of(Circle{{}, inner})};
-  // An even number, none in the plane of the track.
-  const double count = 2.0 * std::max(2.0, std::ceil(kPi * pitch_radius / flange.pitch - 1e-9));
-  for (double k = 0.5; k < count; k += 1.0) {
-    const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * k / count);
-    pattern.region.holes.push_back(
-        {{pitch_radius * sine, pitch_radius * cosine}, 0.5 * clearance_hole(flange.bolt, fit)});
+  if (job.side) {
+    pattern.region.outline = half_round(inner, inner + flange.width, *job.side);
+    add_half_round_holes(job, pitch_radius, clearance_hole(flange.bolt, fit), pattern.region);
+  } else {
+    pattern.region.outline = path_of(Circle{{}, inner + flange.width});
+    pattern.region.cutouts = {path_of(Circle{{}, inner})};
+    // An even number, none in the plane of the track.
+    const double count = 2.0 * std::max(2.0, std::ceil(kPi * pitch_radius / flange.pitch - 1e-9));
+    for (double k = 0.5; k < count; k += 1.0) {
+      const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * k / count);
+      pattern.region.holes.push_back(
+          {{pitch_radius * sine, pitch_radius * cosine}, 0.5 * clearance_hole(flange.bolt, fit)});
+    }
   }
   part.body = Prism{pattern.region, flange.thickness};
   part.pattern = std::move(pattern);
@@ -339,24 +410,42 @@ void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop&
 
 // --- proof
 
+/// Area of the section, and its first moment about the floor line, by its figures.
+struct RoundSection {
+  double area = 0.0;
+  double moment = 0.0;
+};
+
+RoundSection section_of(const PipeJob& job) {
+  const double inner = job.radius();
+  const double outer = inner + job.pipe.thickness;
+  const double ring = kPi * (outer * outer - inner * inner);
+  if (!job.side) return {ring, inner * ring};
+  // Half discs with their centres 4 r / (3 pi) below the axis, and two rectangles.
+  const double below = 2.0 / 3.0 * (outer * outer * outer - inner * inner * inner);
+  const double sides = 2.0 * job.pipe.thickness * *job.side;
+  return {0.5 * ring + sides, 0.5 * ring * inner - below + sides * (inner + 0.5 * *job.side)};
+}
+
+ArcPath edge_of(const PipeJob& job, Angle tilt, double phase) {
+  const double mean = job.mean_radius();
+  return job.side ? trough_edge(job, tilt, 0.0) : arcs_of({mean * math::tan(tilt.radians()), mean, phase, 0.0});
+}
+
 PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const Workshop& workshop) {
   PartsProof proof;
-  const double outer = job.radius() + job.pipe.thickness;
-  const double area = kPi * (outer * outer - job.radius() * job.radius());
+  const RoundSection section = section_of(job);
   const Gore* before = nullptr;
   for (const GoreUnit& unit : units) {
     for (const Gore& gore : unit.gores) {
-      proof.volume += moments(PartBody(gore.body)).volume;
+      proof.volume += part_of(job, gore).volume;
       // By the lowest line and the mitres.
-      proof.exact_volume +=
-          area * (gore.floor_length - job.radius() * (math::tan(gore.body.start_tilt.radians()) -
-                                                      math::tan(gore.body.end_tilt.radians())));
-      const double mean = job.mean_radius();
+      proof.exact_volume += section.area * gore.floor_length -
+                            section.moment * (math::tan(gore.body.start_tilt.radians()) -
+                                              math::tan(gore.body.end_tilt.radians()));
       if (before != nullptr) {
-        const double one =
-            length(arcs_of({mean * math::tan(before->body.end_tilt.radians()), mean, kSeam, 0.0}));
-        const double other =
-            length(arcs_of({mean * math::tan(gore.body.start_tilt.radians()), mean, -kSeam, 0.0}));
+        const double one = length(edge_of(job, before->body.end_tilt, kSeam));
+        const double other = length(edge_of(job, gore.body.start_tilt, -kSeam));
         const Vec2 gap = before->from + before->body.length * before->along - gore.from;
         proof.edge_mismatch = std::max({proof.edge_mismatch, std::fabs(one - other), norm(gap)});
       }
@@ -368,7 +457,8 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const W
   proof.added_volume = listed - proof.volume;
   if (!(std::fabs(proof.volume - proof.exact_volume) <= kPartsVolumeAccuracy * proof.exact_volume)) {
     throw InternalError({"",
-                         "the tubes hold " + rounded_text(proof.volume, 12) + " m^3, the pipe " +
+                         "the " + std::string(job.word()) + "s hold " + rounded_text(proof.volume, 12) +
+                             " m^3, the pipe " +
                              rounded_text(proof.exact_volume, 12) + " m^3",
                          "", ""});
   }
@@ -402,8 +492,9 @@ void list_tubes(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop
       const std::size_t before = workshop.parts.size();
       const int number = add_part(workshop, std::move(part), kWallColour);
       if (workshop.parts.size() == before) continue;
-      workshop.bends.push_back(
-          {number, 1, 0.0, 2.0 * kPi * job.mean_radius(), kWholeTurn, kWholeTurn, job.radius(), 0.0});
+      const Angle turn = job.side ? kHalfTurn : kWholeTurn;
+      workshop.bends.push_back({number, 1, job.side.value_or(0.0), turn.radians() * job.mean_radius(), turn, turn,
+                                job.radius(), 0.0});
     }
   }
 }
@@ -418,10 +509,10 @@ std::vector<double> on_track(const Facets& facets, const std::vector<double>& jo
 
 }  // namespace
 
-WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe, const PlateOptions& options,
-                               const Placement& placement, const Body& body, double gravity,
-                               const Motion& design) {
-  const PipeJob job{track, pipe, options, placement};
+WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe, std::optional<double> side,
+                               const PlateOptions& options, const Placement& placement, const Body& body,
+                               double gravity, const Motion& design) {
+  const PipeJob job{track, pipe, side, options, placement};
   const double kink = kink_for_speed(
       track, options.bend, [&](double largest) { return flats_of(job, largest); }, body, gravity,
       design.exit_speed());
@@ -435,7 +526,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
     for (const GoreUnit& unit : units) {
       for (const Gore& gore : unit.gores) {
         std::optional<Excess> found = excess(options.split, part_of(job, gore));
-        if (found) found->what = "a tube " + found->what;
+        if (found) found->what = "a " + std::string(job.word()) + " " + found->what;
         if (found) return found;
       }
     }
@@ -452,10 +543,12 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   build.ride = {ride.arrives,        ride.time,      ride.speed,       design.travel_time(),
                 design.exit_speed(), facets.bends(), units.size() - 1, ride.highest_load};
   measure_plates(options, workshop);
-  measure_rolling(job.radius(), workshop.parts.front(), "every tube", workshop);
+  measure_rolling(job.radius(), workshop.parts.front(), "every " + std::string(job.word()), workshop);
   workshop.notes = {
-      "Tubes are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
-      " and welded along their seams, which lie 20 deg from the crown, to either side in turn."};
+      side ? "Troughs are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
+                 " over half a turn; their sides stay flat."
+           : "Tubes are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
+                 " and welded along their seams, which lie 20 deg from the crown, to either side in turn."};
   build.proof = prove(job, units, workshop);
   return build;
 }

@@ -125,8 +125,11 @@ std::vector<double> touches_of(double high, int turns) {
 
 // --- the kinds
 
+std::optional<WidthLaw> changing(const WidthLaw& width) {
+  return width.is_constant() ? std::nullopt : std::optional(width);
+}
+
 std::optional<PlateSection> section_of(const section::Trapezoid& channel, const PlateOptions&) {
-  if (!channel.width.is_constant()) return std::nullopt;
   const double half = 0.5 * channel.width.narrowest();
   const double top = half + channel.wall_height * math::tan(channel.wall_angle.radians());
   PlateSection section =
@@ -135,12 +138,29 @@ std::optional<PlateSection> section_of(const section::Trapezoid& channel, const 
   section.plates[0].name = "left_wall";
   section.plates[1].name = "floor";
   section.plates[2].name = "right_wall";
+  section.widths = changing(channel.width);
   return section;
 }
 
+/// Upright walls beside the floor, or on it: edges are square.
 std::optional<PlateSection> section_of(const section::UChannel& channel, const PlateOptions& options) {
-  return section_of(section::Trapezoid{channel.width, channel.wall_height, Angle(), channel.thickness},
-                    options);
+  const double t = channel.thickness;
+  const double inner = 0.5 * channel.width.narrowest();
+  const double outer = inner + t;
+  const double high = channel.wall_height;
+  const bool beside = options.walls == WallSeat::beside_floor;
+  const double foot = beside ? -t : 0.0;
+  const double edge = beside ? inner : outer;
+  PlateSection section;
+  section.plates = {{"left_wall", {inner, high}, {inner, foot}, {outer, high}, {outer, foot}},
+                    {"floor", {edge, 0.0}, {-edge, 0.0}, {edge, -t}, {-edge, -t}},
+                    {"right_wall", {-inner, foot}, {-inner, high}, {-outer, foot}, {-outer, high}}};
+  section.thickness = t;
+  section.convex = true;
+  section.mitred = false;
+  section.outside = {{outer, high}, {outer, -t}, {-outer, -t}, {-outer, high}};
+  section.widths = changing(channel.width);
+  return section;
 }
 
 std::optional<PlateSection> section_of(const section::HalfPipe& trough, const PlateOptions& options) {
@@ -221,10 +241,11 @@ std::optional<PlateSection> section_of(const section::TrackGroove& track, const 
 }
 
 std::optional<PlateSection> section_of(const section::Slab& slab, const PlateOptions&) {
-  if (!slab.width.is_constant()) return std::nullopt;
+  if (!slab.width.is_constant() && slab.curb_height > 0.0) return std::nullopt;
   const double half = 0.5 * slab.width.narrowest() + slab.curb_width;
   PlateSection section = of_chain({{half, 0.0}, {-half, 0.0}}, slab.thickness, false);
   section.plates[0].name = "floor";
+  section.widths = changing(slab.width);
   return section;
 }
 

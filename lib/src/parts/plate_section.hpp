@@ -34,10 +34,13 @@ struct PlateSection {
   double departure = 0.0;       ///< of the plates from a round section [m]
   std::vector<Vec2> outside;    ///< corners that a frame goes round
   bool outside_on_left = true;  ///< seen along `outside`, the frame lies to its left
+  bool mitred = true;           ///< else walls stand beside a floor, or on it, edge against face
+  /// Of a floor that widens: all of the above are of its narrowest place, and corners beside the middle move out with half of it.
+  std::optional<WidthLaw> widths = std::nullopt;
 };
 
-/// @return any section but those whose width changes along the track as plates; none of those
-/// @param options  staves of round sections, thickness of plates round free ones
+/// @return a section as plates; none of curbs and free outlines whose width changes along the track
+/// @param options  staves of round sections, thickness of plates round free ones, seat of walls beside a width that changes
 [[nodiscard]] std::optional<PlateSection> plate_section(const section::Measures& measures,
                                                         const PlateOptions& options);
 

@@ -196,14 +196,25 @@ std::optional<ChannelMeasures> channel_of(const section::Measures& measures) {
 
 namespace {
 
-bool is_mitred(const section::Measures& measures, const PlateOptions& options) {
-  return std::holds_alternative<section::Pipe>(measures) && options.round == RoundMake::mitred;
+/// A round section that becomes mitred tubes or troughs: the pipe, or the one of which it is half.
+struct MitredRound {
+  section::Pipe pipe;
+  std::optional<double> side;  ///< of half a one [m]
+};
+
+std::optional<MitredRound> mitred_round(const section::Measures& measures, const PlateOptions& options) {
+  if (options.round != RoundMake::mitred) return std::nullopt;
+  if (const auto* const pipe = std::get_if<section::Pipe>(&measures)) return MitredRound{*pipe, std::nullopt};
+  if (const auto* const half = std::get_if<section::HalfPipe>(&measures))
+    return MitredRound{{half->width, half->thickness}, half->wall_height};
+  return std::nullopt;
 }
 
 std::vector<Issue> width_changes() {
-  return {{"cross_section.width", "fabrication: plates of a width that changes along the track are not made",
-           "Floor and walls of such a channel are no strips of one width.",
-           "one width, or a design for each part of the track"}};
+  return {{"cross_section.width",
+           "fabrication: plates of curbs or a groove beside a width that changes are not made",
+           "Widths change in plates of a u-channel, a trapezoid and a slab without curbs.",
+           "one width, or another kind of cross_section"}};
 }
 
 }  // namespace
@@ -217,7 +228,7 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
     return issues;
   }
   std::vector<Issue> issues = common_problems(options);
-  if (!issues.empty() || is_mitred(measures, options)) return issues;
+  if (!issues.empty() || mitred_round(measures, options)) return issues;
   const auto section = plate_section(measures, options);
   for (Issue& issue : section ? strip_problems(*section, options) : width_changes())
     issues.push_back(std::move(issue));
@@ -233,11 +244,11 @@ WorkshopBuild make_plates(const Centerline& track, const section::Measures& meas
     return make_plates(track, *channel, fit, options, placement, body, gravity);
   MasterCurve master = fit_arcs(track, fit);
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
-  WorkshopBuild build = is_mitred(measures, options)
-                            ? make_mitred_pipe(*master.spline, std::get<section::Pipe>(measures), options,
-                                               placement, body, gravity, smooth)
-                            : make_strips(*master.spline, *plate_section(measures, options), options,
-                                          placement, body, gravity, smooth);
+  const auto round = mitred_round(measures, options);
+  WorkshopBuild build = round ? make_mitred_pipe(*master.spline, round->pipe, round->side, options, placement,
+                                                 body, gravity, smooth)
+                              : make_strips(*master.spline, *plate_section(measures, options), options,
+                                            placement, body, gravity, smooth);
   build.master = std::move(master);
   return build;
 }

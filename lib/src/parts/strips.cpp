@@ -12,10 +12,13 @@
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/strip_shape.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -27,13 +30,6 @@ constexpr double kRoomAtFold = 1.02;  // radius over height, from which a strip 
 constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
 constexpr double kSameEdge = 1e-9;    // lengths of edges that meet [m]
 
-struct StripJob {
-  const ArcSpline& track;
-  const PlateSection& section;
-  const PlateOptions& options;
-  const Placement& placement;
-};
-
 /// A strip of a unit with the lengths of its developed edges.
 struct Strip {
   std::size_t plate = 0;
@@ -43,20 +39,6 @@ struct Strip {
   double edge_from = 0.0;  ///< at the side of `face_from` [m]
   double edge_to = 0.0;
 };
-
-/// Arcs of the track within a span.
-std::vector<TrackArc> arcs_in(const ArcSpline& track, const Span& span) {
-  std::vector<TrackArc> found;
-  for (TrackArc arc : track.arcs()) {
-    const double from = std::max(span.from, arc.start);
-    const double to = std::min(span.to, arc.start + arc.length);
-    if (!(to - from > 1e-9)) continue;
-    arc.start = from;
-    arc.length = to - from;
-    found.push_back(arc);
-  }
-  return found;
-}
 
 double highest_of(const SectionPlate& plate) {
   return std::max({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
@@ -98,106 +80,87 @@ Span unfolded(const StripJob& job, const SectionPlate& plate) {
   return span;
 }
 
-/// The developed strip: chords and turnings of its arcs, from the middle of the upstream edge at `face_to`.
-struct Development {
-  std::vector<Vec2> base;  ///< at the side of `face_to`
-  std::vector<Vec2> upper;
-  std::vector<double> turns;
-};
-
-Development developed(const StripJob& job, const SectionPlate& plate, const Span& span) {
-  const Vec2 across = plate.middle_from() - plate.middle_to();
-  const double width = norm(across);
-  const double upright = across.y / width;  // cos b, with its sign
-  Development strip;
-  Vec2 at;
-  double heading = 0.0;
-  const auto put = [&] {
-    const auto [sine, cosine] = math::sine_cosine(heading);
-    strip.base.push_back(at);
-    strip.upper.push_back(at + width * Vec2{-sine, cosine});
-  };
-  put();
-  for (const TrackArc& arc : arcs_in(job.track, span)) {
-    const double length = arc.length * (1.0 - arc.curvature * plate.middle_to().y);
-    const double turn = arc.curvature * arc.length * upright;
-    const double half = 0.5 * turn;
-    const double chord = std::fabs(half) < 1e-9 ? length : length * math::sin(half) / half;
-    const auto [sine, cosine] = math::sine_cosine(heading + half);
-    at = at + chord * Vec2{cosine, sine};
-    heading += turn;
-    strip.turns.push_back(turn);
-    put();
-  }
-  return strip;
-}
-
-double length_along(const std::vector<Vec2>& places, const std::vector<double>& turns) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    sum += length(PathPiece{places[i], places[i + 1], math::tan(0.25 * turns[i])});
-  }
-  return sum;
-}
-
 double radius_of(double curvature) {
   return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
 }
 
-FlatPattern pattern_of(const Development& strip, const std::vector<double>& radii) {
-  FlatPattern pattern;
-  ArcPath& outline = pattern.region.outline;
-  outline.closed = true;
-  const std::size_t count = strip.turns.size();
-  const auto bulge = [&](std::size_t i) {
-    return std::fabs(strip.turns[i]) < 1e-12 ? 0.0 : math::tan(0.25 * strip.turns[i]);
-  };
-  for (std::size_t i = 0; i <= count; ++i)
-    outline.vertices.push_back({strip.base[i], i < count ? bulge(i) : 0.0});
-  for (std::size_t i = count + 1; i-- > 0;)
-    outline.vertices.push_back({strip.upper[i], i > 0 ? -bulge(i - 1) : 0.0});
-  const OwnPlane plane = own_plane(outline);
-  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
-  const PlaneMotion motion = PlaneMotion::turn(-plane.angle, -1.0 * back);
-  outline = moved(outline, motion);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (radii.empty()) break;
-    pattern.rolls.push_back({motion(strip.base[i]), motion(strip.upper[i]), radii[i]});
-  }
-  set_number_place(pattern, bounds(outline));
-  return pattern;
-}
-
-Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
-  const SectionPlate& plate = job.section.plates[index];
+/// Radii to which the arcs of a strip are rolled, and the steps that do it; none of a plate that bends by itself.
+std::vector<double> rolled_radii(const StripJob& job, const SectionPlate& plate, const Span& span,
+                                 std::vector<BendStep>& steps) {
+  constexpr double kElastic = 1000.0;  // thicknesses: half of that is where structural steel yields
   const Vec2 across = plate.middle_from() - plate.middle_to();
   const double level = std::fabs(across.x) / norm(across);  // sin b
-  const Development flat = developed(job, plate, span);
-  Strip strip;
-  strip.plate = index;
-  strip.span = span;
-  strip.edge_to = length_along(flat.base, flat.turns);
-  strip.edge_from = length_along(flat.upper, flat.turns);
-
+  const double middle = 0.5 * (plate.middle_from().y + plate.middle_to().y);
   std::vector<double> radii;
   double reached = 0.0;
   double sum = 0.0;
   int hit = 0;
-  const double middle = 0.5 * (plate.middle_from().y + plate.middle_to().y);
-  for (const TrackArc& arc : arcs_in(job.track, span)) {
+  bool rolled = false;
+  for (const StripArc& one : job.arcs_in(span)) {
+    const TrackArc& arc = one.arc;
     // The normal curvature of the cone; upright plates are not rolled at all.
     const double curvature = level < 1e-9 ? 0.0 : level * arc.curvature / (1.0 - arc.curvature * middle);
     const double length = arc.length * (1.0 - arc.curvature * plate.middle_to().y);
     const double turned = level * arc.curvature * arc.length;
     sum += turned;
     radii.push_back(radius_of(curvature));
-    strip.steps.push_back({0, ++hit, reached, length, Angle::from_radians(turned), Angle::from_radians(sum),
-                           radii.back(), 0.0});
+    rolled = rolled || std::fabs(radii.back()) < kElastic * job.section.thickness || !job.widens();
+    if (hit > 0 && radii.back() == radii[radii.size() - 2]) {
+      BendStep& last = steps.back();
+      last.length += length;
+      last.angle = Angle::from_radians(last.angle.radians() + turned);
+      last.sum = Angle::from_radians(sum);
+    } else {
+      steps.push_back({0, ++hit, reached, length, Angle::from_radians(turned), Angle::from_radians(sum),
+                       radii.back(), 0.0});
+    }
     reached += length;
   }
-  if (level < 1e-9) {
-    radii.clear();
-    strip.steps.clear();
+  if (level >= 1e-9 && rolled) return radii;
+  steps.clear();
+  return {};
+}
+
+/// The finished strip: x counts upwards from the track, z to the right of the section's middle.
+SweptBody body_of(const StripJob& job, const SectionPlate& plate, const Span& span, Vec2& origin) {
+  const double middle = 0.5 * (plate.face_from.x + plate.face_to.x);
+  const std::array<Vec2, 4> corners = {plate.face_from, plate.face_to, plate.back_to, plate.back_from};
+  SweptBody body;
+  for (const Vec2 corner : corners) body.section.push_back({corner.y, middle - corner.x});
+  if (!job.widens()) {
+    body.path = *offset_line(job.track, span, 0.0);
+  } else {
+    const std::vector<StripArc> arcs = job.arcs_in(span);
+    const auto put = [&](double s, double bulge, double wider, double lean) {
+      body.path.vertices.push_back({frame_at(job.track, s).at, bulge});
+      body.shifts.emplace_back();
+      for (const Vec2 corner : corners) body.shifts.back().push_back(corner.x - job.at(corner, wider, lean).x);
+    };
+    for (const StripArc& one : arcs) {
+      put(one.arc.start, math::tan(0.25 * one.arc.curvature * one.arc.length), one.wide_from, one.lean_from);
+    }
+    put(span.to, 0.0, arcs.back().wide_to, arcs.back().lean_to);
+  }
+  origin = body.path.vertices.front().at;
+  for (PathVertex& vertex : body.path.vertices) vertex.at = vertex.at - origin;
+  return body;
+}
+
+Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
+  const SectionPlate& plate = job.section.plates[index];
+  const Development flat = developed(job, plate, span);
+  Strip strip;
+  strip.plate = index;
+  strip.span = span;
+  strip.edge_to = length_along(flat.base, flat.turns);
+  strip.edge_from = length_along(flat.upper, flat.turns);
+  const std::vector<double> radii = rolled_radii(job, plate, span, strip.steps);
+  for (const BendLine& fold : flat.folds) {
+    const auto at = std::find(flat.base.begin(), flat.base.end(), fold.from) - flat.base.begin();
+    const std::vector<double> turns(flat.turns.begin(), flat.turns.begin() + at);
+    const Angle angle = fold.up ? fold.angle : Angle::from_radians(-fold.angle.radians());
+    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, length_along(flat.base, turns), 0.0, angle,
+                           angle, fold.inner_radius, 0.0});
   }
 
   ShopPart& part = strip.part;
@@ -205,16 +168,10 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = job.section.thickness;
-  ArcPath path = *offset_line(job.track, span, 0.0);
-  const Vec2 origin = path.vertices.front().at;
-  for (PathVertex& vertex : path.vertices) vertex.at = vertex.at - origin;
-  const double middle_across = 0.5 * (plate.face_from.x + plate.face_to.x);
-  // Of the body x counts upwards from the track, z to the right.
-  std::vector<Vec2> corners;
-  for (const Vec2 corner : {plate.face_from, plate.face_to, plate.back_to, plate.back_from})
-    corners.push_back({corner.y, middle_across - corner.x});
-  part.body = SweptBody{std::move(path), std::move(corners)};
-  part.places = {plane_of_track(job.placement, origin, 0.0, -middle_across)};
+  Vec2 origin;
+  part.body = body_of(job, plate, span, origin);
+  part.places = {
+      plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
   part.pattern = pattern_of(flat, radii);
   return strip;
@@ -260,11 +217,21 @@ std::vector<Vec2> along_chain(std::vector<Vec2> chain, bool closed, double pitch
   return places;
 }
 
-ShopPart frame_of(const StripJob& job, HoleFit fit) {
+/// The outside of the section over the thickness of the frames on both sides of a joint: farther out nowhere.
+std::vector<Vec2> outside_at(const StripJob& job, double s) {
+  const double t = job.options.flanges.thickness;
+  double wider = 0.0;
+  for (const double place : {s - t, s, s + t}) wider = std::max(wider, job.wider_at(place));
+  std::vector<Vec2> corners;
+  for (const Vec2 corner : job.section.outside) corners.push_back(job.at(corner, wider, job.lean_at(s)));
+  return corners;
+}
+
+ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, HoleFit fit) {
   const FlangeOptions& flange = job.options.flanges;
   const PlateSection& section = job.section;
   const double sign = section.outside_on_left ? 1.0 : -1.0;
-  const auto at = [&](double by) { return moved_to_left(section.outside, section.closed, sign * by); };
+  const auto at = [&](double by) { return moved_to_left(outside, section.closed, sign * by); };
   std::vector<Vec2> inner = at(flange.gap);
   std::vector<Vec2> outer = at(flange.gap + flange.width);
   FlatPattern pattern;
@@ -279,7 +246,7 @@ ShopPart frame_of(const StripJob& job, HoleFit fit) {
     add_polygon(pattern.region.outline, inner);
   }
   // Rims are level: of a wall that leans, holes keep their distance from the rim, not along the wall.
-  const Vec2 first = section.outside[1] - section.outside[0];
+  const Vec2 first = outside[1] - outside[0];
   const double upright = section.closed ? 1.0 : std::fabs(first.y) / norm(first);
   const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse) / (upright > 0.0 ? upright : 1.0);
   const double radius = 0.5 * clearance_hole(flange.bolt, fit);
@@ -308,24 +275,40 @@ void add_frames(const StripJob& job, const std::vector<double>& joints, Workshop
     workshop.notes.emplace_back("The section is hollow outside: no frame fits round it, ends are welded.");
     return;
   }
-  ShopPart tight = frame_of(job, HoleFit::medium);
-  ShopPart loose = frame_of(job, HoleFit::coarse);
-  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
-    loose.places.push_back(place_of_frame(job, joints[i], 0.0));
-    tight.places.push_back(place_of_frame(job, joints[i + 1], -job.options.flanges.thickness));
+  std::size_t bolts = 0;
+  for (const HoleFit fit : {HoleFit::medium, HoleFit::coarse}) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const bool tight = fit == HoleFit::medium;
+      if (tight ? i == 0 : i + 1 == joints.size()) continue;
+      // Both frames of a joint are one figure, but for their holes.
+      ShopPart frame = frame_of(job, outside_at(job, joints[i]), fit);
+      if (job.widens()) frame.name += "_" + std::to_string(i);
+      frame.places = {place_of_frame(job, joints[i], tight ? -job.options.flanges.thickness : 0.0)};
+      if (tight && i + 1 < joints.size()) bolts += frame.pattern->region.holes.size();
+      weigh(frame);
+      add_part(workshop, frame, kFrameColour);
+    }
   }
-  const std::size_t holes = tight.pattern->region.holes.size();
-  for (ShopPart* part : {&tight, &loose}) {
-    weigh(*part);
-    add_part(workshop, *part, kFrameColour);
-  }
-  add_joint_bolts(workshop, job.options.flanges, holes, joints.size() - 2);
+  if (bolts == 0) return;
+  const std::string where =
+      joints.size() == 3 ? "at the joint" : "at the " + std::to_string(joints.size() - 2) + " joints";
+  add_bolts(workshop, job.options.flanges.bolt, 2.0 * job.options.flanges.thickness, bolts, where);
 }
 
 // --- proof
 
 /// Area and first moment of the whole section by its outlines.
 Vec2 area_and_moment(const PlateSection& section) {
+  if (!section.mitred) {
+    // Plates that butt are no chain: one by one.
+    Vec2 sum;
+    for (const SectionPlate& plate : section.plates) {
+      PlateSection one;
+      one.plates = {plate};
+      sum = sum + area_and_moment(one);
+    }
+    return sum;
+  }
   Vec2 sum;
   const auto add = [&](const std::vector<Vec2>& corners) {
     Vec2 one;
@@ -355,40 +338,70 @@ Vec2 area_and_moment(const PlateSection& section) {
   return sum.x < 0.0 ? -1.0 * sum : sum;
 }
 
+PlateSection moved_out(const StripJob& job, PlateSection section, double wider, double lean) {
+  for (SectionPlate& plate : section.plates) {
+    for (Vec2* const corner : {&plate.face_from, &plate.face_to, &plate.back_from, &plate.back_to})
+      *corner = job.at(*corner, wider, lean);
+  }
+  return section;
+}
+
+/// A S - M phi of a section along a stretch: exactly, since corners move across evenly and keep their heights.
+/// @param leaning  as the plates do; else as the design has it
+double volume_along(const StripJob& job, const PlateSection& section, const Span& span, bool leaning) {
+  double volume = 0.0;
+  for (const StripArc& one : job.arcs_in(span)) {
+    const double lean = leaning ? 1.0 : 0.0;
+    const Vec2 from = area_and_moment(moved_out(job, section, one.wide_from, lean * one.lean_from));
+    const Vec2 to = area_and_moment(moved_out(job, section, one.wide_to, lean * one.lean_to));
+    const Vec2 mean = 0.5 * (from + to);
+    volume += one.arc.length * (mean.x - one.arc.curvature * mean.y);
+  }
+  return volume;
+}
+
+/// Of a plate over the stretches where it is missing.
+double missing_volume(const StripJob& job, const SectionPlate& plate, bool leaning) {
+  const Span span = unfolded(job, plate);
+  PlateSection alone;
+  alone.plates = {plate};
+  return volume_along(job, alone, {0.0, span.from}, leaning) +
+         volume_along(job, alone, {span.to, job.track.length()}, leaning);
+}
+
 PartsProof prove(const StripJob& job, const std::vector<Strip>& strips, const Workshop& workshop) {
   PartsProof proof;
-  const Vec2 section = area_and_moment(job.section);
-  for (const TrackArc& arc : job.track.arcs())
-    proof.exact_volume += arc.length * (section.x - arc.curvature * section.y);
-  const double whole = job.track.length();
+  const Span all{0.0, job.track.length()};
+  proof.exact_volume = volume_along(job, job.section, all, false);
+  double wanted = volume_along(job, job.section, all, true);
+  for (const SectionPlate& plate : job.section.plates) {
+    // What is missing where the track bends tighter than a strip is high.
+    proof.exact_volume -= missing_volume(job, plate, false);
+    wanted -= missing_volume(job, plate, true);
+  }
+  if (job.widens()) proof.differences = {{"lean of the walls", wanted - proof.exact_volume}};
   for (const Strip& strip : strips) {
     proof.volume += strip.part.volume;
     const SectionPlate& plate = job.section.plates[strip.plate];
     double from = 0.0;
     double to = 0.0;
-    for (const TrackArc& arc : arcs_in(job.track, strip.span)) {
-      from += arc.length * (1.0 - arc.curvature * plate.middle_from().y);
-      to += arc.length * (1.0 - arc.curvature * plate.middle_to().y);
+    for (const StripArc& one : job.arcs_in(strip.span)) {
+      const auto edge = [&](Vec2 middle) {
+        return one.arc.length * (1.0 - one.arc.curvature * middle.y) * math::hypot(1.0, one.taper());
+      };
+      from += edge(plate.middle_from());
+      to += edge(plate.middle_to());
     }
     proof.edge_mismatch =
         std::max({proof.edge_mismatch, std::fabs(from - strip.edge_from), std::fabs(to - strip.edge_to)});
   }
-  // What is missing where the track bends tighter than a strip is high.
-  for (const SectionPlate& plate : job.section.plates) {
-    const Span span = unfolded(job, plate);
-    const auto [area, moment] = area_and_moment({{plate}, 0.0, false, true, 0.0, 0.0, 0.0, {}, true});
-    for (const Span& gap : {Span{0.0, span.from}, Span{span.to, whole}}) {
-      for (const TrackArc& arc : arcs_in(job.track, gap))
-        proof.exact_volume -= arc.length * (area - arc.curvature * moment);
-    }
-  }
   double listed = 0.0;
   for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());
   proof.added_volume = listed - proof.volume;
-  if (!(std::fabs(proof.volume - proof.exact_volume) <= kPartsVolumeAccuracy * proof.exact_volume)) {
+  if (!(std::fabs(proof.volume - wanted) <= kPartsVolumeAccuracy * wanted)) {
     throw InternalError({"",
                          "the strips hold " + rounded_text(proof.volume, 12) + " m^3, the section " +
-                             rounded_text(proof.exact_volume, 12) + " m^3",
+                             rounded_text(wanted, 12) + " m^3",
                          "", ""});
   }
   if (!(proof.edge_mismatch <= kSameEdge)) {
@@ -424,9 +437,21 @@ void measure_strips(const std::vector<Strip>& strips, Workshop& workshop) {
   }
 }
 
-void add_notes(const StripJob& job, Workshop& workshop) {
-  workshop.notes.emplace_back(
-      "Strips meet in mitres: patterns are of the middle of the thickness, edges are bevelled to the joint.");
+void add_notes(const StripJob& job, const PartsProof& proof, Workshop& workshop) {
+  if (job.section.mitred) {
+    workshop.notes.emplace_back(
+        "Strips meet in mitres: patterns are of the middle of the thickness, edges are bevelled to the joint.");
+  }
+  if (job.widens()) {
+    workshop.notes.push_back(
+        "Beside a width that changes walls lean, so that they are bent and not strained: by at most " +
+        angle_text(Angle::from_radians(math::atan(job.most_lean())), 3) + ", " + length_text(job.departure(), 3) +
+        " from where the width has them. Against the solid: " +
+        rounded_text(1e6 * proof.differences.front().volume, 4) + " cm^3.");
+    workshop.notes.push_back("Their thickness is counted across the track: square to them it is less by up to " +
+                             length_text(job.section.thickness * (1.0 - 1.0 / math::hypot(1.0, job.most_taper())), 2) +
+                             ".");
+  }
   if (job.section.departure > 0.0) {
     workshop.notes.push_back("Flat staves stand in for the round section; they lie outside it by at most " +
                              length_text(job.section.departure, 3) + ".");
@@ -444,8 +469,8 @@ void add_notes(const StripJob& job, Workshop& workshop) {
 std::vector<Issue> strip_problems(const PlateSection& section, const PlateOptions& options) {
   std::vector<Issue> issues;
   if (options.floor == FloorMake::bent) {
-    issues.push_back({"floor", "floor: bent goes with upright walls",
-                      "Plates that lean or meet in mitres are rolled along the track.", "floor: rolled"});
+    issues.push_back({"floor", "floor: bent goes with upright walls beside one width",
+                      "Plates that lean, meet in mitres or widen are rolled along the track.", "floor: rolled"});
   }
   for (const SectionPlate& plate : section.plates) {
     if (dot(plate.back_to - plate.back_from, plate.face_to - plate.face_from) > 0.0) continue;
@@ -483,7 +508,7 @@ std::vector<Issue> strip_problems(const PlateSection& section, const PlateOption
 WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, const PlateOptions& options,
                           const Placement& placement, const Body& body, double gravity,
                           const Motion& design) {
-  const StripJob job{track, section, options, placement};
+  const StripJob job(track, section, options, placement);
   std::vector<Strip> strips;
   WorkshopBuild build;
   split_until_it_fits(options.split, track.length(), [&](std::size_t count) -> std::optional<Excess> {
@@ -510,8 +535,8 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
                 design.exit_speed(), 0,         lines.size() - 1, ride.highest_load};
   measure_plates(options, workshop);
   measure_strips(strips, workshop);
-  add_notes(job, workshop);
   build.proof = prove(job, strips, workshop);
+  add_notes(job, build.proof, workshop);
   return build;
 }
 

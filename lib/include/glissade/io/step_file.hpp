@@ -12,7 +12,8 @@ namespace glissade {
 /// Parts and assemblies as STEP (ISO 10303-21, schema AUTOMOTIVE_DESIGN: AP214), in millimetres.
 ///
 /// Each part is one closed solid of planes, cylinders and cones, bounded by lines, circles and ellipses, with its name and
-/// colour; the assembly is a tree of their places. No face is a facet or a spline.
+/// colour; the assembly is a tree of their places. No face is a facet, and none a spline but for plates beside a width that
+/// changes along a curve: those are ruled between cubics.
 /// Bytes depend on the arguments alone (the time stamp is fixed); coordinates are rounded to kStepRounding.
 /// Accuracy: each vertex lies on the curves and surfaces that meet there within kStepAccuracy.
 
@@ -43,13 +44,14 @@ struct StepSolid {
   std::size_t planes = 0;
   std::size_t cylinders = 0;
   std::size_t cones = 0;
+  std::size_t splines = 0;
   std::size_t loops = 0;  ///< of all faces
   /// Every edge is used twice, once in each direction, each loop is a closed chain, and the count of vertices, edges, faces
   /// and loops is that of a closed surface (Euler and Poincare).
   bool closed = false;
   double worst_gap_mm = 0.0;  ///< of a vertex from a curve or surface that it bounds [mm]
 
-  [[nodiscard]] std::size_t faces() const { return planes + cylinders + cones; }
+  [[nodiscard]] std::size_t faces() const { return planes + cylinders + cones + splines; }
 };
 
 /// What a STEP file holds, as it was read back.

@@ -1,0 +1,322 @@
+#include "parts/strip_shape.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/plate_unit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kMostSweep = 5.0 / 180.0 * std::numbers::pi;  // of an arc beside a width that changes
+constexpr double kMostLean = 0.1;                                    // across per height
+constexpr double kMostTaper = 0.3;                                   // of one side, per length of track
+constexpr double kNoFold = 1e-6;                                     // angle that nobody bends [rad]
+
+// Gauss, four points.
+constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                          0.9305681557970263};
+constexpr std::array<double, 4> kWeights = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                            0.1739274225687269};
+
+/// Places where arcs begin or the width begins to change, the end of the track included.
+std::vector<double> breaks_of(const ArcSpline& track, const WidthLaw& widths) {
+  std::vector<double> breaks;
+  for (const TrackArc& arc : track.arcs()) {
+    breaks.push_back(arc.start);
+    const int parts = static_cast<int>(std::ceil(std::fabs(arc.curvature) * arc.length / kMostSweep - 1e-9));
+    for (int k = 1; k < parts; ++k) breaks.push_back(arc.start + arc.length * k / parts);
+  }
+  for (const WidthAt& knot : widths.knots()) {
+    if (knot.at > 0.0 && knot.at < track.length()) breaks.push_back(knot.at);
+  }
+  breaks.push_back(track.length());
+  std::sort(breaks.begin(), breaks.end());
+  std::vector<double> apart;
+  constexpr double kSame = 1e-6;  // [m]
+  for (const double place : breaks) {
+    if (apart.empty() || place - apart.back() > kSame) apart.push_back(place);
+  }
+  apart.back() = track.length();
+  return apart;
+}
+
+}  // namespace
+
+StripJob::StripJob(const ArcSpline& on, const PlateSection& of, const PlateOptions& with, const Placement& where)
+    : track(on), section(of), options(with), placement(where) {
+  if (!section.widths) {
+    for (const TrackArc& arc : track.arcs()) arcs_.push_back({arc, 0.0, 0.0, 0.0, 0.0});
+    return;
+  }
+  const WidthLaw& widths = *section.widths;
+  const std::vector<double> breaks = breaks_of(track, widths);
+  double lean = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    TrackArc arc = track.arcs()[track.arc_at(0.5 * (breaks[i] + breaks[i + 1]))];
+    arc.start = breaks[i];
+    arc.length = breaks[i + 1] - breaks[i];
+    StripArc one{arc, 0.5 * (widths.at(breaks[i]) - widths.narrowest()),
+                 0.5 * (widths.at(breaks[i + 1]) - widths.narrowest()), lean, lean};
+    lean -= arc.curvature * (one.wide_to - one.wide_from);
+    one.lean_to = lean;
+    low = std::min(low, lean);
+    high = std::max(high, lean);
+    if (std::fabs(one.taper()) > kMostTaper) {
+      throw InputError({"cross_section.width",
+                        "the width changes by " + rounded_text(2.0 * std::fabs(one.taper()), 3) + " m per metre at " +
+                            length_text(arc.start, 3) + " along the track",
+                        "Walls of plates turn aside by at most " + rounded_text(2.0 * kMostTaper, 2) +
+                            " m per metre of track, both together.",
+                        "a longer stretch for the change"});
+    }
+    most_taper_ = std::max(most_taper_, std::fabs(one.taper()));
+    arcs_.push_back(one);
+  }
+  const double middle = 0.5 * (low + high);
+  for (StripArc& one : arcs_) {
+    one.lean_from -= middle;
+    one.lean_to -= middle;
+  }
+  most_lean_ = 0.5 * (high - low);
+  if (most_lean_ <= kMostLean) return;
+  throw InputError({"cross_section.width",
+                    "walls of plates would lean " +
+                        angle_text(Angle::from_radians(math::atan(most_lean_)), 3) + " where the width changes",
+                    "A plate beside a width that changes in a bend is not strained only if it leans; at most by " +
+                        angle_text(Angle::from_radians(math::atan(kMostLean)), 2) + ".",
+                    "a smaller change, or one where the track bends less"});
+}
+
+std::vector<StripArc> StripJob::arcs_in(const Span& span) const {
+  std::vector<StripArc> found;
+  for (const StripArc& whole : arcs_) {
+    const double from = std::max(span.from, whole.arc.start);
+    const double to = std::min(span.to, whole.arc.start + whole.arc.length);
+    if (!(to - from > 1e-9)) continue;
+    StripArc one = whole;
+    const auto between = [&](double a, double b, double s) {
+      return a + (b - a) * ((s - whole.arc.start) / whole.arc.length);
+    };
+    one.wide_from = between(whole.wide_from, whole.wide_to, from);
+    one.wide_to = between(whole.wide_from, whole.wide_to, to);
+    one.lean_from = between(whole.lean_from, whole.lean_to, from);
+    one.lean_to = between(whole.lean_from, whole.lean_to, to);
+    one.arc.start = from;
+    one.arc.length = to - from;
+    found.push_back(one);
+  }
+  return found;
+}
+
+double StripJob::wider_at(double s) const {
+  if (!section.widths) return 0.0;
+  return 0.5 * (section.widths->at(std::clamp(s, 0.0, track.length())) - section.widths->narrowest());
+}
+
+double StripJob::lean_at(double s) const {
+  if (!section.widths) return 0.0;
+  for (const StripArc& one : arcs_) {
+    const double share = (s - one.arc.start) / one.arc.length;
+    if (share <= 1.0) return one.lean_from + std::max(0.0, share) * (one.lean_to - one.lean_from);
+  }
+  return arcs_.back().lean_to;
+}
+
+Vec2 StripJob::at(Vec2 corner, double wider, double lean) const {
+  const double out = wider + corner.y * lean;
+  return {corner.x + (corner.x > 0.0 ? out : -out), corner.y};
+}
+
+double StripJob::departure() const {
+  return most_lean_ * std::max(section.highest, -section.lowest);
+}
+
+namespace {
+
+/// The angle from the edge of a strip, along the track, up to its ruling.
+double angle_to_ruling(const Vec2 across, double aside) {
+  // Edge T + aside Y, ruling across.x Y + across.y N.
+  const double cosine = aside * across.x / (norm(across) * math::hypot(1.0, aside));
+  return math::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+/// A plate of one half of the section along an arc: what its edges do on the flat.
+struct Side {
+  double height = 0.0;  ///< of the base
+  double aside = 0.0;   ///< Y of the edges per length of track
+  double sign = 0.0;    ///< of cos b
+  double lean = 0.0;    ///< of the plate, across per height, where the arc begins
+  double growth = 0.0;  ///< of that, over the arc
+  double curvature = 0.0;
+  double length = 0.0;
+
+  /// How far the edges turn on the flat up to a share of the arc.
+  [[nodiscard]] double turned(double share) const {
+    // d heading = kappa / |n| ds, the plane's normal being n = Y - aside T - lean N.
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kNodes.size(); ++k) {
+      const double here = lean + growth * share * kNodes[k];
+      sum += kWeights[k] / std::sqrt(1.0 + aside * aside + here * here);
+    }
+    return sign * curvature * length * share * sum;
+  }
+
+  [[nodiscard]] Vec2 step(double heading) const {
+    const double stretch = length * (1.0 - curvature * height) * math::hypot(1.0, aside);
+    Vec2 sum;
+    for (std::size_t k = 0; k < kNodes.size(); ++k) {
+      const auto [sine, cosine] = math::sine_cosine(heading + turned(kNodes[k]));
+      sum = sum + kWeights[k] * stretch * Vec2{cosine, sine};
+    }
+    return sum;
+  }
+};
+
+/// A floor, or any level plate: its edges stand where they stand.
+Development developed_level(const StripJob& job, const SectionPlate& plate, const std::vector<StripArc>& arcs) {
+  Development strip;
+  double reached = 0.0;
+  const auto put = [&](double wider, double lean) {
+    const Vec2 from = job.at(plate.middle_from(), wider, lean);
+    const Vec2 to = job.at(plate.middle_to(), wider, lean);
+    strip.base.push_back({reached, to.x});
+    strip.upper.push_back({reached, from.x});
+  };
+  put(arcs.front().wide_from, arcs.front().lean_from);
+  for (const StripArc& one : arcs) {
+    reached += one.arc.length * (1.0 - one.arc.curvature * plate.middle_to().y);
+    strip.turns.push_back(0.0);
+    put(one.wide_to, one.lean_to);
+  }
+  return strip;
+}
+
+Development developed_widening(const StripJob& job, const SectionPlate& plate, const std::vector<StripArc>& arcs) {
+  const Vec2 nominal = plate.middle_from() - plate.middle_to();
+  const double half = plate.middle_from().x + plate.middle_to().x > 0.0 ? 1.0 : -1.0;
+  Development strip;
+  Vec2 at;
+  double ruling = 0.0;  // heading of it on the flat
+  double before = 0.0;  // taper of the arc before
+  const auto put = [&](double width) {
+    const auto [sine, cosine] = math::sine_cosine(ruling);
+    strip.base.push_back(at);
+    strip.upper.push_back(at + width * Vec2{cosine, sine});
+  };
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const StripArc& one = arcs[i];
+    const auto across = [&](double lean) { return nominal + Vec2{half * nominal.y * lean, 0.0}; };
+    const double aside = half * one.taper();
+    Side side{plate.middle_to().y, aside, nominal.y > 0.0 ? 1.0 : -1.0, across(one.lean_from).x / nominal.y,
+              half * (one.lean_to - one.lean_from), one.arc.curvature, one.arc.length};
+    const double psi = angle_to_ruling(across(one.lean_from), aside);
+    if (i == 0) {
+      ruling = psi;
+      put(norm(across(one.lean_from)));
+    } else {
+      // Planes of both sides: normals Y - aside T - lean N.
+      const Vec2 one_side{before, side.lean};
+      const Vec2 other{aside, side.lean};
+      const double cosine = (1.0 + dot(one_side, other)) /
+                            (math::hypot(1.0, norm(one_side)) * math::hypot(1.0, norm(other)));
+      const double angle = math::acos(std::clamp(cosine, -1.0, 1.0));
+      if (angle > kNoFold && std::fabs(aside - before) > kNoFold) {
+        strip.folds.push_back({strip.base.back(), strip.upper.back(), Angle::from_radians(angle),
+                               job.section.thickness, half * (aside - before) < 0.0});
+      }
+    }
+    const double heading = ruling - psi;
+    at = at + side.step(heading);
+    const double turn = side.turned(1.0);
+    strip.turns.push_back(turn);
+    ruling = heading + turn + angle_to_ruling(across(one.lean_to), aside);
+    before = aside;
+    put(norm(across(one.lean_to)));
+  }
+  return strip;
+}
+
+}  // namespace
+
+Development developed(const StripJob& job, const SectionPlate& plate, const Span& span) {
+  const std::vector<StripArc> arcs = job.arcs_in(span);
+  const Vec2 across = plate.middle_from() - plate.middle_to();
+  if (job.widens()) {
+    return std::fabs(across.y) < 1e-12 ? developed_level(job, plate, arcs) : developed_widening(job, plate, arcs);
+  }
+  const double width = norm(across);
+  const double upright = across.y / width;  // cos b, with its sign
+  Development strip;
+  Vec2 at;
+  double heading = 0.0;
+  const auto put = [&] {
+    const auto [sine, cosine] = math::sine_cosine(heading);
+    strip.base.push_back(at);
+    strip.upper.push_back(at + width * Vec2{-sine, cosine});
+  };
+  put();
+  for (const StripArc& one : arcs) {
+    const TrackArc& arc = one.arc;
+    const double length = arc.length * (1.0 - arc.curvature * plate.middle_to().y);
+    const double turn = arc.curvature * arc.length * upright;
+    const double half = 0.5 * turn;
+    const double chord = std::fabs(half) < 1e-9 ? length : length * math::sin(half) / half;
+    const auto [sine, cosine] = math::sine_cosine(heading + half);
+    at = at + chord * Vec2{cosine, sine};
+    heading += turn;
+    strip.turns.push_back(turn);
+    put();
+  }
+  return strip;
+}
+
+double length_along(const std::vector<Vec2>& places, const std::vector<double>& turns) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    sum += length(PathPiece{places[i], places[i + 1], math::tan(0.25 * turns[i])});
+  }
+  return sum;
+}
+
+FlatPattern pattern_of(const Development& strip, const std::vector<double>& radii) {
+  FlatPattern pattern;
+  ArcPath& outline = pattern.region.outline;
+  outline.closed = true;
+  const std::size_t count = strip.turns.size();
+  const auto bulge = [&](std::size_t i) {
+    return std::fabs(strip.turns[i]) < 1e-12 ? 0.0 : math::tan(0.25 * strip.turns[i]);
+  };
+  for (std::size_t i = 0; i <= count; ++i)
+    outline.vertices.push_back({strip.base[i], i < count ? bulge(i) : 0.0});
+  for (std::size_t i = count + 1; i-- > 0;)
+    outline.vertices.push_back({strip.upper[i], i > 0 ? -bulge(i - 1) : 0.0});
+  const OwnPlane plane = own_plane(outline);
+  const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
+  const PlaneMotion motion = PlaneMotion::turn(-plane.angle, -1.0 * back);
+  outline = moved(outline, motion);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (i > 0 && radii[i] == radii[i - 1]) continue;
+    pattern.rolls.push_back({motion(strip.base[i]), motion(strip.upper[i]), radii[i]});
+  }
+  for (BendLine fold : strip.folds) {
+    fold.from = motion(fold.from);
+    fold.to = motion(fold.to);
+    pattern.bends.push_back(fold);
+  }
+  set_number_place(pattern, bounds(outline));
+  return pattern;
+}
+
+}  // namespace glissade::parts

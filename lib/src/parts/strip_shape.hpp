@@ -1,0 +1,76 @@
+#pragma once
+
+#include "parts/offset_line.hpp"
+#include "parts/plate_section.hpp"
+
+#include "glissade/parts/plates.hpp"
+
+#include <vector>
+
+namespace glissade::parts {
+
+/// Where a stretch of track begins and ends, how it bends, and how a section that widens stands at both ends.
+struct StripArc {
+  TrackArc arc;
+  double wide_from = 0.0;  ///< by how much each half of the section stands farther out than the narrowest one [m]
+  double wide_to = 0.0;
+  double lean_from = 0.0;  ///< by how much it leans out more, across per height [-]
+  double lean_to = 0.0;
+
+  /// Of the foot of a wall, out per length of track.
+  [[nodiscard]] double taper() const { return (wide_to - wide_from) / arc.length; }
+};
+
+/// Everything that the strips of one section are made from.
+///
+/// Where the width changes, a wall through both of its edges at equal heights is no developable surface in a bend. One that
+/// leans is, if its lean across per height changes by -kappa b' along the track, b' being the taper of its half: the ruling
+/// at a place is then N + lean Y, and a' x d . d' = 0. Every plate of a half of the section gets the same shear, so plates
+/// that meet go on meeting. It is spread so that the greatest lean to either side is as small as can be.
+class StripJob {
+ public:
+  /// @throws InputError where a width makes walls lean or taper more than they may: the place, the bound, a way out
+  StripJob(const ArcSpline& track, const PlateSection& section, const PlateOptions& options,
+           const Placement& placement);
+
+  const ArcSpline& track;
+  const PlateSection& section;
+  const PlateOptions& options;
+  const Placement& placement;
+
+  [[nodiscard]] bool widens() const { return section.widths.has_value(); }
+  /// @return arcs of the track within a span, cut where the width begins or ends to change and where they turn far
+  [[nodiscard]] std::vector<StripArc> arcs_in(const Span& span) const;
+  /// @return by how much half the section is wider than at its narrowest, and how it leans, at a place
+  [[nodiscard]] double wider_at(double s) const;
+  [[nodiscard]] double lean_at(double s) const;
+  /// @return where a corner of the section stands
+  [[nodiscard]] Vec2 at(Vec2 corner, double wider, double lean) const;
+  /// @return greatest lean, and greatest distance of walls from where the width has them [m]
+  [[nodiscard]] double most_lean() const { return most_lean_; }
+  [[nodiscard]] double departure() const;
+  [[nodiscard]] double most_taper() const { return most_taper_; }
+
+ private:
+  std::vector<StripArc> arcs_;
+  double most_lean_ = 0.0;
+  double most_taper_ = 0.0;
+};
+
+/// A strip on the flat, from the middle of its upstream edge at `face_to` on.
+struct Development {
+  std::vector<Vec2> base;   ///< at the side of `face_to`
+  std::vector<Vec2> upper;  ///< at the side of `face_from`
+  std::vector<double> turns;
+  std::vector<BendLine> folds;  ///< where a width begins or ends to change
+};
+
+[[nodiscard]] Development developed(const StripJob& job, const SectionPlate& plate, const Span& span);
+
+/// @return the length of a chain of arcs through places that turn so
+[[nodiscard]] double length_along(const std::vector<Vec2>& places, const std::vector<double>& turns);
+
+/// @param radii  to which each arc is rolled; empty: none is
+[[nodiscard]] FlatPattern pattern_of(const Development& strip, const std::vector<double>& radii);
+
+}  // namespace glissade::parts

@@ -1,0 +1,257 @@
+// Plates beside a width that changes: walls lean so that they unroll without strain, floors taper, all add up.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/io/step_file.hpp"
+#include "glissade/parts/plates.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/body_mesh.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
+
+CoulombBrachistochrone chute() {
+  return {{5.4, 5.1}, kFriction};
+}
+
+const WidthLaw kWidening({{2.0, 0.4}, {4.0, 0.6}, {6.0, 0.35}});
+
+WorkshopBuild plates(const Centerline& track, const section::Measures& measures, PlateOptions options = {}) {
+  return make_plates(track, measures, {1e-4}, options, Placement(), {.friction = kFriction});
+}
+
+PlateOptions in_one_piece() {
+  PlateOptions options;
+  options.split.sheet = {20.0, 8.0};
+  return options;
+}
+
+const ShopPart& part_of(const WorkshopBuild& build, const std::string& name) {
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.starts_with(name)) return part;
+  }
+  FAIL("no part " << name);
+  throw 0;
+}
+
+/// The middle of two corners of a section at a share of a piece of the body's path.
+Vec3 middle_of(const SweptBody& body, std::size_t piece, double share, std::size_t one, std::size_t other) {
+  const PathPiece path = pieces_of(body.path)[piece];
+  const Vec2 at = point_on(path, share);
+  const Vec2 chord = path.to - path.from;
+  const auto [sine, cosine] = math::sine_cosine(4.0 * math::atan(path.bulge) * (share - 0.5));
+  const Vec2 along = (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
+  const auto corner = [&](std::size_t j) {
+    const double shift = (1.0 - share) * body.shifts[piece][j] + share * body.shifts[piece + 1][j];
+    const Vec2 here = at + body.section[j].x * Vec2{-along.y, along.x};
+    return Vec3{here.x, here.y, body.section[j].y + shift};
+  };
+  return 0.5 * (corner(one) + corner(other));
+}
+
+/// A strip between two lines laid flat triangle by triangle.
+struct Unfolded {
+  std::vector<Vec2> base;
+  std::vector<Vec2> upper;
+};
+
+Vec2 apex(Vec2 a, Vec2 b, double from_a, double from_b) {
+  const double side = norm(b - a);
+  const double along = (from_a * from_a - from_b * from_b + side * side) / (2.0 * side);
+  const double up = std::sqrt(std::max(0.0, from_a * from_a - along * along));
+  const Vec2 unit = (1.0 / side) * (b - a);
+  return a + along * unit + up * Vec2{-unit.y, unit.x};
+}
+
+Unfolded unfolded(const std::vector<Vec3>& base, const std::vector<Vec3>& upper) {
+  Unfolded flat;
+  flat.base.push_back({});
+  flat.upper.push_back({0.0, norm(upper[0] - base[0])});
+  for (std::size_t i = 0; i + 1 < base.size(); ++i) {
+    // Left of upper -> base lies the next pair.
+    const Vec2 next = apex(flat.upper.back(), flat.base.back(), norm(base[i + 1] - upper[i]),
+                           norm(base[i + 1] - base[i]));
+    const Vec2 above =
+        apex(flat.upper.back(), next, norm(upper[i + 1] - upper[i]), norm(upper[i + 1] - base[i + 1]));
+    flat.base.push_back(next);
+    flat.upper.push_back(above);
+  }
+  return flat;
+}
+
+}  // namespace
+
+TEST_CASE("widths: a wall laid flat triangle by triangle is its pattern") {
+  for (const bool left : {true, false}) {
+    const WorkshopBuild build =
+        plates(chute(), section::UChannel{kWidening, 0.25, 4e-3}, in_one_piece());
+    const ShopPart& wall = part_of(build, left ? "left_wall" : "right_wall");
+    const auto& body = std::get<SweptBody>(wall.body);
+    // Corners: face_from, face_to, back_to, back_from.
+    std::vector<Vec3> base;
+    std::vector<Vec3> upper;
+    constexpr int kSteps = 60;
+    const std::size_t pieces = body.path.vertices.size() - 1;
+    for (std::size_t i = 0; i < pieces; ++i) {
+      for (int k = 0; k < kSteps || (i + 1 == pieces && k == kSteps); ++k) {
+        base.push_back(middle_of(body, i, static_cast<double>(k) / kSteps, 1, 2));
+        upper.push_back(middle_of(body, i, static_cast<double>(k) / kSteps, 0, 3));
+      }
+    }
+    const Unfolded flat = unfolded(base, upper);
+    const auto& corners = wall.pattern->region.outline.vertices;
+    REQUIRE(corners.size() == 2 * (pieces + 1));
+    // Distances of every corner from the first ones, whichever way the pattern lies.
+    double worst = 0.0;
+    for (std::size_t i = 0; i <= pieces; ++i) {
+      const std::size_t k = std::min(i * kSteps, flat.base.size() - 1);
+      const Vec2 low = corners[i].at;
+      const Vec2 high = corners[2 * pieces + 1 - i].at;
+      const Vec2 from = corners.front().at;
+      const Vec2 over = corners.back().at;
+      worst = std::max({worst, std::fabs(norm(low - from) - norm(flat.base[k] - flat.base[0])),
+                        std::fabs(norm(high - from) - norm(flat.upper[k] - flat.base[0])),
+                        std::fabs(norm(low - over) - norm(flat.base[k] - flat.upper[0])),
+                        std::fabs(norm(high - over) - norm(flat.upper[k] - flat.upper[0]))});
+    }
+    CHECK(worst < 2e-6);
+    CHECK(wall.pattern->bends.size() == 3);
+  }
+}
+
+TEST_CASE("widths: plates add up to the solid but for what leaning adds, and edges that meet have one length") {
+  for (const section::Measures& measures :
+       {section::Measures(section::UChannel{kWidening, 0.25, 4e-3}),
+        section::Measures(section::Trapezoid{kWidening, 0.2, Angle::from_degrees(20.0), 4e-3}),
+        section::Measures(section::Slab{kWidening, 6e-3})}) {
+    const WorkshopBuild build = plates(chute(), measures);
+    const ArcSpline& line = *build.master.spline;
+    // Area and moment of the design's own section at the middle of many short stretches.
+    REQUIRE(build.proof.differences.size() == 1);
+    CHECK(std::fabs(build.proof.differences.front().volume) < 1e-3 * build.proof.exact_volume);
+    CHECK(build.proof.edge_mismatch < 1e-9);
+    double floor = 0.0;
+    for (const ShopPart& part : build.workshop.parts) {
+      if (part.name.starts_with("floor")) floor += moments(part.pattern->region).area;
+    }
+    // The floor's mid-plane: its width over its own length.
+    double exact = 0.0;
+    constexpr int kSteps = 40000;
+    const bool trapezoid = std::holds_alternative<section::Trapezoid>(measures);
+    const double more = trapezoid ? 4e-3 * math::tan(Angle::from_degrees(35.0).radians()) : 0.0;
+    const double half = std::holds_alternative<section::Slab>(measures) ? 3e-3 : 2e-3;
+    for (int k = 0; k < kSteps; ++k) {
+      const double s = line.length() * (k + 0.5) / kSteps;
+      exact += line.length() / kSteps * (kWidening.at(s) + more) * (1.0 + half * line.at(s).curvature);
+    }
+    CHECK(std::fabs(floor / exact - 1.0) < 2e-4);
+  }
+}
+
+TEST_CASE("widths: a width that is one everywhere makes the plates of one width") {
+  const WidthLaw same({{1.0, 0.4}, {3.0, 0.4 + 1e-9}});
+  const WorkshopBuild widening = plates(chute(), section::UChannel{same, 0.25, 4e-3});
+  const WorkshopBuild plain = plates(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3});
+  CHECK(std::fabs(widening.proof.volume / plain.proof.volume - 1.0) < 1e-8);
+  CHECK(std::fabs(widening.proof.differences.front().volume) < 1e-12);
+}
+
+TEST_CASE("widths: bodies are closed, in facets and in STEP, and splines stand only where the width changes in a bend") {
+  const TempDir dir;
+  const WorkshopBuild build = plates(chute(), section::UChannel{kWidening, 0.25, 4e-3});
+  std::size_t splines = 0;
+  for (const ShopPart& part : build.workshop.parts) {
+    write_step(dir.path() / "part.step", part);
+    require_same_step(dir.path() / "part.step", part);
+    splines += read_step_facts(dir.path() / "part.step").solids.front().splines;
+    const TriangleMesh mesh = parts::facets_of(part.body, 1e-5);
+    CHECK(std::fabs(measure(mesh).volume / part.volume - 1.0) < 1e-3);
+  }
+  CHECK(splines > 10);
+  for (const ShopPart& part : plates(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}).workshop.parts) {
+    write_step(dir.path() / "part.step", part);
+    CHECK(read_step_facts(dir.path() / "part.step").solids.front().splines == 0);
+  }
+}
+
+TEST_CASE("widths: random tracks and widths make plates that fit and add up") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 12; ++run) {
+    const double size = random.between(3.0, 12.0);
+    std::vector<ClothoidSegment> segments;
+    for (int i = random.integer(1, 4); i > 0; --i) {
+      const double curvature = random.between(-0.5, 0.8) / size;
+      segments.push_back({random.between(0.1, 0.4) * size, curvature, curvature});
+    }
+    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
+    std::vector<WidthAt> knots;
+    double at = random.between(0.0, 0.2) * track.length();
+    double width = random.between(0.3, 0.8);
+    for (int i = random.integer(2, 4); i > 0; --i) {
+      knots.push_back({at, width});
+      const double step = random.between(0.1, 0.3) * track.length();
+      at += step;
+      width = std::max(0.15, width + random.between(-0.15, 0.15) * step);
+    }
+    const double t = random.between(2e-3, 8e-3);
+    PlateOptions options;
+    options.split.longest = random.between(0.8, 3.0);
+    options.walls = random.integer(0, 1) == 0 ? WallSeat::beside_floor : WallSeat::on_floor;
+    options.flanges.wanted = random.integer(0, 2) > 0;
+    for (const section::Measures& measures :
+         {section::Measures(section::UChannel{WidthLaw(knots), random.between(0.1, 0.25), t}),
+          section::Measures(section::Trapezoid{WidthLaw(knots), random.between(0.1, 0.25),
+                                               Angle::from_degrees(random.between(2.0, 35.0)), t}),
+          section::Measures(section::Slab{WidthLaw(knots), t})}) {
+      INFO(section::kind(measures));
+      const WorkshopBuild build = plates(track, measures, options);  // throws where parts clash or do not add up
+      for (const ShopPart& part : build.workshop.parts) {
+        CHECK(faults_of(part.pattern->region).empty());
+        CHECK(part.mass > 0.0);
+      }
+    }
+  }
+}
+
+TEST_CASE("widths: what cannot be made is refused with place, value and bound") {
+  const auto refusal = [](const section::Measures& measures, const PlateOptions& options) {
+    try {
+      (void)plates(chute(), measures, options);
+    } catch (const InputError& error) {
+      const Issue& issue = error.issues().front();
+      return issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint;
+    }
+    return std::string();
+  };
+  const WidthLaw sudden({{2.0, 0.4}, {2.1, 0.8}});
+  const std::string steep = refusal(section::UChannel{sudden, 0.25, 4e-3}, {});
+  CHECK(steep.find("cross_section.width|the width changes by 4 m per metre at 2 m along the track") == 0);
+  CHECK(steep.find("a longer stretch for the change") != std::string::npos);
+  const WidthLaw far({{0.2, 0.3}, {7.5, 4.2}});
+  CHECK(refusal(section::UChannel{far, 0.25, 4e-3}, {}).find("walls of plates would lean ") != std::string::npos);
+  PlateOptions bent;
+  bent.floor = FloorMake::bent;
+  CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, bent)
+            .find("floor|floor: bent goes with upright walls beside one width") == 0);
+  PlateOptions lap;
+  lap.corners.kind = CornerJoint::lap;
+  CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, lap).find("corners|corners: it goes with") == 0);
+  CHECK(refusal(section::Slab{kWidening, 6e-3, 0.05, 0.02}, {})
+            .find("cross_section.width|fabrication: plates of curbs or a groove beside a width that changes") == 0);
+}
