@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -38,7 +39,6 @@ double slack_within(const Measure& measure) {
 std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& found) {
   constexpr double kEnd = 1e-6;  // accuracy: ten times that of a limit
   const Mesh& mesh = found.track->mesh();
-  const double length = found.z[found.track->layout().length()];
   std::vector<double> price(problem.limits.size(), 0.0);
   for (std::size_t k = 0; k < found.active.size(); ++k) price[found.active[k].limit] += found.inequality[k];
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
@@ -52,7 +52,7 @@ std::vector<double> ends_of_binding(const ScaledProblem& problem, const Found& f
     const bool load = problem.limits[i].measure->is_load();
     for (const Span& span : bindings[i]) {
       for (const double place : {span.from, span.to}) {
-        const double at = count_pieces(mesh.knots, (place - mesh.lead_in) / length);
+        const double at = count_pieces(mesh.knots, found.track->sigma_at(found.z, place));
         const bool joins_start = load && place == span.from && at < kJoined && mesh.lead_in == 0.0;
         const bool joins_finish = load && place == span.to && at > last - kJoined && mesh.lead_out == 0.0;
         if (at > kEnd && at < last - kEnd && !joins_start && !joins_finish) ends.push_back(at);
@@ -286,8 +286,9 @@ class JumpFinder {
     if (first > 0 && turns(0)) result.push_back({{0.0, knots_[1]}, Span{0.0, kJoint}});
     for (std::size_t k = 0; k < ramps.size(); ++k) {
       if (ramps[k] < first || ramps[k] >= last) continue;
-      const std::size_t begin = k == 0 ? first : std::max(first, ramps[k - 1] + 1);
-      const std::size_t end = k + 1 == ramps.size() ? last : std::min(last, ramps[k + 1]);
+      const auto [free_from, free_to] = between_changes(ramps[k], first, last);
+      const std::size_t begin = k == 0 ? free_from : std::max(free_from, ramps[k - 1] + 1);
+      const std::size_t end = k + 1 == ramps.size() ? free_to : std::min(free_to, ramps[k + 1]);
       if (const std::optional<Switch> seen = seen_from(ramps[k], begin, end)) result.push_back(*seen);
     }
     if (last < pieces_ && turns(last)) result.push_back({{knots_[last], 1.0}, Span{1.0 - kJoint, 1.0}});
@@ -297,6 +298,22 @@ class JumpFinder {
  private:
   [[nodiscard]] bool is_narrow(std::size_t piece) const {
     return knots_[piece + 1] - knots_[piece] < 2.0 * kPair;
+  }
+  /// Whether a piece stands for the jump at a change of friction, whose place is known.
+  [[nodiscard]] bool is_at_change(std::size_t piece) const {
+    const std::vector<ChangeKnots>& changes = found_.track->mesh().change_knots;
+    return std::any_of(changes.begin(), changes.end(), [&](const ChangeKnots& change) {
+      return knots_[piece] >= change.from && knots_[piece + 1] <= change.to;
+    });
+  }
+  /// The pieces around one of them, within [first, last), up to the next changes of friction.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> between_changes(std::size_t piece, std::size_t first,
+                                                                    std::size_t last) const {
+    for (const ChangeKnots& change : found_.track->mesh().change_knots) {
+      while (first <= piece && knots_[first] < change.to && change.to <= knots_[piece]) ++first;
+      while (last > piece + 1 && knots_[last] > change.from && change.from >= knots_[piece + 1]) --last;
+    }
+    return {first, last};
   }
   [[nodiscard]] double turn(std::size_t knot) const { return found_.z[found_.track->layout().turn(knot)]; }
   [[nodiscard]] double change(std::size_t piece) const { return std::fabs(turn(piece + 1) - turn(piece)); }
@@ -319,7 +336,7 @@ class JumpFinder {
       const double middle = static_cast<double>(i) + 0.5;
       const bool near = std::any_of(ends_.begin(), ends_.end(),
                                     [&](double end) { return std::fabs(end - middle) < kNear; });
-      if (near && turns(i)) by_size.push_back(i);
+      if (near && turns(i) && !is_at_change(i)) by_size.push_back(i);
     }
     std::stable_sort(by_size.begin(), by_size.end(),
                      [&](std::size_t a, std::size_t b) { return change(a) > change(b); });
@@ -413,8 +430,8 @@ std::vector<Cut> cuts_of(const Vector& knots, const std::vector<Switch>& switche
       // Jumps too close to tell apart are kept as one stretch.
       const bool joined = change.jump->from < free_from && !cuts.empty();
       if (!joined) cuts.push_back({*change.jump, 1, change.blurred});
-      cuts.back().span.to = change.jump->to;
-      cuts.back().blurred.to = change.blurred.to;
+      cuts.back().span.to = std::max(cuts.back().span.to, change.jump->to);
+      cuts.back().blurred.to = std::max(cuts.back().blurred.to, change.blurred.to);
       cuts.back().pieces += joined ? 2 : 0;
       continue;
     }
@@ -515,8 +532,9 @@ std::vector<std::vector<Span>> bindings_of(const ScaledProblem& problem, const F
   };
   const Mesh& mesh = found.track->mesh();
   const State state = found.rows->state(found.z, false);
-  const double length = found.z[found.track->layout().length()];
-  const auto pieces_at = [&](double at) { return count_pieces(mesh.knots, (at - mesh.lead_in) / length); };
+  const auto pieces_at = [&](double at) {
+    return count_pieces(mesh.knots, found.track->sigma_at(found.z, at));
+  };
   std::vector<std::vector<Place>> places(problem.limits.size());
   for (const Row& row : found.rows->candidates(state, HUGE_VAL)) {
     const double slack = -found.rows->value(state, row);
@@ -526,7 +544,7 @@ std::vector<std::vector<Span>> bindings_of(const ScaledProblem& problem, const F
     places[row.limit].push_back({at, slack});
     if (problem.limits[row.limit].measure != Measure::curvature_rate) continue;
     const double width = mesh.knots[row.place + 1] - mesh.knots[row.place];
-    places[row.limit].push_back({at + width * length, slack});
+    places[row.limit].push_back({at + width * found.track->stretch(found.z, row.place), slack});
   }
   std::vector<std::vector<Span>> bindings(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -571,10 +589,24 @@ bool settled(const std::vector<Switch>& switches) {
   });
 }
 
+namespace {
+
+/// With those whose place is known: where friction changes.
+std::vector<Switch> with_changes(std::vector<Switch> switches, const Mesh& mesh) {
+  for (const ChangeKnots& change : mesh.change_knots) {
+    if (change.from < change.to) switches.push_back({{change.from, change.to}, Span{change.from, change.to}});
+  }
+  std::stable_sort(switches.begin(), switches.end(),
+                   [](const Switch& a, const Switch& b) { return a.blurred.from < b.blurred.from; });
+  return switches;
+}
+
+}  // namespace
+
 Vector refined_knots(const Transcription& track, const Vector& z, const std::vector<Switch>& switches,
                      std::size_t pieces) {
   constexpr std::size_t kFewest = 2;  // taste
-  const std::vector<Cut> cuts = cuts_of(track.mesh().knots, switches);
+  const std::vector<Cut> cuts = cuts_of(track.mesh().knots, with_changes(switches, track.mesh()));
   const Demand demand(track, z, cuts);
   double shared = demand.up_to(1.0);
   for (const Cut& cut : cuts) shared -= demand.within(cut.span);
@@ -594,6 +626,7 @@ Vector refined_knots(const Transcription& track, const Vector& z, const std::vec
     knots.push_back(cut.span.to);
   }
   share_out_to(1.0);
+  for (double& knot : knots) knot = track.share_of_core(z, knot);
   return knots;
 }
 

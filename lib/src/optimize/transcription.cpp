@@ -62,21 +62,15 @@ Slowness pace_of(const Ride& ride, double v, double floor) {
 
 Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
   layout_.knots = mesh.knots.size();
-  const std::size_t last_piece = mesh.knots.size() - 2;
-  add_station(0.0, mesh.lead_in > 0.0 ? Part::lead_in : Part::core, 0);
-  if (mesh.lead_in > 0.0) add_panels(0.0, mesh.lead_in, Part::lead_in, 0);
-  add_fine_knots();
-  Vector breaks = mesh.extra_breaks;
-  breaks.insert(breaks.end(), mesh.knots.begin(), mesh.knots.end());
-  breaks.insert(breaks.end(), mesh.fine.begin(), mesh.fine.end());
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-  std::size_t piece = 0;
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    while (breaks[i] >= mesh.knots[piece + 1]) ++piece;
-    add_panels(breaks[i], breaks[i + 1], Part::core, piece);
+  if (!mesh.change_knots.empty()) {
+    fixed_share_ = mesh.change_knots.back().sigma;
+    const auto last = std::find(mesh.knots.begin(), mesh.knots.end(), fixed_share_);
+    fixed_pieces_ = static_cast<std::size_t>(last - mesh.knots.begin());
   }
-  if (mesh.lead_out > 0.0) add_panels(0.0, mesh.lead_out, Part::lead_out, last_piece);
+  if (mesh.lead_in > 0.0) add_straight(Part::lead_in);
+  add_fine_knots();
+  add_core();
+  if (mesh.lead_out > 0.0) add_straight(Part::lead_out);
 
   add_sections();
   station_turn_.resize(stations_.size());
@@ -258,34 +252,129 @@ double Transcription::angle_at(const Vector& z, const Vector& section_angles, st
          row[kSecond] * z[layout_.turn(piece + 1)] + station_angle_[station];
 }
 
-void Transcription::add_station(double at, Part part, std::size_t piece) {
+double Transcription::core_length(const Vector& z) const {
+  return fixed_share_ * mesh_.core_length + (1.0 - fixed_share_) * z[layout_.length()];
+}
+
+double Transcription::arc_length(const Vector& z, double sigma) const {
+  const double fixed = std::min(sigma, fixed_share_);
+  return mesh_.lead_in + fixed * mesh_.core_length + (sigma - fixed) * z[layout_.length()];
+}
+
+double Transcription::sigma_at(const Vector& z, double arc_length) const {
+  const double along = arc_length - mesh_.lead_in;
+  const double fixed = fixed_share_ * mesh_.core_length;
+  if (along < fixed) return along / mesh_.core_length;
+  return fixed_share_ + (along - fixed) / z[layout_.length()];
+}
+
+std::size_t Transcription::zone_at(double arc_length) const {
+  const auto above = std::upper_bound(mesh_.changes.begin(), mesh_.changes.end(), arc_length);
+  return static_cast<std::size_t>(above - mesh_.changes.begin());
+}
+
+void Transcription::add_core() {
+  Vector breaks = mesh_.extra_breaks;
+  breaks.insert(breaks.end(), mesh_.knots.begin(), mesh_.knots.end());
+  breaks.insert(breaks.end(), mesh_.fine.begin(), mesh_.fine.end());
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  Stretch stretch;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    stretch.from = breaks[i];
+    stretch.to = breaks[i + 1];
+    while (stretch.from >= mesh_.knots[stretch.piece + 1]) ++stretch.piece;
+    add_panels(stretch);
+  }
+}
+
+// The straight before the core lies still; of the one behind it the ends move with the core, the changes of friction
+// do not.
+void Transcription::add_straight(Part part) {
+  const bool before = part == Part::lead_in;
+  const double begin = before ? 0.0 : mesh_.lead_in + mesh_.core_length;
+  const double whole = before ? mesh_.lead_in : mesh_.lead_out;
+  const double end_fixed = before ? 0.0 : mesh_.lead_in + fixed_share_ * mesh_.core_length;
+  const double end_by_length = before ? 0.0 : 1.0 - fixed_share_;
+  Stretch stretch;
+  stretch.part = part;
+  stretch.piece = before ? 0 : mesh_.knots.size() - 2;
+  stretch.fixed[1] = end_fixed;
+  stretch.by_length[1] = end_by_length;
+  const auto go_on_to = [&](double to, double fixed, double by_length) {
+    stretch.from = stretch.to;
+    stretch.fixed[0] = stretch.fixed[1];
+    stretch.by_length[0] = stretch.by_length[1];
+    stretch.to = to;
+    stretch.fixed[1] = fixed;
+    stretch.by_length[1] = by_length;
+    add_panels(stretch);
+  };
+  for (const double change : mesh_.changes) {
+    const double along = change - begin;
+    if (along > 0.0 && along < whole) go_on_to(along, change, 0.0);
+  }
+  go_on_to(whole, end_fixed + whole, end_by_length);
+}
+
+void Transcription::add_station(double at, const Stretch& stretch, std::size_t zone) {
   Station station;
-  station.part = part;
-  station.piece = piece;
-  switch (part) {
-    case Part::lead_in:
-      station.fixed_length = at;
-      break;
-    case Part::core: {
-      const double from = mesh_.knots[piece];
-      const double to = mesh_.knots[piece + 1];
-      station.fixed_length = mesh_.lead_in;
-      station.sigma = at;
-      station.share = at == to ? 1.0 : (at - from) / (to - from);
-      break;
-    }
-    case Part::lead_out:
-      station.fixed_length = mesh_.lead_in + at;
-      station.sigma = 1.0;
-      station.share = 1.0;
-      break;
+  station.part = stretch.part;
+  station.piece = stretch.piece;
+  station.zone = zone;
+  if (stretch.part == Part::core) {
+    const double from = mesh_.knots[stretch.piece];
+    const double to = mesh_.knots[stretch.piece + 1];
+    const bool stretches = this->stretches(stretch.piece);
+    station.fixed_length = mesh_.lead_in + (stretches ? fixed_share_ : at) * mesh_.core_length;
+    station.by_length = stretches ? at - fixed_share_ : 0.0;
+    station.sigma = at;
+    station.share = at == to ? 1.0 : (at - from) / (to - from);
+    stations_.push_back(station);
+    return;
+  }
+  const double share = (at - stretch.from) / (stretch.to - stretch.from);
+  station.fixed_length = stretch.by_length[0] == stretch.by_length[1]
+                             ? stretch.fixed[0] + (at - stretch.from)
+                             : stretch.fixed[0] + share * (stretch.fixed[1] - stretch.fixed[0]);
+  station.by_length = stretch.by_length[0] + share * (stretch.by_length[1] - stretch.by_length[0]);
+  if (stretch.part == Part::lead_out) {
+    station.sigma = 1.0;
+    station.share = 1.0;
   }
   stations_.push_back(station);
 }
 
-void Transcription::add_panels(double a, double b, Part part, std::size_t piece) {
+Transcription::Panel Transcription::panel_of(const Stretch& stretch) const {
+  Panel panel;
+  panel.part = stretch.part;
+  const double middle = 0.5 * (stretch.from + stretch.to);
+  double before = 0.0;
+  if (stretch.part == Part::core) {
+    before = mesh_.lead_in;
+    panel.zone = zone_at(mesh_.lead_in + middle * mesh_.core_length);
+    if (stretches(stretch.piece)) return panel;
+    panel.fixed_scale = mesh_.core_length;
+    panel.by_length = 0.0;
+    return panel;
+  }
+  if (stretch.part == Part::lead_out) before = mesh_.lead_in + mesh_.core_length;
+  panel.zone = zone_at(before + middle);
+  const double whole = stretch.to - stretch.from;
+  const bool moves_as_one = stretch.by_length[0] == stretch.by_length[1];
+  panel.by_length = moves_as_one ? 0.0 : (stretch.by_length[1] - stretch.by_length[0]) / whole;
+  panel.fixed_scale = moves_as_one ? 1.0 : (stretch.fixed[1] - stretch.fixed[0]) / whole;
+  return panel;
+}
+
+void Transcription::add_panels(const Stretch& stretch) {
   const PanelRule& rule = panel_rule();
+  const double a = stretch.from;
+  const double b = stretch.to;
+  const Part part = stretch.part;
   const double unit = part == Part::core ? mesh_.core_length : 1.0;
+  const Panel same = panel_of(stretch);
+  if (stations_.empty()) add_station(a, stretch, 0);
   // s + s_0 = r^2 with s_0 = v_0/2: the length of free fall to the entry speed.
   double before = 0.5 * mesh_.entry_speed2;
   if (part != Part::lead_in) before += mesh_.lead_in;
@@ -310,18 +399,17 @@ void Transcription::add_panels(double a, double b, Part part, std::size_t piece)
   for (int i = 0; i < count; ++i) {
     const double from = i == 0 ? r_first : r_at(i);
     const double to = r_at(i + 1);
-    Panel panel;
+    Panel panel = same;
     panel.first = stations_.size();
-    panel.part = part;
     for (std::size_t k = 0; k < kNodes; ++k) {
       const double r = from + (to - from) * rule.node[k];
       panel.ds[k] = 2.0 * r * (to - from);
-      add_station(r * r - shift, part, piece);
+      add_station(r * r - shift, stretch, panel.zone);
       // The two middle nodes; the outer ones lie next to the ends of the panel.
       stations_.back().watched = 2 * k + 2 == kNodes || 2 * k == kNodes;
     }
     panels_.push_back(panel);
-    add_station(i + 1 == count ? b : to * to - shift, part, piece);
+    add_station(i + 1 == count ? b : to * to - shift, stretch, panel.zone);
   }
 }
 
@@ -334,7 +422,7 @@ double Transcription::curvature(const Vector& z, std::size_t index) const {
   if (station.part != Part::core) return 0.0;
   const double c = (1.0 - station.share) * z[layout_.turn(station.piece)] +
                    station.share * z[layout_.turn(station.piece + 1)] + station_turn_[index];
-  return c / z[layout_.length()];
+  return c / stretch(z, station.piece);
 }
 
 bool Transcription::is_track(const Vector& z) const {
@@ -343,12 +431,19 @@ bool Transcription::is_track(const Vector& z) const {
   constexpr double kLongest = 100.0;   // taste: above any track
   constexpr double kTightest = 0.999;  // curvature times height; theory: at 1 the body does not fit in
   const double length = z[layout_.length()];
-  if (!(length > kShortest && length < kLongest)) return false;
+  const double core = core_length(z);
+  if (!(core > kShortest && core < kLongest && length > 0.0)) return false;
+  // Of the straight behind the core no part is turned round.
+  for (const Panel& panel : panels_) {
+    if (!(panel.scale(length) > 0.0)) return false;
+  }
   for (std::size_t i = 0; i < layout_.knots; ++i) {
-    if (!(z[layout_.turn(i)] * mesh_.centre_height < kTightest * length)) return false;
+    const std::size_t before = std::max(i, std::size_t{1}) - 1;
+    const double least = std::min(stretch(z, before), stretch(z, std::min(i, layout_.knots - 2)));
+    if (!(z[layout_.turn(i)] * mesh_.centre_height < kTightest * least)) return false;
   }
   for (std::size_t i = 0; i < fine_.size(); ++i) {
-    if (!(fine_turn(z, i) * mesh_.centre_height < kTightest * length)) return false;
+    if (!(fine_turn(z, i) * mesh_.centre_height < kTightest * stretch(z, fine_[i].piece))) return false;
   }
   const Vector angles = section_angles(z);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
@@ -380,7 +475,7 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Panel& panel = panels_[p];
     const std::size_t start = start_station(p);
-    const double scale = panel.part == Part::core ? length : 1.0;
+    const double scale = panel.scale(length);
     for (std::size_t q = 0; q <= kNodes; ++q) {
       double sum_x = 0.0;
       double sum_y = 0.0;
@@ -392,7 +487,7 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
       out.x[panel.first + q] = out.x[start] + scale * sum_x;
       out.y[panel.first + q] = out.y[start] + scale * sum_y;
     }
-    if (derivatives) differentiate_shape(p, scale, out);
+    if (derivatives) differentiate_shape(z, p, out);
   }
 }
 
@@ -415,9 +510,10 @@ void Transcription::count_from_finish(Shape& shape) const {
   }
 }
 
-void Transcription::differentiate_shape(std::size_t p, double scale, Shape& out) const {
+void Transcription::differentiate_shape(const Vector& z, std::size_t p, Shape& out) const {
   const PanelRule& rule = panel_rule();
   const Panel& panel = panels_[p];
+  const double scale = panel.scale(z[layout_.length()]);
   carry_over(p, out.dx);
   carry_over(p, out.dy);
   const LocalRow dx_start = at_start(p, out.dx);
@@ -437,9 +533,9 @@ void Transcription::differentiate_shape(std::size_t p, double scale, Shape& out)
         dy[j] += part * out.cos[panel.first + k] * dz[j];
       }
     }
-    if (panel.part != Part::core) continue;
-    dx[kLength] += (out.x[at] - out.x[start]) / scale;
-    dy[kLength] += (out.y[at] - out.y[start]) / scale;
+    if (panel.by_length == 0.0) continue;
+    dx[kLength] += panel.by_length * (out.x[at] - out.x[start]) / scale;
+    dy[kLength] += panel.by_length * (out.y[at] - out.y[start]) / scale;
   }
 }
 
@@ -457,6 +553,7 @@ Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t bas
   foot.share = share;
   foot.at = later;
   foot.at.fixed_length = from.fixed_length + share * (to.fixed_length - from.fixed_length);
+  foot.at.by_length = from.by_length + share * (to.by_length - from.by_length);
   foot.at.sigma = from.sigma + share * (to.sigma - from.sigma);
   double curvature_from = 0.0;
   double curvature_slope = 0.0;
@@ -465,13 +562,14 @@ Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t bas
     const double width = mesh_.knots[later.piece + 1] - knot;
     foot.at.share = (foot.at.sigma - knot) / width;
     const double from_share = (from.sigma - knot) / width;
-    const double c0 = z[layout_.turn(later.piece)] / length;
-    const double c1 = z[layout_.turn(later.piece + 1)] / length;
-    curvature_from = c0 + (c1 - c0) * from_share + station_turn_[base] / length;
-    curvature_slope = (c1 - c0) / (width * length);
-    const double gap = (to.sigma - from.sigma) * length;
+    const double stretch = this->stretch(z, later.piece);
+    const double c0 = z[layout_.turn(later.piece)] / stretch;
+    const double c1 = z[layout_.turn(later.piece + 1)] / stretch;
+    curvature_from = c0 + (c1 - c0) * from_share + station_turn_[base] / stretch;
+    curvature_slope = (c1 - c0) / (width * stretch);
+    const double gap = (to.sigma - from.sigma) * stretch;
     if (!fine_.empty() && gap != 0.0) {
-      curvature_slope += (station_turn_[towards] - station_turn_[base]) / (gap * length);
+      curvature_slope += (station_turn_[towards] - station_turn_[base]) / (gap * stretch);
     }
   }
   const double ds = foot.at.arc_length(length) - from.arc_length(length);
@@ -546,6 +644,7 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
   add(shape.dx, foot.base, 1.0, dx.data());
   add(shape.dy, foot.base, 1.0, dy.data());
   const double d_sigma = foot.at.sigma - from.sigma;
+  const double by_length = foot.at.by_length - from.by_length;
   const double ds = foot.at.arc_length(length) - from.arc_length(length);
   if (ds == 0.0) return;
   const std::size_t section = section_of(foot.at.part, foot.at.piece);
@@ -568,8 +667,8 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
       local_dx[j] -= rule.weight[k] * ds * sine * row[j];
       local_dy[j] += rule.weight[k] * ds * cosine * row[j];
     }
-    local_dx[kLength] += rule.weight[k] * d_sigma * cosine;
-    local_dy[kLength] += rule.weight[k] * d_sigma * sine;
+    local_dx[kLength] += rule.weight[k] * by_length * cosine;
+    local_dy[kLength] += rule.weight[k] * by_length * sine;
   }
   expand(local_dx, section, nullptr, dx.data());
   expand(local_dy, section, nullptr, dy.data());
@@ -615,9 +714,8 @@ void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride
   const Panel& panel = panels_[p];
   const std::size_t start = start_station(p);
   const double length = z[layout_.length()];
-  const double mu = ride.friction;
-  const bool is_core = panel.part == Part::core;
-  const double scale = is_core ? length : 1.0;
+  const double mu = ride.friction_in(panel.zone);
+  const double scale = panel.scale(length);
   const LocalRow dz_start = dzeta_at_start(p);
   double f[kNodes] = {};
   std::array<LocalRow, kNodes> df{};
@@ -636,8 +734,8 @@ void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride
     for (const std::size_t j : {kZeta, kFirst, kSecond}) {
       df[q][j] = scale * (by_zeta * dz[j] + by_start * dz_start[j]);
     }
-    const double ds_dlength = stations_[at].sigma - stations_[start].sigma;
-    df[q][kLength] = (is_core ? f[q] : 0.0) + scale * f[q] * 2.0 * ride.drag * ds_dlength;
+    const double ds_dlength = stations_[at].by_length - stations_[start].by_length;
+    df[q][kLength] = panel.by_length * f[q] + scale * f[q] * 2.0 * ride.drag * ds_dlength;
   }
   const LocalRow dv_start = by_time != nullptr ? at_start(p, out.dv) : LocalRow{};
   for (std::size_t q = 0; q <= kNodes; ++q) {
@@ -656,7 +754,7 @@ void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride
       const double turning = 2.0 * mu * out.v[at];
       const LocalRow& dz = local_dzeta_[at];
       for (const std::size_t j : {kZeta, kFirst, kSecond}) dv[j] += turning * (dz[j] - dz_start[j]);
-      dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].sigma - stations_[start].sigma);
+      dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].by_length - stations_[start].by_length);
     }
     if (q == kNodes) continue;
     const Slowness slow = slowness(out.v[at], slowest(ride, at));
@@ -666,7 +764,7 @@ void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride
     for (std::size_t j = 0; j < by_time->size(); ++j) {
       (*by_time)[j] += scale * part * slow.first * out.dv.local[at][j];
     }
-    if (is_core) (*by_time)[kLength] += part * slow.value;
+    (*by_time)[kLength] += panel.by_length * part * slow.value;
   }
 }
 
