@@ -8,8 +8,8 @@
 #include "optimize/changed_bound.hpp"
 #include "optimize/energy_left.hpp"
 #include "optimize/least_violation.hpp"
+#include "optimize/refined_knots.hpp"
 #include "optimize/starts.hpp"
-#include "optimize/switches.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 
 #include "optimize/least_violation.hpp"
+#include "optimize/refined_knots.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/starts.hpp"
 
