@@ -124,7 +124,7 @@ Setup make_changing_setup(const Rider& rider) {
   if (mesh.lead_in > 0.0) mesh.changes.push_back(0.4 * mesh.lead_in);
   for (const double sigma : {mesh.knots[1], mesh.knots[3]}) {
     mesh.changes.push_back(mesh.lead_in + sigma * mesh.core_length);
-    mesh.change_knots.push_back({sigma, sigma, sigma});
+    mesh.change_knots.push_back({sigma, sigma, sigma, false});
   }
   for (const double place : {core_end + 0.2 * mesh.lead_out, core_end + 0.7 * mesh.lead_out, 100.0})
     mesh.changes.push_back(place);

@@ -19,11 +19,19 @@ bool jumps(const ScaledProblem& problem) {
                       [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
 }
 
+/// Whether no limit on radius or load rounds a bend.
+bool bends_sharply(const ScaledProblem& problem) {
+  return std::none_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {
+    return limit.side > 0 && (limit.measure == Measure::curvature || limit.measure->is_load());
+  });
+}
+
 }  // namespace
 
 std::vector<ChangeKnots> change_knots(const ScaledProblem& problem, double core_length) {
   const Ride& ride = problem.rides[problem.objective_ride];
   const bool jump = jumps(problem);
+  const bool sharp = bends_sharply(problem);
   std::vector<ChangeKnots> all;
   for (std::size_t i = 0; i < problem.changes.size(); ++i) {
     const double sigma = (problem.changes[i] - problem.lead_in) / core_length;
@@ -32,7 +40,7 @@ std::vector<ChangeKnots> change_knots(const ScaledProblem& problem, double core_
     const double from = jump && rougher ? sigma - kWidth : sigma;
     const double to = jump && !rougher ? sigma + kWidth : sigma;
     const bool fits = from > kAtEnd && to < 1.0 - kAtEnd;
-    all.push_back(fits ? ChangeKnots{sigma, from, to} : ChangeKnots{sigma, sigma, sigma});
+    all.push_back(fits ? ChangeKnots{sigma, from, to, sharp} : ChangeKnots{sigma, sigma, sigma, false});
   }
   return all;
 }
@@ -51,7 +59,7 @@ Vector with_change_knots(const Vector& knots, const std::vector<ChangeKnots>& ch
     result.push_back(change.sigma);
     if (change.from == change.to) continue;
     result.push_back(change.from == change.sigma ? change.to : change.from);
-    result.push_back(0.5 * (change.from + change.to));
+    if (change.sharp) result.push_back(0.5 * (change.from + change.to));
   }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());

@@ -34,12 +34,13 @@ struct Layout {
 ///
 /// The fastest track turns upwards where that costs least: next to the change on its smoother side, at once if no limit
 /// keeps it from that, and it flies over the beginning or the end of the rougher side (docs/optimization.md). Its
-/// curvature jumps there. Knots close to each other stand on the smoother side, the outer ones for the jump and one
-/// between them for a bend that is sharp.
+/// curvature jumps there. Two knots close to each other stand on the smoother side for the jump, and one between them
+/// where nothing keeps the bend from being sharp.
 struct ChangeKnots {
   double sigma = 0.0;  ///< itself a knot
   double from = 0.0;   ///< of the pieces that stand for the jump; both sigma where curvature does not jump
   double to = 0.0;
+  bool sharp = false;
 };
 
 /// Where the curvature's knots lie and how the track is cut for quadrature.
