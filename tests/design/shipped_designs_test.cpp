@@ -26,7 +26,7 @@ TEST_CASE("every design in designs/ is sound") {
        {"grain_chute", "ski_jump_inrun", "sand_ski_ramp", "toboggan_run", "powder_chute",
         "pudasaini_figure_1", "marble_run", "ski_jump_inrun_with_limits", "grain_chute_with_limits",
         "toboggan_on_terrain", "wood_chip_chute", "ski_jump_inrun_track", "grain_chute_with_stream",
-        "ore_transfer", "powder_chute_with_stream"}) {
+        "ore_transfer", "powder_chute_with_stream", "toboggan_run_with_mats"}) {
     CHECK(names.contains(name));
   }
 }

@@ -115,12 +115,34 @@ Setup make_fine_setup(const Rider& rider) {
   return setup;
 }
 
-/// Every rider, on plain knots and with fine ones.
+/// The same on a track that rubs differently along the straights, at two knots of the core, and from a place on that no
+/// track reaches.
+Setup make_changing_setup(const Rider& rider) {
+  Setup setup = make_fine_setup(rider);
+  Mesh& mesh = setup.mesh;
+  const double core_end = mesh.lead_in + mesh.core_length;
+  if (mesh.lead_in > 0.0) mesh.changes.push_back(0.4 * mesh.lead_in);
+  for (const double sigma : {mesh.knots[1], mesh.knots[3]}) {
+    mesh.changes.push_back(mesh.lead_in + sigma * mesh.core_length);
+    mesh.change_knots.push_back({sigma, sigma, sigma, false});
+  }
+  for (const double place : {core_end + 0.2 * mesh.lead_out, core_end + 0.7 * mesh.lead_out, 100.0})
+    mesh.changes.push_back(place);
+  setup.problem.changes = mesh.changes;
+  for (Ride& ride : setup.problem.rides) {
+    for (std::size_t i = 0; i < mesh.changes.size(); ++i)
+      ride.later_frictions.push_back(0.25 + 0.15 * std::cos(2.0 * static_cast<double>(i)));
+  }
+  return setup;
+}
+
+/// Every rider, on plain knots, with fine ones, and where friction changes.
 std::vector<Setup> setups() {
   std::vector<Setup> all;
   for (const Rider& rider : riders()) {
     all.push_back(make_setup(rider));
     all.push_back(make_fine_setup(rider));
+    all.push_back(make_changing_setup(rider));
   }
   all.push_back(make_setup(riders()[1], PlacesFrom::finish));
   return all;
@@ -135,13 +157,16 @@ struct RideEnd {
 
 /// The ride from rest by its own quadrature: w' = 2 (sin - mu cos) e^(-2 mu zeta + 2 k s), in sigma = r^2,
 /// panel by panel; analytic in the unknowns, so that a tiny imaginary step gives the derivative to every
-/// digit.
+/// digit. Where friction changes the core keeps its length up to the last change in it, and of the straight behind it
+/// only the ends move.
 RideEnd ridden(const Setup& setup, const std::vector<Complex>& z, const Ride& ride) {
   using Gauss = boost::math::quadrature::gauss<long double, 20>;
   const Mesh& mesh = setup.mesh;
   const std::size_t knots = mesh.knots.size();
   const Complex length = z[1 + knots];
-  const long double mu = ride.friction;
+  const long double fixed = mesh.change_knots.empty() ? 0.0L : mesh.change_knots.back().sigma;
+  const long double laid = mesh.core_length;
+  long double mu = ride.friction;
   const long double k = ride.drag;
   Complex zeta_at_knot = z[0];
   Complex w = 0.0L;
@@ -171,23 +196,45 @@ RideEnd ridden(const Setup& setup, const std::vector<Complex>& z, const Ride& ri
       w += Gauss::integrate(push, a, b);
     }
   };
+  std::size_t zone = 0;
+  const auto change_friction = [&](const Complex& zeta, const Complex& s) {
+    const Complex v = w * std::exp(2.0L * mu * zeta - 2.0L * k * s);
+    mu = ride.friction_in(++zone);
+    w = v * std::exp(-2.0L * mu * zeta + 2.0L * k * s);
+  };
   for (std::size_t i = 0; i + 1 < knots; ++i) {
     const long double from = mesh.knots[i];
+    if (zone < mesh.change_knots.size() && mesh.change_knots[zone].sigma == mesh.knots[i])
+      change_friction(zeta_at_knot, laid * from);
     const long double to = mesh.knots[i + 1];
     const auto zeta = [&](long double sigma) {
       const long double along = sigma - from;
       return zeta_at_knot - z[1 + i] * along - (z[2 + i] - z[1 + i]) * (along * along / (2.0L * (to - from)));
     };
-    stretch(
-        from, to, zeta, [&](long double sigma) { return length * sigma; }, length);
+    const auto s = [&](long double sigma) {
+      const long double held = std::min(sigma, fixed);
+      return laid * held + length * (sigma - held);
+    };
+    stretch(from, to, zeta, s, to <= fixed ? Complex(laid) : length);
     zeta_end = zeta(to);
     zeta_at_knot = zeta_end;
   }
-  const long double out = mesh.lead_out;
-  stretch(
-      1.0L, 2.0L, [&](long double) { return zeta_end; },
-      [&](long double tau) { return length + out * (tau - 1.0L); }, Complex(out));
-  return {time, w * std::exp(2.0L * mu * zeta_end - 2.0L * k * (length + out))};
+  const Complex core = laid * fixed + length * (1.0L - fixed);
+  const Complex end = core + static_cast<long double>(mesh.lead_out);
+  const auto straight = [&](const Complex& a, const Complex& b) {
+    stretch(
+        1.0L, 2.0L, [&](long double) { return zeta_end; },
+        [&](long double tau) { return a + (b - a) * (tau - 1.0L); }, b - a);
+  };
+  Complex at = core;
+  while (zone < mesh.changes.size() && mesh.changes[zone] < end.real()) {
+    const Complex change = mesh.changes[zone];
+    straight(at, change);
+    change_friction(zeta_end, change);
+    at = change;
+  }
+  straight(at, end);
+  return {time, w * std::exp(2.0L * mu * zeta_end - 2.0L * k * end)};
 }
 
 }  // namespace
@@ -196,28 +243,32 @@ TEST_CASE("time and exit speed carry the derivatives that complex steps in long 
   // The transcription's own quadrature is resolved to some 1e-11.
   constexpr double kAgreement = 1e-9;
   constexpr long double kTiny = 1e-30L;
-  const Setup setup = make_setup(riders().front());
-  const Transcription track(setup.mesh);
-  const Rows rows(setup.problem, track);
-  const State state = rows.state(setup.z, true);
-  REQUIRE(setup.problem.rides.size() == 2);
-  for (std::size_t friction = 0; friction < 2; ++friction) {
-    const Flow& flow = state.flows[friction];
-    const Ride& ride = setup.problem.rides[friction];
-    for (std::size_t j = 0; j < setup.z.size(); ++j) {
-      std::vector<Complex> z(setup.z.begin(), setup.z.end());
-      z[j] += Complex(0.0L, kTiny);
-      const RideEnd end = ridden(setup, z, ride);
-      CAPTURE(friction, j);
-      CHECK(flow.time == Approx(static_cast<double>(end.time.real())).epsilon(kAgreement));
-      CHECK(flow.dtime[j] ==
-            Approx(static_cast<double>(end.time.imag() / kTiny)).epsilon(kAgreement).margin(kAgreement));
-      const std::size_t last = flow.v.size() - 1;
-      CHECK(flow.v[last] == Approx(static_cast<double>(end.speed2.real())).epsilon(kAgreement));
-      Vector exit_speed2_by(setup.z.size(), 0.0);
-      track.add(flow.dv, last, 1.0, exit_speed2_by.data());
-      CHECK(exit_speed2_by[j] ==
-            Approx(static_cast<double>(end.speed2.imag() / kTiny)).epsilon(kAgreement).margin(kAgreement));
+  Setup changing = make_changing_setup(riders().front());
+  changing.mesh.fine.clear();
+  changing.mesh.fine_turns.clear();
+  for (const Setup& setup : {make_setup(riders().front()), changing}) {
+    const Transcription track(setup.mesh);
+    const Rows rows(setup.problem, track);
+    const State state = rows.state(setup.z, true);
+    REQUIRE(setup.problem.rides.size() == 2);
+    for (std::size_t friction = 0; friction < 2; ++friction) {
+      const Flow& flow = state.flows[friction];
+      const Ride& ride = setup.problem.rides[friction];
+      for (std::size_t j = 0; j < setup.z.size(); ++j) {
+        std::vector<Complex> z(setup.z.begin(), setup.z.end());
+        z[j] += Complex(0.0L, kTiny);
+        const RideEnd end = ridden(setup, z, ride);
+        CAPTURE(friction, j);
+        CHECK(flow.time == Approx(static_cast<double>(end.time.real())).epsilon(kAgreement));
+        CHECK(flow.dtime[j] ==
+              Approx(static_cast<double>(end.time.imag() / kTiny)).epsilon(kAgreement).margin(kAgreement));
+        const std::size_t last = flow.v.size() - 1;
+        CHECK(flow.v[last] == Approx(static_cast<double>(end.speed2.real())).epsilon(kAgreement));
+        Vector exit_speed2_by(setup.z.size(), 0.0);
+        track.add(flow.dv, last, 1.0, exit_speed2_by.data());
+        CHECK(exit_speed2_by[j] ==
+              Approx(static_cast<double>(end.speed2.imag() / kTiny)).epsilon(kAgreement).margin(kAgreement));
+      }
     }
   }
 }
@@ -227,7 +278,7 @@ TEST_CASE("every row and the objective carry their exact gradient") {
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);
     const State state = rows.state(setup.z, true);
-    CAPTURE(setup.mesh.entry_speed2, setup.mesh.fine.size());
+    CAPTURE(setup.mesh.entry_speed2, setup.mesh.fine.size(), setup.mesh.changes.size());
 
     const auto objective = [&](const Vector& z) { return rows.objective(rows.state(z, false)); };
     CHECK(gradient_error(objective, setup.z, rows.objective_gradient(state)) < kDifferenceError);
@@ -307,7 +358,7 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
     setup.problem.speed_weight = 0.3;
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);
-    CAPTURE(setup.mesh.entry_speed2, setup.mesh.fine.size());
+    CAPTURE(setup.mesh.entry_speed2, setup.mesh.fine.size(), setup.mesh.changes.size());
     Vector equality(rows.equality_count(), 0.0);
     equality[0] = 0.4;
     equality[1] = -0.7;

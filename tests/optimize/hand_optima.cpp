@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -27,6 +28,7 @@ constexpr int kSteps = 400;
 
 template <class Function>
 double integral(const Function& function, double from, double to) {
+  if (to < from) return -integral(function, to, from);
   constexpr int kParts = 6;
   double sum = 0.0;
   for (int i = 0; i < kParts; ++i) {
@@ -274,6 +276,202 @@ Optimum above_radius(double run, double drop, double mu, double radius, Turns ne
       throw std::runtime_error("the free arc is tighter than allowed");
   }
   return optimum;
+}
+
+namespace {
+
+using Point4 = std::array<double, 4>;
+
+/// Nelder and Mead's simplex, for a smooth function of four numbers near its minimum.
+template <class Function>
+double least_value(const Function& function, Point4& near, double size) {
+  struct Corner {
+    Point4 at{};
+    double value = 0.0;
+  };
+  constexpr std::size_t kSize = 4;
+  std::array<Corner, kSize + 1> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    corners[i].at = near;
+    if (i > 0) corners[i].at[i - 1] += size;
+    corners[i].value = function(corners[i].at);
+  }
+  constexpr int kMostSteps = 600;
+  for (int step = 0; step < kMostSteps; ++step) {
+    std::sort(corners.begin(), corners.end(),
+              [](const Corner& a, const Corner& b) { return a.value < b.value; });
+    if (corners[kSize].value - corners[0].value < 1e-13) break;
+    Point4 middle{};
+    for (std::size_t i = 0; i < kSize; ++i) {
+      for (std::size_t j = 0; j < kSize; ++j) middle[j] += corners[i].at[j] / kSize;
+    }
+    const auto along = [&](double share) {
+      Corner corner;
+      for (std::size_t j = 0; j < kSize; ++j)
+        corner.at[j] = middle[j] + share * (corners[kSize].at[j] - middle[j]);
+      corner.value = function(corner.at);
+      return corner;
+    };
+    const Corner reflected = along(-1.0);
+    if (reflected.value < corners[0].value) {
+      const Corner further = along(-2.0);
+      corners[kSize] = further.value < reflected.value ? further : reflected;
+    } else if (reflected.value < corners[kSize - 1].value) {
+      corners[kSize] = reflected;
+    } else {
+      const Corner nearer = along(reflected.value < corners[kSize].value ? -0.5 : 0.5);
+      if (nearer.value < std::min(corners[kSize].value, reflected.value)) {
+        corners[kSize] = nearer;
+        continue;
+      }
+      for (std::size_t i = 1; i <= kSize; ++i) {
+        for (std::size_t j = 0; j < kSize; ++j)
+          corners[i].at[j] = corners[0].at[j] + 0.5 * (corners[i].at[j] - corners[0].at[j]);
+        corners[i].value = function(corners[i].at);
+      }
+    }
+  }
+  near = corners[0].at;
+  return corners[0].value;
+}
+
+/// Newton's method for two equations in two unknowns. @return none where it does not settle
+template <class Function>
+std::optional<std::array<double, 2>> zero_of(const Function& miss, std::array<double, 2> at) {
+  constexpr double kStep = 1e-6;
+  for (int step = 0; step < 40; ++step) {
+    constexpr double kUpright = 1.5;
+    if (!(std::fabs(at[0]) < 10.0 && std::fabs(at[1]) < kUpright)) return std::nullopt;
+    const auto here = miss(at);
+    if (!std::isfinite(here[0]) || !std::isfinite(here[1])) return std::nullopt;
+    if (std::hypot(here[0], here[1]) < 1e-12) return at;
+    const auto by_first = miss({at[0] + kStep, at[1]});
+    const auto by_second = miss({at[0], at[1] + kStep});
+    const double a = (by_first[0] - here[0]) / kStep;
+    const double b = (by_second[0] - here[0]) / kStep;
+    const double c = (by_first[1] - here[1]) / kStep;
+    const double d = (by_second[1] - here[1]) / kStep;
+    const double determinant = a * d - b * c;
+    at[0] -= (d * here[0] - b * here[1]) / determinant;
+    at[1] -= (a * here[1] - c * here[0]) / determinant;
+  }
+  return std::nullopt;
+}
+
+/// The beginning of a fastest track from rest that comes to other ground at a given arc length. What a longer way up to there
+/// is worth makes the Hamiltonian per unit of length a constant h that is not 0 (docs/theory.md, ground that changes):
+///   (1 + mu^2)/u = P [(t - mu)^2 + q^2] cos(zeta) - h (1 + 2 mu^2 - mu t),  t = tan(zeta)
+class ArcToChange {
+ public:
+  /// @param worth  h/P
+  ArcToChange(double mu, double end, double q2, double worth, double length)
+      : mu_(mu), end_(end), q2_(q2), worth_(worth) {
+    scale_ = length / integral([&](double zeta) { return radius(zeta); }, end_, kUpright);
+  }
+  [[nodiscard]] double speed2(double zeta) const { return scale_ / (pace(zeta) * pace(zeta)); }
+  [[nodiscard]] double run() const {
+    return integral([&](double zeta) { return std::cos(zeta) * radius(zeta); }, end_, kUpright);
+  }
+  [[nodiscard]] double drop() const {
+    return integral([&](double zeta) { return std::sin(zeta) * radius(zeta); }, end_, kUpright);
+  }
+  [[nodiscard]] double time() const {
+    return integral([&](double zeta) { return radius(zeta) / std::sqrt(speed2(zeta)); }, end_, kUpright);
+  }
+
+ private:
+  static constexpr double kUpright = std::numbers::pi / 2.0;
+  /// 1/u for scale 1, and its derivative by the slope angle
+  [[nodiscard]] double pace(double zeta) const {
+    const double t = std::tan(zeta);
+    const double lean = t - mu_;
+    return std::cos(zeta) * (lean * lean + q2_) - worth_ * (1.0 + 2.0 * mu_ * mu_ - mu_ * t);
+  }
+  [[nodiscard]] double pace_slope(double zeta) const {
+    const double t = std::tan(zeta);
+    const double lean = t - mu_;
+    const double secant2 = 1.0 + t * t;
+    return -std::sin(zeta) * (lean * lean + q2_) + std::cos(zeta) * 2.0 * lean * secant2 +
+           worth_ * mu_ * secant2;
+  }
+  /// From (E2), -ds/dzeta = (2 mu v - dv/dzeta)/(2 g (sin - mu cos)).
+  [[nodiscard]] double radius(double zeta) const {
+    const double w = pace(zeta);
+    const double v = scale_ / (w * w);
+    const double slope = -2.0 * v * pace_slope(zeta) / w;
+    return (2.0 * mu_ * v - slope) / (2.0 * kGravity * (std::sin(zeta) - mu_ * std::cos(zeta)));
+  }
+  double mu_, end_, q2_, worth_;
+  double scale_ = 1.0;
+};
+
+/// Free flight from a slope angle to a steeper one.
+struct Flight {
+  double x = 0.0, y = 0.0, time = 0.0, length = 0.0, speed2 = 0.0;
+};
+Flight fly(double speed2, double from, double to) {
+  const double level = std::sqrt(speed2) * std::cos(from);
+  Flight flight;
+  flight.time = level * (std::tan(to) - std::tan(from)) / kGravity;
+  flight.x = level * flight.time;
+  flight.y = level * std::tan(from) * flight.time + 0.5 * kGravity * flight.time * flight.time;
+  flight.speed2 = level * level / (std::cos(to) * std::cos(to));
+  const auto pace = [&](double t) { return std::hypot(level, level * std::tan(from) + kGravity * t); };
+  flight.length = integral(pace, 0.0, flight.time);
+  return flight;
+}
+
+}  // namespace
+
+double across_change(double run, double drop, double mu_before, double mu_after, double place,
+                     ChangeTurns near) {
+  const bool onto_rougher = mu_after > mu_before;
+  struct Whole {
+    double x = 0.0, y = 0.0, time = 0.0;
+  };
+  // `other`: where the flight ends, onto rougher ground; else the length of the first arc.
+  const auto whole = [&](const Point4& turns, double q2, double exit) {
+    const auto& [first, bent, other, worth] = turns;
+    const ArcToChange before(mu_before, first, q2, worth, onto_rougher ? place : other);
+    double speed2 = before.speed2(first);
+    const double corner_mu = onto_rougher ? mu_before : mu_after;
+    Flight flight;
+    double entry = bent;
+    if (onto_rougher) {
+      speed2 *= std::exp(-2.0 * corner_mu * (first - bent));
+      flight = fly(speed2, bent, other);
+      speed2 = flight.speed2;
+      entry = other;
+    } else {
+      const double end =
+          root([&](double to) { return fly(speed2, first, to).length - (place - other); }, first, 1.56);
+      flight = fly(speed2, first, end);
+      speed2 = flight.speed2 * std::exp(-2.0 * corner_mu * (end - bent));
+    }
+    const FreeArc after(mu_after, entry, exit, speed2);
+    return Whole{before.run() + flight.x + after.run(), before.drop() + flight.y + after.drop(),
+                 before.time() + flight.time + after.time()};
+  };
+  const std::array<double, 2> exits{1.0 - mu_before * mu_before + 2.0 * mu_before * std::tan(near.exit),
+                                    near.exit};
+  const auto time = [&](const Point4& turns) {
+    try {
+      const auto found = zero_of(
+          [&](const std::array<double, 2>& at) {
+            const Whole track = whole(turns, at[0], at[1]);
+            return std::array{track.x / run - 1.0, track.y / run - drop / run};
+          },
+          exits);
+      return found ? whole(turns, (*found)[0], (*found)[1]).time : HUGE_VAL;
+    } catch (const std::exception&) {  // no flight of that length, no arc to that exit
+      return HUGE_VAL;
+    }
+  };
+  // A simplex that has gone flat begins anew.
+  Point4 turns{near.first, near.bent, near.other, 0.0};
+  double least = HUGE_VAL;
+  for (const double size : {0.02, 0.02, 0.01, 0.005}) least = std::min(least, least_value(time, turns, size));
+  return least;
 }
 
 }  // namespace hand_optima

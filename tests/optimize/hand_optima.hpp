@@ -38,4 +38,20 @@ struct Turns {
 /// @param near  the solution to a tenth
 [[nodiscard]] Optimum above_radius(double run, double drop, double mu, double radius, Turns near);
 
+/// Where the first arc ends, and the slope angle on the other side of the bend that follows; where the flight onto rougher
+/// ground ends, or the length of the arc before the flight to smoother ground; and the slope angle at the exit.
+struct ChangeTurns {
+  double first = 0.0;
+  double bent = 0.0;
+  double other = 0.0;
+  double exit = 0.0;
+};
+
+/// From rest over ground that changes at an arc length: a free arc, free flight on the rougher side of the change and a
+/// corner on its smoother one, a free arc.
+/// @param near  the solution to a tenth
+/// @return its travel time
+[[nodiscard]] double across_change(double run, double drop, double mu_before, double mu_after, double place,
+                                   ChangeTurns near);
+
 }  // namespace hand_optima

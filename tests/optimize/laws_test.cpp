@@ -146,12 +146,6 @@ TEST_CASE("laws: limits hold for what rolls and flows, by the referee") {
   CHECK(motion.highest_load().normal_load <= 2.5 * kGravity * (1.0 + 1e-6));
 }
 
-TEST_CASE("laws: what the search does not know is refused") {
-  Problem given = problem(2.0, 1.2, 0.03, 0.0, nullptr);
-  given.body.friction_changes = {{1.0, Friction::from_coefficient(0.1)}};
-  CHECK_THROWS_WITH(optimize(given), Catch::Matchers::Contains("friction that changes along the track"));
-}
-
 TEST_CASE("laws: a finish beyond reach is beyond it for a ball, unless its own height helps") {
   CHECK(optimize(problem(2.0, 0.1, 0.2, 0.0, ball(0.02))).report.status == OptimizeStatus::infeasible);
   // (H + h (sqrt(1 + c^2) + c))/L > c: the theorem is silent.

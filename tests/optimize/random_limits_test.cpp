@@ -7,6 +7,7 @@
 
 #include "referee/judgement.hpp"
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,87 +103,129 @@ double kept_back(const OptimizeReport& report) {
   return cost;
 }
 
-}  // namespace
-
-TEST_CASE("random limited problems: every limit is kept, and no admissible neighbour is faster") {
-  testing::Random random = testing::seeded_random();
-  INFO("GLISSADE_SEED=" << random.seed());
+/// What became of a number of random problems.
+struct Tally {
   int solved = 0;
   int converged = 0;
   int admissible = 0;
   int undecided = 0;
   int kept_far_back = 0;
-  const int problems = testing_problems::problem_count();
+};
+
+/// Holds one answer against the referee and against its neighbours.
+void hold(const Problem& problem, testing::Random& random, Tally& tally) {
   constexpr int kNeighbours = 12;
+  const Optimum optimum = optimize(problem);
+  CAPTURE(optimum.report.brief());
+  const bool none = optimum.report.status == OptimizeStatus::no_track_found;
+  tally.undecided += none && !asks_for_bends(optimum.report) ? 1 : 0;
+  if (!optimum.centerline) return;
+  ++tally.solved;
+  const referee::Judgement verdict = referee::judge_track(problem, optimum.centerline, kReferee);
+  CHECK(verdict.arrived);
+  CHECK(verdict.worst <= kKept);
+  CHECK(verdict.travel_time == optimum.report.travel_time);
+  if (optimum.report.status != OptimizeStatus::optimal) return;
+  ++tally.converged;
+  const double least = objective_of(problem, verdict);
+  const double kept = kept_back(optimum.report);
+  CHECK(kept <= kKeptBack * std::fabs(least));
+  tally.kept_far_back += kept > kRarelyKeptBack * std::fabs(least) ? 1 : 0;
+  // The report tells the nominal friction, at which neighbours are compared.
+  if (problem.objective.worst_case) return;
+  const auto& spline = dynamic_cast<const ClothoidSpline&>(*optimum.centerline);
+  const double run = spline.at(spline.length()).x;
+  const auto drop =
+      problem.finish.kind == FinishKind::vertical_line ? std::nullopt : std::optional(problem.endpoints.drop);
+  for (int k = 0; k < kNeighbours; ++k) {
+    // Smooth random bends of 1e-6 to 1e-2 rad; straights that the problem asks for stay straight.
+    const double amplitude = std::pow(10.0, random.between(-6.0, -2.0)) / spline.length();
+    const double wave = random.between(0.5, 4.0);
+    const double phase = random.between(0.0, 6.3);
+    std::vector<ClothoidSegment> segments = spline.segments();
+    double s = 0.0;
+    for (std::size_t j = 0; j < segments.size(); ++j) {
+      ClothoidSegment& segment = segments[j];
+      const bool lead = (j == 0 && problem.limits.lead_in > 0.0) ||
+                        (j + 1 == segments.size() && problem.limits.lead_out > 0.0);
+      const auto bend = [&](double at) {
+        return amplitude * std::sin(6.283 * wave * at / spline.length() + phase);
+      };
+      if (!lead) {
+        const bool after_lead = j == 1 && problem.limits.lead_in > 0.0;
+        const bool before_lead = j + 2 == segments.size() && problem.limits.lead_out > 0.0;
+        if (!after_lead) segment.entry_curvature += bend(s);
+        if (!before_lead) segment.exit_curvature += bend(s + segment.length);
+      }
+      s += segment.length;
+    }
+    const double entry =
+        spline.entry_slope_angle().radians() + random.between(-1.0, 1.0) * amplitude * spline.length();
+    const auto neighbour = through_finish(entry, segments, run, drop);
+    if (!neighbour) continue;
+    const referee::Judgement other = referee::judge_track(problem, *neighbour, 8);
+    if (!other.arrived || other.worst > 1e-7) continue;
+    ++tally.admissible;
+    if (objective_of(problem, other) >= least - 1e-6 * std::fabs(least) - kept) continue;
+    // Faster at eight points a piece: look as closely as at the optimum itself.
+    const referee::Judgement close = referee::judge_track(problem, *neighbour, kReferee);
+    CAPTURE(k, amplitude * spline.length());
+    // A neighbour that breaks a limit by 1e-7 may win that much times the limit's price.
+    CHECK((!close.arrived || close.worst > 1e-7));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("random limited problems: every limit is kept, and no admissible neighbour is faster") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  Tally tally;
+  const int problems = testing_problems::problem_count();
   for (int i = 0; i < problems; ++i) {
     const Problem problem = random_limited(random);
-    const Optimum optimum = optimize(problem);
-    CAPTURE(i, optimum.report.brief());
-    const bool none = optimum.report.status == OptimizeStatus::no_track_found;
-    undecided += none && !asks_for_bends(optimum.report) ? 1 : 0;
-    if (!optimum.centerline) continue;
-    ++solved;
-    const referee::Judgement verdict = referee::judge_track(problem, optimum.centerline, kReferee);
-    CHECK(verdict.arrived);
-    CHECK(verdict.worst <= kKept);
-    CHECK(verdict.travel_time == optimum.report.travel_time);
-    if (optimum.report.status != OptimizeStatus::optimal) continue;
-    ++converged;
-    const double least = objective_of(problem, verdict);
-    const double kept = kept_back(optimum.report);
-    CHECK(kept <= kKeptBack * std::fabs(least));
-    kept_far_back += kept > kRarelyKeptBack * std::fabs(least) ? 1 : 0;
-    // The report tells the nominal friction, at which neighbours are compared.
-    if (problem.objective.worst_case) continue;
-    const auto& spline = dynamic_cast<const ClothoidSpline&>(*optimum.centerline);
-    const double run = spline.at(spline.length()).x;
-    const auto drop = problem.finish.kind == FinishKind::vertical_line
-                          ? std::nullopt
-                          : std::optional(problem.endpoints.drop);
-    for (int k = 0; k < kNeighbours; ++k) {
-      // Smooth random bends of 1e-6 to 1e-2 rad; straights that the problem asks for stay straight.
-      const double amplitude = std::pow(10.0, random.between(-6.0, -2.0)) / spline.length();
-      const double wave = random.between(0.5, 4.0);
-      const double phase = random.between(0.0, 6.3);
-      std::vector<ClothoidSegment> segments = spline.segments();
-      double s = 0.0;
-      for (std::size_t j = 0; j < segments.size(); ++j) {
-        ClothoidSegment& segment = segments[j];
-        const bool lead = (j == 0 && problem.limits.lead_in > 0.0) ||
-                          (j + 1 == segments.size() && problem.limits.lead_out > 0.0);
-        const auto bend = [&](double at) {
-          return amplitude * std::sin(6.283 * wave * at / spline.length() + phase);
-        };
-        if (!lead) {
-          const bool after_lead = j == 1 && problem.limits.lead_in > 0.0;
-          const bool before_lead = j + 2 == segments.size() && problem.limits.lead_out > 0.0;
-          if (!after_lead) segment.entry_curvature += bend(s);
-          if (!before_lead) segment.exit_curvature += bend(s + segment.length);
-        }
-        s += segment.length;
-      }
-      const double entry =
-          spline.entry_slope_angle().radians() + random.between(-1.0, 1.0) * amplitude * spline.length();
-      const auto neighbour = through_finish(entry, segments, run, drop);
-      if (!neighbour) continue;
-      const referee::Judgement other = referee::judge_track(problem, *neighbour, 8);
-      if (!other.arrived || other.worst > 1e-7) continue;
-      ++admissible;
-      if (objective_of(problem, other) >= least - 1e-6 * std::fabs(least) - kept) continue;
-      // Faster at eight points a piece: look as closely as at the optimum itself.
-      const referee::Judgement close = referee::judge_track(problem, *neighbour, kReferee);
-      CAPTURE(k, amplitude * spline.length());
-      // A neighbour that breaks a limit by 1e-7 may win that much times the limit's price.
-      CHECK((!close.arrived || close.worst > 1e-7));
-    }
+    CAPTURE(i);
+    hold(problem, random, tally);
   }
-  CAPTURE(solved, converged, admissible, undecided);
+  CAPTURE(tally.solved, tally.converged, tally.admissible, tally.undecided);
   // Neither a track nor a contradiction: an answer that has to stay rare.
-  CHECK(undecided <= problems / 100);
-  CHECK(kept_far_back <= std::max(1, problems / 100));
-  CHECK(converged >= problems * 7 / 10);
-  CHECK(converged >= solved - solved / 100);
-  CHECK(admissible > problems / 2);
+  CHECK(tally.undecided <= problems / 100);
+  CHECK(tally.kept_far_back <= std::max(1, problems / 100));
+  CHECK(tally.converged >= problems * 7 / 10);
+  CHECK(tally.converged >= tally.solved - tally.solved / 100);
+  CHECK(tally.admissible > problems / 2);
+}
+
+/// The same problem on ground that changes up to three times, some of them beyond the finish.
+Problem with_changing_friction(Problem problem, testing::Random& random) {
+  const double chord = std::hypot(problem.endpoints.run, problem.endpoints.drop);
+  const double mu = problem.body.friction.coefficient();
+  const int count = 1 + static_cast<int>(random.between(0.0, 3.0));
+  double place = 0.0;
+  for (int i = 0; i < count; ++i) {
+    place += random.between(0.02, 0.5) * chord;
+    problem.body.friction_changes.push_back(
+        {place, Friction::from_coefficient(random.between(0.0, 1.3 * mu))});
+  }
+  return problem;
+}
+
+TEST_CASE("random limited problems where friction changes: no admissible neighbour is faster") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  Tally tally;
+  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 5 : 15));
+  for (int i = 0; i < problems; ++i) {
+    const Problem problem = with_changing_friction(random_limited(random), random);
+    CAPTURE(i);
+    hold(problem, random, tally);
+  }
+  CAPTURE(tally.solved, tally.converged, tally.admissible, tally.undecided);
+  CHECK(tally.undecided <= std::max(1, problems / 20));
+  CHECK(tally.converged >= problems * 6 / 10);
+  CHECK(tally.converged >= tally.solved - std::max(1, tally.solved / 20));
+  // Most neighbours lift off where the track found flies over rougher ground.
+  CHECK(tally.admissible > problems / 4);
 }
 
 TEST_CASE("prices are what a re-solve with the limit relaxed wins") {

@@ -65,11 +65,6 @@ void check_friction_changes(const Design& design, Collected& findings) {
            {"", "from: " + length_text(changes[i].from) + " after " + length_text(changes[i - 1].from),
             "Entries stand in the order of the track, each from further on than the one before.", ""});
   }
-  if (design.centerline.kind != CenterlineKind::fastest) return;
-  report(findings, {"body.friction", "centerline.kind"},
-         {"", "friction: a list, on the kind fastest",
-          "The fastest track is found for one friction along all of it.",
-          "friction_angle or friction_coefficient; or another kind, to see how it rides"});
 }
 
 /// Holds each measure of a kind against what it may be.

@@ -39,7 +39,7 @@ double curvature_at(const Transcription& track, const Vector& z, const Foot& foo
   if (foot.at.part != Part::core) return 0.0;
   return ((1.0 - foot.at.share) * z[layout.turn(foot.at.piece)] +
           foot.at.share * z[layout.turn(foot.at.piece + 1)] + track.own_turn(foot.at.sigma)) /
-         z[layout.length()];
+         track.stretch(z, foot.at.piece);
 }
 
 // D'' = m.p'' + (b t t - t a - a t - D a a)/(1 + b D) with m = -side normal, t the derivative along the track,

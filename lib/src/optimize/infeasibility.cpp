@@ -8,8 +8,8 @@
 #include "optimize/changed_bound.hpp"
 #include "optimize/energy_left.hpp"
 #include "optimize/least_violation.hpp"
+#include "optimize/refined_knots.hpp"
 #include "optimize/starts.hpp"
-#include "optimize/switches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,8 +72,8 @@ std::optional<Relaxed> relaxed_alone(const Attempt& attempt, const Elastic& elas
   // The mesh follows the track: where it bends in the end need not be where it bent in the beginning.
   for (std::size_t round = 0; least && round < kFollowing && !control.stop(); ++round) {
     const Found& found = least->found;
-    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, {}, kFiner),
-                              found.z[found.track->layout().length()]);
+    const Mesh mesh =
+        mesh_of(problem, refined_knots(*found.track, found.z, {}, kFiner), found.track->core_length(found.z));
     if (!descend(mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)))) break;
   }
   return least;
@@ -98,7 +98,10 @@ Conflict too_slow(const Problem& problem, Friction friction) {
 
 std::optional<Conflict> beyond_reach(const Problem& problem) {
   if (problem.finish.kind != FinishKind::point) return std::nullopt;
-  const Friction friction = problem.high_friction.value_or(problem.body.friction);
+  // Where friction changes along the track its least one tells what no track can do.
+  Friction friction = problem.high_friction.value_or(problem.body.friction);
+  for (const FrictionChange& change : problem.body.friction_changes)
+    friction = std::min(friction, change.friction);
   if (problem.body.entry_speed > 0.0) {
     // With speed, the theorem is told of the sliding point.
     if (!is_sliding_point(problem.body)) return std::nullopt;
@@ -141,8 +144,8 @@ void follow(Attempt& attempt, SearchControl& control) {
     if (attempt.relaxed.t <= kContradiction || control.stop()) return;
     const Found& found = attempt.relaxed.found;
     const ScaledProblem& problem = *attempt.problem;
-    const Mesh mesh = mesh_of(problem, refined_knots(*found.track, found.z, {}, pieces),
-                              found.z[found.track->layout().length()]);
+    const Mesh mesh =
+        mesh_of(problem, refined_knots(*found.track, found.z, {}, pieces), found.track->core_length(found.z));
     Relaxed finer = all_relaxed(problem, mesh, curve_of(*found.track, found.z), control);
     const bool pays = finer.t < kPays * attempt.relaxed.t;
     if (finer.t < attempt.relaxed.t) {
@@ -267,7 +270,7 @@ class Winding {
     if (control_.stop()) return;
     const Found& found = end.attempt.relaxed.found;
     const Mesh mesh = mesh_of(*end.attempt.problem, refined_knots(*found.track, found.z, {}, kFiner),
-                              found.z[found.track->layout().length()]);
+                              found.track->core_length(found.z));
     Relaxed finer = relaxed(*end.attempt.problem, mesh, curve_of(*found.track, found.z));
     if (finer.found.violation > kKept || finer.t >= end.attempt.relaxed.t) return;
     end.attempt.mesh = mesh;

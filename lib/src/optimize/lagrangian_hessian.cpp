@@ -5,6 +5,7 @@
 #include "optimize/transcription.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -36,8 +37,7 @@ void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const S
   for (std::size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
     LocalMatrix& part = parts[panel.section];
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
+    const double scale = panel.scale(length);
     const std::size_t end = panel.first + kNodes;
     later_x += weights.x[end];
     later_y += weights.y[end];
@@ -53,7 +53,8 @@ void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const S
       sum_y *= panel.ds[k];
       const LocalRow& dz = local_dzeta_[at];
       add_square(part, -scale * (shape.cos[at] * sum_x + shape.sin[at] * sum_y), dz);
-      if (is_core) add_pair(part, -shape.sin[at] * sum_x + shape.cos[at] * sum_y, kOfLength, dz);
+      if (panel.by_length == 0.0) continue;
+      add_pair(part, panel.by_length * (-shape.sin[at] * sum_x + shape.cos[at] * sum_y), kOfLength, dz);
     }
     for (std::size_t q = 0; q < kNodes; ++q) {
       later_x += weights.x[panel.first + q];
@@ -62,43 +63,54 @@ void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const S
   }
 }
 
+void Transcription::add_exponent(LocalMatrix& part, double mu, const Ride& ride, const Flow& flow,
+                                 std::size_t station, double by_v) const {
+  const LocalRow& dv = flow.dv.local[station];
+  const LocalRow& dz = local_dzeta_[station];
+  add_pair(part, 2.0 * mu * by_v, dz, dv);
+  add_square(part, -4.0 * mu * mu * by_v * flow.v[station], dz);
+  if (ride.drag == 0.0) return;
+  const double reach = 2.0 * ride.drag * stations_[station].by_length;
+  add_pair(part, -reach * by_v, kOfLength, dv);
+  add_pair(part, 2.0 * mu * reach * by_v * flow.v[station], kOfLength, dz);
+  add_square(part, -reach * reach * by_v * flow.v[station], kOfLength);
+}
+
 // v = e^phi w with phi = 2 mu zeta - 2 k s, w' = drive e^-phi. phi is linear in the unknowns:
-// d2v = e^phi d2w + dv dphi + dphi dv - v dphi dphi, dphi = 2 mu dzeta - 2 k sigma e_L in the core.
+// d2v = e^phi d2w + dv dphi + dphi dv - v dphi dphi, dphi = 2 mu dzeta - 2 k ds/dL e_L. Where friction changes v goes
+// on, and w = v e^-phi begins anew.
 void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
                                    const StationWeights& weights, std::size_t index,
                                    std::vector<LocalMatrix>& parts) const {
   const PanelRule& rule = panel_rule();
   const double length = z[layout_.length()];
-  const double mu = ride.friction;
   const double drag = ride.drag;
   double later = 0.0;  // dL/dv at the end of the panel, of everything behind it
   for (std::size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
     LocalMatrix& part = parts[panel.section];
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
+    const double scale = panel.scale(length);
+    const double mu = ride.friction_in(panel.zone);
+    double by_v_at_end = 0.0;
+    if (p + 1 < panels_.size() && panels_[p + 1].zone != panel.zone) {
+      const double behind = ride.friction_in(panels_[p + 1].zone);
+      add_exponent(part, behind, ride, flow, panel.first + kNodes, -later);
+      by_v_at_end = std::exchange(later, 0.0);
+    }
     double by_w[kNodes + 1] = {};  // w as counted from the start of the panel
     for (std::size_t q = 0; q <= kNodes; ++q) {
       const std::size_t at = panel.first + q;
-      double by_v = weights.v[index][at];
+      double by_v = weights.v[index][at] + (q == kNodes ? by_v_at_end : 0.0);
       const LocalRow& dv = flow.dv.local[at];
-      const LocalRow& dz = local_dzeta_[at];
       if (q < kNodes && weights.time[index] != 0.0) {
         const Slowness slow = slowness(flow.v[at], slowest(ride, at));
         const double timed = weights.time[index] * rule.weight[q] * panel.ds[q];
         by_v += scale * timed * slow.first;
         add_square(part, scale * timed * slow.second, dv);
-        if (is_core) add_pair(part, timed * slow.first, kOfLength, dv);
+        if (panel.by_length != 0.0) add_pair(part, panel.by_length * timed * slow.first, kOfLength, dv);
       }
       if (by_v == 0.0) continue;
-      add_pair(part, 2.0 * mu * by_v, dz, dv);
-      add_square(part, -4.0 * mu * mu * by_v * flow.v[at], dz);
-      if (drag > 0.0) {
-        const double reach = 2.0 * drag * stations_[at].sigma;
-        add_pair(part, -reach * by_v, kOfLength, dv);
-        add_pair(part, 2.0 * mu * reach * by_v * flow.v[at], kOfLength, dz);
-        add_square(part, -reach * reach * by_v * flow.v[at], kOfLength);
-      }
+      add_exponent(part, mu, ride, flow, at, by_v);
       by_w[q] = by_v * flow.growth[at];
     }
     later = later * flow.growth[panel.first + kNodes] + by_w[kNodes];
@@ -113,14 +125,15 @@ void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ri
       const double drive1 = 2.0 * (shape.cos[at] + mu * shape.sin[at]);
       const double f1 = drive1 - 2.0 * mu * drive;
       add_square(part, scale * sum * (-drive - 4.0 * mu * drive1 + 4.0 * mu * mu * drive), dz);
-      const double reach = 2.0 * drag * stations_[at].sigma;
-      const double own = is_core ? 1.0 : 0.0;
+      const double reach = 2.0 * drag * stations_[at].by_length;
+      const double own = panel.by_length;
       add_pair(part, sum * f1 * (own + scale * reach), kOfLength, dz);
       add_square(part, 2.0 * sum * drive * reach * (own + 0.5 * scale * reach), kOfLength);
     }
     for (std::size_t q = 0; q < kNodes; ++q) later += by_w[q];
   }
   // What the body brings along: w = v_0 e^(-2 mu zeta_0).
+  const double mu = ride.friction_in(panels_[0].zone);
   add_square(parts[stations_[0].section], later * 4.0 * mu * mu * ride.entry_speed2, local_dzeta_[0]);
 }
 

@@ -68,6 +68,7 @@ struct Slope {
 };
 
 struct Place {
+  double friction = 0.0;
   double sin = 0.0;
   double cos = 0.0;
   double curvature = 0.0;
@@ -76,7 +77,7 @@ struct Place {
 
 Slope slope_at(const Ride& ride, const Place& at, double v) {
   const double h = ride.height;
-  const double mu = ride.friction;
+  const double mu = at.friction;
   Resistance c;
   if (ride.law) {
     const double floor = std::max(v, kContinued * ride.law->least_v(at.s));
@@ -187,12 +188,6 @@ Solved solve(const Ride& ride, const std::array<Place, kNodes>& places, const No
   return solved;
 }
 
-/// The derivatives of the curvature at a station.
-LocalRow dcurvature(const Station& station, double curvature, double length) {
-  if (station.part != Part::core) return {};
-  return {0.0, 0.0, (1.0 - station.share) / length, station.share / length, -curvature / length};
-}
-
 constexpr LocalRow kOfLength = {0.0, 0.0, 0.0, 0.0, 1.0};
 
 void add_row(LocalRow& out, double factor, const LocalRow& a) {
@@ -222,6 +217,14 @@ void differentiate(const Solved& solved, const NodeValues& ds, const LocalRow& d
 
 }  // namespace
 
+LocalRow Transcription::dcurvature(const Vector& z, std::size_t index, double curvature) const {
+  const Station& station = stations_[index];
+  if (station.part != Part::core) return {};
+  const double stretch = this->stretch(z, station.piece);
+  const double by_length = stretches(station.piece) ? -curvature / stretch : 0.0;
+  return {0.0, 0.0, (1.0 - station.share) / stretch, station.share / stretch, by_length};
+}
+
 void Transcription::enter(const Shape& shape, const Ride& ride, Flow& out) const {
   const Term entry = entry_v(ride, shape.zeta[0]);
   out.v[0] = entry.value;
@@ -236,13 +239,13 @@ void Transcription::law_flow_through(const Vector& z, const Shape& shape, const 
   const double length = z[layout_.length()];
   const Panel& panel = panels_[p];
   const std::size_t start = start_station(p);
-  const bool is_core = panel.part == Part::core;
-  const double scale = is_core ? length : 1.0;
+  const double scale = panel.scale(length);
+  const double mu = ride.friction_in(panel.zone);
   std::array<Place, kNodes> places;
   NodeValues ds{};
   for (std::size_t k = 0; k < kNodes; ++k) {
     const std::size_t at = panel.first + k;
-    places[k] = {shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
+    places[k] = {mu, shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
     ds[k] = scale * panel.ds[k];
   }
   const Solved solved = solve(ride, places, ds, out.v[start]);
@@ -255,10 +258,11 @@ void Transcription::law_flow_through(const Vector& z, const Shape& shape, const 
     const Slope& slope = solved.slopes[k];
     out.v[at] = solved.v[k];
     out.v[end] += rule.weight[k] * ds[k] * slope.value;
-    bend[k] = dcurvature(stations_[at], places[k].curvature, length);
+    bend[k] = dcurvature(z, at, places[k].curvature);
     add_row(source[k], ds[k] * slope.zeta, local_dzeta_[at]);
     add_row(source[k], ds[k] * slope.curvature, bend[k]);
-    source[k][kLength] += ds[k] * slope.s * stations_[at].sigma + (is_core ? panel.ds[k] * slope.value : 0.0);
+    source[k][kLength] +=
+        ds[k] * slope.s * stations_[at].by_length + panel.by_length * panel.ds[k] * slope.value;
   }
   if (by_time != nullptr) {
     differentiate(solved, ds, at_start(p, out.dv), source, &out.dv.local[panel.first]);
@@ -271,83 +275,108 @@ void Transcription::law_flow_through(const Vector& z, const Shape& shape, const 
     out.time += part * path * slow.value;
     if (by_time == nullptr) continue;
     add_row(*by_time, part * path * slow.first, out.dv.local[at]);
-    if (is_core) (*by_time)[kLength] += rule.weight[q] * panel.ds[q] * path * slow.value;
+    (*by_time)[kLength] += panel.by_length * rule.weight[q] * panel.ds[q] * path * slow.value;
     add_row(*by_time, -part * ride.height * slow.value, bend[q]);
   }
 }
 
-// L depends on the nodes' v directly and through the end of the panel. With theta_k = dL/d(ds F)_k, the multipliers
-// of the collocation, its second derivative is sum theta_k d2(ds F)_k and the direct terms.
+// Of one panel: what its nodes are like, and how strongly L depends on them.
+struct Transcription::LawPanel {
+  std::array<Slope, kNodes> slopes;
+  std::array<Slowness, kNodes> slow;
+  NodeValues path{};        ///< 1 - kappa h
+  NodeValues factor{};      ///< d(ds F)/dv
+  NodeValues timed{};       ///< weight of the time, but for the panel's scale
+  NodeValues multiplier{};  ///< dL/dv, through the later nodes and the end too
+};
+
+Transcription::LawPanel Transcription::law_panel(const Vector& z, const Shape& shape, const Ride& ride,
+                                                 const Flow& flow, const StationWeights& weights,
+                                                 std::size_t index, std::size_t p, double by_end) const {
+  const PanelRule& rule = panel_rule();
+  const double length = z[layout_.length()];
+  const Panel& panel = panels_[p];
+  const double scale = panel.scale(length);
+  const double mu = ride.friction_in(panel.zone);
+  LawPanel law;
+  NodeValues by_v{};
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const std::size_t at = panel.first + k;
+    const Place place{mu, shape.sin[at], shape.cos[at], shape.curvature[at],
+                      stations_[at].arc_length(length)};
+    law.slopes[k] = slope_at(ride, place, flow.v[at]);
+    law.slow[k] = pace_of(ride, flow.v[at], slowest(ride, at));
+    law.factor[k] = scale * panel.ds[k] * law.slopes[k].v;
+    law.path[k] = 1.0 - place.curvature * ride.height;
+    law.timed[k] = weights.time[index] * rule.weight[k] * panel.ds[k];
+    by_v[k] = weights.v[index][at] + scale * law.timed[k] * law.path[k] * law.slow[k].first +
+              law.factor[k] * rule.weight[k] * by_end;
+  }
+  const NodeMatrix responding = response(law.factor);
+  for (std::size_t q = 0; q < kNodes; ++q) {
+    for (std::size_t k = 0; k < kNodes; ++k) law.multiplier[q] += responding[k][q] * by_v[k];
+  }
+  return law;
+}
+
+// With theta = dL/d(ds F), the multiplier of the collocation at a node, L's second derivative there is theta d2(ds F) and
+// the direct terms.
+void Transcription::add_law_node(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
+                                 const LawPanel& law, std::size_t p, std::size_t k, double theta,
+                                 LocalMatrix& part) const {
+  const Panel& panel = panels_[p];
+  const std::size_t at = panel.first + k;
+  const Slope& slope = law.slopes[k];
+  const Slowness& slow = law.slow[k];
+  const LocalRow& dv = flow.dv.local[at];
+  const LocalRow& dz = local_dzeta_[at];
+  const double scale = panel.scale(z[layout_.length()]);
+  const double full = theta * scale;
+  const double timed = law.timed[k];
+  add_square(part, full * slope.zeta_zeta, dz);
+  add_pair(part, full * slope.zeta_v, dz, dv);
+  add_square(part, full * slope.v_v + scale * timed * law.path[k] * slow.second, dv);
+
+  // Everything that meets the length: the panel's ds by it, and s.
+  const double by_length = stations_[at].by_length;
+  const double own = panel.by_length * theta;
+  const double own_time = panel.by_length * timed;
+  const double by_s = full * by_length;
+  LocalRow with_length{};
+  add_row(with_length, own * slope.zeta + by_s * slope.s_zeta, dz);
+  add_row(with_length, own * slope.v + own_time * law.path[k] * slow.first + by_s * slope.s_v, dv);
+  with_length[kLength] += own * slope.s * by_length + 0.5 * by_s * by_length * slope.s_s;
+
+  // Curvature: with zeta and v, and c/L by itself.
+  const LocalRow bend = dcurvature(z, at, shape.curvature[at]);
+  const double itself = full * slope.curvature - scale * timed * ride.height * slow.value;
+  const double with_v = full * slope.curvature_v - scale * timed * ride.height * slow.first;
+  const std::size_t piece = stations_[at].piece;
+  const double by_stretch = stretches(piece) ? itself / stretch(z, piece) : 0.0;
+  add_pair(part, full * slope.zeta_curvature, bend, dz);
+  add_pair(part, with_v, bend, dv);
+  add_row(with_length,
+          own * slope.curvature - own_time * ride.height * slow.value + by_s * slope.s_curvature - by_stretch,
+          bend);
+  add_pair(part, 1.0, kOfLength, with_length);
+}
+
+// L depends on the nodes' v directly and through the end of the panel.
 void Transcription::add_law_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
                                   const StationWeights& weights, std::size_t index,
                                   std::vector<LocalMatrix>& parts) const {
   const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
   double by_end = 0.0;  // dL/dv at the end of the panel
   for (std::size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
-    LocalMatrix& part = parts[panel.section];
-    const bool is_core = panel.part == Part::core;
-    const double scale = is_core ? length : 1.0;
     by_end += weights.v[index][panel.first + kNodes];
-    std::array<Slope, kNodes> slopes;
-    std::array<Slowness, kNodes> slow;
-    NodeValues factor{};
-    NodeValues by_v{};
+    const LawPanel law = law_panel(z, shape, ride, flow, weights, index, p, by_end);
     for (std::size_t k = 0; k < kNodes; ++k) {
-      const std::size_t at = panel.first + k;
-      const Place place{shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
-      slopes[k] = slope_at(ride, place, flow.v[at]);
-      slow[k] = pace_of(ride, flow.v[at], slowest(ride, at));
-      factor[k] = scale * panel.ds[k] * slopes[k].v;
-      const double path = 1.0 - place.curvature * ride.height;
-      const double timed = weights.time[index] * rule.weight[k] * panel.ds[k];
-      by_v[k] =
-          weights.v[index][at] + scale * timed * path * slow[k].first + factor[k] * rule.weight[k] * by_end;
-    }
-    const NodeMatrix responding = response(factor);
-    NodeValues multiplier{};
-    for (std::size_t q = 0; q < kNodes; ++q) {
-      for (std::size_t k = 0; k < kNodes; ++k) multiplier[q] += responding[k][q] * by_v[k];
-    }
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      const std::size_t at = panel.first + k;
-      const Slope& slope = slopes[k];
-      const LocalRow& dv = flow.dv.local[at];
-      const LocalRow& dz = local_dzeta_[at];
       double theta = rule.weight[k] * by_end;
-      for (std::size_t q = 0; q < kNodes; ++q) theta += rule.to_node[q][k] * multiplier[q];
-      theta *= panel.ds[k];
-      const double full = theta * scale;
-      const double path = 1.0 - shape.curvature[at] * ride.height;
-      const double timed = weights.time[index] * rule.weight[k] * panel.ds[k];
-      add_square(part, full * slope.zeta_zeta, dz);
-      add_pair(part, full * slope.zeta_v, dz, dv);
-      add_square(part, full * slope.v_v + scale * timed * path * slow[k].second, dv);
-
-      // Everything that meets the length: ds by it in the core, and s = sigma L.
-      const double sigma = stations_[at].sigma;
-      const double own = is_core ? theta : 0.0;
-      const double own_time = is_core ? timed : 0.0;
-      const double by_s = full * sigma;
-      LocalRow with_length{};
-      add_row(with_length, own * slope.zeta + by_s * slope.s_zeta, dz);
-      add_row(with_length, own * slope.v + own_time * path * slow[k].first + by_s * slope.s_v, dv);
-      with_length[kLength] += own * slope.s * sigma + 0.5 * by_s * sigma * slope.s_s;
-
-      // Curvature: with zeta and v, and c/L by itself.
-      const LocalRow bend = dcurvature(stations_[at], shape.curvature[at], length);
-      const double itself = full * slope.curvature - scale * timed * ride.height * slow[k].value;
-      const double with_v = full * slope.curvature_v - scale * timed * ride.height * slow[k].first;
-      add_pair(part, full * slope.zeta_curvature, bend, dz);
-      add_pair(part, with_v, bend, dv);
-      add_row(with_length,
-              own * slope.curvature - own_time * ride.height * slow[k].value + by_s * slope.s_curvature -
-                  itself / length,
-              bend);
-      add_pair(part, 1.0, kOfLength, with_length);
+      for (std::size_t q = 0; q < kNodes; ++q) theta += rule.to_node[q][k] * law.multiplier[q];
+      add_law_node(z, shape, ride, flow, law, p, k, theta * panel.ds[k], parts[panel.section]);
     }
-    for (const double value : multiplier) by_end += value;
+    for (const double value : law.multiplier) by_end += value;
   }
   const double by_entry = by_end + weights.v[index][0];
   add_square(parts[stations_[0].section], by_entry * entry_v(ride, shape.zeta[0]).second, local_dzeta_[0]);

@@ -5,9 +5,9 @@
 #include "optimize/least_violation.hpp"
 #include "optimize/passages.hpp"
 #include "optimize/prices.hpp"
+#include "optimize/refined_knots.hpp"
 #include "optimize/searcher.hpp"
 #include "optimize/starts.hpp"
-#include "optimize/switches.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -169,7 +169,7 @@ class LeastPeak {
     const Found& found = end.relaxed.found;
     const Mesh mesh = mesh_of(
         *end.problem, refined_knots(*found.track, found.z, switches_of(*end.problem, found), kFinerPieces),
-        found.z[found.track->layout().length()]);
+        found.track->core_length(found.z));
     auto finer =
         descended(end.way, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)), end.bound);
     if (finer && finer->peak < end.peak) end = std::move(*finer);

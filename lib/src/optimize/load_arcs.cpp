@@ -89,9 +89,8 @@ std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& fo
       const double width = knots[piece + 1] - knots[piece];
       const double cost = std::max(price[piece], whole * width);
       const bool binds = std::any_of(bindings[i].begin(), bindings[i].end(), [&](const Span& span) {
-        const double length = found.z[track.layout().length()];
-        const double from = std::max(knots[piece], (span.from - track.mesh().lead_in) / length);
-        const double to = std::min(knots[piece + 1], (span.to - track.mesh().lead_in) / length);
+        const double from = std::max(knots[piece], track.sigma_at(found.z, span.from));
+        const double to = std::min(knots[piece + 1], track.sigma_at(found.z, span.to));
         return to - from >= kHeld * width;
       });
       if (!binds && !has_fine[piece] && slack[piece] > kNearBound) continue;
@@ -239,7 +238,6 @@ std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& f
   Rows rows(problem, track);
   rows.set_margins(found.rows->margins());
   const State state = rows.state(found.z, false);
-  const double length = found.z[track.layout().length()];
   std::size_t next = 0;
   for (const HeldPiece& piece : fine_pieces) {
     const double from = knots[piece.piece];
@@ -250,7 +248,8 @@ std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& f
     places.push_back(to);
     const std::vector<std::size_t> stations = stations_at(track, places);
     const auto wanted = [&](std::size_t i) {
-      return length * curvature_at_bound(problem, rows, state, piece.limit, stations[i]);
+      return track.stretch(found.z, piece.piece) *
+             curvature_at_bound(problem, rows, state, piece.limit, stations[i]);
     };
     const double at_first = wanted(0);
     const double at_last = wanted(places.size() - 1);

@@ -18,7 +18,24 @@ std::size_t last_station(const RowAt& at) {
 }
 
 double core_length(const RowAt& at) {
-  return at.state.z[at.track.layout().length()];
+  return at.track.core_length(at.state.z);
+}
+
+/// Length of the core over sigma within a piece, and its derivative by z[Layout::length()].
+struct Stretch {
+  double length = 1.0;
+  double first = 1.0;
+};
+Stretch stretch(const RowAt& at, std::size_t piece) {
+  return {at.track.stretch(at.state.z, piece), at.track.stretches(piece) ? 1.0 : 0.0};
+}
+
+/// Whether a limit holds at a station: one for a friction along part of the track holds at that part's ends, too.
+bool concerns(const RowAt& at, std::size_t station) {
+  if (!at.limit.zone) return true;
+  const std::vector<Station>& stations = at.track.stations();
+  const std::size_t next = std::min(station + 1, stations.size() - 1);
+  return stations[station].zone == *at.limit.zone || stations[next].zone == *at.limit.zone;
 }
 
 /// One row for each watched station from `first` on.
@@ -26,7 +43,7 @@ void add_stations(const RowAt& at, std::size_t ride, std::size_t first, std::vec
   Row row = at.row;
   row.ride = ride;
   for (row.place = first; row.place <= last_station(at); ++row.place) {
-    if (at.track.stations()[row.place].watched) rows.push_back(row);
+    if (at.track.stations()[row.place].watched && concerns(at, row.place)) rows.push_back(row);
   }
 }
 
@@ -50,7 +67,9 @@ void add_pair(Matrix& hessian, std::size_t i, std::size_t j, double value) {
 
 /// Second derivative of c/L, c = first z_i + second z_(i+1).
 void add_curvature_terms(Matrix& hessian, std::size_t i, double first, double second, std::size_t at_length,
-                         double curvature, double length, double factor) {
+                         double curvature, const Stretch& stretch, double factor) {
+  if (stretch.first == 0.0) return;
+  const double length = stretch.length;
   add_pair(hessian, i, at_length, -factor * first / (length * length));
   if (second != 0.0) add_pair(hessian, i + 1, at_length, -factor * second / (length * length));
   hessian(at_length, at_length) += 2.0 * factor * curvature / (length * length);
@@ -80,23 +99,26 @@ class ExitSlopeAngle final : public SlopeAngle {
 /// At the knots, those of fine pieces among them: between two of them curvature is linear.
 class Curvature final : public Measure {
  public:
-  [[nodiscard]] double value(const RowAt& at) const override { return bend(at).turn / core_length(at); }
+  [[nodiscard]] double value(const RowAt& at) const override {
+    const Bend here = bend(at);
+    return here.turn / stretch(at, here.piece).length;
+  }
 
   void gradient(const RowAt& at, double* out) const override {
     const Layout& layout = at.track.layout();
-    const double length = core_length(at);
     const Bend here = bend(at);
+    const auto [length, first] = stretch(at, here.piece);
     out[layout.turn(here.piece)] = (1.0 - here.share) / length;
     out[layout.turn(here.piece + 1)] = here.share / length;
-    out[layout.length()] = -here.turn / (length * length);
+    out[layout.length()] = -first * here.turn / (length * length);
   }
 
   void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
     const Layout& layout = at.track.layout();
-    const double length = core_length(at);
     const Bend here = bend(at);
+    const Stretch along = stretch(at, here.piece);
     add_curvature_terms(hessian, layout.turn(here.piece), 1.0 - here.share, here.share, layout.length(),
-                        here.turn / length, length, factor);
+                        here.turn / along.length, along, factor);
   }
 
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
@@ -106,7 +128,7 @@ class Curvature final : public Measure {
   }
 
   [[nodiscard]] double place(const RowAt& at) const override {
-    return at.problem.lead_in + core_length(at) * bend(at).sigma;
+    return at.track.arc_length(at.state.z, bend(at).sigma);
   }
   [[nodiscard]] bool holds_along() const override { return true; }
 
@@ -115,7 +137,7 @@ class Curvature final : public Measure {
   struct Bend {
     std::size_t piece = 0;
     double share = 0.0;  ///< of the way through it
-    double turn = 0.0;   ///< curvature times the core's length
+    double turn = 0.0;   ///< curvature times the stretch
     double sigma = 0.0;
   };
 
@@ -137,24 +159,25 @@ class CurvatureRate final : public Measure {
  public:
   [[nodiscard]] double value(const RowAt& at) const override {
     const Layout& layout = at.track.layout();
-    const double length = core_length(at);
+    const double length = stretch(at, at.row.place).length;
     return (at.state.z[layout.turn(at.row.place + 1)] - at.state.z[layout.turn(at.row.place)]) /
            (piece_share(at) * length * length);
   }
 
   void gradient(const RowAt& at, double* out) const override {
     const Layout& layout = at.track.layout();
-    const double length = core_length(at);
+    const auto [length, first] = stretch(at, at.row.place);
     const double factor = 1.0 / (piece_share(at) * length * length);
     out[layout.turn(at.row.place + 1)] = factor;
     out[layout.turn(at.row.place)] = -factor;
-    out[layout.length()] = -2.0 * value(at) / length;
+    out[layout.length()] = -2.0 * first * value(at) / length;
   }
 
   void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
     const Layout& layout = at.track.layout();
     const std::size_t at_length = layout.length();
-    const double length = core_length(at);
+    const auto [length, first] = stretch(at, at.row.place);
+    if (first == 0.0) return;
     const double by_turn = -2.0 * factor / (piece_share(at) * length * length * length);
     add_pair(hessian, layout.turn(at.row.place + 1), at_length, by_turn);
     add_pair(hessian, layout.turn(at.row.place), at_length, -by_turn);
@@ -167,7 +190,7 @@ class CurvatureRate final : public Measure {
   }
 
   [[nodiscard]] double place(const RowAt& at) const override {
-    return at.problem.lead_in + core_length(at) * at.track.mesh().knots[at.row.place];
+    return at.track.arc_length(at.state.z, at.track.mesh().knots[at.row.place]);
   }
 
  private:
@@ -189,16 +212,16 @@ class Load final : public Measure {
 
   void gradient(const RowAt& at, double* out) const override {
     const Layout& layout = at.track.layout();
-    const double length = core_length(at);
     const Ride::CurvatureLoad parts = load(at);
     if (with_weight_) at.track.add_dzeta(at.row.place, -at.state.shape.sin[at.row.place], out);
     at.track.add(at.state.flows[at.row.ride].dv, at.row.place, parts.by_v, out);
     const Station& station = at.track.stations()[at.row.place];
     if (station.part != Part::core) return;
+    const auto [length, first] = stretch(at, station.piece);
     const double v = parts.by_curvature;
     out[layout.turn(station.piece)] += v * (1.0 - station.share) / length;
     out[layout.turn(station.piece + 1)] += v * station.share / length;
-    out[layout.length()] -= v * at.state.shape.curvature[at.row.place] / length;
+    out[layout.length()] -= first * v * at.state.shape.curvature[at.row.place] / length;
   }
 
   void add_weights(const RowAt& at, double factor, StationWeights& weights) const override {
@@ -211,12 +234,13 @@ class Load final : public Measure {
     if (station.part != Part::core) return;
     const Layout& layout = at.track.layout();
     const std::size_t at_length = layout.length();
-    const double length = core_length(at);
+    const Stretch along = stretch(at, station.piece);
+    const double length = along.length;
     const double bend = at.state.shape.curvature[at.row.place];
     Vector by_curvature(layout.size(), 0.0);
     by_curvature[layout.turn(station.piece)] = (1.0 - station.share) / length;
     by_curvature[layout.turn(station.piece + 1)] = station.share / length;
-    by_curvature[at_length] = -bend / length;
+    by_curvature[at_length] = -along.first * bend / length;
     Vector dv(layout.size(), 0.0);
     at.track.add(at.state.flows[at.row.ride].dv, at.row.place, 1.0, dv.data());
     const Ride::CurvatureLoad parts = load(at);
@@ -225,7 +249,7 @@ class Load final : public Measure {
       add_symmetric(hessian, 0.5 * factor * parts.by_curvature_curvature, by_curvature, by_curvature);
     }
     add_curvature_terms(hessian, layout.turn(station.piece), 1.0 - station.share, station.share, at_length,
-                        bend, length, factor * parts.by_curvature);
+                        bend, along, factor * parts.by_curvature);
   }
 
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
@@ -267,7 +291,8 @@ class Speed : public Measure {
     const double from = at.problem.lowest_speed_from * (1.0 - 1e-9);
     for (row.place = 0; row.place <= last_station(at); ++row.place) {
       const Station& station = at.track.stations()[row.place];
-      if (!station.watched || (from_a_place && station.arc_length(core_length(at)) < from)) continue;
+      const double s = station.arc_length(at.state.z[at.track.layout().length()]);
+      if (!station.watched || (from_a_place && s < from)) continue;
       rows.push_back(row);
     }
   }
@@ -344,7 +369,9 @@ class ArcLength final : public Measure {
   [[nodiscard]] double value(const RowAt& at) const override {
     return at.problem.lead_in + core_length(at) + at.problem.lead_out;
   }
-  void gradient(const RowAt& at, double* out) const override { out[at.track.layout().length()] = 1.0; }
+  void gradient(const RowAt& at, double* out) const override {
+    out[at.track.layout().length()] = at.track.core_by_length();
+  }
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override { add_last(at, 0, rows); }
 };
 
@@ -421,7 +448,7 @@ constinit const Measure* const Measure::finish_coordinate = &kFinishCoordinate;
 constinit const Measure* const Measure::arrival = &kArrival;
 
 double Measure::place(const RowAt& at) const {
-  return at.track.stations()[at.row.place].arc_length(core_length(at));
+  return at.track.stations()[at.row.place].arc_length(at.state.z[at.track.layout().length()]);
 }
 
 const Measure* measure_of(LimitId id) {

@@ -185,6 +185,20 @@ void tell_none(Conflict conflict, bool certain, bool stopped, OptimizeReport& re
   report.conflict = std::move(conflict);
 }
 
+/// Without changes from one friction to the same: what is known of one friction then holds.
+Problem with_true_changes(Problem problem) {
+  std::vector<FrictionChange> changes = std::move(problem.body.friction_changes);
+  problem.body.friction_changes.clear();
+  const bool is_range = problem.low_friction || problem.high_friction;
+  for (const FrictionChange& change : changes) {
+    const std::vector<FrictionChange>& kept = problem.body.friction_changes;
+    const bool same = kept.empty() ? !is_range && change.friction == problem.body.friction
+                                   : change.friction == kept.back().friction;
+    if (!same) problem.body.friction_changes.push_back(change);
+  }
+  return problem;
+}
+
 /// The search itself, of a problem that is sound.
 Optimum searched(const Problem& problem, const OptimizeOptions& options, Patience& patience,
                  SearchControl& control, const Progress& progress) {
@@ -229,10 +243,11 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
 }  // namespace
 }  // namespace optimizer
 
-Optimum optimize(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
+Optimum optimize(const Problem& given, const OptimizeOptions& options, const std::stop_token& stop,
                  const Progress& progress) {
   using namespace optimizer;
-  require_searchable(problem);
+  require_searchable(given);
+  const Problem problem = with_true_changes(given);
   require_passable_in_order(problem);
   require_valid(options);
   if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);

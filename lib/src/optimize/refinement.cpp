@@ -52,7 +52,8 @@ MeshTrack with_halved_pieces(const Transcription& track, const Vector& z, const 
   }
   result.mesh.knots.push_back(mesh.knots.back());
   turns.push_back(z[layout.turn(layout.knots - 1)]);
-  result.mesh.core_length = z[layout.length()];
+  // Changes of friction hold the pieces before them in place.
+  if (!track.has_fixed_pieces()) result.mesh.core_length = z[layout.length()];
   result.z.push_back(z[layout.angle()]);
   result.z.insert(result.z.end(), turns.begin(), turns.end());
   result.z.push_back(z[layout.length()]);

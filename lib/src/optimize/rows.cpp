@@ -80,7 +80,7 @@ double Rows::objective(const State& state) const {
     value -= problem_.speed_weight * std::copysign(std::sqrt(std::fabs(v)), v);
   }
   value += problem_.drop_weight * state.drop();
-  value += problem_.length_weight * state.z[track_.layout().length()];
+  value += problem_.length_weight * track_.core_length(state.z);
   return value;
 }
 
@@ -94,7 +94,7 @@ Vector Rows::objective_gradient(const State& state) const {
     track_.add(flow.dv, last, -problem_.speed_weight * 0.5 / root, gradient.data());
   }
   if (problem_.drop_weight > 0.0) add_across(state.shape.dy, problem_.drop_weight, gradient.data());
-  gradient[track_.layout().length()] += problem_.length_weight;
+  gradient[track_.layout().length()] += problem_.length_weight * track_.core_by_length();
   return gradient;
 }
 
@@ -168,7 +168,7 @@ Rows::WidthFactor Rows::width_factor(const State& state, const LimitSpec& limit,
   const double width = stream->width(s);
   const double share = width / stream->width(0.0);
   const double value = math::pow(share, limit.width_power);
-  const double narrowing = stream->width_slope(s) / width * station.sigma;
+  const double narrowing = stream->width_slope(s) / width * station.by_length;
   const double power = limit.width_power;
   return {value, power * value * narrowing, power * (power - 1.0) * value * narrowing * narrowing};
 }

@@ -7,6 +7,8 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "optimize/change_knots.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -176,23 +178,34 @@ class LimitList {
     const BulkStream* const stream = stream_of_problem();
     if (stream == nullptr) return;
     for (std::size_t ride = 0; ride < out_.rides.size(); ++ride) {
-      const Friction friction = Friction::from_coefficient(out_.rides[ride].friction);
-      const double per_load = stream->floor_wear(0.0, friction, 1.0);
-      if (!(per_load > 0.0)) continue;
-      LimitSpec& limit = add(name, wear);
-      limit.side = 1;
-      limit.ride = ride;
-      limit.bound = wear / (per_load * problem_.gravity);
-      limit.per_si = limit.bound / wear;
-      limit.scale = limit.bound;
-      limit.width_power = -1;
+      for (std::size_t zone = 0; zone <= out_.changes.size(); ++zone) {
+        const Friction friction = Friction::from_coefficient(out_.rides[ride].friction_in(zone));
+        const double per_load = stream->floor_wear(0.0, friction, 1.0);
+        if (!(per_load > 0.0)) continue;
+        LimitSpec& limit = add_in(zone, name, wear);
+        limit.side = 1;
+        limit.ride = ride;
+        limit.bound = wear / (per_load * problem_.gravity);
+        limit.per_si = limit.bound / wear;
+        limit.scale = limit.bound;
+        limit.width_power = -1;
+      }
     }
   }
 
   /// zeta >= atan(mu) + margin at the highest friction.
   void add_slope_margin(const LimitName& name, double margin) {
-    LimitSpec& limit = add(name, margin);
-    limit.bound += math::atan(out_.rides.back().friction);
+    for (std::size_t zone = 0; zone <= out_.changes.size(); ++zone) {
+      LimitSpec& limit = add_in(zone, name, margin);
+      limit.bound += math::atan(out_.rides.back().friction_in(zone));
+    }
+  }
+
+  /// Held where the track has one of its frictions.
+  LimitSpec& add_in(std::size_t zone, const LimitName& name, double bound_si) {
+    LimitSpec& limit = add(name, bound_si);
+    if (!out_.changes.empty()) limit.zone = zone;
+    return limit;
   }
 
   void add_lowest_speed(const LimitName& name, double speed) {
@@ -313,6 +326,19 @@ Ride scaled_ride(const Body& body, double friction, const ScaledProblem& units) 
   ride.height = body.law->centre_height() / units.chord;
   if (body.law->depends_on_speed()) ride.law = body.law->in_units(units.chord, units.speed);
   return ride;
+}
+
+/// Where friction changes, in truth, at any friction of the range.
+void add_changes(const Body& body, ScaledProblem& out) {
+  for (const FrictionChange& change : body.friction_changes) {
+    const double mu = change.friction.coefficient();
+    const std::size_t zone = out.changes.size();
+    const bool same = std::all_of(out.rides.begin(), out.rides.end(),
+                                  [&](const Ride& ride) { return ride.friction_in(zone) == mu; });
+    if (same) continue;
+    out.changes.push_back(change.from / out.chord);
+    for (Ride& ride : out.rides) ride.later_frictions.push_back(mu);
+  }
 }
 
 void add_limits(const Problem& problem, const Passages& passages, ScaledProblem& out) {
@@ -439,6 +465,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   std::sort(frictions.begin(), frictions.end());
   frictions.erase(std::unique(frictions.begin(), frictions.end()), frictions.end());
   for (const double mu : frictions) out.rides.push_back(scaled_ride(problem.body, mu, out));
+  add_changes(problem.body, out);
   const auto nominal = std::find(frictions.begin(), frictions.end(), problem.body.friction.coefficient());
   out.nominal_ride = static_cast<std::size_t>(nominal - frictions.begin());
   out.objective_ride = problem.objective.worst_case ? frictions.size() - 1 : out.nominal_ride;
@@ -475,11 +502,6 @@ void require_searchable(const Problem& problem) {
     throw InputError({"", "body.law: a stream below a hood", "A search is for the track that a body lies on.",
                       "the track below, with the hood as its approach"});
   }
-  if (!problem.body.friction_changes.empty()) {
-    throw InputError({"", "body.friction_changes: friction that changes along the track",
-                      "A search knows one friction for all of it.",
-                      "one friction, or a track that is given"});
-  }
   if (problem.limits.lowest_normal_load) return;
   throw InputError({"", "lowest_normal_load is lifted",
                     "The friction of a body held from both sides is not modelled.", "0 or a positive value"});
@@ -507,7 +529,9 @@ void require_passable_in_order(const Problem& problem) {
 
 Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
   Mesh mesh;
-  mesh.knots = std::move(knots);
+  mesh.changes = problem.changes;
+  mesh.change_knots = change_knots(problem, core_length);
+  mesh.knots = with_change_knots(knots, mesh.change_knots);
   mesh.lead_in = problem.lead_in;
   mesh.lead_out = problem.lead_out;
   mesh.core_length = core_length;

@@ -28,6 +28,8 @@ struct LimitSpec {
   bool built_in = false;     ///< not set by the user: arrival
   /// The one ride that it is held on, its bound being that ride's; none: wherever the measure binds.
   std::optional<std::size_t> ride;
+  /// The one friction along the track that it is held where, as of Station; none: everywhere.
+  std::optional<std::size_t> zone;
   /// The measure is multiplied by the width of a stream's channel, over that at the start, to this power.
   int width_power = 0;
 };
@@ -60,6 +62,7 @@ struct ScaledProblem {
   double drop = 0.0;
   FinishKind finish = FinishKind::point;
   PlacesFrom places_from = PlacesFrom::start;  ///< of obstacles and waypoints
+  std::vector<double> changes;  ///< arc lengths from which on the track rubs differently, ascending
   double lead_in = 0.0;
   double lead_out = 0.0;
   double lowest_speed_from = 0.0;
@@ -85,6 +88,7 @@ using Passages = std::vector<Passage>;
 /// @param passages  above or below, one for each keep-out
 [[nodiscard]] ScaledProblem scaled(const Problem& problem, const Passages& passages);
 
+/// Knots are added where friction changes.
 /// @param knots        of the core, by its length: 0 to 1
 /// @param core_length  about the length of the core [chords]
 [[nodiscard]] Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length);

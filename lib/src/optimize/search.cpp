@@ -582,18 +582,19 @@ GuessCurve curve_of(const Transcription& track, const Vector& z) {
   GuessCurve curve;
   Shape shape;
   track.shape(z, shape, false);
+  curve.length = track.core_length(z);
   for (std::size_t i = 0; i < track.stations().size(); ++i) {
     const Station& station = track.stations()[i];
     if (station.part != Part::core) continue;
-    if (!curve.sigma.empty() && station.sigma <= curve.sigma.back()) continue;
-    curve.sigma.push_back(station.sigma);
+    const double share = track.share_of_core(z, station.sigma);
+    if (!curve.sigma.empty() && share <= curve.sigma.back()) continue;
+    curve.sigma.push_back(share);
     curve.zeta.push_back(shape.zeta[i]);
   }
   if (curve.sigma.front() > 0.0) {
     curve.sigma.insert(curve.sigma.begin(), 0.0);
     curve.zeta.insert(curve.zeta.begin(), z[track.layout().angle()]);
   }
-  curve.length = z[track.layout().length()];
   return curve;
 }
 

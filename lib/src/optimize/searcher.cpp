@@ -3,6 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 
 #include "optimize/least_violation.hpp"
+#include "optimize/refined_knots.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/starts.hpp"
 
@@ -54,13 +55,13 @@ constexpr double kStallMargin = 1e-5;  // taste: five times what counts as lying
 CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   const Layout& layout = found.track->layout();
   const Mesh& mesh = found.track->mesh();
-  const double length = found.z[layout.length()];
   std::vector<ClothoidSegment> segments;
   if (mesh.lead_in > 0.0) segments.push_back({mesh.lead_in * problem.chord, 0.0, 0.0});
-  const double scale = 1.0 / (length * problem.chord);
   const std::vector<FineKnot>& fine = found.track->fine_knots();
   std::size_t next = 0;
   for (std::size_t i = 0; i + 1 < layout.knots; ++i) {
+    const double length = found.track->stretch(found.z, i);
+    const double scale = 1.0 / (length * problem.chord);
     double sigma = mesh.knots[i];
     double turn = found.z[layout.turn(i)];
     const auto add_up_to = [&](double to, double turn_there) {
@@ -123,7 +124,14 @@ double entry_share(const ScaledProblem& problem, double core_length) {
 }
 
 double core_length_of(const Found& found) {
-  return found.z[found.track->layout().length()];
+  return found.track->core_length(found.z);
+}
+
+/// The mesh of a track found, for the same unknowns: laid by its length, unless changes of friction hold it in place.
+Mesh mesh_again(const Found& found) {
+  Mesh mesh = found.track->mesh();
+  if (!found.track->has_fixed_pieces()) mesh.core_length = core_length_of(found);
+  return mesh;
 }
 
 /// A track that follows such a limit breaks it a little in every piece, between any places where it is
@@ -249,9 +257,9 @@ void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
   const ScaledProblem& problem = *candidate.problem;
   finer_mesh_wins_.reset();
   if (!unlimited) {
-    found = on_finer_meshes(problem, std::move(found));
+    found = laid_anew(problem, on_finer_meshes(problem, std::move(found)));
     if (!found.stopped) found = followed(problem, std::move(found));
-    if (!found.stopped) found = halved(problem, std::move(found));
+    if (!found.stopped) found = laid_anew(problem, halved(problem, std::move(found)));
   }
   candidate.stopped = candidate.stopped || found.stopped;
   tell("referee", 0.9);
@@ -347,6 +355,65 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
   return found;
 }
 
+Found Searcher::laid_anew(const ScaledProblem& problem, Found found) {
+  constexpr int kMostRounds = 6;         // budget
+  constexpr double kSameLength = 1e-10;  // accuracy: a hundredth of that of a limit
+  if (problem.changes.empty()) return found;
+  const auto passed_by = [&](double length) {
+    return std::lower_bound(problem.changes.begin(), problem.changes.end(), length) - problem.changes.begin();
+  };
+  const auto passes_others = [&](const Found& known) {
+    const double laid = problem.lead_in + known.track->mesh().core_length;
+    const double length = problem.lead_in + core_length_of(known);
+    return passed_by(laid) != passed_by(length) ||
+           passed_by(laid + problem.lead_out) != passed_by(length + problem.lead_out);
+  };
+  const auto is_off = [&](const Found& known) {
+    return passes_others(known) ||
+           std::fabs(core_length_of(known) / known.track->mesh().core_length - 1.0) > kSameLength;
+  };
+  for (int round = 0; round < kMostRounds && !found.stopped && is_off(found); ++round) {
+    const MeshTrack again = relaid(problem, found);
+    aim_at(options_.tolerance, 3);
+    Found next = on_mesh(problem, again.mesh, again.z, found);
+    if (!next.feasible(kNearlyFeasible)) break;
+    found = std::move(next);
+  }
+  // Of a friction that is not that of the track nothing is proved.
+  if (passes_others(found)) found.residual = HUGE_VAL;
+  return found;
+}
+
+MeshTrack Searcher::relaid(const ScaledProblem& problem, const Found& found) const {
+  const Transcription& track = *found.track;
+  const Mesh& before = track.mesh();
+  const auto shares_of = [&](const Vector& places) {
+    Vector shares;
+    for (const double sigma : places) shares.push_back(track.share_of_core(found.z, sigma));
+    return shares;
+  };
+  MeshTrack again;
+  again.mesh = mesh_with(problem, shares_of(before.knots), core_length_of(found));
+  again.mesh.extra_breaks = shares_of(before.extra_breaks);
+  if (again.mesh.knots.size() != before.knots.size()) {
+    again.z = fit(curve_of(track, found.z), Transcription(again.mesh));
+    return again;
+  }
+  const Layout& layout = track.layout();
+  const double length = again.mesh.core_length;
+  again.mesh.fine = shares_of(before.fine);
+  again.z = found.z;
+  again.z[layout.length()] = length;
+  for (std::size_t i = 0; i < layout.knots; ++i) {
+    const std::size_t piece = std::max(i, std::size_t{1}) - 1;
+    again.z[layout.turn(i)] *= length / track.stretch(found.z, piece);
+  }
+  for (const FineKnot& fine : track.fine_knots()) {
+    again.mesh.fine_turns.push_back(fine.turn * length / track.stretch(found.z, fine.piece));
+  }
+  return again;
+}
+
 void Searcher::mend(Candidate& candidate, Found found) {
   const ScaledProblem& problem = *candidate.problem;
   const std::function<bool()> stop = control_.stop;
@@ -371,10 +438,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
       control_.stop = [] { return false; };
     }
     if (round >= kPatientRounds && !found.feasible(kHopeless)) break;
-    const double core_length = core_length_of(found);
-    const auto share_of = [&](double place) {
-      return (place / problem.chord - problem.lead_in) / core_length;
-    };
+    const auto share_of = [&](double place) { return found.track->sigma_at(found.z, place / problem.chord); };
     std::vector<LiftOff> lifts;
     if (judgement.lift_off) {
       lifts = lift_offs_of(problem, found);
@@ -387,9 +451,8 @@ void Searcher::mend(Candidate& candidate, Found found) {
       }
     }
     tighten(problem, judgement, lifts, round);
-    Mesh mesh = found.track->mesh();
-    mesh.core_length = core_length;
-    mesh.extra_breaks = breaks_of(problem, core_length);
+    Mesh mesh = mesh_again(found);
+    mesh.extra_breaks = breaks_of(problem, core_length_of(found));
     for (const double place : places_to_hold(problem, judgement, round))
       held.add(share_of(place), mesh.knots);
     for (const LiftOff& lift : lifts) {
@@ -398,7 +461,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
     mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.places().begin(), held.places().end());
     aim_at(options_.tolerance, found.stopped ? kGraceEffort : 3);
     const bool stopped = found.stopped;
-    found = on_mesh(problem, mesh, found.z, found);
+    found = laid_anew(problem, on_mesh(problem, mesh, found.z, found));
     control_.stop = stop;
     found.stopped = found.stopped || stopped;
   }

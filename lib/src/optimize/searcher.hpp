@@ -3,6 +3,7 @@
 #include "glissade/optimize/optimize.hpp"
 
 #include "optimize/load_arcs.hpp"
+#include "optimize/refinement.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
 #include "optimize/switches.hpp"
@@ -60,6 +61,13 @@ class Searcher {
   [[nodiscard]] Found followed(const ScaledProblem& problem, Found found);
   /// Pieces are halved where a finer mesh has much left to win.
   [[nodiscard]] Found halved(const ScaledProblem& problem, Found found);
+
+  /// The search once more on a mesh laid by the length found, until both agree, where friction changes along the
+  /// track: a mesh knows the changes on the track that it was laid for, and where it stretches curvature goes on
+  /// across the last of them only at that length.
+  [[nodiscard]] Found laid_anew(const ScaledProblem& problem, Found found);
+  /// The mesh for that, and the track on it.
+  [[nodiscard]] MeshTrack relaid(const ScaledProblem& problem, const Found& found) const;
 
   /// Lets the referee judge and mends what it finds, round by round.
   void mend(Candidate& candidate, Found found);

@@ -11,6 +11,15 @@
 namespace glissade::optimizer {
 namespace {
 
+/// Of a track that is not much longer than its chord.
+double mean_friction(const ScaledProblem& problem, const Ride& ride) {
+  double mean = ride.friction;
+  for (std::size_t i = 0; i < problem.changes.size(); ++i) {
+    mean += (ride.friction_in(i + 1) - ride.friction_in(i)) * std::max(0.0, 1.0 - problem.changes[i]);
+  }
+  return mean;
+}
+
 /// Where the search expects a free finish.
 Vec2 expected_finish(const ScaledProblem& problem) {
   Vec2 finish{problem.run, problem.drop};
@@ -22,7 +31,7 @@ Vec2 expected_finish(const ScaledProblem& problem) {
     }
     return value;
   };
-  const double mu = problem.rides.back().friction;
+  const double mu = mean_friction(problem, problem.rides.back());
   switch (problem.finish) {
     case FinishKind::point:
       break;
@@ -90,7 +99,7 @@ GuessCurve widened(GuessCurve curve, double height) {
 std::vector<GuessCurve> starts(const ScaledProblem& problem) {
   const Vec2 finish = expected_finish(problem);
   const double ends = problem.lead_in + problem.lead_out;
-  const double mu = problem.rides[problem.objective_ride].friction;
+  const double mu = mean_friction(problem, problem.rides[problem.objective_ride]);
   std::vector<GuessCurve> curves;
   // A body that enters faster than it would fall needs no steep start.
   const bool from_rest_like = 0.5 * problem.entry_speed2 < 0.5 * finish.y;
@@ -140,7 +149,7 @@ std::vector<GuessCurve> constant_speed_starts(const ScaledProblem& problem) {
   constexpr int kHalvings = 40;      // rounding: 2^-40
   constexpr double kSteepest = 1.3;  // [rad], at the start; taste
   const Vec2 finish = expected_finish(problem);
-  const double mu = problem.rides[problem.objective_ride].friction;
+  const double mu = mean_friction(problem, problem.rides[problem.objective_ride]);
   const double delta = math::atan(mu);
   const double along = finish.x * math::cos(delta) + finish.y * math::sin(delta);
   const double across = finish.y * math::cos(delta) - finish.x * math::sin(delta);

@@ -7,6 +7,13 @@
 
 namespace glissade::optimizer {
 
+/// Knots before and behind a jump, in shares of the core length: near enough for what the ramp costs, far enough for the
+/// place to be met.
+inline constexpr double kPair = 1e-3;  // taste
+
+/// A place counted in pieces: 2.25 lies a quarter into the third.
+[[nodiscard]] double count_pieces(const Vector& knots, double sigma);
+
 /// A stretch of the track.
 struct Span {
   double from = 0.0;
@@ -30,11 +37,5 @@ struct Switch {
 
 /// Whether the track found has its knots at the switches already.
 [[nodiscard]] bool settled(const std::vector<Switch>& switches);
-
-/// Knots that share out the error of a track found, from its own third differences, with two at each jump
-/// and more of them where a jump could not be made out.
-/// @param pieces  of what lies between the switches; those of the switches come on top
-[[nodiscard]] Vector refined_knots(const Transcription& track, const Vector& z,
-                                   const std::vector<Switch>& switches, std::size_t pieces);
 
 }  // namespace glissade::optimizer

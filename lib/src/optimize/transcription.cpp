@@ -1,3 +1,5 @@
+// A mesh cut into panels and stations, and the vectors over which derivatives are told.
+
 #include "optimize/transcription.hpp"
 
 #include "glissade/core/math.hpp"
@@ -18,65 +20,19 @@ constexpr double kPanelGrowth = 2.5;  // taste
 // And by at most this share of the whole track's r, so that a long first piece is resolved too.
 constexpr double kLargestPanel = 1.0 / 14.0;  // taste
 
-// What a second weighs beside a second of speed that is off by all of itself: enough for one optimum to be left.
-constexpr double kFasterOfTwo = 1e-3;  // taste
-
-// Below this share of free fall a body counts as not arriving.
-constexpr double kSlowest = 2e-6;  // theory: twice what counts as lying still
-
 }  // namespace
-
-Slowness slowness(double v, double floor) {
-  if (v >= floor) {
-    const double root = 1.0 / std::sqrt(v);
-    return {root, -0.5 * root / v, 0.75 * root / (v * v)};
-  }
-  const double root = 1.0 / std::sqrt(floor);
-  const double first = -0.5 * root / floor;
-  const double second = 0.75 * root / (floor * floor);
-  const double below = v - floor;
-  return {root + below * (first + 0.5 * below * second), first + below * second, second};
-}
-
-Slowness evenness(double v, double floor, double even_speed) {
-  // ((1 + epsilon u0 w + v w^2 ...) written in 1/u = w: (v/u0^2 - 2 u/u0 + 1)/u0 + epsilon w.
-  const double u0 = even_speed;
-  const Slowness slow = slowness(v, floor);
-  const double at = std::max(v, floor);
-  const double u = std::sqrt(at);
-  const double below = v - at;
-  // u and its derivatives, continued as slowness() is.
-  const double first = 0.5 / u;
-  const double second = -0.25 / (u * at);
-  const double speed = u + below * (first + 0.5 * below * second);
-  const double speed_first = first + below * second;
-  const double share = 1.0 / (u0 * u0 * u0);
-  return {share * v - 2.0 / (u0 * u0) * speed + 1.0 / u0 + kFasterOfTwo * slow.value,
-          share - 2.0 / (u0 * u0) * speed_first + kFasterOfTwo * slow.first,
-          -2.0 / (u0 * u0) * second + kFasterOfTwo * slow.second};
-}
-
-Slowness pace_of(const Ride& ride, double v, double floor) {
-  return ride.even_speed > 0.0 ? evenness(v, floor, ride.even_speed) : slowness(v, floor);
-}
 
 Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
   layout_.knots = mesh.knots.size();
-  const std::size_t last_piece = mesh.knots.size() - 2;
-  add_station(0.0, mesh.lead_in > 0.0 ? Part::lead_in : Part::core, 0);
-  if (mesh.lead_in > 0.0) add_panels(0.0, mesh.lead_in, Part::lead_in, 0);
-  add_fine_knots();
-  Vector breaks = mesh.extra_breaks;
-  breaks.insert(breaks.end(), mesh.knots.begin(), mesh.knots.end());
-  breaks.insert(breaks.end(), mesh.fine.begin(), mesh.fine.end());
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-  std::size_t piece = 0;
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    while (breaks[i] >= mesh.knots[piece + 1]) ++piece;
-    add_panels(breaks[i], breaks[i + 1], Part::core, piece);
+  if (!mesh.change_knots.empty()) {
+    fixed_share_ = mesh.change_knots.back().sigma;
+    const auto last = std::find(mesh.knots.begin(), mesh.knots.end(), fixed_share_);
+    fixed_pieces_ = static_cast<std::size_t>(last - mesh.knots.begin());
   }
-  if (mesh.lead_out > 0.0) add_panels(0.0, mesh.lead_out, Part::lead_out, last_piece);
+  if (mesh.lead_in > 0.0) add_straight(Part::lead_in);
+  add_fine_knots();
+  add_core();
+  if (mesh.lead_out > 0.0) add_straight(Part::lead_out);
 
   add_sections();
   station_turn_.resize(stations_.size());
@@ -258,34 +214,129 @@ double Transcription::angle_at(const Vector& z, const Vector& section_angles, st
          row[kSecond] * z[layout_.turn(piece + 1)] + station_angle_[station];
 }
 
-void Transcription::add_station(double at, Part part, std::size_t piece) {
+double Transcription::core_length(const Vector& z) const {
+  return fixed_share_ * mesh_.core_length + (1.0 - fixed_share_) * z[layout_.length()];
+}
+
+double Transcription::arc_length(const Vector& z, double sigma) const {
+  const double fixed = std::min(sigma, fixed_share_);
+  return mesh_.lead_in + fixed * mesh_.core_length + (sigma - fixed) * z[layout_.length()];
+}
+
+double Transcription::sigma_at(const Vector& z, double arc_length) const {
+  const double along = arc_length - mesh_.lead_in;
+  const double fixed = fixed_share_ * mesh_.core_length;
+  if (along < fixed) return along / mesh_.core_length;
+  return fixed_share_ + (along - fixed) / z[layout_.length()];
+}
+
+std::size_t Transcription::zone_at(double arc_length) const {
+  const auto above = std::upper_bound(mesh_.changes.begin(), mesh_.changes.end(), arc_length);
+  return static_cast<std::size_t>(above - mesh_.changes.begin());
+}
+
+void Transcription::add_core() {
+  Vector breaks = mesh_.extra_breaks;
+  breaks.insert(breaks.end(), mesh_.knots.begin(), mesh_.knots.end());
+  breaks.insert(breaks.end(), mesh_.fine.begin(), mesh_.fine.end());
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  Stretch stretch;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    stretch.from = breaks[i];
+    stretch.to = breaks[i + 1];
+    while (stretch.from >= mesh_.knots[stretch.piece + 1]) ++stretch.piece;
+    add_panels(stretch);
+  }
+}
+
+// The straight before the core lies still; of the one behind it the ends move with the core, the changes of friction
+// do not.
+void Transcription::add_straight(Part part) {
+  const bool before = part == Part::lead_in;
+  const double begin = before ? 0.0 : mesh_.lead_in + mesh_.core_length;
+  const double whole = before ? mesh_.lead_in : mesh_.lead_out;
+  const double end_fixed = before ? 0.0 : mesh_.lead_in + fixed_share_ * mesh_.core_length;
+  const double end_by_length = before ? 0.0 : 1.0 - fixed_share_;
+  Stretch stretch;
+  stretch.part = part;
+  stretch.piece = before ? 0 : mesh_.knots.size() - 2;
+  stretch.fixed[1] = end_fixed;
+  stretch.by_length[1] = end_by_length;
+  const auto go_on_to = [&](double to, double fixed, double by_length) {
+    stretch.from = stretch.to;
+    stretch.fixed[0] = stretch.fixed[1];
+    stretch.by_length[0] = stretch.by_length[1];
+    stretch.to = to;
+    stretch.fixed[1] = fixed;
+    stretch.by_length[1] = by_length;
+    add_panels(stretch);
+  };
+  for (const double change : mesh_.changes) {
+    const double along = change - begin;
+    if (along > 0.0 && along < whole) go_on_to(along, change, 0.0);
+  }
+  go_on_to(whole, end_fixed + whole, end_by_length);
+}
+
+void Transcription::add_station(double at, const Stretch& stretch, std::size_t zone) {
   Station station;
-  station.part = part;
-  station.piece = piece;
-  switch (part) {
-    case Part::lead_in:
-      station.fixed_length = at;
-      break;
-    case Part::core: {
-      const double from = mesh_.knots[piece];
-      const double to = mesh_.knots[piece + 1];
-      station.fixed_length = mesh_.lead_in;
-      station.sigma = at;
-      station.share = at == to ? 1.0 : (at - from) / (to - from);
-      break;
-    }
-    case Part::lead_out:
-      station.fixed_length = mesh_.lead_in + at;
-      station.sigma = 1.0;
-      station.share = 1.0;
-      break;
+  station.part = stretch.part;
+  station.piece = stretch.piece;
+  station.zone = zone;
+  if (stretch.part == Part::core) {
+    const double from = mesh_.knots[stretch.piece];
+    const double to = mesh_.knots[stretch.piece + 1];
+    const bool stretches = this->stretches(stretch.piece);
+    station.fixed_length = mesh_.lead_in + (stretches ? fixed_share_ : at) * mesh_.core_length;
+    station.by_length = stretches ? at - fixed_share_ : 0.0;
+    station.sigma = at;
+    station.share = at == to ? 1.0 : (at - from) / (to - from);
+    stations_.push_back(station);
+    return;
+  }
+  const double share = (at - stretch.from) / (stretch.to - stretch.from);
+  station.fixed_length = stretch.by_length[0] == stretch.by_length[1]
+                             ? stretch.fixed[0] + (at - stretch.from)
+                             : stretch.fixed[0] + share * (stretch.fixed[1] - stretch.fixed[0]);
+  station.by_length = stretch.by_length[0] + share * (stretch.by_length[1] - stretch.by_length[0]);
+  if (stretch.part == Part::lead_out) {
+    station.sigma = 1.0;
+    station.share = 1.0;
   }
   stations_.push_back(station);
 }
 
-void Transcription::add_panels(double a, double b, Part part, std::size_t piece) {
+Transcription::Panel Transcription::panel_of(const Stretch& stretch) const {
+  Panel panel;
+  panel.part = stretch.part;
+  const double middle = 0.5 * (stretch.from + stretch.to);
+  double before = 0.0;
+  if (stretch.part == Part::core) {
+    before = mesh_.lead_in;
+    panel.zone = zone_at(mesh_.lead_in + middle * mesh_.core_length);
+    if (stretches(stretch.piece)) return panel;
+    panel.fixed_scale = mesh_.core_length;
+    panel.by_length = 0.0;
+    return panel;
+  }
+  if (stretch.part == Part::lead_out) before = mesh_.lead_in + mesh_.core_length;
+  panel.zone = zone_at(before + middle);
+  const double whole = stretch.to - stretch.from;
+  const bool moves_as_one = stretch.by_length[0] == stretch.by_length[1];
+  panel.by_length = moves_as_one ? 0.0 : (stretch.by_length[1] - stretch.by_length[0]) / whole;
+  panel.fixed_scale = moves_as_one ? 1.0 : (stretch.fixed[1] - stretch.fixed[0]) / whole;
+  return panel;
+}
+
+void Transcription::add_panels(const Stretch& stretch) {
   const PanelRule& rule = panel_rule();
+  const double a = stretch.from;
+  const double b = stretch.to;
+  const Part part = stretch.part;
   const double unit = part == Part::core ? mesh_.core_length : 1.0;
+  const Panel same = panel_of(stretch);
+  if (stations_.empty()) add_station(a, stretch, 0);
   // s + s_0 = r^2 with s_0 = v_0/2: the length of free fall to the entry speed.
   double before = 0.5 * mesh_.entry_speed2;
   if (part != Part::lead_in) before += mesh_.lead_in;
@@ -310,18 +361,17 @@ void Transcription::add_panels(double a, double b, Part part, std::size_t piece)
   for (int i = 0; i < count; ++i) {
     const double from = i == 0 ? r_first : r_at(i);
     const double to = r_at(i + 1);
-    Panel panel;
+    Panel panel = same;
     panel.first = stations_.size();
-    panel.part = part;
     for (std::size_t k = 0; k < kNodes; ++k) {
       const double r = from + (to - from) * rule.node[k];
       panel.ds[k] = 2.0 * r * (to - from);
-      add_station(r * r - shift, part, piece);
+      add_station(r * r - shift, stretch, panel.zone);
       // The two middle nodes; the outer ones lie next to the ends of the panel.
       stations_.back().watched = 2 * k + 2 == kNodes || 2 * k == kNodes;
     }
     panels_.push_back(panel);
-    add_station(i + 1 == count ? b : to * to - shift, part, piece);
+    add_station(i + 1 == count ? b : to * to - shift, stretch, panel.zone);
   }
 }
 
@@ -334,7 +384,7 @@ double Transcription::curvature(const Vector& z, std::size_t index) const {
   if (station.part != Part::core) return 0.0;
   const double c = (1.0 - station.share) * z[layout_.turn(station.piece)] +
                    station.share * z[layout_.turn(station.piece + 1)] + station_turn_[index];
-  return c / z[layout_.length()];
+  return c / stretch(z, station.piece);
 }
 
 bool Transcription::is_track(const Vector& z) const {
@@ -343,331 +393,25 @@ bool Transcription::is_track(const Vector& z) const {
   constexpr double kLongest = 100.0;   // taste: above any track
   constexpr double kTightest = 0.999;  // curvature times height; theory: at 1 the body does not fit in
   const double length = z[layout_.length()];
-  if (!(length > kShortest && length < kLongest)) return false;
+  const double core = core_length(z);
+  if (!(core > kShortest && core < kLongest && length > 0.0)) return false;
+  // Of the straight behind the core no part is turned round.
+  for (const Panel& panel : panels_) {
+    if (!(panel.scale(length) > 0.0)) return false;
+  }
   for (std::size_t i = 0; i < layout_.knots; ++i) {
-    if (!(z[layout_.turn(i)] * mesh_.centre_height < kTightest * length)) return false;
+    const std::size_t before = std::max(i, std::size_t{1}) - 1;
+    const double least = std::min(stretch(z, before), stretch(z, std::min(i, layout_.knots - 2)));
+    if (!(z[layout_.turn(i)] * mesh_.centre_height < kTightest * least)) return false;
   }
   for (std::size_t i = 0; i < fine_.size(); ++i) {
-    if (!(fine_turn(z, i) * mesh_.centre_height < kTightest * length)) return false;
+    if (!(fine_turn(z, i) * mesh_.centre_height < kTightest * stretch(z, fine_[i].piece))) return false;
   }
   const Vector angles = section_angles(z);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!(std::fabs(angle_at(z, angles, i)) < kSteepest)) return false;
   }
   return true;
-}
-
-void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
-  const PanelRule& rule = panel_rule();
-  const std::size_t count = stations_.size();
-  const double length = z[layout_.length()];
-  out.zeta.resize(count);
-  out.sin.resize(count);
-  out.cos.resize(count);
-  out.curvature.resize(count);
-  out.x.assign(count, 0.0);
-  out.y.assign(count, 0.0);
-  const Vector angles = section_angles(z);
-  for (std::size_t i = 0; i < count; ++i) {
-    out.zeta[i] = angle_at(z, angles, i);
-    const auto [sine, cosine] = math::sine_cosine(out.zeta[i]);
-    out.sin[i] = sine;
-    out.cos[i] = cosine;
-    out.curvature[i] = curvature(z, i);
-  }
-  out.dx = derivatives ? no_derivatives() : Derivatives{};
-  out.dy = out.dx;
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
-    const Panel& panel = panels_[p];
-    const std::size_t start = start_station(p);
-    const double scale = panel.part == Part::core ? length : 1.0;
-    for (std::size_t q = 0; q <= kNodes; ++q) {
-      double sum_x = 0.0;
-      double sum_y = 0.0;
-      for (std::size_t k = 0; k < kNodes; ++k) {
-        const double part = (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
-        sum_x += part * out.cos[panel.first + k];
-        sum_y += part * out.sin[panel.first + k];
-      }
-      out.x[panel.first + q] = out.x[start] + scale * sum_x;
-      out.y[panel.first + q] = out.y[start] + scale * sum_y;
-    }
-    if (derivatives) differentiate_shape(p, scale, out);
-  }
-}
-
-void Transcription::count_from_finish(Shape& shape) const {
-  const std::size_t last = stations_.size() - 1;
-  for (Vector* const places : {&shape.x, &shape.y}) {
-    const double finish = places->back();
-    for (double& place : *places) place -= finish;
-  }
-  if (shape.dx.empty()) return;
-  const std::size_t n = layout_.size();
-  for (Derivatives* const derivatives : {&shape.dx, &shape.dy}) {
-    Vector finish(n, 0.0);
-    add(*derivatives, last, 1.0, finish.data());
-    // Every station's derivatives are those of where its section begins and more; the start, where nothing moved so far,
-    // has had none.
-    derivatives->local.front()[kOwn] = 1.0;
-    for (std::size_t i = 0; i < sections_.size(); ++i)
-      add_scaled(derivatives->starts.row(i), -1.0, finish.data(), n);
-  }
-}
-
-void Transcription::differentiate_shape(std::size_t p, double scale, Shape& out) const {
-  const PanelRule& rule = panel_rule();
-  const Panel& panel = panels_[p];
-  carry_over(p, out.dx);
-  carry_over(p, out.dy);
-  const LocalRow dx_start = at_start(p, out.dx);
-  const LocalRow dy_start = at_start(p, out.dy);
-  const std::size_t start = start_station(p);
-  for (std::size_t q = 0; q <= kNodes; ++q) {
-    const std::size_t at = panel.first + q;
-    LocalRow& dx = out.dx.local[at];
-    LocalRow& dy = out.dy.local[at];
-    dx = dx_start;
-    dy = dy_start;
-    for (std::size_t k = 0; k < kNodes; ++k) {
-      const double part = scale * (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
-      const LocalRow& dz = local_dzeta_[panel.first + k];
-      for (const std::size_t j : {kZeta, kFirst, kSecond}) {
-        dx[j] -= part * out.sin[panel.first + k] * dz[j];
-        dy[j] += part * out.cos[panel.first + k] * dz[j];
-      }
-    }
-    if (panel.part != Part::core) continue;
-    dx[kLength] += (out.x[at] - out.x[start]) / scale;
-    dy[kLength] += (out.y[at] - out.y[start]) / scale;
-  }
-}
-
-Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
-                            double share) const {
-  const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
-  const Station& from = stations_[base];
-  // The piece that lies between the two is that of the later one.
-  const Station& later = stations_[std::max(base, towards)];
-  const Station& to = stations_[towards];
-  Foot foot;
-  foot.base = base;
-  foot.towards = towards;
-  foot.share = share;
-  foot.at = later;
-  foot.at.fixed_length = from.fixed_length + share * (to.fixed_length - from.fixed_length);
-  foot.at.sigma = from.sigma + share * (to.sigma - from.sigma);
-  double curvature_from = 0.0;
-  double curvature_slope = 0.0;
-  if (later.part == Part::core) {
-    const double knot = mesh_.knots[later.piece];
-    const double width = mesh_.knots[later.piece + 1] - knot;
-    foot.at.share = (foot.at.sigma - knot) / width;
-    const double from_share = (from.sigma - knot) / width;
-    const double c0 = z[layout_.turn(later.piece)] / length;
-    const double c1 = z[layout_.turn(later.piece + 1)] / length;
-    curvature_from = c0 + (c1 - c0) * from_share + station_turn_[base] / length;
-    curvature_slope = (c1 - c0) / (width * length);
-    const double gap = (to.sigma - from.sigma) * length;
-    if (!fine_.empty() && gap != 0.0) {
-      curvature_slope += (station_turn_[towards] - station_turn_[base]) / (gap * length);
-    }
-  }
-  const double ds = foot.at.arc_length(length) - from.arc_length(length);
-  const auto angle = [&](double s) {
-    return shape.zeta[base] - s * (curvature_from + 0.5 * s * curvature_slope);
-  };
-  foot.x = shape.x[base];
-  foot.y = shape.y[base];
-  for (std::size_t k = 0; k < kNodes; ++k) {
-    const auto [sine, cosine] = math::sine_cosine(angle(ds * rule.node[k]));
-    foot.x += rule.weight[k] * ds * cosine;
-    foot.y += rule.weight[k] * ds * sine;
-  }
-  const auto [sine, cosine] = math::sine_cosine(angle(ds));
-  foot.cos = cosine;
-  foot.sin = sine;
-  return foot;
-}
-
-Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y) const {
-  std::size_t nearest = 0;
-  double least = HUGE_VAL;
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const double distance = math::hypot(shape.x[i] - target_x, shape.y[i] - target_y);
-    if (distance < least) {
-      least = distance;
-      nearest = i;
-    }
-  }
-  return foot(z, shape, target_x, target_y, nearest);
-}
-
-Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y,
-                         std::size_t nearest) const {
-  const double along =
-      (target_x - shape.x[nearest]) * shape.cos[nearest] + (target_y - shape.y[nearest]) * shape.sin[nearest];
-  const bool forward = along > 0.0;
-  if ((!forward && nearest == 0) || (forward && nearest + 1 == stations_.size())) {
-    Foot foot;
-    foot.at = stations_[nearest];
-    foot.base = nearest;
-    foot.towards = nearest;
-    foot.x = shape.x[nearest];
-    foot.y = shape.y[nearest];
-    foot.sin = shape.sin[nearest];
-    foot.cos = shape.cos[nearest];
-    foot.end = true;
-    return foot;
-  }
-  const std::size_t towards = forward ? nearest + 1 : nearest - 1;
-  const double gap =
-      stations_[towards].arc_length(z[layout_.length()]) - stations_[nearest].arc_length(z[layout_.length()]);
-  double share = std::min(1.0, std::fabs(along / gap));
-  Foot foot = between(z, shape, nearest, towards, share);
-  for (int step = 0; step < 8; ++step) {
-    const double rest = (target_x - foot.x) * foot.cos + (target_y - foot.y) * foot.sin;
-    if (std::fabs(rest) < 1e-15) break;
-    share = std::clamp(share + rest / gap, 0.0, 1.0);
-    foot = between(z, shape, nearest, towards, share);
-  }
-  return foot;
-}
-
-void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const Foot& foot, Vector& dx,
-                                     Vector& dy) const {
-  const PanelRule& rule = panel_rule();
-  const std::size_t n = layout_.size();
-  const double length = z[layout_.length()];
-  const Station& from = stations_[foot.base];
-  dx.assign(n, 0.0);
-  dy.assign(n, 0.0);
-  add(shape.dx, foot.base, 1.0, dx.data());
-  add(shape.dy, foot.base, 1.0, dy.data());
-  const double d_sigma = foot.at.sigma - from.sigma;
-  const double ds = foot.at.arc_length(length) - from.arc_length(length);
-  if (ds == 0.0) return;
-  const std::size_t section = section_of(foot.at.part, foot.at.piece);
-  const std::size_t piece = sections_[section].piece;
-  const double angle = section_angles(z)[section];
-  LocalRow local_dx{};
-  LocalRow local_dy{};
-  for (std::size_t k = 0; k < kNodes; ++k) {
-    Station node = foot.at;
-    node.sigma = from.sigma + d_sigma * rule.node[k];
-    if (node.part == Part::core) {
-      const double knot = mesh_.knots[node.piece];
-      node.share = (node.sigma - knot) / (mesh_.knots[node.piece + 1] - knot);
-    }
-    const LocalRow row = local_dzeta(node);
-    const double zeta = angle + row[kFirst] * z[layout_.turn(piece)] +
-                        row[kSecond] * z[layout_.turn(piece + 1)] + own_angle(node.sigma);
-    const auto [sine, cosine] = math::sine_cosine(zeta);
-    for (const std::size_t j : {kZeta, kFirst, kSecond}) {
-      local_dx[j] -= rule.weight[k] * ds * sine * row[j];
-      local_dy[j] += rule.weight[k] * ds * cosine * row[j];
-    }
-    local_dx[kLength] += rule.weight[k] * d_sigma * cosine;
-    local_dy[kLength] += rule.weight[k] * d_sigma * sine;
-  }
-  expand(local_dx, section, nullptr, dx.data());
-  expand(local_dy, section, nullptr, dy.data());
-}
-
-double Transcription::slowest(const Ride& ride, std::size_t station) const {
-  return kSlowest * (stations_[station].arc_length(mesh_.core_length) + 0.5 * ride.entry_speed2);
-}
-
-void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
-                         bool derivatives) const {
-  out.v.assign(stations_.size(), 0.0);
-  out.growth.assign(stations_.size(), 1.0);
-  out.time = 0.0;
-  out.dv = derivatives ? no_derivatives() : Derivatives{};
-  if (derivatives) out.dtime.assign(layout_.size(), 0.0);
-  if (ride.sliding_point()) {
-    out.v[0] = ride.entry_speed2;
-  } else {
-    out.growth.clear();
-    enter(shape, ride, out);
-  }
-  LocalRow by_time{};  // of the section
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
-    if (derivatives) carry_over(p, out.dv);
-    if (ride.sliding_point()) {
-      flow_through(z, shape, ride, p, out, derivatives ? &by_time : nullptr);
-    } else {
-      law_flow_through(z, shape, ride, p, out, derivatives ? &by_time : nullptr);
-    }
-    if (!derivatives || (p + 1 < panels_.size() && !begins_section(p + 1))) continue;
-    const std::size_t section = panels_[p].section;
-    expand(by_time, section, out.dv.starts.row(section), out.dtime.data());
-    by_time = {};
-  }
-}
-
-// Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay small; v
-// carries over from panel to panel.
-void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t p,
-                                 Flow& out, LocalRow* by_time) const {
-  const PanelRule& rule = panel_rule();
-  const Panel& panel = panels_[p];
-  const std::size_t start = start_station(p);
-  const double length = z[layout_.length()];
-  const double mu = ride.friction;
-  const bool is_core = panel.part == Part::core;
-  const double scale = is_core ? length : 1.0;
-  const LocalRow dz_start = dzeta_at_start(p);
-  double f[kNodes] = {};
-  std::array<LocalRow, kNodes> df{};
-  for (std::size_t q = 0; q <= kNodes; ++q) {
-    const std::size_t at = panel.first + q;
-    const double s = stations_[at].arc_length(length) - stations_[start].arc_length(length);
-    out.growth[at] = math::exp(2.0 * mu * (shape.zeta[at] - shape.zeta[start]) - 2.0 * ride.drag * s);
-    if (q == kNodes) break;
-    const double weight = panel.ds[q] / out.growth[at];
-    const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
-    f[q] = drive * weight;
-    if (by_time == nullptr) continue;
-    const double by_zeta = (2.0 * (shape.cos[at] + mu * shape.sin[at]) - 2.0 * mu * drive) * weight;
-    const double by_start = 2.0 * mu * f[q];
-    const LocalRow& dz = local_dzeta_[at];
-    for (const std::size_t j : {kZeta, kFirst, kSecond}) {
-      df[q][j] = scale * (by_zeta * dz[j] + by_start * dz_start[j]);
-    }
-    const double ds_dlength = stations_[at].sigma - stations_[start].sigma;
-    df[q][kLength] = (is_core ? f[q] : 0.0) + scale * f[q] * 2.0 * ride.drag * ds_dlength;
-  }
-  const LocalRow dv_start = by_time != nullptr ? at_start(p, out.dv) : LocalRow{};
-  for (std::size_t q = 0; q <= kNodes; ++q) {
-    const std::size_t at = panel.first + q;
-    const double* row = q < kNodes ? rule.to_node[q].data() : rule.weight.data();
-    double w = out.v[start];
-    for (std::size_t k = 0; k < kNodes; ++k) w += scale * row[k] * f[k];
-    out.v[at] = w * out.growth[at];
-    if (by_time != nullptr) {
-      LocalRow& dv = out.dv.local[at];
-      dv = dv_start;
-      for (std::size_t k = 0; k < kNodes; ++k) {
-        for (std::size_t j = kZeta; j <= kLength; ++j) dv[j] += row[k] * df[k][j];
-      }
-      for (double& entry : dv) entry *= out.growth[at];
-      const double turning = 2.0 * mu * out.v[at];
-      const LocalRow& dz = local_dzeta_[at];
-      for (const std::size_t j : {kZeta, kFirst, kSecond}) dv[j] += turning * (dz[j] - dz_start[j]);
-      dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].sigma - stations_[start].sigma);
-    }
-    if (q == kNodes) continue;
-    const Slowness slow = slowness(out.v[at], slowest(ride, at));
-    const double part = rule.weight[q] * panel.ds[q];
-    out.time += scale * part * slow.value;
-    if (by_time == nullptr) continue;
-    for (std::size_t j = 0; j < by_time->size(); ++j) {
-      (*by_time)[j] += scale * part * slow.first * out.dv.local[at][j];
-    }
-    if (is_core) (*by_time)[kLength] += part * slow.value;
-  }
 }
 
 }  // namespace glissade::optimizer

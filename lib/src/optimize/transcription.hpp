@@ -15,15 +15,32 @@ namespace glissade::optimizer {
 
 /// The unknowns of a clothoid spline between optional straight ends, as offsets into one vector:
 ///   [0] entry slope angle zeta_0 [rad]
-///   [1 .. knots] turning rates c_i = core_length kappa_i at the knots sigma_i, linear in between [rad]
-///   [knots + 1] core_length [chords]
+///   [1 .. knots] turning rates c_i = L kappa_i at the knots sigma_i, linear in between [rad]
+///   [knots + 1] L, the length of the core [chords]
 /// With them zeta is linear in (zeta_0, c), whatever the length.
+///
+/// Where friction changes along the track, each change keeps its arc length: the core up to the last change in it has
+/// the length that its mesh gives it, c_i = Mesh::core_length kappa_i there, and L is the length that the core would
+/// have if all of it were stretched as what lies behind that change.
 struct Layout {
   std::size_t knots = 0;
   [[nodiscard]] std::size_t angle() const { return 0; }
   [[nodiscard]] std::size_t turn(std::size_t knot) const { return 1 + knot; }
   [[nodiscard]] std::size_t length() const { return 1 + knots; }
   [[nodiscard]] std::size_t size() const { return 2 + knots; }
+};
+
+/// A place of the core from which on the track rubs differently, and the knots that stand there.
+///
+/// The fastest track turns upwards where that costs least: next to the change on its smoother side, at once if no limit
+/// keeps it from that, and it flies over the beginning or the end of the rougher side (docs/optimization.md). Its
+/// curvature jumps there. Two knots close to each other stand on the smoother side for the jump, and one between them
+/// where nothing keeps the bend from being sharp.
+struct ChangeKnots {
+  double sigma = 0.0;  ///< itself a knot
+  double from = 0.0;   ///< of the pieces that stand for the jump; both sigma where curvature does not jump
+  double to = 0.0;
+  bool sharp = false;
 };
 
 /// Where the curvature's knots lie and how the track is cut for quadrature.
@@ -33,31 +50,37 @@ struct Mesh {
   /// Sigma, ascending, none of them a knot: here the curvature has further knots, which go along with those
   /// around them, ...
   Vector fine;
-  Vector fine_turns;         ///< ... but for this turning rate each, which is no unknown [rad]
-  double lead_in = 0.0;      ///< straight before the core [chords]
-  double lead_out = 0.0;     ///< straight after it
-  double core_length = 1.0;  ///< of the guess: places the nodes of the substitution only
+  Vector fine_turns;  ///< ... but for this turning rate each, which is no unknown [rad]
+  /// Arc lengths at which the track rubs differently from there on, ascending [chords], ...
+  Vector changes;
+  std::vector<ChangeKnots> change_knots;  ///< ... and those of them that lie in the core
+  double lead_in = 0.0;                   ///< straight before the core [chords]
+  double lead_out = 0.0;                  ///< straight after it
+  double core_length = 1.0;  ///< of the guess: places the nodes of the substitution, and the changes
   double entry_speed2 = 0.0;
   double centre_height = 0.0;  ///< of the body: no track turns upwards more tightly
 };
 
 enum class Part { lead_in, core, lead_out };
 
-/// A point of the track at which the state is known: s = fixed_length + sigma core_length.
+/// A point of the track at which the state is known: s = fixed_length + by_length z[Layout::length()].
 struct Station {
   double fixed_length = 0.0;
-  double sigma = 0.0;
+  double by_length = 0.0;
+  double sigma = 0.0;       ///< share of the core's length, as the mesh has it
   std::size_t piece = 0;    ///< between knots piece and piece + 1
   double share = 0.0;       ///< of the way between these knots
   Part part = Part::core;   ///< curvature is 0 outside the core
   std::size_t section = 0;  ///< of the track: a straight end or one piece
+  std::size_t zone = 0;     ///< changes of friction before it; at a change those before it
   bool watched = true;      ///< limits are held here; enough of them that little happens in between
-  [[nodiscard]] double arc_length(double core_length) const { return fixed_length + sigma * core_length; }
+  [[nodiscard]] double arc_length(double length) const { return fixed_length + by_length * length; }
 };
 
 /// What slides, scaled.
 struct Ride {
-  double friction = 0.0;      ///< mu
+  double friction = 0.0;      ///< mu, up to the first of Mesh::changes
+  Vector later_frictions;     ///< mu from each of them on
   double entry_speed2 = 0.0;  ///< v at the start
   double drag = 0.0;          ///< k [1/chord]
   double gain = 2.0;          ///< 2/f
@@ -68,6 +91,10 @@ struct Ride {
   /// Above 0: what counts as time is not 1/u, but how uneven the speed is (evenness()).
   double even_speed = 0.0;
   LawPtr law = nullptr;  ///< where c depends on the speed, in these units; none otherwise
+
+  [[nodiscard]] double friction_in(std::size_t zone) const {
+    return zone == 0 ? friction : later_frictions[zone - 1];
+  }
 
   /// kappa v/(1 - kappa h): what curvature adds to the load, and its derivatives.
   struct CurvatureLoad {
@@ -153,7 +180,8 @@ struct StationWeights {
   std::vector<double> time;  ///< dL/dT, for each ride
 };
 
-/// Quadrature of the motion over the track, and its exact derivatives through the very same quadrature.
+/// Quadrature of the motion over the track, and its exact derivatives through the very same quadrature. A panel has
+/// one friction.
 ///
 /// Each panel carries Gauss-Legendre nodes in r = sqrt(s + s_0), s_0 = v_0/2 (theory: 1/u is integrable at
 /// rest); states inside a panel come from the spectral integration matrix of those nodes. Stations are the
@@ -172,6 +200,24 @@ class Transcription {
   /// sum of weight dzeta dzeta^T over the stations
   [[nodiscard]] Matrix gram_of_dzeta(const Vector& weights) const;
   [[nodiscard]] double curvature(const Vector& z, std::size_t station) const;
+  [[nodiscard]] double core_length(const Vector& z) const;
+  /// @return its derivative by z[Layout::length()]
+  [[nodiscard]] double core_by_length() const { return 1.0 - fixed_share_; }
+  /// Whether a piece is stretched with z[Layout::length()], ...
+  [[nodiscard]] bool stretches(std::size_t piece) const { return piece >= fixed_pieces_; }
+  /// ... and ds/dsigma within it: its curvature is its turning rate over this.
+  [[nodiscard]] double stretch(const Vector& z, std::size_t piece) const {
+    return stretches(piece) ? z[layout_.length()] : mesh_.core_length;
+  }
+  /// Whether there is a change of friction in the core.
+  [[nodiscard]] bool has_fixed_pieces() const { return fixed_pieces_ > 0; }
+  /// Arc length of a place of the core, and the place of an arc length, beyond the core's ends too.
+  [[nodiscard]] double arc_length(const Vector& z, double sigma) const;
+  [[nodiscard]] double sigma_at(const Vector& z, double arc_length) const;
+  /// Arc length of a place of the core from its start, over its whole length: sigma where no friction changes.
+  [[nodiscard]] double share_of_core(const Vector& z, double sigma) const {
+    return has_fixed_pieces() ? (arc_length(z, sigma) - mesh_.lead_in) / core_length(z) : sigma;
+  }
   [[nodiscard]] const std::vector<FineKnot>& fine_knots() const { return fine_; }
   /// Turning rate at a fine knot, its own included.
   [[nodiscard]] double fine_turn(const Vector& z, std::size_t fine_knot) const;
@@ -207,7 +253,22 @@ class Transcription {
     std::size_t first = 0;    ///< station of its first node
     std::size_t section = 0;  ///< to which it belongs
     Part part = Part::core;
-    double ds[8] = {};  ///< ds/dtau at the nodes, per core length or absolute
+    std::size_t zone = 0;  ///< as of Station
+    double ds[8] = {};     ///< ds/dtau at the nodes, but for the scale
+    double fixed_scale = 0.0;
+    double by_length = 1.0;
+    [[nodiscard]] double scale(double length) const { return fixed_scale + by_length * length; }
+  };
+  /// A stretch of one part with one friction, to be cut into panels. Ends in sigma within the core, in arc length from
+  /// the part's start within a straight.
+  struct Stretch {
+    double from = 0.0;
+    double to = 0.0;
+    Part part = Part::core;
+    std::size_t piece = 0;
+    /// Of a straight: where its ends lie, s = fixed + by_length L.
+    double fixed[2] = {};
+    double by_length[2] = {};
   };
   /// A straight end of the track, or one piece.
   struct Section {
@@ -220,7 +281,7 @@ class Transcription {
   /// + factor (a b^T + b a^T)
   static void add_pair(LocalMatrix& matrix, double factor, const LocalRow& a, const LocalRow& b);
 
-  void differentiate_shape(std::size_t panel, double scale, Shape& out) const;
+  void differentiate_shape(const Vector& z, std::size_t panel, Shape& out) const;
   /// One panel of a sliding point's flow.
   /// @param by_time  its part of the time's derivatives is added; none: no derivatives
   void flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t panel, Flow& out,
@@ -230,6 +291,15 @@ class Transcription {
   /// ... and one panel of its flow: collocation at the panel's nodes, exact derivatives through its equations (law_flow.cpp).
   void law_flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t panel, Flow& out,
                         LocalRow* by_time) const;
+  /// The derivatives of the curvature at a station.
+  [[nodiscard]] LocalRow dcurvature(const Vector& z, std::size_t station, double curvature) const;
+  struct LawPanel;
+  [[nodiscard]] LawPanel law_panel(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
+                                   const StationWeights& weights, std::size_t index, std::size_t panel,
+                                   double by_end) const;
+  void add_law_node(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
+                    const LawPanel& law, std::size_t panel, std::size_t node, double theta,
+                    LocalMatrix& part) const;
   void add_law_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
                      const StationWeights& weights, std::size_t index, std::vector<LocalMatrix>& parts) const;
   [[nodiscard]] double slowest(const Ride& ride, std::size_t station) const;
@@ -256,14 +326,26 @@ class Transcription {
   /// Slope angles at the beginnings of the sections, but for what fine knots add.
   [[nodiscard]] Vector section_angles(const Vector& z) const;
   [[nodiscard]] double angle_at(const Vector& z, const Vector& section_angles, std::size_t station) const;
-  void add_panels(double a, double b, Part part, std::size_t piece);
-  void add_station(double at, Part part, std::size_t piece);
+  void add_core();
+  void add_straight(Part part);
+  void add_panels(const Stretch& stretch);
+  /// What its panels have in common.
+  [[nodiscard]] Panel panel_of(const Stretch& stretch) const;
+  void add_station(double at, const Stretch& stretch, std::size_t zone);
+  /// Changes of friction before a place of the mesh.
+  [[nodiscard]] std::size_t zone_at(double arc_length) const;
+  /// Adds what a sliding point's exponent 2 mu zeta - 2 k s of one friction does at a station.
+  /// @param by_v  dL/dv there
+  void add_exponent(LocalMatrix& part, double mu, const Ride& ride, const Flow& flow, std::size_t station,
+                    double by_v) const;
   void add_fine_knots();
   void add_sections();
   [[nodiscard]] std::size_t start_station(std::size_t panel) const;
 
   Mesh mesh_;
   Layout layout_;
+  std::size_t fixed_pieces_ = 0;  ///< up to the last change of friction in the core
+  double fixed_share_ = 0.0;      ///< sigma there
   std::vector<Panel> panels_;
   std::vector<Station> stations_;
   std::vector<Section> sections_;

@@ -98,7 +98,10 @@ Body body_of(const Design& design) {
   body.drag_per_metre = from.drag_per_metre;
   body.head_wind = from.head_wind;
   for (const FrictionFrom& change : from.friction_changes) {
-    if (change.from > 0.0) body.friction_changes.push_back({change.from, change.friction});
+    const std::vector<FrictionChange>& changes = body.friction_changes;
+    const Friction before = changes.empty() ? body.friction : changes.back().friction;
+    // A list of one friction is that friction, with all that is known of it.
+    if (change.friction != before) body.friction_changes.push_back({change.from, change.friction});
   }
   if (design.feed) {
     body.landing = first_fall(design).landing;

@@ -1,0 +1,151 @@
+// Speed and time: of the sliding point in closed form from node to node, of all other bodies by law_flow.cpp.
+
+#include "glissade/core/math.hpp"
+
+#include "optimize/quadrature.hpp"
+#include "optimize/transcription.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade::optimizer {
+namespace {
+
+constexpr std::size_t kNodes = PanelRule::kNodes;
+
+// What a second weighs beside a second of speed that is off by all of itself: enough for one optimum to be left.
+constexpr double kFasterOfTwo = 1e-3;  // taste
+
+// Below this share of free fall a body counts as not arriving.
+constexpr double kSlowest = 2e-6;  // theory: twice what counts as lying still
+
+}  // namespace
+
+Slowness slowness(double v, double floor) {
+  if (v >= floor) {
+    const double root = 1.0 / std::sqrt(v);
+    return {root, -0.5 * root / v, 0.75 * root / (v * v)};
+  }
+  const double root = 1.0 / std::sqrt(floor);
+  const double first = -0.5 * root / floor;
+  const double second = 0.75 * root / (floor * floor);
+  const double below = v - floor;
+  return {root + below * (first + 0.5 * below * second), first + below * second, second};
+}
+
+Slowness evenness(double v, double floor, double even_speed) {
+  // ((1 + epsilon u0 w + v w^2 ...) written in 1/u = w: (v/u0^2 - 2 u/u0 + 1)/u0 + epsilon w.
+  const double u0 = even_speed;
+  const Slowness slow = slowness(v, floor);
+  const double at = std::max(v, floor);
+  const double u = std::sqrt(at);
+  const double below = v - at;
+  // u and its derivatives, continued as slowness() is.
+  const double first = 0.5 / u;
+  const double second = -0.25 / (u * at);
+  const double speed = u + below * (first + 0.5 * below * second);
+  const double speed_first = first + below * second;
+  const double share = 1.0 / (u0 * u0 * u0);
+  return {share * v - 2.0 / (u0 * u0) * speed + 1.0 / u0 + kFasterOfTwo * slow.value,
+          share - 2.0 / (u0 * u0) * speed_first + kFasterOfTwo * slow.first,
+          -2.0 / (u0 * u0) * second + kFasterOfTwo * slow.second};
+}
+
+Slowness pace_of(const Ride& ride, double v, double floor) {
+  return ride.even_speed > 0.0 ? evenness(v, floor, ride.even_speed) : slowness(v, floor);
+}
+double Transcription::slowest(const Ride& ride, std::size_t station) const {
+  return kSlowest * (stations_[station].arc_length(mesh_.core_length) + 0.5 * ride.entry_speed2);
+}
+
+void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
+                         bool derivatives) const {
+  out.v.assign(stations_.size(), 0.0);
+  out.growth.assign(stations_.size(), 1.0);
+  out.time = 0.0;
+  out.dv = derivatives ? no_derivatives() : Derivatives{};
+  if (derivatives) out.dtime.assign(layout_.size(), 0.0);
+  if (ride.sliding_point()) {
+    out.v[0] = ride.entry_speed2;
+  } else {
+    out.growth.clear();
+    enter(shape, ride, out);
+  }
+  LocalRow by_time{};  // of the section
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    if (derivatives) carry_over(p, out.dv);
+    if (ride.sliding_point()) {
+      flow_through(z, shape, ride, p, out, derivatives ? &by_time : nullptr);
+    } else {
+      law_flow_through(z, shape, ride, p, out, derivatives ? &by_time : nullptr);
+    }
+    if (!derivatives || (p + 1 < panels_.size() && !begins_section(p + 1))) continue;
+    const std::size_t section = panels_[p].section;
+    expand(by_time, section, out.dv.starts.row(section), out.dtime.data());
+    by_time = {};
+  }
+}
+
+// Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay small; v
+// carries over from panel to panel.
+void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t p,
+                                 Flow& out, LocalRow* by_time) const {
+  const PanelRule& rule = panel_rule();
+  const Panel& panel = panels_[p];
+  const std::size_t start = start_station(p);
+  const double length = z[layout_.length()];
+  const double mu = ride.friction_in(panel.zone);
+  const double scale = panel.scale(length);
+  const LocalRow dz_start = dzeta_at_start(p);
+  double f[kNodes] = {};
+  std::array<LocalRow, kNodes> df{};
+  for (std::size_t q = 0; q <= kNodes; ++q) {
+    const std::size_t at = panel.first + q;
+    const double s = stations_[at].arc_length(length) - stations_[start].arc_length(length);
+    out.growth[at] = math::exp(2.0 * mu * (shape.zeta[at] - shape.zeta[start]) - 2.0 * ride.drag * s);
+    if (q == kNodes) break;
+    const double weight = panel.ds[q] / out.growth[at];
+    const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
+    f[q] = drive * weight;
+    if (by_time == nullptr) continue;
+    const double by_zeta = (2.0 * (shape.cos[at] + mu * shape.sin[at]) - 2.0 * mu * drive) * weight;
+    const double by_start = 2.0 * mu * f[q];
+    const LocalRow& dz = local_dzeta_[at];
+    for (const std::size_t j : {kZeta, kFirst, kSecond}) {
+      df[q][j] = scale * (by_zeta * dz[j] + by_start * dz_start[j]);
+    }
+    const double ds_dlength = stations_[at].by_length - stations_[start].by_length;
+    df[q][kLength] = panel.by_length * f[q] + scale * f[q] * 2.0 * ride.drag * ds_dlength;
+  }
+  const LocalRow dv_start = by_time != nullptr ? at_start(p, out.dv) : LocalRow{};
+  for (std::size_t q = 0; q <= kNodes; ++q) {
+    const std::size_t at = panel.first + q;
+    const double* row = q < kNodes ? rule.to_node[q].data() : rule.weight.data();
+    double w = out.v[start];
+    for (std::size_t k = 0; k < kNodes; ++k) w += scale * row[k] * f[k];
+    out.v[at] = w * out.growth[at];
+    if (by_time != nullptr) {
+      LocalRow& dv = out.dv.local[at];
+      dv = dv_start;
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        for (std::size_t j = kZeta; j <= kLength; ++j) dv[j] += row[k] * df[k][j];
+      }
+      for (double& entry : dv) entry *= out.growth[at];
+      const double turning = 2.0 * mu * out.v[at];
+      const LocalRow& dz = local_dzeta_[at];
+      for (const std::size_t j : {kZeta, kFirst, kSecond}) dv[j] += turning * (dz[j] - dz_start[j]);
+      dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].by_length - stations_[start].by_length);
+    }
+    if (q == kNodes) continue;
+    const Slowness slow = slowness(out.v[at], slowest(ride, at));
+    const double part = rule.weight[q] * panel.ds[q];
+    out.time += scale * part * slow.value;
+    if (by_time == nullptr) continue;
+    for (std::size_t j = 0; j < by_time->size(); ++j) {
+      (*by_time)[j] += scale * part * slow.first * out.dv.local[at][j];
+    }
+    (*by_time)[kLength] += panel.by_length * part * slow.value;
+  }
+}
+
+}  // namespace glissade::optimizer

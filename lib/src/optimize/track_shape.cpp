@@ -1,0 +1,240 @@
+// Where a track runs, the point of it that is closest to another, and the derivatives of both.
+
+#include "glissade/core/math.hpp"
+
+#include "optimize/quadrature.hpp"
+#include "optimize/transcription.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade::optimizer {
+namespace {
+
+constexpr std::size_t kNodes = PanelRule::kNodes;
+
+}  // namespace
+
+void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
+  const PanelRule& rule = panel_rule();
+  const std::size_t count = stations_.size();
+  const double length = z[layout_.length()];
+  out.zeta.resize(count);
+  out.sin.resize(count);
+  out.cos.resize(count);
+  out.curvature.resize(count);
+  out.x.assign(count, 0.0);
+  out.y.assign(count, 0.0);
+  const Vector angles = section_angles(z);
+  for (std::size_t i = 0; i < count; ++i) {
+    out.zeta[i] = angle_at(z, angles, i);
+    const auto [sine, cosine] = math::sine_cosine(out.zeta[i]);
+    out.sin[i] = sine;
+    out.cos[i] = cosine;
+    out.curvature[i] = curvature(z, i);
+  }
+  out.dx = derivatives ? no_derivatives() : Derivatives{};
+  out.dy = out.dx;
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Panel& panel = panels_[p];
+    const std::size_t start = start_station(p);
+    const double scale = panel.scale(length);
+    for (std::size_t q = 0; q <= kNodes; ++q) {
+      double sum_x = 0.0;
+      double sum_y = 0.0;
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        const double part = (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
+        sum_x += part * out.cos[panel.first + k];
+        sum_y += part * out.sin[panel.first + k];
+      }
+      out.x[panel.first + q] = out.x[start] + scale * sum_x;
+      out.y[panel.first + q] = out.y[start] + scale * sum_y;
+    }
+    if (derivatives) differentiate_shape(z, p, out);
+  }
+}
+
+void Transcription::count_from_finish(Shape& shape) const {
+  const std::size_t last = stations_.size() - 1;
+  for (Vector* const places : {&shape.x, &shape.y}) {
+    const double finish = places->back();
+    for (double& place : *places) place -= finish;
+  }
+  if (shape.dx.empty()) return;
+  const std::size_t n = layout_.size();
+  for (Derivatives* const derivatives : {&shape.dx, &shape.dy}) {
+    Vector finish(n, 0.0);
+    add(*derivatives, last, 1.0, finish.data());
+    // Every station's derivatives are those of where its section begins and more; the start, where nothing moved so far,
+    // has had none.
+    derivatives->local.front()[kOwn] = 1.0;
+    for (std::size_t i = 0; i < sections_.size(); ++i)
+      add_scaled(derivatives->starts.row(i), -1.0, finish.data(), n);
+  }
+}
+
+void Transcription::differentiate_shape(const Vector& z, std::size_t p, Shape& out) const {
+  const PanelRule& rule = panel_rule();
+  const Panel& panel = panels_[p];
+  const double scale = panel.scale(z[layout_.length()]);
+  carry_over(p, out.dx);
+  carry_over(p, out.dy);
+  const LocalRow dx_start = at_start(p, out.dx);
+  const LocalRow dy_start = at_start(p, out.dy);
+  const std::size_t start = start_station(p);
+  for (std::size_t q = 0; q <= kNodes; ++q) {
+    const std::size_t at = panel.first + q;
+    LocalRow& dx = out.dx.local[at];
+    LocalRow& dy = out.dy.local[at];
+    dx = dx_start;
+    dy = dy_start;
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const double part = scale * (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
+      const LocalRow& dz = local_dzeta_[panel.first + k];
+      for (const std::size_t j : {kZeta, kFirst, kSecond}) {
+        dx[j] -= part * out.sin[panel.first + k] * dz[j];
+        dy[j] += part * out.cos[panel.first + k] * dz[j];
+      }
+    }
+    if (panel.by_length == 0.0) continue;
+    dx[kLength] += panel.by_length * (out.x[at] - out.x[start]) / scale;
+    dy[kLength] += panel.by_length * (out.y[at] - out.y[start]) / scale;
+  }
+}
+
+Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
+                            double share) const {
+  const PanelRule& rule = panel_rule();
+  const double length = z[layout_.length()];
+  const Station& from = stations_[base];
+  // The piece that lies between the two is that of the later one.
+  const Station& later = stations_[std::max(base, towards)];
+  const Station& to = stations_[towards];
+  Foot foot;
+  foot.base = base;
+  foot.towards = towards;
+  foot.share = share;
+  foot.at = later;
+  foot.at.fixed_length = from.fixed_length + share * (to.fixed_length - from.fixed_length);
+  foot.at.by_length = from.by_length + share * (to.by_length - from.by_length);
+  foot.at.sigma = from.sigma + share * (to.sigma - from.sigma);
+  double curvature_from = 0.0;
+  double curvature_slope = 0.0;
+  if (later.part == Part::core) {
+    const double knot = mesh_.knots[later.piece];
+    const double width = mesh_.knots[later.piece + 1] - knot;
+    foot.at.share = (foot.at.sigma - knot) / width;
+    const double from_share = (from.sigma - knot) / width;
+    const double stretch = this->stretch(z, later.piece);
+    const double c0 = z[layout_.turn(later.piece)] / stretch;
+    const double c1 = z[layout_.turn(later.piece + 1)] / stretch;
+    curvature_from = c0 + (c1 - c0) * from_share + station_turn_[base] / stretch;
+    curvature_slope = (c1 - c0) / (width * stretch);
+    const double gap = (to.sigma - from.sigma) * stretch;
+    if (!fine_.empty() && gap != 0.0) {
+      curvature_slope += (station_turn_[towards] - station_turn_[base]) / (gap * stretch);
+    }
+  }
+  const double ds = foot.at.arc_length(length) - from.arc_length(length);
+  const auto angle = [&](double s) {
+    return shape.zeta[base] - s * (curvature_from + 0.5 * s * curvature_slope);
+  };
+  foot.x = shape.x[base];
+  foot.y = shape.y[base];
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const auto [sine, cosine] = math::sine_cosine(angle(ds * rule.node[k]));
+    foot.x += rule.weight[k] * ds * cosine;
+    foot.y += rule.weight[k] * ds * sine;
+  }
+  const auto [sine, cosine] = math::sine_cosine(angle(ds));
+  foot.cos = cosine;
+  foot.sin = sine;
+  return foot;
+}
+
+Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y) const {
+  std::size_t nearest = 0;
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const double distance = math::hypot(shape.x[i] - target_x, shape.y[i] - target_y);
+    if (distance < least) {
+      least = distance;
+      nearest = i;
+    }
+  }
+  return foot(z, shape, target_x, target_y, nearest);
+}
+
+Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y,
+                         std::size_t nearest) const {
+  const double along =
+      (target_x - shape.x[nearest]) * shape.cos[nearest] + (target_y - shape.y[nearest]) * shape.sin[nearest];
+  const bool forward = along > 0.0;
+  if ((!forward && nearest == 0) || (forward && nearest + 1 == stations_.size())) {
+    Foot foot;
+    foot.at = stations_[nearest];
+    foot.base = nearest;
+    foot.towards = nearest;
+    foot.x = shape.x[nearest];
+    foot.y = shape.y[nearest];
+    foot.sin = shape.sin[nearest];
+    foot.cos = shape.cos[nearest];
+    foot.end = true;
+    return foot;
+  }
+  const std::size_t towards = forward ? nearest + 1 : nearest - 1;
+  const double gap =
+      stations_[towards].arc_length(z[layout_.length()]) - stations_[nearest].arc_length(z[layout_.length()]);
+  double share = std::min(1.0, std::fabs(along / gap));
+  Foot foot = between(z, shape, nearest, towards, share);
+  for (int step = 0; step < 8; ++step) {
+    const double rest = (target_x - foot.x) * foot.cos + (target_y - foot.y) * foot.sin;
+    if (std::fabs(rest) < 1e-15) break;
+    share = std::clamp(share + rest / gap, 0.0, 1.0);
+    foot = between(z, shape, nearest, towards, share);
+  }
+  return foot;
+}
+
+void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const Foot& foot, Vector& dx,
+                                     Vector& dy) const {
+  const PanelRule& rule = panel_rule();
+  const std::size_t n = layout_.size();
+  const double length = z[layout_.length()];
+  const Station& from = stations_[foot.base];
+  dx.assign(n, 0.0);
+  dy.assign(n, 0.0);
+  add(shape.dx, foot.base, 1.0, dx.data());
+  add(shape.dy, foot.base, 1.0, dy.data());
+  const double d_sigma = foot.at.sigma - from.sigma;
+  const double by_length = foot.at.by_length - from.by_length;
+  const double ds = foot.at.arc_length(length) - from.arc_length(length);
+  if (ds == 0.0) return;
+  const std::size_t section = section_of(foot.at.part, foot.at.piece);
+  const std::size_t piece = sections_[section].piece;
+  const double angle = section_angles(z)[section];
+  LocalRow local_dx{};
+  LocalRow local_dy{};
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    Station node = foot.at;
+    node.sigma = from.sigma + d_sigma * rule.node[k];
+    if (node.part == Part::core) {
+      const double knot = mesh_.knots[node.piece];
+      node.share = (node.sigma - knot) / (mesh_.knots[node.piece + 1] - knot);
+    }
+    const LocalRow row = local_dzeta(node);
+    const double zeta = angle + row[kFirst] * z[layout_.turn(piece)] +
+                        row[kSecond] * z[layout_.turn(piece + 1)] + own_angle(node.sigma);
+    const auto [sine, cosine] = math::sine_cosine(zeta);
+    for (const std::size_t j : {kZeta, kFirst, kSecond}) {
+      local_dx[j] -= rule.weight[k] * ds * sine * row[j];
+      local_dy[j] += rule.weight[k] * ds * cosine * row[j];
+    }
+    local_dx[kLength] += rule.weight[k] * by_length * cosine;
+    local_dy[kLength] += rule.weight[k] * by_length * sine;
+  }
+  expand(local_dx, section, nullptr, dx.data());
+  expand(local_dy, section, nullptr, dy.data());
+}
+
+}  // namespace glissade::optimizer
