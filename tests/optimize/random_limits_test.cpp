@@ -214,7 +214,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   Tally tally;
-  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 5 : 15));
+  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 5 : 30));
   for (int i = 0; i < problems; ++i) {
     const Problem problem = with_changing_friction(random_limited(random), random);
     CAPTURE(i);

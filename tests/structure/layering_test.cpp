@@ -328,9 +328,9 @@ TEST_CASE("a limit, a section and a law stand in the files that docs/development
 
 TEST_CASE("every constant of the search says where it comes from") {
   // docs/optimization.md, method; indices and constants of the language apart.
-  static const std::set<std::string> kNames = {"kNodes",    "kOwn",     "kZeta",      "kFirst",
-                                               "kSecond",   "kLength",  "kUnlimited", "kInfinity",
-                                               "kOfLength", "kMeasures"};
+  static const std::set<std::string> kNames = {"kNodes",    "kOwn",      "kZeta",      "kFirst",
+                                               "kSecond",   "kLength",   "kUnlimited", "kInfinity",
+                                               "kOfLength", "kMeasures", "kWear"};
   static const std::regex kConstant(
       R"(^ *(?:static |inline )*constexpr [^=({]*\b(k[A-Z]\w*)(?:\[\d*\])? ?[={])");
   static const std::regex kOrigin(
