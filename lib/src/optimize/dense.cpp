@@ -66,6 +66,18 @@ bool ShiftedCholesky::factor(const Matrix& symmetric, const Vector& diagonal) {
   return true;
 }
 
+ShiftedCholesky ShiftedCholesky::with_one_more(double curvature) const {
+  const std::size_t n = lower_.columns();
+  ShiftedCholesky larger;
+  larger.lower_ = Matrix(n + 1, n + 1);
+  for (std::size_t i = 0; i < n; ++i) std::copy_n(lower_.row(i), n, larger.lower_.row(i));
+  larger.lower_(n, n) = std::sqrt(curvature);
+  larger.inverse_ = inverse_;
+  larger.inverse_.push_back(1.0 / larger.lower_(n, n));
+  larger.shift_ = shift_;
+  return larger;
+}
+
 void ShiftedCholesky::backward(double* x) const {
   for (std::size_t i = lower_.columns(); i-- > 0;) {
     x[i] *= inverse_[i];

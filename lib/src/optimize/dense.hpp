@@ -44,6 +44,8 @@ class ShiftedCholesky {
   ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal, double largest = kLargestShift);
 
   [[nodiscard]] double shift() const { return shift_; }
+  /// The factor with one more unknown, which has this curvature and none in common with the others.
+  [[nodiscard]] ShiftedCholesky with_one_more(double curvature) const;
   /// x := L^-T x: from scaled to original variables
   void backward(double* x) const;
   /// x := L^-1 x: a gradient from original to scaled variables

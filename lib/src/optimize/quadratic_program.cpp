@@ -12,6 +12,9 @@ namespace {
 
 // A row whose part outside the active ones is smaller than this share of it depends on them.
 constexpr double kDependent = 1e-9;  // rounding
+// Of a row of which this share is left by one pass of Gram-Schmidt the rest is orthogonal to rounding.
+// Source: W. Hoffmann, "Iterative algorithms for Gram-Schmidt orthogonalization", Computing 41 (1989) 335-348.
+constexpr double kMuchLeft = 0.5;  // rounding
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// The active rows N = Q R in the metric of H, Q with orthonormal columns, R upper triangular.
@@ -31,15 +34,20 @@ class ActiveBasis {
     split.along.assign(size(), 0.0);
     split.rest = row;
     const std::size_t n = row.size();
-    for (int pass = 0; pass < 2; ++pass) {
+    const double whole = norm(row);
+    // Twice is enough, and once where little is taken away.
+    for (double before = whole; size() > 0;) {
       for (std::size_t j = 0; j < size(); ++j) {
         const double along = dot(q_[j].data(), split.rest.data(), n);
         split.along[j] += along;
         add_scaled(split.rest.data(), -along, q_[j].data(), n);
       }
+      split.rest_norm = norm(split.rest);
+      if (before < whole || split.rest_norm > kMuchLeft * whole) break;
+      before = 0.0;
     }
-    split.rest_norm = norm(split.rest);
-    split.dependent = !(split.rest_norm > kDependent * norm(row));
+    if (size() == 0) split.rest_norm = whole;
+    split.dependent = !(split.rest_norm > kDependent * whole);
     return split;
   }
 

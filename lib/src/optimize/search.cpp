@@ -1,5 +1,7 @@
 #include "optimize/search.hpp"
 
+#include "optimize/elastic_descent.hpp"
+#include "optimize/programs.hpp"
 #include "optimize/quadratic_program.hpp"
 
 #include <algorithm>
@@ -20,6 +22,8 @@ constexpr double kMayMatter = 0.05;  // taste
 constexpr double kBroken = 0.01;  // taste
 // Finer meshes than this are left to our own steps, ...
 constexpr std::size_t kMostForRounds = 48;  // budget
+// ... and so are those on which they ended outside the limits by as much as this.
+constexpr double kContradictory = 1e-2;  // taste
 // Newton steps go on until they are this share of what is asked for.
 constexpr double kArrived = 0.1;  // taste
 // Rows this close to their bound may carry a multiplier, ...
@@ -28,67 +32,6 @@ constexpr double kActive = 1e-6;  // accuracy: ten times that of a limit
 constexpr double kTight = 1e-8;  // accuracy: a tenth of that of a limit
 // Newton steps end there, and what is frozen or drawn has its finish to the nanometre.
 constexpr double kOnFinish = 1e-11;  // accuracy: of conditions that hold exactly, in chords
-
-Matrix jacobian_of(const Rows& rows, const State& state, const std::vector<Row>& set, std::size_t n) {
-  Matrix jacobian(set.size(), n);
-  for (std::size_t i = 0; i < set.size(); ++i) rows.gradient(state, set[i], jacobian.row(i));
-  return jacobian;
-}
-
-Vector values_of(const Rows& rows, const State& state, const std::vector<Row>& set) {
-  Vector values(set.size());
-  for (std::size_t i = 0; i < set.size(); ++i) values[i] = rows.value(state, set[i]);
-  return values;
-}
-
-double greatest_of(const Vector& values) {
-  double greatest = 0.0;
-  for (const double value : values) greatest = std::max(greatest, value);
-  return greatest;
-}
-
-double greatest_size(const Vector& values) {
-  double greatest = 0.0;
-  for (const double value : values) greatest = std::max(greatest, std::fabs(value));
-  return greatest;
-}
-
-void add_squares(Matrix& hessian, double factor, const Matrix& rows) {
-  const std::size_t n = hessian.columns();
-  for (std::size_t e = 0; e < rows.rows(); ++e) {
-    const double* row = rows.row(e);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (row[i] != 0.0) add_scaled(hessian.row(i), factor * row[i], row, n);
-    }
-  }
-}
-
-/// A metric in which the Lagrangian's Hessian is the identity; convex by adding squares, of the equality rows
-/// and where that is not enough of the rows that carry multipliers too, which changes no step that keeps
-/// them; and by a shift if that will not do either.
-ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality, const Matrix& carrying) {
-  constexpr double kPenalties[] = {10.0, 100.0, 1e3};  // taste
-  constexpr double kLittle = 1e-5;                     // taste
-  const std::size_t n = hessian.columns();
-  Vector diagonal(n);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::fabs(hessian(i, i)));
-  for (std::size_t i = 0; i < n; ++i) diagonal[i] = std::max(std::fabs(hessian(i, i)), 1e-12 * largest);
-  const bool carries = carrying.rows() > 0;
-  ShiftedCholesky best;
-  for (const bool with_carrying : {false, true}) {
-    if (with_carrying && !carries) break;
-    for (const double penalty : kPenalties) {
-      Matrix convex = hessian;
-      add_squares(convex, penalty, equality);
-      if (with_carrying) add_squares(convex, penalty, carrying);
-      const bool last = with_carrying == carries && penalty == kPenalties[2];
-      best = ShiftedCholesky(convex, diagonal, last ? ShiftedCholesky::kLargestShift : kLittle);
-      if (best.shift() <= kLittle) return best;
-    }
-  }
-  return best;
-}
 
 /// An objective without bound and rows that say nothing.
 void reject(Sample& out, std::size_t n, std::size_t equalities, std::size_t inequalities) {
@@ -150,7 +93,7 @@ class Minimiser {
     point_ = linearised(rows_->state(start, true));
     set_metric(point_, Multipliers{});
     set_solution(point_, carried_over(known));
-    point_ = point(std::move(point_.state), point_.next);
+    renew(point_);
     outlook.step = point_.solution.step;
     outlook.force.assign(n_, 0.0);
     if (!solved(point_)) return outlook;
@@ -168,13 +111,6 @@ class Minimiser {
   }
 
  private:
-  /// Multipliers with the rows that they belong to.
-  struct Multipliers {
-    Vector equality;
-    std::vector<Row> active;
-    Vector inequality;
-  };
-
   /// A point of the search, with the quadratic program there and its solution.
   struct Point {
     State state;
@@ -194,7 +130,7 @@ class Minimiser {
     }
     point_ = point(rows_->state(start, true), Multipliers{});
     // With the multipliers of the first program the curvature is that of the Lagrangian.
-    point_ = point(std::move(point_.state), point_.next);
+    renew(point_);
   }
 
   /// The multipliers of an optimum on another mesh, at the rows closest to theirs.
@@ -309,6 +245,13 @@ class Minimiser {
     point.distance = point.solution.length / norm(gradient);
   }
 
+  /// The program once more, with the curvature that belongs to its multipliers.
+  void renew(Point& point) const {
+    const Multipliers known = std::move(point.next);
+    set_metric(point, known);
+    set_solution(point, known);
+  }
+
   [[nodiscard]] static bool solved(const Point& point) {
     return point.solution.status == QuadraticSolution::Status::solved;
   }
@@ -325,7 +268,7 @@ class Minimiser {
 
   /// Whether a round of NLopt is worth what it costs: with the cube of the unknowns and all rows nearby.
   [[nodiscard]] bool may_descend() const {
-    return track_->mesh().fine.empty() && track_->mesh().knots.size() <= kMostForRounds;
+    return !is_contradictory_ && track_->mesh().fine.empty() && track_->mesh().knots.size() <= kMostForRounds;
   }
 
   [[nodiscard]] bool is_coarse() const { return track_->mesh().knots.size() < kCoarse; }
@@ -334,25 +277,27 @@ class Minimiser {
   void approach() {
     constexpr double kNear = 0.5;  // taste
     if (control_.stop()) stopped_ = true;
-    if (stopped_ || !solved(point_) || has_arrived(point_)) return;
-    if (point_.distance <= kNear) {
-      take_steps();
-      if (!solved(point_) || has_arrived(point_)) return;
-    }
-    Point begun = point_;
-    take_steps();
-    if (has_arrived(point_)) return;
-    if (is_guessed_) {
-      // Multipliers of another mesh may be no good guess.
-      begin(begun.state.z, nullptr);
-      begun = point_;
+    if (stopped_ || has_arrived(point_)) return;
+    if (solved(point_) && point_.distance <= kNear) {
       take_steps();
       if (has_arrived(point_)) return;
     }
+    Point begun = point_;
+    if (solved(point_)) {
+      take_steps();
+      if (has_arrived(point_)) return;
+      if (is_guessed_) {
+        // Multipliers of another mesh may be no good guess.
+        begin(begun.state.z, nullptr);
+        begun = point_;
+        take_steps();
+        if (has_arrived(point_)) return;
+      }
+    }
     point_ = begun;
-    if (has_tried_lowering_) return;
-    has_tried_lowering_ = true;
-    take_lowering_steps();
+    if (has_tried_elastic_) return;
+    has_tried_elastic_ = true;
+    take_elastic_steps();
     if (!has_arrived(point_)) point_ = begun;
   }
 
@@ -365,51 +310,24 @@ class Minimiser {
     }
   }
 
-  /// Where no step gets shorter: steps that lower the objective and the greatest violation, at a price above the sum
-  /// of the multipliers. They lead to the optimum from further away, and on a fine mesh cost a tenth of a round of
-  /// NLopt.
-  void take_lowering_steps() {
-    constexpr int kMostSteps = 25;  // budget
-    double price = 0.0;
-    for (int step = 0; step < kMostSteps; ++step) {
-      if (!advance() && !lower(price)) return;
-      if (!solved(point_) || has_arrived(point_)) return;
+  /// Where no step gets shorter: from further away, and on a fine mesh at a tenth of the cost of a round of NLopt.
+  void take_elastic_steps() {
+    constexpr int kMostTimes = 4;      // budget
+    constexpr double kNear = 1e-4;     // taste
+    constexpr double kNearer = 1e-2;   // taste
+    double near = kNear;
+    for (int time = 0; time < kMostTimes; ++time) {
+      const ElasticEnd end =
+          descend_elastically(*rows_, *track_, point_.state.z, point_.next, near, control_);
       if (control_.stop()) stopped_ = true;
-      if (stopped_) return;
+      is_contradictory_ = end.violation > kContradictory;
+      if (stopped_ || end.z == point_.state.z) return;
+      point_ = point(rows_->state(end.z, true), end.multipliers);
+      if (!solved(point_) || has_arrived(point_)) return;
+      take_steps();
+      if (!solved(point_) || has_arrived(point_) || point_.distance > kNear) return;
+      near = kNearer * point_.distance;
     }
-  }
-
-  /// @param price  raised as needed
-  [[nodiscard]] bool lower(double& price) {
-    constexpr double kAbove = 2.0;       // theory: above 1, the sum of multipliers
-    constexpr double kKept = 1e-4;       // of what the step promises; theory: small and positive, Armijo
-    constexpr double kLeastPart = 1e-3;  // budget
-    double sum = 0.0;
-    for (const double multiplier : point_.next.equality) sum += std::fabs(multiplier);
-    for (const double multiplier : point_.next.inequality) sum += multiplier;
-    price = std::max(price, kAbove * sum);
-    const Vector& step = point_.solution.step;
-    const double promised =
-        price * violation_of(point_.state) - dot(point_.program.gradient.data(), step.data(), n_);
-    const double now = rows_->objective(point_.state) + price * violation_of(point_.state);
-    if (!(promised > 0.0)) return false;
-    for (double part = 1.0; part > kLeastPart; part *= 0.5) {
-      Vector z = point_.state.z;
-      add_scaled(z.data(), part, step.data(), n_);
-      if (!track_->is_track(z)) continue;
-      ++control_.evaluations;
-      const State there = rows_->state(z, false);
-      if (!(rows_->objective(there) + price * violation_of(there) < now - kKept * part * promised)) continue;
-      const Multipliers known = point_.next;
-      point_ = point(rows_->state(z, true), known);
-      return true;
-    }
-    return false;
-  }
-
-  [[nodiscard]] double violation_of(const State& state) const {
-    return std::max(greatest_size(rows_->equality_values(state)),
-                    greatest_of(values_of(*rows_, state, rows_->candidates(state, 0.0))));
   }
 
   /// The part of the step after which the next one, in the same metric, is shorter.
@@ -418,6 +336,9 @@ class Minimiser {
   [[nodiscard]] bool advance() {
     constexpr double kParts[] = {1.0, 0.5, 0.2};  // taste
     constexpr double kShorter = 0.3;              // theory: below 1, the natural monotonicity test
+    // A metric that makes the steps this much shorter is kept: another would cost more than a step.
+    constexpr double kFast = 0.1;   // taste
+    constexpr double kClose = 1e-3;  // taste
     for (const double part : kParts) {
       Vector z = point_.state.z;
       add_scaled(z.data(), part, point_.solution.step.data(), n_);
@@ -428,11 +349,10 @@ class Minimiser {
       set_solution(next, point_.next);
       if (!solved(next)) continue;
       if (next.distance > (1.0 - kShorter * part) * point_.distance && !has_arrived(next)) continue;
+      const bool is_fast = point_.distance < kClose && next.distance < kFast * point_.distance;
       point_ = std::move(next);
-      if (has_arrived(point_)) return true;
-      const Multipliers known = point_.next;
-      set_metric(point_, known);
-      set_solution(point_, known);
+      if (is_fast || has_arrived(point_)) return true;
+      renew(point_);
       return true;
     }
     return false;
@@ -505,8 +425,8 @@ class Minimiser {
       if (repeat < kMostRepeats && !stopped_) add_broken(end, set);
       if (set.size() > known) continue;
       // Twice: the second time with the curvature of the first one's multipliers.
-      Point next = point(std::move(end), point_.next);
-      point_ = point(std::move(next.state), next.next);
+      point_ = point(std::move(end), point_.next);
+      renew(point_);
       return;
     }
   }
@@ -562,7 +482,8 @@ class Minimiser {
   std::size_t n_;
   Point point_;
   bool is_guessed_ = false;  ///< the multipliers of the first point are of another mesh
-  bool has_tried_lowering_ = false;
+  bool has_tried_elastic_ = false;
+  bool is_contradictory_ = false;  ///< on this mesh, as far as steps of our own can tell
   bool stopped_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -169,17 +170,17 @@ Candidate Searcher::search(const Passages& passages) {
   Candidate candidate = begun(passages);
   const ScaledProblem& scaled_problem = *candidate.problem;
   const bool unlimited = is_unlimited();
-  // Clipped slopes are often the unclipped ones: what led nowhere is not tried twice.
-  std::vector<GuessCurve> lost;
+  // Clipped slopes are often the unclipped ones: what did not do is not tried twice, unless limits were tightened on
+  // the way.
+  std::vector<std::pair<GuessCurve, Vector>> tried;
   for (const GuessCurve& start : starts(scaled_problem)) {
-    if (std::find(lost.begin(), lost.end(), start) != lost.end()) continue;
+    const std::pair<GuessCurve, Vector> trial(start, margins_);
+    if (std::find(tried.begin(), tried.end(), trial) != tried.end()) continue;
+    tried.push_back(trial);
     std::optional<Found> found =
         unlimited ? from_exact(scaled_problem, start) : coarse(scaled_problem, start);
     if (control_.stop()) candidate.stopped = true;
-    if (!found) lost.push_back(start);
     if (!found) continue;
-    // It tightens the limits, with which a start must be tried anew.
-    lost.clear();
     refine(candidate, *found, unlimited);
     // A track that keeps the limits, but is no optimum, may have lost its way: the next start is tried too.
     const bool converged = candidate.kept && candidate.found->residual <= options_.tolerance;
@@ -298,6 +299,8 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
     if (!next.feasible(kNearlyFeasible) && (next.stopped || found.feasible(kNearlyFeasible))) {
       // A mesh on which the search gets lost is no reason to give a track away.
       found.stopped = next.stopped;
+      // On a mesh that the same track lays once more it ends where it has ended.
+      while (level + 1 < levels.size() && levels[level + 1] == levels[level]) ++level;
       continue;
     }
     constexpr double kLess = 0.7;  // taste
