@@ -1,11 +1,13 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/many_angles.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/vec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -50,12 +52,17 @@ Vec2 arc_displacement(double zeta, double kappa, double distance) {
 Vec2 clothoid_displacement(double zeta, double kappa, double rate, double distance) {
   using Rule = boost::math::quadrature::gauss<double, kGaussPoints>;
   const double half = 0.5 * distance;
+  const auto& abscissa = Rule::abscissa();
+  constexpr std::size_t kPairs = (kGaussPoints + 1) / 2;
+  std::array<double, 2 * kPairs> angle, sine, cosine;
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    angle[2 * i] = slope_after(zeta, kappa, rate, half - half * abscissa[i]);
+    angle[2 * i + 1] = slope_after(zeta, kappa, rate, half + half * abscissa[i]);
+  }
+  math::sines_cosines(angle, sine, cosine);
   Vec2 mean;
-  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-    const double offset = half * Rule::abscissa()[i];
-    const auto before = math::sine_cosine(slope_after(zeta, kappa, rate, half - offset));
-    const auto after = math::sine_cosine(slope_after(zeta, kappa, rate, half + offset));
-    const Vec2 pair{before.cosine + after.cosine, before.sine + after.sine};
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    const Vec2 pair{cosine[2 * i] + cosine[2 * i + 1], sine[2 * i] + sine[2 * i + 1]};
     mean = mean + Rule::weights()[i] * pair;
   }
   return half * mean;

@@ -1,5 +1,6 @@
 // Where a track runs, the point of it that is closest to another, and the derivatives of both.
 
+#include "glissade/core/many_angles.hpp"
 #include "glissade/core/math.hpp"
 
 #include "optimize/quadrature.hpp"
@@ -28,11 +29,9 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   const Vector angles = section_angles(z);
   for (std::size_t i = 0; i < count; ++i) {
     out.zeta[i] = angle_at(z, angles, i);
-    const auto [sine, cosine] = math::sine_cosine(out.zeta[i]);
-    out.sin[i] = sine;
-    out.cos[i] = cosine;
     out.curvature[i] = curvature(z, i);
   }
+  math::sines_cosines(out.zeta, out.sin, out.cos);
   out.dx = derivatives ? no_derivatives() : Derivatives{};
   out.dy = out.dx;
   for (std::size_t p = 0; p < panels_.size(); ++p) {
@@ -141,14 +140,16 @@ Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t bas
   };
   foot.x = shape.x[base];
   foot.y = shape.y[base];
+  std::array<double, kNodes + 1> angles, sine, cosine;
+  for (std::size_t k = 0; k < kNodes; ++k) angles[k] = angle(ds * rule.node[k]);
+  angles[kNodes] = angle(ds);
+  math::sines_cosines(angles, sine, cosine);
   for (std::size_t k = 0; k < kNodes; ++k) {
-    const auto [sine, cosine] = math::sine_cosine(angle(ds * rule.node[k]));
-    foot.x += rule.weight[k] * ds * cosine;
-    foot.y += rule.weight[k] * ds * sine;
+    foot.x += rule.weight[k] * ds * cosine[k];
+    foot.y += rule.weight[k] * ds * sine[k];
   }
-  const auto [sine, cosine] = math::sine_cosine(angle(ds));
-  foot.cos = cosine;
-  foot.sin = sine;
+  foot.cos = cosine[kNodes];
+  foot.sin = sine[kNodes];
   return foot;
 }
 
