@@ -29,6 +29,11 @@ class Matrix {
 [[nodiscard]] double dot(const double* a, const double* b, std::size_t n);
 /// y += k a
 void add_scaled(double* y, double k, const double* a, std::size_t n);
+/// Several at once, which share what they load: out[i] = dot(rows[i], b), to the same bits.
+void dots(std::span<const double* const> rows, const double* b, std::size_t n, double* out);
+/// y += sum of k[i] rows[i], in their order
+void add_scaled_rows(double* y, std::span<const double> k, std::span<const double* const> rows,
+                     std::size_t n);
 /// matrix += factor (a b^T + b a^T)
 void add_symmetric(Matrix& matrix, double factor, const Vector& a, const Vector& b);
 [[nodiscard]] double norm(const Vector& a);

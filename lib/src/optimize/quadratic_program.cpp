@@ -35,18 +35,21 @@ class ActiveBasis {
     split.rest = row;
     const std::size_t n = row.size();
     const double whole = norm(row);
+    split.rest_norm = whole;
+    std::vector<const double*> basis;
+    for (const Vector& q : q_) basis.push_back(q.data());
     // Twice is enough, and once where little is taken away.
-    for (double before = whole; size() > 0;) {
+    for (int pass = 0; pass < 2 && size() > 0; ++pass) {
+      Vector along(size());
+      dots(basis, split.rest.data(), n, along.data());
       for (std::size_t j = 0; j < size(); ++j) {
-        const double along = dot(q_[j].data(), split.rest.data(), n);
-        split.along[j] += along;
-        add_scaled(split.rest.data(), -along, q_[j].data(), n);
+        split.along[j] += along[j];
+        along[j] = -along[j];
       }
+      add_scaled_rows(split.rest.data(), along, basis, n);
       split.rest_norm = norm(split.rest);
-      if (before < whole || split.rest_norm > kMuchLeft * whole) break;
-      before = 0.0;
+      if (split.rest_norm > kMuchLeft * whole) break;
     }
-    if (size() == 0) split.rest_norm = whole;
     split.dependent = !(split.rest_norm > kDependent * whole);
     return split;
   }
@@ -222,10 +225,15 @@ class DualMethod {
                                                 double& value) const {
     const Vector d = step();
     std::vector<std::size_t> rows;
+    std::vector<const double*> jacobian;
+    for (const std::size_t i : among) jacobian.push_back(program_.inequality.row(i));
+    Vector along(among.size());
+    dots(jacobian, d.data(), d.size(), along.data());
     value = program_.tolerance;
-    for (const std::size_t i : among) {
+    for (std::size_t k = 0; k < among.size(); ++k) {
+      const std::size_t i = among[k];
       if (is_active_[i]) continue;
-      const double there = dot(program_.inequality.row(i), d.data(), d.size()) + program_.inequality_value[i];
+      const double there = along[k] + program_.inequality_value[i];
       if (!(there > program_.tolerance)) continue;
       rows.push_back(i);
       if (there <= value) continue;
