@@ -1,13 +1,17 @@
 // The library's elementary functions against the C library's in extended precision.
 
+#include "glissade/core/many_angles.hpp"
 #include "glissade/core/math.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 using namespace glissade;
 
@@ -92,6 +96,28 @@ TEST_CASE("sine and cosine asked for together are those asked for alone") {
     const auto [sine, cosine] = math::sine_cosine(angle);
     CHECK(sine == math::sin(angle));
     CHECK(cosine == math::cos(angle));
+  }
+}
+
+TEST_CASE("sines and cosines of many angles are those of each, whatever stands beside it") {
+  testing::Random random = testing::seeded_random();
+  for (const std::size_t count : {0, 1, 2, 7, 1000}) {
+    std::vector<double> angles(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double widths[] = {1e-9, 0.5, 3.0, 10.0, 20.0, 1e6};
+      const double width = widths[static_cast<std::size_t>(random.between(0.0, 6.0)) % 6];
+      angles[i] = random.between(-width, width);
+    }
+    if (count > 2) angles[2] = std::numeric_limits<double>::infinity();
+    std::vector<double> sines(count);
+    std::vector<double> cosines(count);
+    math::sines_cosines(angles, sines, cosines);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [sine, cosine] = math::sine_cosine(angles[i]);
+      CAPTURE(angles[i]);
+      CHECK(std::bit_cast<std::uint64_t>(sines[i]) == std::bit_cast<std::uint64_t>(sine));
+      CHECK(std::bit_cast<std::uint64_t>(cosines[i]) == std::bit_cast<std::uint64_t>(cosine));
+    }
   }
 }
 

@@ -203,3 +203,30 @@ TEST_CASE("quadratic program: rows that contradict each other are called so") {
     CHECK(solve(equalities, metric).status == QuadraticSolution::Status::contradictory);
   }
 }
+
+TEST_CASE("dense sums of several rows at once have the bits of one after the other") {
+  testing::Random random = testing::seeded_random();
+  for (std::size_t n = 0; n <= 13; ++n) {
+    for (std::size_t count = 0; count <= 9; ++count) {
+      std::vector<Vector> rows(count, Vector(n));
+      Vector factors(count);
+      Vector other(n);
+      for (Vector& row : rows) {
+        for (double& entry : row) entry = random.between(-1.0, 1.0);
+      }
+      for (double& factor : factors) factor = random.between(-1.0, 1.0);
+      for (double& entry : other) entry = random.between(-1.0, 1.0);
+      std::vector<const double*> places;
+      for (const Vector& row : rows) places.push_back(row.data());
+      Vector together(count);
+      dots(places, other.data(), n, together.data());
+      Vector alone(count);
+      for (std::size_t i = 0; i < count; ++i) alone[i] = dot(rows[i].data(), other.data(), n);
+      CHECK(together == alone);
+      Vector one_by_one = other;
+      for (std::size_t i = 0; i < count; ++i) add_scaled(one_by_one.data(), factors[i], rows[i].data(), n);
+      add_scaled_rows(other.data(), factors, places, n);
+      CHECK(other == one_by_one);
+    }
+  }
+}

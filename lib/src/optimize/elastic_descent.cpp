@@ -42,7 +42,9 @@ class ElasticDescent {
         known_(std::move(known)) {
     state_ = rows_.state(z, true);
     violation_ = violation_of(state_);
-    price_ = std::min(price_above(known_), kHighestPrice);
+    // Multipliers of a program that contradicts itself grow without bound: a curvature made of them stops every step.
+    if (price_above(known_) > kHighestPrice) known_ = Multipliers{};
+    price_ = price_above(known_);
   }
 
   [[nodiscard]] ElasticEnd run() {
@@ -89,7 +91,8 @@ class ElasticDescent {
     constexpr double kHardly = 0.95;  // taste
     const double least = stiffness_ > 0.0 ? kNotWorth : kSettled;
     if (!(promised > least * (1.0 + std::fabs(rows_.objective(state_))))) return true;
-    return is_elastic_ && stiffness_ <= kSoftest * price_ && violation_ > kBroken && step_.t > kHardly * violation_;
+    const bool lowers = step_.t < kHardly * violation_ || promised > (1.0 - kHardly) * price_ * violation_;
+    return is_elastic_ && stiffness_ <= kSoftest * price_ && violation_ > kBroken && !lowers;
   }
 
   void linearise() {

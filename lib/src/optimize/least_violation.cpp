@@ -1,5 +1,6 @@
 #include "optimize/least_violation.hpp"
 
+#include "optimize/programs.hpp"
 #include "optimize/quadratic_program.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ class Search {
         rows_(std::make_shared<Rows>(problem, *track_)),
         problem_(problem),
         n_(track_->layout().size()),
-        shape_metric_(metric_of_shape()) {
+        shape_metric_(shape_metric(*track_)) {
     rows_->set_margins(margins);
   }
 
@@ -88,21 +89,6 @@ class Search {
       if (!advance(promised) && price_ > kHighestPrice) return false;
     }
     return false;
-  }
-
-  /// Distances in the slope angle itself, and in the length: the least change of shape.
-  [[nodiscard]] Matrix metric_of_shape() const {
-    const std::vector<Station>& stations = track_->stations();
-    Vector weights(stations.size(), 0.0);
-    for (std::size_t i = 1; i < stations.size(); ++i) {
-      weights[i] = stations[i].arc_length(1.0) - stations[i - 1].arc_length(1.0);
-    }
-    Matrix gram = track_->gram_of_dzeta(weights);
-    const std::size_t at_length = track_->layout().length();
-    gram(at_length, at_length) = 1.0;
-    constexpr double kStiffening = 1e-4;  // taste
-    for (std::size_t i = 0; i < n_; ++i) gram(i, i) *= 1.0 + kStiffening;
-    return gram;
   }
 
   /// The t by which the rows would have to give way at a state; 0 if all are kept.

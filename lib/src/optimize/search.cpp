@@ -298,7 +298,7 @@ class Minimiser {
     if (has_tried_elastic_) return;
     has_tried_elastic_ = true;
     take_elastic_steps();
-    if (!has_arrived(point_)) point_ = begun;
+    if (!has_arrived(point_) && !(solved(point_) && is_progress(begun))) point_ = begun;
   }
 
   void take_steps() {
@@ -312,22 +312,39 @@ class Minimiser {
 
   /// Where no step gets shorter: from further away, and on a fine mesh at a tenth of the cost of a round of NLopt.
   void take_elastic_steps() {
-    constexpr int kMostTimes = 4;      // budget
-    constexpr double kNear = 1e-4;     // taste
-    constexpr double kNearer = 1e-2;   // taste
+    constexpr int kMostTimes = 4;     // budget
+    constexpr double kNear = 1e-4;    // taste
+    constexpr double kNearer = 1e-2;  // taste
+    constexpr double kPays = 1e-4;    // taste: of the objective
     double near = kNear;
     for (int time = 0; time < kMostTimes; ++time) {
+      const double before = rows_->objective(point_.state);
       const ElasticEnd end =
           descend_elastically(*rows_, *track_, point_.state.z, point_.next, near, control_);
       if (control_.stop()) stopped_ = true;
       is_contradictory_ = end.violation > kContradictory;
-      if (stopped_ || end.z == point_.state.z) return;
+      if (stopped_ || is_contradictory_ || end.z == point_.state.z) return;
       point_ = point(rows_->state(end.z, true), end.multipliers);
       if (!solved(point_) || has_arrived(point_)) return;
       take_steps();
-      if (!solved(point_) || has_arrived(point_) || point_.distance > kNear) return;
-      near = kNearer * point_.distance;
+      if (!solved(point_) || has_arrived(point_)) return;
+      const bool is_near = point_.distance <= kNear;
+      if (!is_near && !(rows_->objective(point_.state) < before - kPays * std::fabs(before))) return;
+      if (is_near) near = kNearer * point_.distance;
     }
+  }
+
+  [[nodiscard]] double violation_of(const State& state) const {
+    return std::max(greatest_size(rows_->equality_values(state)),
+                    greatest_of(values_of(*rows_, state, rows_->candidates(state, 0.0))));
+  }
+
+  /// Whether a point is to be kept that is no optimum: it is the better one, and breaks limits no more.
+  [[nodiscard]] bool is_progress(const Point& from) const {
+    if (!track_->is_track(point_.state.z)) return false;
+    const double broken = violation_of(point_.state);
+    return broken <= std::max(control_.limit_tolerance, violation_of(from.state)) &&
+           rows_->objective(point_.state) < rows_->objective(from.state);
   }
 
   /// The part of the step after which the next one, in the same metric, is shorter.
@@ -373,8 +390,7 @@ class Minimiser {
   /// First-order optimality of the point, from the rows that are tight there.
   void judge(Found& found) const {
     const State& state = point_.state;
-    found.violation = std::max(greatest_size(point_.program.equality_value),
-                               greatest_of(values_of(*rows_, state, rows_->candidates(state, 0.0))));
+    found.violation = violation_of(state);
     if (!track_->is_track(state.z) || !std::isfinite(rows_->objective(state))) found.violation = HUGE_VAL;
     if (has_arrived(point_)) {
       found.residual = point_.distance;

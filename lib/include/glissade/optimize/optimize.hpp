@@ -118,8 +118,8 @@ struct Optimum {
 /// The fastest track that keeps every limit.
 ///
 /// Method: docs/optimization.md. The track is a clothoid spline; curvature at its knots, entry slope angle
-///   and length are the unknowns; gradients are exact; NLopt's SLSQP minimises on a coarse mesh, Newton steps
-///   carry its optimum to finer ones, and SLSQP goes on where they do not arrive. All of it in units of chord
+///   and length are the unknowns; gradients are exact; sequential quadratic programs minimise on a coarse mesh and
+///   carry its optimum to finer ones, and NLopt's SLSQP goes on where they do not arrive. All of it in units of chord
 ///   and sqrt(chord/gravity), so that tracks of any size take the same path. Needs no guess, is deterministic
 ///   but for the time budget.
 /// Accuracy: without limits kOptimizeAccuracy relative in travel time at the default pieces, never below the
