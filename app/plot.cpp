@@ -1,6 +1,8 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/flights.hpp"
 #include "glissade/report/figure.hpp"
 #include "glissade/report/figure_png.hpp"
 #include "glissade/report/report.hpp"
@@ -80,6 +82,35 @@ void add_envelope(Figure& figure, const Design& design, const Track& track) {
   }
 }
 
+/// A stream in the air with its thickness, its hood, and the pulley that feeds it.
+void add_surroundings(Figure& figure, const Design& given, const Track& track) {
+  const Design design = as_solved(given, track);
+  const auto add = [&](const char* name, const std::vector<Vec2>& points, bool dashed) {
+    FigureLine line{name, {}, {}, dashed};
+    for (const Vec2 point : points) {
+      line.xs.push_back(point.x);
+      line.ys.push_back(point.y);
+    }
+    figure.lines.push_back(std::move(line));
+  };
+  if (design.hood) add("hood", hood_line(design, track), false);
+  bool named = false;
+  for (const StreamFlight& flight : stream_flights(design, track)) {
+    add(named ? "" : "stream in the air", flight.path, true);
+    add("", flight.beyond, true);
+    named = true;
+  }
+  if (!design.feed || design.feed->kind != FeedKind::belt) return;
+  const Vec2 pulley = feed_fall(design).pulley;
+  std::vector<Vec2> circle;
+  constexpr int kSides = 48;
+  for (int i = 0; i <= kSides; ++i) {
+    const double turn = 4.0 * kRightAngle * i / kSides;
+    circle.push_back(pulley + design.feed->pulley_radius * Vec2{math::cos(turn), math::sin(turn)});
+  }
+  add("head pulley", circle, false);
+}
+
 Figure figure_of(RideQuantity quantity, const Design& design, const Track& track) {
   const std::string kind = track.search ? searched_name(design) : std::string(word(design.centerline.kind));
   std::vector<FigureRide> rides = {{kind, &track.motion}};
@@ -89,6 +120,7 @@ Figure figure_of(RideQuantity quantity, const Design& design, const Track& track
   }
   if (track.straight && kind != "straight") rides.push_back({"straight line", &*track.straight, true});
   Figure figure = ride_figure(quantity, rides);
+  add_surroundings(figure, design, track);
   add_envelope(figure, design, track);
   add_keep_outs(figure, as_solved(design, track));
   return figure;

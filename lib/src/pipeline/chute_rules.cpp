@@ -4,9 +4,11 @@
 
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/design/materials.hpp"
 #include "glissade/design/stream_channel.hpp"
+#include "glissade/pipeline/flights.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
 #include "pipeline/extremes.hpp"
@@ -26,7 +28,8 @@ class WorstCase {
   explicit WorstCase(double sign) : sign_(sign) {}
 
   /// @param part  where, if not along the track
-  void see(double value, std::optional<double> arc_length, const ChuteCase& of, const char* part = "") {
+  void see(double value, std::optional<double> arc_length, const ChuteCase& of,
+           const std::string& part = "") {
     // Of equals the last, which is the largest flow: at the start all are as fast as they enter.
     if (value_ && sign_ * value < sign_ * *value_) return;
     value_ = value;
@@ -179,6 +182,28 @@ void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases
   match.set_in(measurements, "belt_match");
 }
 
+/// Streams in the air are no track: no search keeps them clear of anything.
+void measure_air(const Design& design, const Track& track, const std::vector<ChuteCase>& cases,
+                 Measurements& measurements) {
+  std::optional<HoodPassage> nominal;
+  if (design.hood) nominal.emplace(hood_passage(design, track.motion.body()));
+  WorstCase closest(-1.0);
+  std::size_t obstacles = 0;
+  for (const ChuteCase& run : cases) {
+    const auto flights =
+        stream_flights(design, run.motion, nominal ? &*nominal : nullptr, run.hood ? &*run.hood : nullptr);
+    const auto approaches = flight_approaches(design, flights);
+    obstacles = std::max(obstacles, approaches.size());
+    for (const FlightApproach& near : approaches) {
+      closest.see(near.margin(), {}, run,
+                  std::string(to_text(near.kind)) + " by " + near.limit + ", " + length_text(near.at.x) +
+                      " out and " + length_text(-near.at.y) + " below the start, ");
+    }
+  }
+  measurements.set("obstacles_by_flights", static_cast<double>(obstacles));
+  closest.set_in(measurements, "air_clearance");
+}
+
 /// The speed that the material or its liner stands; none if nothing is known.
 std::optional<double> speed_cap(const Design& design) {
   if (!design.stream->material) return {};
@@ -304,6 +329,7 @@ void measure_chute(const Design& design, const Track& track, Measurements& measu
   measure_motion(design, cases, measurements);
   measure_feed(design, cases, measurements);
   measure_discharge(design, cases, measurements);
+  measure_air(design, track, cases, measurements);
   measure_speed(design, cases, measurements);
   measure_channel(design, track, measurements);
 }

@@ -3,6 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
+#include "glissade/pipeline/flights.hpp"
 #include "glissade/pipeline/probes.hpp"
 #include "glissade/pipeline/rules.hpp"
 
@@ -149,67 +150,32 @@ std::vector<ReportLimit> limits_of(const Track& track) {
   return report_limits(track.limit_checks, track.search ? track.search->active : std::vector<ActiveLimit>{});
 }
 
-/// A parabola from a point with a velocity, downwards positive.
-ReportFlight flight_from(const char* name, Vec2 from, Vec2 velocity, double time, double gravity) {
-  constexpr int kPieces = 24;
-  ReportFlight flight{name, {}};
-  for (int i = 0; i <= kPieces; ++i) {
-    const double t = time * i / kPieces;
-    flight.points.push_back({from.x + velocity.x * t, from.y - velocity.y * t - 0.5 * gravity * t * t});
-  }
-  return flight;
-}
-
-/// The underside of a hood, and the fall from it.
-void add_hood(const HoodPassage& hood, Vec2 met, double gravity, std::vector<ReportFlight>& flights) {
-  constexpr int kPieces = 48;
-  const Motion& ride = hood.motion;
-  const Centerline& arc = ride.centerline();
-  ReportFlight underside{"the hood", {}};
-  for (int i = 0; i <= kPieces; ++i) {
-    const CenterlinePoint at = arc.at(std::min(arc.length(), arc.length() * i / kPieces));
-    underside.points.push_back({met.x + at.x, met.y - at.drop});
-  }
-  flights.push_back(std::move(underside));
-  const CenterlinePoint leaves = arc.at(ride.distance());
-  const double speed = ride.exit_speed();
-  flights.push_back(
-      flight_from("from the hood to the track", {met.x + leaves.x, met.y - leaves.drop},
-                  {speed * math::cos(leaves.slope_angle), speed * math::sin(leaves.slope_angle)},
-                  hood.fall_time, gravity));
+/// In the heights of the site.
+std::vector<Vec2> at_height(std::vector<Vec2> points, double height) {
+  for (Vec2& point : points) point.y += height;
+  return points;
 }
 
 }  // namespace
 
 std::vector<Vec2> flight_to_belt(const Design& design, const Motion& motion) {
-  if (!design.discharge || !motion.arrived()) return {};
-  const BeltLanding landing = belt_landing(design, motion);
-  const Centerline& centerline = motion.centerline();
-  const CenterlinePoint end = centerline.at(centerline.length());
-  const double speed = motion.exit_speed();
-  return flight_from("", {end.x, design.track.start.z - end.drop},
-                     {speed * math::cos(end.slope_angle), speed * math::sin(end.slope_angle)}, landing.time,
-                     design.gravity)
-      .points;
+  for (const StreamFlight& flight : stream_flights(design, motion, nullptr, nullptr)) {
+    if (flight.kind == FlightKind::to_belt) return at_height(flight.path, design.track.start.z);
+  }
+  return {};
 }
 
 std::vector<ReportFlight> flights_of(const Design& design, const Track& track) {
-  std::vector<ReportFlight> flights;
   const double height = track.placement.start().z;
-  const double g = design.gravity;
-  if (design.feed) {
-    const FeedFall fall = feed_fall(design);
-    const double ahead = fall.time > 0.0 ? fall.reach / fall.time : 0.0;
-    const double sinks = fall.time > 0.0 ? fall.height / fall.time - 0.5 * g * fall.time : 0.0;
-    const std::optional<HoodPassage> hood =
-        design.hood ? std::optional(hood_passage(design, track.motion.body())) : std::nullopt;
-    const Vec2 met = hood ? Vec2{-hood->start.x, height + hood->start.y} : Vec2{0.0, height};
-    flights.push_back(flight_from("the feed falls", {met.x - fall.reach, met.y + fall.height}, {ahead, sinks},
-                                  fall.time, g));
-    if (hood) add_hood(*hood, met, g, flights);
+  std::vector<ReportFlight> flights;
+  for (const StreamFlight& flight : stream_flights(design, track)) {
+    const char* name = flight.kind == FlightKind::feed        ? "the feed falls"
+                       : flight.kind == FlightKind::from_hood ? "from the hood to the track"
+                                                              : "the stream falls on the belt";
+    if (flight.kind == FlightKind::from_hood)
+      flights.push_back({"the hood", at_height(hood_line(design, track), height)});
+    flights.push_back({name, at_height(flight.path, height)});
   }
-  std::vector<Vec2> to_belt = flight_to_belt(design, track.motion);
-  if (!to_belt.empty()) flights.push_back({"the stream falls on the belt", std::move(to_belt)});
   return flights;
 }
 

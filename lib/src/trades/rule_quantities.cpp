@@ -61,6 +61,8 @@ constexpr std::array kOfTracks = std::to_array<RuleQuantity>({
     {"contact_reserve", number, "lowest load over that of gravity alone"},
     {"hoods", number, "number of hoods"},
     {"hood_contact", number, "least v^2/(g R cos(slope)) below the hood"},
+    {"obstacles_by_flights", number, "number of obstacles, where a stream flies"},
+    {"air_clearance", length, "distance of the stream in the air beyond the clearance of an obstacle"},
     {"belt_match", number, "speed along the belt over the belt's"},
     {"speed_into_belt", speed, "speed into the belt"},
     {"depth_over_wall", number, "burden depth over the wall's height"},
