@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace glissade::optimizer {
 namespace {
@@ -130,10 +132,10 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
 namespace {
 
 Relaxed all_relaxed(const ScaledProblem& problem, const Mesh& mesh, const GuessCurve& curve,
-                    SearchControl& control) {
+                    SearchControl& control, StepModel model = StepModel::curved) {
   const Vector margins(problem.limits.size(), 0.0);
   return least_violation(problem, mesh, fit(curve, Transcription(mesh)), Elastic::all(problem.limits.size()),
-                         margins, control);
+                         margins, control, model);
 }
 
 /// The mesh follows the track, finer where it bends: what is left over then is no fault of the mesh.
@@ -178,7 +180,9 @@ constexpr double kPartOf = 1e-4;  // taste
 /// Of the limits in conflict that one which asks the most for energy to be worn down, or for length: then winding
 /// tracks may do.
 std::optional<std::size_t> asking_for_bends(const Attempt& attempt) {
-  const Vector share = shares_of(attempt);
+  Vector share = shares_of(attempt);
+  // A track that keeps all of them, but led nowhere, tells of no conflict: then any that may ask for bends does.
+  if (attempt.relaxed.t <= kContradiction) share.assign(share.size(), 1.0);
   const std::vector<LimitSpec>& limits = attempt.problem->limits;
   std::optional<std::size_t> most;
   for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -282,46 +286,46 @@ class Winding {
   std::vector<End> ends_;
 };
 
-/// The search for the least violation on every way past the keep-outs, from one start after the other.
+/// The search for the least violation on every way past the keep-outs, from one start after the other. What keeps all
+/// limits on its mesh has to lead to a track that keeps them everywhere; where it does not, the search goes on.
 class LeastViolation {
  public:
-  LeastViolation(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control)
-      : control_(control) {
+  LeastViolation(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                 SearchControl& control)
+      : leads_(leads), control_(control) {
     for (const Passages& way : passages)
       ways_.push_back(std::make_shared<ScaledProblem>(scaled(problem, way)));
   }
 
   /// @return whether a track was found that keeps all limits
-  bool from(Curves curves_of) {
+  bool from(Curves curves_of, StepModel model = StepModel::curved) {
     for (std::size_t way = 0; way < ways_.size(); ++way) {
       const std::vector<GuessCurve> curves = curves_of(*ways_[way]);
       for (auto start = curves.begin(); start != curves.end(); ++start) {
         if (control_.stop()) return false;
         if (std::find(curves.begin(), start, *start) != start) continue;
-        if (from(way, mesh_of(*ways_[way], graded_knots(*start, kPieces, 1.0), start->length), *start))
-          return true;
+        const Mesh mesh = mesh_of(*ways_[way], graded_knots(*start, kPieces, 1.0), start->length);
+        if (from(way, mesh, *start, model)) return true;
       }
     }
     return false;
   }
 
   /// From a track on its own mesh. @return as above
-  bool from(std::size_t way, const Mesh& mesh, const GuessCurve& curve) {
+  bool from(std::size_t way, const Mesh& mesh, const GuessCurve& curve, StepModel model = StepModel::curved) {
     Attempt attempt;
     attempt.problem = ways_[way];
     attempt.mesh = mesh;
-    attempt.relaxed = all_relaxed(*ways_[way], mesh, curve, control_);
+    attempt.relaxed = all_relaxed(*ways_[way], mesh, curve, control_, model);
     if (attempt.relaxed.t < kNearly) follow(attempt, control_);
-    if (!best_ || attempt.relaxed.t < best_->relaxed.t) {
-      best_ = std::move(attempt);
-      way_ = way;
-    }
-    return kept();
+    return ends_at(way, std::move(attempt));
   }
 
   bool closely() {
-    if (best_->relaxed.t >= kNearly) follow(*best_, control_);
-    return kept();
+    if (best_->relaxed.t < kNearly) return found_;
+    Attempt closer = *best_;
+    follow(closer, control_);
+    return ends_at(way_, std::move(closer));
   }
 
   /// Whether no step lowers the least violation, or the search from its end lowers it no further.
@@ -335,17 +339,33 @@ class LeastViolation {
     return best_->relaxed.t > kSame * before;
   }
 
-  [[nodiscard]] bool kept() const { return best_->relaxed.t <= kContradiction; }
+  /// Whether a track was found that keeps all limits.
+  [[nodiscard]] bool found() const { return found_; }
+  /// Whether there were tracks that keep all limits on their mesh, but led nowhere.
+  [[nodiscard]] bool astray() const { return !found_ && best_ && best_->relaxed.t <= kContradiction; }
   [[nodiscard]] const Attempt& best() const { return *best_; }
   [[nodiscard]] std::size_t way() const { return way_; }
   [[nodiscard]] const std::vector<std::shared_ptr<ScaledProblem>>& ways() const { return ways_; }
-  [[nodiscard]] Foothold foothold() const { return {way_, best_->mesh, best_->relaxed.found.z}; }
 
  private:
+  /// @return as above
+  bool ends_at(std::size_t way, Attempt attempt) {
+    if (attempt.relaxed.t <= kContradiction && !found_) {
+      found_ = leads_({way, attempt.mesh, attempt.relaxed.found.z});
+    }
+    if (!best_ || attempt.relaxed.t < best_->relaxed.t) {
+      best_ = std::move(attempt);
+      way_ = way;
+    }
+    return found_;
+  }
+
+  const Leads& leads_;
   SearchControl& control_;
   std::vector<std::shared_ptr<ScaledProblem>> ways_;
   std::optional<Attempt> best_;
   std::size_t way_ = 0;
+  bool found_ = false;
 };
 
 /// What an equality limit measures on a track that has it give way.
@@ -370,9 +390,12 @@ struct GivingWay {
 };
 
 /// The bound that would do, beyond the least that a local search finds by a share of the way there: it has to be
-/// found again.
+/// found again. Where tracks wind, by a share of itself: what would do is the same then, whatever the bound is now.
 std::optional<double> needed_bound(const LimitSpec& limit, std::size_t index, const Relaxed& alone,
-                                   double beyond) {
+                                   double beyond, bool winding) {
+  if (winding && limit.side != 0) {
+    return relaxed_bound(limit, alone.t, 0.0) * (1.0 + limit.side * beyond);
+  }
   constexpr double kAtLeast = 1e-2;  // taste: of a bound that is nearly kept
   const double t = alone.t * (1.0 + beyond) + kAtLeast * beyond;
   double measured = 0.0;
@@ -442,30 +465,54 @@ Opposition opposition_at(LeastViolation& search, const std::optional<GivingWay>&
   return opposition;
 }
 
-/// The bounds that do, each alone: the least for which a track is found again.
-std::vector<Relaxation> relaxations_of(const Problem& problem, const std::vector<LimitSpec>& limits,
-                                       const std::vector<GivingWay>& giving, bool winding,
-                                       const Resolve& resolve, SearchControl& control) {
-  constexpr double kBeyond[] = {1e-4, 1e-3, 1e-2, 5e-2};  // taste: tried in turn
-  std::vector<Relaxation> relaxations;
-  for (const GivingWay& way : giving) {
-    const LimitSpec& limit = limits[way.limit];
-    for (const double beyond : kBeyond) {
-      if (control.stop()) return relaxations;
-      const auto least = needed_bound(limit, way.limit, way.alone, beyond);
-      if (!least) break;
-      const double needed = as_told(*least, limit.bound_si, limit.name.dimension());
-      const auto changed = with_bound(problem, limit.name, needed);
-      if (!changed) break;
-      // Where tracks wind, most fail from the one that has the limit give way least; all have to be found anew.
-      if (winding && !resolve.from(*changed, way.foothold)) continue;
-      if (!resolve.anew(*changed)) continue;
-      relaxations.push_back({limit.name, limit.bound_si, needed});
-      break;
+/// Finds the bounds that do, each alone.
+class Enough {
+ public:
+  /// @param winding  whether tracks wind where a limit gives way
+  Enough(const Problem& problem, const std::vector<LimitSpec>& limits, bool winding, const Resolve& resolve,
+         SearchControl& control)
+      : problem_(problem), limits_(limits), winding_(winding), resolve_(resolve), control_(control) {}
+
+  /// The least bound for which a track is found again, as far as that takes no longer than for a looser one: tracks
+  /// that have a bound hardly give way are found at ten times the cost of others, if at all.
+  [[nodiscard]] std::optional<Relaxation> of(const GivingWay& way) const {
+    constexpr double kBeyond[] = {1e-2, 5e-2};               // taste: tried in turn
+    constexpr double kBeyondWinding[] = {1e-3, 1e-2, 5e-2};  // taste: tried in turn
+    constexpr double kClosely = 1e-4;                        // taste
+    constexpr int kAllowance = 2;                            // budget: as often as the looser one took
+    const std::span<const double> beyonds = winding_ ? std::span<const double>(kBeyondWinding) : kBeyond;
+    std::optional<double> found;
+    const int before = control_.evaluations;
+    for (auto beyond = beyonds.begin(); !found && beyond != beyonds.end(); ++beyond) {
+      found = tried(way, *beyond, std::numeric_limits<int>::max());
     }
+    if (!found) return std::nullopt;
+    const int allowance = kAllowance * (control_.evaluations - before);
+    const auto closer = winding_ ? std::nullopt : tried(way, kClosely, allowance);
+    const LimitSpec& limit = limits_[way.limit];
+    return Relaxation{limit.name, limit.bound_si, closer.value_or(*found)};
   }
-  return relaxations;
-}
+
+ private:
+  [[nodiscard]] std::optional<double> tried(const GivingWay& way, double beyond, int allowance) const {
+    if (control_.stop()) return std::nullopt;
+    const LimitSpec& limit = limits_[way.limit];
+    const auto least = needed_bound(limit, way.limit, way.alone, beyond, winding_);
+    if (!least) return std::nullopt;
+    const double needed = as_told(*least, limit.bound_si, limit.name.dimension());
+    const auto changed = with_bound(problem_, limit.name, needed);
+    if (!changed) return std::nullopt;
+    // Where tracks wind, most fail from the one that has the limit give way least; all have to be found anew.
+    if (winding_ && !resolve_.from(*changed, way.foothold)) return std::nullopt;
+    return resolve_.anew(*changed, allowance) ? std::optional(needed) : std::nullopt;
+  }
+
+  const Problem& problem_;
+  const std::vector<LimitSpec>& limits_;
+  bool winding_;
+  const Resolve& resolve_;
+  SearchControl& control_;
+};
 
 /// Whether no track can be as slow as a limit asks, however it winds.
 std::optional<std::string> too_fast(const Problem& problem) {
@@ -483,77 +530,88 @@ std::optional<std::string> too_fast(const Problem& problem) {
 /// The search for what keeps all limits, and what it ends with where there is nothing.
 class Footing {
  public:
-  Footing(const Problem& problem, const std::vector<Passages>& passages, SearchControl& control)
-      : control_(control), search_(problem, passages, control) {
-    if (search_.from(&starts) || control.stop()) return;
-    if (search_.closely() || search_.from(&constant_speed_starts) || control.stop()) return;
+  Footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+          SearchControl& control)
+      : search_(problem, passages, leads, control) {
+    found_ = search_.from(&starts) || (!control.stop() && search_.closely()) ||
+             search_.from(&constant_speed_starts);
+    if (!found_ && !control.stop()) wind(leads, control);
+  }
+
+  [[nodiscard]] bool found() const { return found_ || search_.found(); }
+  [[nodiscard]] bool asks_for_bends() const { return asks_for_bends_; }
+  [[nodiscard]] const std::optional<GivingWay>& winding() const { return winding_; }
+  [[nodiscard]] LeastViolation& search() { return search_; }
+
+ private:
+  void wind(const Leads& leads, SearchControl& control) {
     const std::optional<std::size_t> asking = asking_for_bends(search_.best());
     if (!asking) return;
     asks_for_bends_ = true;
     const LimitName name = search_.best().problem->limits[*asking].name;
     const Winding winding(search_.ways(), name, control);
-    footholds_ = winding.footholds();
+    // Of several the best one counts.
+    for (const Foothold& foothold : winding.footholds()) found_ = leads(foothold) || found_;
     const Winding::End* const least = winding.least();
-    if (!footholds_.empty() || least == nullptr) return;
+    if (found_ || least == nullptr) return;
     const Transcription& track = *least->attempt.relaxed.found.track;
     winding_ = GivingWay{
         *asking, least->attempt.relaxed, {least->way, Mesh(track.mesh()), least->attempt.relaxed.found.z}};
     (void)search_.from(least->way, track.mesh(), curve_of(track, least->attempt.relaxed.found.z));
   }
 
-  [[nodiscard]] std::vector<Foothold> footholds() const {
-    if (!footholds_.empty() || control_.stop() || !search_.kept()) return footholds_;
-    return {search_.foothold()};
-  }
-  [[nodiscard]] bool asks_for_bends() const { return asks_for_bends_; }
-  [[nodiscard]] const std::optional<GivingWay>& winding() const { return winding_; }
-  [[nodiscard]] LeastViolation& search() { return search_; }
-
- private:
-  SearchControl& control_;
   LeastViolation search_;
+  bool found_ = false;
   bool asks_for_bends_ = false;
-  std::vector<Foothold> footholds_;
   std::optional<GivingWay> winding_;
 };
 
-}  // namespace
-
-std::vector<Foothold> footholds_of(const Problem& problem, const std::vector<Passages>& passages,
-                                   SearchControl& control) {
-  return Footing(problem, passages, control).footholds();
-}
-
-Explanation explain(const Problem& problem, const std::vector<Passages>& passages, const Resolve& resolve,
-                    SearchControl& control) {
+/// What stands against each other where no track was found, from the best end of all searches for one.
+Opposition opposition_of(Footing& footing, SearchControl& control) {
   // From a better track the reasons are others; how often they are looked for anew.
   constexpr int kMostRounds = 3;    // budget
   constexpr double kBetter = 0.98;  // taste
-  Explanation explanation;
-  Footing footing(problem, passages, control);
-  explanation.footholds = footing.footholds();
-  if (!explanation.footholds.empty() || control.stop()) return explanation;
   LeastViolation& search = footing.search();
   Opposition opposition;
   for (int round = 0; round < kMostRounds; ++round) {
     const double before = search.best().relaxed.t;
     opposition = opposition_at(search, footing.winding(), control);
-    if (control.stop()) return explanation;
-    if (search.kept()) {
-      explanation.footholds = {search.foothold()};
-      return explanation;
-    }
-    if (search.best().relaxed.t > kBetter * before) break;
+    if (control.stop() || search.found() || search.best().relaxed.t > kBetter * before) break;
   }
-  const bool settled = !opposition.limits.empty() && search.confirmed();
+  return opposition;
+}
+
+}  // namespace
+
+bool has_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                 SearchControl& control) {
+  return Footing(problem, passages, leads, control).found();
+}
+
+Explanation explain(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                    const Resolve& resolve, SearchControl& control) {
+  Explanation explanation;
+  Footing footing(problem, passages, leads, control);
+  if (footing.found() || control.stop()) return explanation;
+  LeastViolation& search = footing.search();
+  // Before limits are said to contradict each other a search of another kind, from other starts, has to fail too.
+  // Where bends are asked for, the starts were many already, and nothing is said that is not proven.
+  const std::optional<std::string> proof = too_fast(problem);
+  const bool attack = !proof && (!footing.asks_for_bends() || search.astray());
+  if (attack && search.from(&scattered_starts, StepModel::flat)) return explanation;
+  if (search.astray()) return explanation;
+  Opposition opposition = opposition_of(footing, control);
+  if (search.found() || control.stop()) return explanation;
+  const bool settled = search.confirmed() && !search.found();
   Conflict& conflict = explanation.conflict;
   conflict.limits = std::move(opposition.limits);
-  conflict.relaxations = relaxations_of(problem, search.best().problem->limits, opposition.giving,
-                                        footing.asks_for_bends(), resolve, control);
+  const Enough enough(problem, search.best().problem->limits, footing.asks_for_bends(), resolve, control);
+  for (const GivingWay& way : opposition.giving) {
+    if (const auto relaxation = enough.of(way)) conflict.relaxations.push_back(*relaxation);
+  }
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
-  const std::optional<std::string> proof = too_fast(problem);
-  explanation.certain = settled && (!footing.asks_for_bends() || proof);
+  explanation.certain = !conflict.limits.empty() && (proof || (settled && !footing.asks_for_bends()));
   if (proof) conflict.why = *proof;
   if (explanation.certain) conflict.text = conflict_text(conflict);
   return explanation;

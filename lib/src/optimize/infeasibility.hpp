@@ -24,25 +24,28 @@ struct Foothold {
 
 /// How a problem with another bound is solved: what is said to be enough has to be.
 struct Resolve {
-  std::function<bool(const Problem&)> anew;  ///< from the search's own starts
+  /// From the search's own starts. It ends after so many evaluations more, whatever is found by then.
+  std::function<bool(const Problem&, int most_evaluations)> anew;
   std::function<bool(const Problem&, const Foothold&)> from;
 };
 
-/// The end of the search for the least violation of all limits together: tracks that keep them after all, or what
-/// stands against them.
+/// Searches on from a track that keeps all limits at the stations of its mesh. @return whether to look no further: a
+/// track was found that keeps them everywhere, or the search was asked to end
+using Leads = std::function<bool(const Foothold&)>;
+
+/// What stands against all limits together, where nothing was found that keeps them.
 struct Explanation {
-  std::vector<Foothold> footholds;
   /// Limits that stand against each other, and what would do; text only where that is certain.
   Conflict conflict;
   bool certain = false;
 };
 
-/// From starts of every kind.
-[[nodiscard]] std::vector<Foothold> footholds_of(const Problem& problem,
-                                                 const std::vector<Passages>& passages,
-                                                 SearchControl& control);
+/// Looks for tracks that keep all limits, from starts of every kind. @return whether one led somewhere
+bool has_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                 SearchControl& control);
 
+/// The same, and from starts of no kind; where none leads somewhere, what stands in the way.
 [[nodiscard]] Explanation explain(const Problem& problem, const std::vector<Passages>& passages,
-                                  const Resolve& resolve, SearchControl& control);
+                                  const Leads& leads, const Resolve& resolve, SearchControl& control);
 
 }  // namespace glissade::optimizer

@@ -26,9 +26,10 @@ constexpr double kSettled = 1e-9;  // accuracy: a hundredth of that of a limit
 class Search {
  public:
   Search(const ScaledProblem& problem, const Mesh& mesh, const Elastic& elastic, const Vector& margins,
-         SearchControl& control)
+         SearchControl& control, StepModel model)
       : elastic_(elastic),
         control_(control),
+        model_(model),
         track_(std::make_shared<const Transcription>(mesh)),
         rows_(std::make_shared<Rows>(problem, *track_)),
         problem_(problem),
@@ -174,7 +175,7 @@ class Search {
   /// The Lagrangian's Hessian, of the rows that held t up in the last program.
   void update_curvature() {
     curvature_ = Matrix(n_, n_);
-    if (solution_.inequality.empty()) return;
+    if (solution_.inequality.empty() || model_ == StepModel::flat) return;
     curvature_ = rows_->hessian(state_, equality_, active_, inequality_, 0.0);
   }
 
@@ -299,6 +300,7 @@ class Search {
 
   const Elastic& elastic_;
   SearchControl& control_;
+  StepModel model_;
   std::shared_ptr<const Transcription> track_;
   std::shared_ptr<Rows> rows_;
   const ScaledProblem& problem_;
@@ -325,8 +327,9 @@ class Search {
 }  // namespace
 
 Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& start,
-                        const Elastic& elastic, const Vector& margins, SearchControl& control) {
-  return Search(problem, mesh, elastic, margins, control).run(start);
+                        const Elastic& elastic, const Vector& margins, SearchControl& control,
+                        StepModel model) {
+  return Search(problem, mesh, elastic, margins, control, model).run(start);
 }
 
 }  // namespace glissade::optimizer

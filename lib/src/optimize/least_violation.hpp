@@ -14,6 +14,12 @@ struct Elastic {
   [[nodiscard]] static Elastic all(std::size_t limits) { return {std::vector<bool>(limits, true), true}; }
 };
 
+/// What a step of the search knows of how the rows bend.
+enum class StepModel {
+  curved,  ///< the Lagrangian's curvature: few steps, to the end closest by
+  flat     ///< nothing but the price on the change of shape: more steps, past ends that curvature would draw it into
+};
+
 /// The least t by which the elastic rows must give way, and who holds it up.
 struct Relaxed {
   Found found;           ///< multipliers are those of t; violation is that of the rows that do not give way
@@ -30,6 +36,7 @@ struct Relaxed {
 /// its acceptance, the second-order correction).
 /// Ends early, unsettled, with t <= 0: then all can be kept.
 [[nodiscard]] Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
-                                      const Elastic& elastic, const Vector& margins, SearchControl& control);
+                                      const Elastic& elastic, const Vector& margins, SearchControl& control,
+                                      StepModel model = StepModel::curved);
 
 }  // namespace glissade::optimizer

@@ -18,6 +18,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace glissade {
@@ -72,24 +73,20 @@ class Course {
     }
   }
 
-  void from(const std::vector<Foothold>& footholds) {
-    for (const Foothold& foothold : footholds) {
-      if (stopped_) return;
-      take(searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
-    }
+  void from(const Foothold& foothold) {
+    if (!stopped_) take(searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
   }
 
   /// Where the limits lead none of the starts to a track that keeps them: tracks that do, if there are any.
   void from_footholds() {
     control_.most_rounds = kFarRounds;
-    from(footholds_of(problem_, ways_, control_));
+    (void)has_footing(problem_, ways_, leads(), control_);
   }
 
   /// @return what stands in the way, if no track keeps all limits
   [[nodiscard]] Conflict explained(const Resolve& resolve, bool& certain) {
     control_.most_rounds = kFarRounds;
-    Explanation explanation = explain(problem_, ways_, resolve, control_);
-    from(explanation.footholds);
+    Explanation explanation = explain(problem_, ways_, leads(), resolve, control_);
     stopped_ = stopped_ || control_.stop();
     certain = explanation.certain && !best_->kept && !stopped_;
     return std::move(explanation.conflict);
@@ -101,6 +98,13 @@ class Course {
 
  private:
   static constexpr int kFarRounds = 10;  // budget
+
+  [[nodiscard]] Leads leads() {
+    return [this](const Foothold& foothold) {
+      from(foothold);
+      return best_->kept || stopped_;
+    };
+  }
 
   void take(Candidate candidate) {
     stopped_ = stopped_ || candidate.stopped;
@@ -118,15 +122,19 @@ class Course {
 /// How a problem with another bound is solved.
 Resolve resolve_with(const OptimizeOptions& options, SearchControl& control) {
   static const Progress quiet;
-  const auto anew = [&](const Problem& problem) {
+  const auto anew = [&](const Problem& problem, int most_evaluations) {
+    const std::function<bool()> stop = control.stop;
+    const int before = control.evaluations;
+    control.stop = [&, stop] { return control.evaluations - before > most_evaluations || stop(); };
     Course course(problem, options, control, quiet);
     course.from_starts();
     if (!course.kept() && !course.stopped()) course.from_footholds();
+    control.stop = stop;
     return course.kept();
   };
   const auto from = [&](const Problem& problem, const Foothold& foothold) {
     Course course(problem, options, control, quiet);
-    course.from({foothold});
+    course.from(foothold);
     return course.kept();
   };
   return {anew, from};
@@ -171,7 +179,7 @@ void tell_track(const Candidate& best, const OptimizeOptions& options, SearchCon
   report.checks = best.judgement.checks;
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = best.finer_mesh_wins;
-  report.active = active_limits(*best.problem, priced(*best.problem, found, options, control));
+  report.active = active_limits(*best.problem, priced(*best.problem, found, best.multipliers_ahead, options, control));
 }
 
 /// Tells why there is no track.
@@ -213,7 +221,8 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
     const Resolve resolve = resolve_with(options, control);
     at_once = too_close_at_an_end(problem, [&](const LimitName& limit, double value) {
       const auto changed = with_bound(problem, limit, value);
-      return !changed || (!too_close_at_an_end(*changed, {}) && resolve.anew(*changed));
+      return !changed || (!too_close_at_an_end(*changed, {}) &&
+                          resolve.anew(*changed, std::numeric_limits<int>::max()));
     });
   }
   if (at_once) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace glissade::optimizer {
@@ -40,23 +41,74 @@ double multiplier_of(const Found& found, const LimitSpec& limit, std::size_t ind
   return multiplier;
 }
 
-}  // namespace
-
-Found priced(const ScaledProblem& problem, Found found, const OptimizeOptions& options,
-             SearchControl& control) {
-  constexpr int kRounds = 4;  // budget
-  MeshTrack finer{found.track->mesh(), found.z};
-  for (int round = 0; round < kRounds; ++round) {
-    const std::vector<bool> beside = beside_jumps(finer.mesh);
-    if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) return found;
-    finer = with_halved_pieces(Transcription(finer.mesh), finer.z, beside);
+/// What each limit carries, in the order of the problem's.
+Vector multipliers_of(const ScaledProblem& problem, const Found& found) {
+  Vector multipliers(problem.limits.size(), 0.0);
+  for (std::size_t i = 0; i < multipliers.size(); ++i) {
+    multipliers[i] = multiplier_of(found, problem.limits[i], i);
   }
+  return multipliers;
+}
+
+/// Whether prices on two meshes are the same, but for those that do not count.
+bool same_prices(const Vector& a, const Vector& b) {
+  constexpr double kSame = 0.01;    // accuracy: half that of a price
+  constexpr double kCounts = 1e-3;  // of the greatest one; taste
+  if (a.size() != b.size()) return false;
+  double greatest = 0.0;
+  for (const double multiplier : a) greatest = std::max(greatest, multiplier);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::fabs(a[i] - b[i]) > kSame * std::max(a[i], kCounts * greatest)) return false;
+  }
+  return true;
+}
+
+/// An optimum again on a finer mesh. @return none where it does not arrive there
+std::optional<Found> on_finer_mesh(const ScaledProblem& problem, const Found& found, const MeshTrack& finer,
+                                   const OptimizeOptions& options, SearchControl& control) {
   control.tolerance = options.tolerance;
   control.most_rounds = 0;
   Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control, &found);
   const bool use =
       !next.stopped && next.residual <= options.tolerance && next.feasible(options.limit_tolerance);
-  return use ? next : found;
+  return use ? std::optional(std::move(next)) : std::nullopt;
+}
+
+/// Pieces next to jumps, halved a few times.
+std::optional<MeshTrack> halved_beside_jumps(const Found& found) {
+  constexpr int kRounds = 4;  // budget
+  MeshTrack finer{found.track->mesh(), found.z};
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<bool> beside = beside_jumps(finer.mesh);
+    if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) break;
+    finer = with_halved_pieces(Transcription(finer.mesh), finer.z, beside);
+  }
+  if (finer.mesh.knots.size() == found.track->mesh().knots.size()) return std::nullopt;
+  return finer;
+}
+
+}  // namespace
+
+Found priced(const ScaledProblem& problem, Found found, const Vector& ahead, const OptimizeOptions& options,
+             SearchControl& control) {
+  if (const std::optional<MeshTrack> finer = halved_beside_jumps(found)) {
+    if (auto next = on_finer_mesh(problem, found, *finer, options, control)) found = std::move(*next);
+  }
+  // Where a finer mesh has other prices, they are taken from there, and from a finer one still until they stay.
+  constexpr int kRounds = 3;                // budget
+  constexpr std::size_t kMostPieces = 100;  // budget
+  Vector prices = multipliers_of(problem, found);
+  bool same = ahead.empty() || same_prices(prices, ahead);
+  for (int round = 0; !same && round < kRounds; ++round) {
+    if (found.track->mesh().knots.size() > kMostPieces) break;
+    auto next = on_finer_mesh(problem, found, with_all_halved(*found.track, found.z), options, control);
+    if (!next) break;
+    found = std::move(*next);
+    Vector finer = multipliers_of(problem, found);
+    same = same_prices(finer, prices);
+    prices = std::move(finer);
+  }
+  return found;
 }
 
 std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {

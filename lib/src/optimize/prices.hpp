@@ -11,10 +11,11 @@ namespace glissade::optimizer {
 
 /// The track that prices are taken from. A jump that lies a little beside its knots costs next to nothing, but
 /// its first order shows in the prices: here pieces next to jumps are halved a few times, with ripples that
-/// nobody should build.
+/// nobody should build. Where a mesh whose every piece is halved has other prices, so are all pieces.
+/// @param ahead  multipliers of each limit on such a mesh (Outlook::by_limit); none where it was not looked at
 /// @return the track itself where that does not arrive
-[[nodiscard]] Found priced(const ScaledProblem& problem, Found found, const OptimizeOptions& options,
-                           SearchControl& control);
+[[nodiscard]] Found priced(const ScaledProblem& problem, Found found, const Vector& ahead,
+                           const OptimizeOptions& options, SearchControl& control);
 
 /// The limits that carry multipliers, each with where it binds and its price, in the order of their keys.
 [[nodiscard]] std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found);

@@ -60,14 +60,29 @@ MeshTrack with_halved_pieces(const Transcription& track, const Vector& z, const 
   return result;
 }
 
+namespace {
+
+/// Which pieces do not stand for a jump.
+std::vector<bool> worth_a_knot(const Mesh& mesh) {
+  std::vector<bool> halved(mesh.knots.size() - 1);
+  for (std::size_t i = 0; i < halved.size(); ++i) halved[i] = mesh.knots[i + 1] - mesh.knots[i] > kShortest;
+  return halved;
+}
+
+}  // namespace
+
+MeshTrack with_all_halved(const Transcription& track, const Vector& z) {
+  return with_halved_pieces(track, z, worth_a_knot(track.mesh()));
+}
+
 Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchControl& control) {
-  const Vector& knots = found.track->mesh().knots;
-  std::vector<bool> halved(knots.size() - 1);
-  for (std::size_t i = 0; i < halved.size(); ++i) halved[i] = knots[i + 1] - knots[i] > kShortest;
+  const std::vector<bool> halved = worth_a_knot(found.track->mesh());
   const MeshTrack finer = with_halved_pieces(*found.track, found.z, halved);
   const Outlook outlook = look_ahead(problem, finer.mesh, finer.z, found.rows->margins(), control, found);
   Remainder remainder;
   remainder.objective = std::max(0.0, outlook.won);
+  remainder.lost = std::max(0.0, -outlook.won);
+  remainder.by_limit = outlook.by_limit;
   remainder.by_piece.assign(halved.size(), 0.0);
   std::size_t knot = 0;
   for (std::size_t i = 0; i < halved.size(); ++i, ++knot) {

@@ -17,11 +17,16 @@ struct MeshTrack {
 [[nodiscard]] MeshTrack with_halved_pieces(const Transcription& track, const Vector& z,
                                            const std::vector<bool>& halved);
 
+/// The same with a knot more in every piece that does not stand for a jump.
+[[nodiscard]] MeshTrack with_all_halved(const Transcription& track, const Vector& z);
+
 /// What is left to win by a finer mesh: the step of the quadratic program on the mesh whose every piece is
 /// halved, which knows the rows that hold between the stations of the coarser one.
 struct Remainder {
   double objective = 0.0;  ///< by which that step lowers the objective; >= 0
+  double lost = 0.0;       ///< by which it raises it, limits being held in more places; >= 0
   Vector by_piece;         ///< where: the part of it that is due to the knot in the middle of each piece
+  Vector by_limit;         ///< multipliers of the program, as in Outlook
 };
 [[nodiscard]] Remainder remainder_of(const ScaledProblem& problem, const Found& found,
                                      SearchControl& control);

@@ -438,6 +438,55 @@ void set_objective(const Objective& objective, double entry_speed, ScaledProblem
   }
 }
 
+/// To 40 bits of the unit: a place, in chords.
+void round_place(double& value) {
+  constexpr double kBits = 0x1p40;
+  value = std::round(value * kBits) / kBits;
+}
+void round_place(Vec2& point) {
+  round_place(point.x);
+  round_place(point.y);
+}
+/// To 40 bits of its own.
+void round_number(double& value) {
+  constexpr int kBits = 40;
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  value = std::ldexp(std::round(std::ldexp(mantissa, kBits)), exponent - kBits);
+}
+
+/// The same problem of another size or at another height differs by the rounding of its numbers, and a search may end in
+/// another valley for it. Here such problems become the same, nearly always. What a number may lose, 5e-13, is below all
+/// that is promised. Angles and friction do not scale and keep all their digits.
+void round_off(ScaledProblem& out) {
+  for (double* place : {&out.run, &out.drop, &out.lead_in, &out.lead_out, &out.lowest_speed_from,
+                        &out.envelope_low, &out.envelope_high}) {
+    round_place(*place);
+  }
+  for (Obstacle& obstacle : out.obstacles) {
+    for (std::vector<Vec2>* line : {&obstacle.corners, &obstacle.outline, &obstacle.other_corners}) {
+      for (Vec2& corner : *line) round_place(corner);
+    }
+    for (auto& [from, to] : obstacle.other_sides) {
+      round_place(from);
+      round_place(to);
+    }
+  }
+  for (Vec2& waypoint : out.waypoints) round_place(waypoint);
+  for (LimitSpec& limit : out.limits) {
+    if (limit.built_in || limit.name.dimension() == Dimension::angle) continue;
+    round_number(limit.bound);
+    round_number(limit.scale);
+  }
+  round_number(out.entry_speed2);
+  round_number(out.drag);
+  for (Ride& ride : out.rides) {
+    for (double* number : {&ride.entry_speed2, &ride.drag, &ride.head_wind, &ride.even_speed}) {
+      round_number(*number);
+    }
+  }
+}
+
 }  // namespace
 
 ScaledProblem scaled(const Problem& problem, const Passages& passages) {
@@ -474,6 +523,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   out.envelope_low = -limits.envelope.below / out.chord;
   out.envelope_high = limits.envelope.top() / out.chord;
   add_limits(problem, passages, out);
+  round_off(out);
   return out;
 }
 

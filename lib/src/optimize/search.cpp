@@ -104,6 +104,14 @@ class Minimiser {
     for (const std::size_t i : point_.solution.active) {
       add_scaled(outlook.force.data(), point_.solution.inequality[i], point_.program.inequality.row(i), n_);
     }
+    outlook.by_limit.assign(problem_.limits.size(), 0.0);
+    for (std::size_t i = 0; i < point_.next.active.size(); ++i) {
+      outlook.by_limit[point_.next.active[i].limit] += point_.next.inequality[i];
+    }
+    for (std::size_t i = 0; i < point_.next.equality.size(); ++i) {
+      const std::size_t* const limit = rows_->limit_of_equality(i);
+      if (limit != nullptr) outlook.by_limit[*limit] += std::fabs(point_.next.equality[i]);
+    }
     // With d^T H d = -force.d = |L^T d|^2.
     outlook.won = -dot(point_.program.gradient.data(), outlook.step.data(), n_) -
                   0.5 * point_.solution.length * point_.solution.length;

@@ -149,6 +149,9 @@ class HeldPlaces {
   void add(double sigma, const Vector& knots) {
     constexpr double kClose = 0.02;  // taste
     if (!(sigma > 0.0 && sigma < 1.0)) return;
+    // A place of a greatest value is known to half the digits: those that rounding makes are no reason to end elsewhere.
+    constexpr double kDigits = 0x1p24;  // rounding: half of a double's
+    sigma = std::round(sigma * kDigits) / kDigits;
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
     const double piece = *above - *(above - 1);
     for (double& place : places_) {
@@ -257,6 +260,7 @@ std::optional<Found> Searcher::rescued(const ScaledProblem& problem, const Mesh&
 void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
   const ScaledProblem& problem = *candidate.problem;
   finer_mesh_wins_.reset();
+  multipliers_ahead_.clear();
   if (!unlimited) {
     found = laid_anew(problem, on_finer_meshes(problem, std::move(found)));
     if (!found.stopped) found = followed(problem, std::move(found));
@@ -338,14 +342,19 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
   // Under a limit on the rate of curvature no jump tells where knots belong: halving alone makes prices exact.
   const bool smooth = is_smooth(problem);
   const double left_at_most = smooth ? 1e-8 : 1e-6;
+  constexpr double kLostAtMost = 5e-7;      // accuracy: half that of a time
   constexpr std::size_t kMostPieces = 120;  // budget
   constexpr double kKept = 0.1;             // taste
   for (int round = 0; round < kMostRounds; ++round) {
     const Remainder left = remainder_of(problem, found, control_);
     finer_mesh_wins_ = left.objective / std::fabs(found.objective);
-    if (left.objective <= left_at_most * std::fabs(found.objective)) break;
+    multipliers_ahead_ = left.by_limit;
+    // What a curvature of few pieces breaks between its stations is followed by finer ones where nothing jumps.
+    const bool breaks = smooth && left.lost > kLostAtMost * std::fabs(found.objective);
+    if (!breaks && left.objective <= left_at_most * std::fabs(found.objective)) break;
     if (found.track->mesh().knots.size() > kMostPieces) break;
-    const MeshTrack finer = with_halved_pieces(*found.track, found.z, worth_halving(left));
+    const MeshTrack finer = breaks ? with_all_halved(*found.track, found.z)
+                                   : with_halved_pieces(*found.track, found.z, worth_halving(left));
     aim_at(options_.tolerance, 0);
     Found next = minimise(problem, finer.mesh, finer.z, margins_, control_, &found);
     if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
@@ -429,6 +438,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
                         (kept == candidate.kept && found.objective < candidate.found->objective);
     if (better) {
       candidate.finer_mesh_wins = finer_mesh_wins_;
+      candidate.multipliers_ahead = multipliers_ahead_;
       candidate.found = found;
       candidate.track = track;
       candidate.judgement = judgement;

@@ -19,6 +19,10 @@ namespace glissade::optimizer {
 /// braked where a steep piece meets a flat one, most of all where it is fast.
 [[nodiscard]] std::vector<GuessCurve> stepped_starts(const ScaledProblem& problem);
 
+/// Curves of no kind: those of starts(), flattened and waved by amounts that fill their ranges evenly. What leads to
+/// no track from any of them is a contradiction with more right than from the few that are likely.
+[[nodiscard]] std::vector<GuessCurve> scattered_starts(const ScaledProblem& problem);
+
 /// The track on which a body of some speed keeps it (docs/theory.md); none without friction, or where the mean slope
 /// is not steeper than the friction angle.
 [[nodiscard]] std::vector<GuessCurve> constant_speed_starts(const ScaledProblem& problem);
