@@ -1,7 +1,8 @@
 // The library's elementary functions against the C library's in extended precision.
 
-#include "glissade/core/many_angles.hpp"
 #include "glissade/core/math.hpp"
+
+#include "glissade/core/many_angles.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -215,8 +215,8 @@ TEST_CASE("Open CASCADE reads STEP as valid closed solids with the volumes of th
       CHECK(closed == 1);
       // Open CASCADE integrates over faces between ellipses numerically.
       const PartBody& body = workshop.parts[i].body;
-      const bool exact = !std::holds_alternative<TubeGore>(body) && !std::holds_alternative<TroughGore>(body) &&
-                         facts.solids[i].splines == 0;
+      const bool exact = !std::holds_alternative<TubeGore>(body) &&
+                         !std::holds_alternative<TroughGore>(body) && facts.solids[i].splines == 0;
       CHECK(volume == Approx(meant).epsilon(exact ? 1e-8 : 2e-6));
       CHECK(planes == facts.solids[i].planes);
       CHECK(cylinders == facts.solids[i].cylinders);

@@ -1,9 +1,10 @@
 // Steps from afar, on one mesh: wherever they begin they end on the same track, and where limits contradict each other
 // where another search lowers the violation no further.
 
+#include "optimize/elastic_descent.hpp"
+
 #include "glissade/task/problem.hpp"
 
-#include "optimize/elastic_descent.hpp"
 #include "optimize/guess.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/scaled_problem.hpp"
@@ -36,7 +37,8 @@ GuessCurve bent(const ScaledProblem& problem, testing::Random& random) {
   for (int i = 0; i <= kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps;
     curve.sigma.push_back(share);
-    curve.zeta.push_back(mean + 0.2 * (1.0 - 2.0 * share) + amplitude * std::sin(6.0 * waves * share + phase));
+    curve.zeta.push_back(mean + 0.2 * (1.0 - 2.0 * share) +
+                         amplitude * std::sin(6.0 * waves * share + phase));
   }
   curve.length = random.between(0.8, 1.4);
   return curve;
@@ -46,7 +48,8 @@ GuessCurve bent(const ScaledProblem& problem, testing::Random& random) {
 struct Setting {
   explicit Setting(const Problem& limited)
       : problem(scaled(limited, {})),
-        mesh(mesh_of(problem, graded_knots(brachistochrone_guess(problem.run, problem.drop, 0.2), 16, 0.0), 1.1)),
+        mesh(mesh_of(problem, graded_knots(brachistochrone_guess(problem.run, problem.drop, 0.2), 16, 0.0),
+                     1.1)),
         track(mesh),
         rows(problem, track) {}
 
@@ -95,7 +98,9 @@ TEST_CASE("elastic steps end on one track, whatever track they begin with") {
 
 TEST_CASE("elastic steps end at a least violation where limits contradict each other") {
   Problem limited = ramp();
-  SECTION("a mean slope that is steeper than the steepest") { limited.limits.slope_angle.highest = 0.4; }
+  SECTION("a mean slope that is steeper than the steepest") {
+    limited.limits.slope_angle.highest = 0.4;
+  }
   SECTION("a bend that does not fit between a steep entry and a steep exit") {
     limited.limits.entry_slope_angle = Range::fixed(1.0);
     limited.limits.exit_slope_angle = Range::fixed(-0.3);

@@ -1,6 +1,6 @@
-#include "glissade/core/math.hpp"
 #include "parts/body_mesh.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "parts/body_geometry.hpp"
@@ -92,23 +92,26 @@ TEST_CASE("A mesh on a grid stays within a cell of what it was", "[body_mesh]") 
   CHECK(measure(coarse).volume == Approx(parts::moments(ring).volume).epsilon(0.05));
 }
 
-TEST_CASE("Sheets with slots and tabs, troughs and sections that move across become closed facets", "[body_mesh]") {
+TEST_CASE("Sheets with slots and tabs, troughs and sections that move across become closed facets",
+          "[body_mesh]") {
   // Both arcs have one tangent where they meet.
   const double heading = math::atan2(-0.4, 1.0) + 2.0 * (math::atan(0.15) - math::atan(0.1));
   const Vec2 end{1.0 + 0.8 * math::cos(heading), -0.4 + 0.8 * math::sin(heading)};
   const ArcPath path{{{{0.0, 0.0}, 0.15}, {{1.0, -0.4}, -0.1}, {end, 0.0}}, false};
   const double whole = length(path);
-  RolledSheet sheet{path, 0.02, {{{{{0.0, 0.1}, 0.0},
-                                   {{0.2, 0.1}, 0.0},
-                                   {{0.2, 0.0}, 0.0},
-                                   {{0.4, 0.0}, 0.0},
-                                   {{0.4, 0.1}, 0.0},
-                                   {{whole, 0.1}, 0.0},
-                                   {{whole, 0.5}, 0.0},
-                                   {{0.0, 0.5}, 0.0}},
-                                  true},
-                                 {rectangle({0.5, 0.2}, {0.6, 0.3}), rectangle({1.4, 0.3}, {1.5, 0.4})},
-                                 {}}};
+  RolledSheet sheet{path,
+                    0.02,
+                    {{{{{0.0, 0.1}, 0.0},
+                       {{0.2, 0.1}, 0.0},
+                       {{0.2, 0.0}, 0.0},
+                       {{0.4, 0.0}, 0.0},
+                       {{0.4, 0.1}, 0.0},
+                       {{whole, 0.1}, 0.0},
+                       {{whole, 0.5}, 0.0},
+                       {{0.0, 0.5}, 0.0}},
+                      true},
+                     {rectangle({0.5, 0.2}, {0.6, 0.3}), rectangle({1.4, 0.3}, {1.5, 0.4})},
+                     {}}};
   const TroughGore trough{0.2, 0.01, 0.1, 0.6, Angle::from_radians(0.1), Angle::from_radians(-0.2)};
   const TroughGore shallow{0.2, 0.01, 0.0, 0.6, Angle::from_radians(0.1), Angle()};
   const SweptBody wide{{{{{0.0, 0.0}, 0.1}, {{1.0, -0.4}, 0.0}}, false},

@@ -63,7 +63,8 @@ std::string fault_of(const ShopPart& part) {
   double volume = 0.0;
   for (const parts::BrepFace& face : brep.faces) {
     for (const auto& loop : face.loops) {
-      std::size_t at = loop.front().forward ? brep.edges[loop.front().edge].from : brep.edges[loop.front().edge].to;
+      std::size_t at =
+          loop.front().forward ? brep.edges[loop.front().edge].from : brep.edges[loop.front().edge].to;
       const std::size_t first = at;
       for (const parts::BrepUse& use : loop) {
         const parts::BrepEdge& edge = brep.edges[use.edge];
@@ -106,7 +107,8 @@ TEST_CASE("corners: laps and tabs differ from the plain channel by what is liste
     CHECK(std::fabs(lap.proof.exact_volume / plain.proof.exact_volume - 1.0) < 1e-12);
     CHECK(std::fabs(tab.proof.exact_volume / plain.proof.exact_volume - 1.0) < 1e-12);
     // 15 mm of 4 mm plate on both sides, all along but for the frames.
-    CHECK(std::fabs(difference(lap, "laps") / (2.0 * 15e-3 * 4e-3 * lap.master.spline->length()) - 1.0) < 0.02);
+    CHECK(std::fabs(difference(lap, "laps") / (2.0 * 15e-3 * 4e-3 * lap.master.spline->length()) - 1.0) <
+          0.02);
     CHECK(difference(lap, "laps") == difference(tab, "laps"));
     CHECK(difference(tab, "tabs") > 0.0);
     // Slots are larger than tabs by 0.2 mm both ways: 40.2 x 4.2 against 40 x 4.
@@ -155,7 +157,8 @@ TEST_CASE("corners: a sheet with slots weighs what a prism does where it has non
   CHECK(std::fabs(plain.centroid.z - 0.15) < 1e-15);
   sheet.region.cutouts.push_back(rectangle({0.2, 0.1}, {0.4, 0.2}));
   const parts::BodyMoments slotted = parts::moments(sheet);
-  CHECK(std::fabs((plain.volume - slotted.volume) / (0.2 * 0.1 * t * (1.0 + 0.5 * t * curvature)) - 1.0) < 1e-12);
+  CHECK(std::fabs((plain.volume - slotted.volume) / (0.2 * 0.1 * t * (1.0 + 0.5 * t * curvature)) - 1.0) <
+        1e-12);
   CHECK(parts::depth_inside(sheet, {0.75, -0.09, 0.05}) < 0.0);
   const Vec2 at = point_on(pieces_of(path)[0], 0.3 / length_of_arc);
   CHECK(parts::depth_inside(sheet, {at.x, at.y - 0.005, 0.15}) < 0.0);
@@ -200,7 +203,8 @@ TEST_CASE("corners: random tracks, seats and floors fit, add up and are closed")
     options.corners.spacing = random.between(0.15, 0.4);
     options.corners.clearance = random.between(0.0, 0.3e-3);
     options.flanges.wanted = random.integer(0, 2) > 0;
-    if (random.integer(0, 1) == 0) options.stiffeners = StiffenerOptions{0.5, options.corners.overlap + 40e-3, 6e-3};
+    if (random.integer(0, 1) == 0)
+      options.stiffeners = StiffenerOptions{0.5, options.corners.overlap + 40e-3, 6e-3};
     if (!bent && random.integer(0, 2) == 0) options.liner = LinerOptions{};
     if (random.integer(0, 1) == 0) options.rim = RimOptions{};
     options.split.longest = random.between(0.8, 3.0);
@@ -221,21 +225,25 @@ TEST_CASE("corners: random tracks, seats and floors fit, add up and are closed")
 TEST_CASE("corners: what cannot be made is refused with place, value and bound") {
   PlateOptions narrow = with_corners(CornerJoint::tab_and_slot);
   narrow.corners.tab = 6e-3;
-  CHECK(refusal(narrow).find("corners.tab|tab: 6 mm is too narrow|Tabs are at least 2 thicknesses wide, and 3.2 mm: "
-                             "8 mm.|tab: 16 mm") != std::string::npos);
+  CHECK(refusal(narrow).find(
+            "corners.tab|tab: 6 mm is too narrow|Tabs are at least 2 thicknesses wide, and 3.2 mm: "
+            "8 mm.|tab: 16 mm") != std::string::npos);
   PlateOptions web = with_corners(CornerJoint::tab_and_slot);
   web.corners.overlap = 3e-3;
-  CHECK(refusal(web).find("corners.overlap|overlap: 3 mm leaves too little beyond the slots|A web is at least as wide "
-                          "as its plate is thick, 4 mm.") != std::string::npos);
+  CHECK(refusal(web).find(
+            "corners.overlap|overlap: 3 mm leaves too little beyond the slots|A web is at least as wide "
+            "as its plate is thick, 4 mm.") != std::string::npos);
   PlateOptions loose = with_corners(CornerJoint::tab_and_slot);
   loose.corners.clearance = 3e-3;
   loose.corners.spacing = 50e-3;
   CHECK(refusal(loose).find("corners.clearance|clearance: 3 mm is out of range") != std::string::npos);
-  CHECK(refusal(loose).find("corners.spacing|spacing: 50 mm is too close for tabs of 40 mm") != std::string::npos);
+  CHECK(refusal(loose).find("corners.spacing|spacing: 50 mm is too close for tabs of 40 mm") !=
+        std::string::npos);
   PlateOptions bent = with_corners(CornerJoint::tab_and_slot, WallSeat::beside_floor, FloorMake::bent);
   bent.bend = {FacetRule::segment_length, 45e-3, {}, {}};
-  CHECK(refusal(bent).find("corners.tab|tab: 40 mm finds no place on the floor of unit 1|Its longest flat between "
-                           "bends is ") != std::string::npos);
+  CHECK(refusal(bent).find(
+            "corners.tab|tab: 40 mm finds no place on the floor of unit 1|Its longest flat between "
+            "bends is ") != std::string::npos);
   CHECK(refusal(with_corners(CornerJoint::lap), {0.4, 0.0, 4e-3})
             .find("corners|corners: there are no walls that a floor could meet") != std::string::npos);
   const std::vector<Issue> leaning =
@@ -255,7 +263,8 @@ TEST_CASE("plates: patterns lie level in the least rectangle round them") {
     const PlaneBox box = bounds(outline);
     CHECK(std::fabs(box.low.x) + std::fabs(box.low.y) < 1e-12);
     for (int k = -60; k <= 60; ++k) {
-      const PlaneBox turned = bounds(moved(outline, PlaneMotion::turn(Angle::from_degrees(0.75 * k).radians())));
+      const PlaneBox turned =
+          bounds(moved(outline, PlaneMotion::turn(Angle::from_degrees(0.75 * k).radians())));
       CHECK(box.width() * box.height() <= turned.width() * turned.height() * (1.0 + 1e-6));
     }
     CHECK(box.width() > box.height());

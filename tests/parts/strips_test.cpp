@@ -146,7 +146,9 @@ TEST_CASE("mitred pipe: tubes add up to the pipe along their axes, and both edge
   CHECK(build.proof.edge_mismatch < 1e-9);
 }
 
-TEST_CASE("mitred half-pipe: troughs add up to the section along its flats, edges of a mitre are one line from rim to rim") {
+TEST_CASE(
+    "mitred half-pipe: troughs add up to the section along its flats, edges of a mitre are one line from rim "
+    "to rim") {
   PlateOptions options;
   options.bend = {FacetRule::segment_angle, Angle::from_degrees(7.5).radians(), {}, {}};
   for (const double side : {0.0, 0.06}) {
@@ -160,7 +162,8 @@ TEST_CASE("mitred half-pipe: troughs add up to the section along its flats, edge
       ++troughs;
       const auto& gore = std::get<TroughGore>(part.body);
       CHECK(gore.side == side);
-      CHECK(std::fabs(bounds(part.pattern->region.outline).width() - (std::numbers::pi * mean + 2.0 * side)) < 1e-9);
+      CHECK(std::fabs(bounds(part.pattern->region.outline).width() - (std::numbers::pi * mean + 2.0 * side)) <
+            1e-9);
       // The pattern is the middle of the thickness: its area times the thickness misses by what is second order in it.
       CHECK(std::fabs(moments(part.pattern->region).area * 3e-3 / part.volume - 1.0) < 1e-4);
       volume += part.volume * static_cast<double>(part.quantity());
@@ -266,7 +269,8 @@ TEST_CASE("strips: random tracks and sections make plates that add up, with no c
     PlateOptions pipe = options;
     pipe.bend = {FacetRule::segment_angle, Angle::from_degrees(random.between(4.0, 15.0)).radians(), {}, {}};
     CHECK(plates(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
-    CHECK(plates(track, section::HalfPipe{0.3, random.integer(0, 1) * random.between(0.02, 0.2), t}, pipe).proof.pairs > 0);
+    CHECK(plates(track, section::HalfPipe{0.3, random.integer(0, 1) * random.between(0.02, 0.2), t}, pipe)
+              .proof.pairs > 0);
     pipe.round = RoundMake::staves;
     CHECK(plates(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
   }

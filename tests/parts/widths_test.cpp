@@ -55,7 +55,8 @@ Vec3 middle_of(const SweptBody& body, std::size_t piece, double share, std::size
   const Vec2 at = point_on(path, share);
   const Vec2 chord = path.to - path.from;
   const auto [sine, cosine] = math::sine_cosine(4.0 * math::atan(path.bulge) * (share - 0.5));
-  const Vec2 along = (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
+  const Vec2 along =
+      (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
   const auto corner = [&](std::size_t j) {
     const double shift = (1.0 - share) * body.shifts[piece][j] + share * body.shifts[piece + 1][j];
     const Vec2 here = at + body.section[j].x * Vec2{-along.y, along.x};
@@ -84,8 +85,8 @@ Unfolded unfolded(const std::vector<Vec3>& base, const std::vector<Vec3>& upper)
   flat.upper.push_back({0.0, norm(upper[0] - base[0])});
   for (std::size_t i = 0; i + 1 < base.size(); ++i) {
     // Left of upper -> base lies the next pair.
-    const Vec2 next = apex(flat.upper.back(), flat.base.back(), norm(base[i + 1] - upper[i]),
-                           norm(base[i + 1] - base[i]));
+    const Vec2 next =
+        apex(flat.upper.back(), flat.base.back(), norm(base[i + 1] - upper[i]), norm(base[i + 1] - base[i]));
     const Vec2 above =
         apex(flat.upper.back(), next, norm(upper[i + 1] - upper[i]), norm(upper[i + 1] - base[i + 1]));
     flat.base.push_back(next);
@@ -98,8 +99,7 @@ Unfolded unfolded(const std::vector<Vec3>& base, const std::vector<Vec3>& upper)
 
 TEST_CASE("widths: a wall laid flat triangle by triangle is its pattern") {
   for (const bool left : {true, false}) {
-    const WorkshopBuild build =
-        plates(chute(), section::UChannel{kWidening, 0.25, 4e-3}, in_one_piece());
+    const WorkshopBuild build = plates(chute(), section::UChannel{kWidening, 0.25, 4e-3}, in_one_piece());
     const ShopPart& wall = part_of(build, left ? "left_wall" : "right_wall");
     const auto& body = std::get<SweptBody>(wall.body);
     // Corners: face_from, face_to, back_to, back_from.
@@ -134,7 +134,8 @@ TEST_CASE("widths: a wall laid flat triangle by triangle is its pattern") {
   }
 }
 
-TEST_CASE("widths: plates add up to the solid but for what leaning adds, and edges that meet have one length") {
+TEST_CASE(
+    "widths: plates add up to the solid but for what leaning adds, and edges that meet have one length") {
   for (const section::Measures& measures :
        {section::Measures(section::UChannel{kWidening, 0.25, 4e-3}),
         section::Measures(section::Trapezoid{kWidening, 0.2, Angle::from_degrees(20.0), 4e-3}),
@@ -171,7 +172,9 @@ TEST_CASE("widths: a width that is one everywhere makes the plates of one width"
   CHECK(std::fabs(widening.proof.differences.front().volume) < 1e-12);
 }
 
-TEST_CASE("widths: bodies are closed, in facets and in STEP, and splines stand only where the width changes in a bend") {
+TEST_CASE(
+    "widths: bodies are closed, in facets and in STEP, and splines stand only where the width changes in a "
+    "bend") {
   const TempDir dir;
   const WorkshopBuild build = plates(chute(), section::UChannel{kWidening, 0.25, 4e-3});
   std::size_t splines = 0;
@@ -220,7 +223,8 @@ TEST_CASE("widths: random tracks and widths make plates that fit and add up") {
                                                Angle::from_degrees(random.between(2.0, 35.0)), t}),
           section::Measures(section::Slab{WidthLaw(knots), t})}) {
       INFO(section::kind(measures));
-      const WorkshopBuild build = plates(track, measures, options);  // throws where parts clash or do not add up
+      const WorkshopBuild build =
+          plates(track, measures, options);  // throws where parts clash or do not add up
       for (const ShopPart& part : build.workshop.parts) {
         CHECK(faults_of(part.pattern->region).empty());
         CHECK(part.mass > 0.0);
@@ -244,7 +248,8 @@ TEST_CASE("widths: what cannot be made is refused with place, value and bound") 
   CHECK(steep.find("cross_section.width|the width changes by 4 m per metre at 2 m along the track") == 0);
   CHECK(steep.find("a longer stretch for the change") != std::string::npos);
   const WidthLaw far({{0.2, 0.3}, {7.5, 4.2}});
-  CHECK(refusal(section::UChannel{far, 0.25, 4e-3}, {}).find("walls of plates would lean ") != std::string::npos);
+  CHECK(refusal(section::UChannel{far, 0.25, 4e-3}, {}).find("walls of plates would lean ") !=
+        std::string::npos);
   PlateOptions bent;
   bent.floor = FloorMake::bent;
   CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, bent)
@@ -252,6 +257,8 @@ TEST_CASE("widths: what cannot be made is refused with place, value and bound") 
   PlateOptions lap;
   lap.corners.kind = CornerJoint::lap;
   CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, lap).find("corners|corners: it goes with") == 0);
-  CHECK(refusal(section::Slab{kWidening, 6e-3, 0.05, 0.02}, {})
-            .find("cross_section.width|fabrication: plates of curbs or a groove beside a width that changes") == 0);
+  CHECK(
+      refusal(section::Slab{kWidening, 6e-3, 0.05, 0.02}, {})
+          .find("cross_section.width|fabrication: plates of curbs or a groove beside a width that changes") ==
+      0);
 }

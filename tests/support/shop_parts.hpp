@@ -56,9 +56,16 @@ inline glissade::RolledSheet slotted_floor() {
   const double whole = joints.back();
   sheet.region.outline.closed = true;
   const double tab = joints[1] + 0.2;
-  for (const glissade::Vec2 corner :
-       {glissade::Vec2{0.0, 0.02}, {tab, 0.02}, {tab, 0.0}, {tab + 0.04, 0.0}, {tab + 0.04, 0.02},
-        {whole, 0.02}, {whole, 0.4}, {0.015, 0.4}, {0.015, 0.38}, {0.0, 0.38}})
+  for (const glissade::Vec2 corner : {glissade::Vec2{0.0, 0.02},
+                                      {tab, 0.02},
+                                      {tab, 0.0},
+                                      {tab + 0.04, 0.0},
+                                      {tab + 0.04, 0.02},
+                                      {whole, 0.02},
+                                      {whole, 0.4},
+                                      {0.015, 0.4},
+                                      {0.015, 0.38},
+                                      {0.0, 0.38}})
     sheet.region.outline.vertices.push_back({corner, 0.0});
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
     const double middle = 0.5 * (joints[i] + joints[i + 1]);
@@ -112,9 +119,10 @@ inline glissade::Workshop sample_workshop() {
   glissade::ArcPath plate{{{{0.0, 0.3}}, {{0.0, 0.0}}, tiny, {{0.5, 3e-7}}, {{0.5, 0.3}}}, true};
   workshop.parts.push_back(shop_part(6, "plate", glissade::Prism{{plate, {}, {}}, 0.4}));
   workshop.parts.push_back(shop_part(7, "slotted_floor", slotted_floor()));
-  workshop.parts.push_back(shop_part(8, "trough",
-                                     glissade::TroughGore{0.1, 0.003, 0.05, 0.3, glissade::Angle::from_radians(-0.1),
-                                                          glissade::Angle::from_radians(0.12)}));
+  workshop.parts.push_back(
+      shop_part(8, "trough",
+                glissade::TroughGore{0.1, 0.003, 0.05, 0.3, glissade::Angle::from_radians(-0.1),
+                                     glissade::Angle::from_radians(0.12)}));
   workshop.parts.push_back(shop_part(9, "half_round", glissade::TroughGore{0.1, 0.003, 0.0, 0.3, {}, {}}));
   workshop.parts.push_back(shop_part(10, "widening_wall", widening_plate()));
   workshop.items.push_back({"bolt M12 x 40", "ISO 4017 8.8", 24, "joint 1"});

@@ -230,7 +230,8 @@ double gap_from_surface(const StepEntities& step, Id id, Vec3 point) {
   const Entity& surface = step.at(id);
   if (surface.keyword == "B_SPLINE_SURFACE_WITH_KNOTS") {
     double least = std::numeric_limits<double>::infinity();
-    for (const Id pole : step.nested_references(step.parameters(id, 4)[3])) least = std::min(least, norm(step.triple(pole) - point));
+    for (const Id pole : step.nested_references(step.parameters(id, 4)[3]))
+      least = std::min(least, norm(step.triple(pole) - point));
     return least;
   }
   const auto parts = step.parameters(id, 2);

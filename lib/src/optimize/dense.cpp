@@ -19,7 +19,9 @@ namespace {
 /// Four numbers side by side: one register, or two where the processor has none so wide.
 using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
 
-inline void load(Four& four, const double* from) { std::memcpy(&four, from, sizeof four); }
+inline void load(Four& four, const double* from) {
+  std::memcpy(&four, from, sizeof four);
+}
 
 }  // namespace
 

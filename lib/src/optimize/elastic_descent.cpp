@@ -31,8 +31,8 @@ constexpr double kBroken = 1e-4;  // taste
 
 class ElasticDescent {
  public:
-  ElasticDescent(const Rows& rows, const Transcription& track, Vector z, Multipliers known,
-                 double near, SearchControl& control)
+  ElasticDescent(const Rows& rows, const Transcription& track, Vector z, Multipliers known, double near,
+                 SearchControl& control)
       : rows_(rows),
         track_(track),
         near_(near),
@@ -131,7 +131,8 @@ class ElasticDescent {
     program.inequality = Matrix(count, n_ + 1);
     for (std::size_t i = 0; i < equalities; ++i) {
       for (std::size_t side = 0; side < 2; ++side) {
-        add_scaled(program.inequality.row(2 * i + side), side == 0 ? 1.0 : -1.0, program_.equality.row(i), n_);
+        add_scaled(program.inequality.row(2 * i + side), side == 0 ? 1.0 : -1.0, program_.equality.row(i),
+                   n_);
       }
     }
     for (std::size_t i = 0; i < set_.size(); ++i) {
@@ -332,7 +333,7 @@ class ElasticDescent {
   State state_;
   double violation_ = 0.0;
   double price_ = kFirstPrice;
-  double stiffness_ = 0.0;  ///< price of changes of shape
+  double stiffness_ = 0.0;   ///< price of changes of shape
   double growth_ = kHarder;  ///< of the stiffness when a step is refused
   std::vector<Row> set_;
   QuadraticProgram program_;

@@ -17,7 +17,7 @@ struct Elastic {
 /// What a step of the search knows of how the rows bend.
 enum class StepModel {
   curved,  ///< the Lagrangian's curvature: few steps, to the end closest by
-  flat     ///< nothing but the price on the change of shape: more steps, past ends that curvature would draw it into
+  flat  ///< nothing but the price on the change of shape: more steps, past ends that curvature would draw it into
 };
 
 /// The least t by which the elastic rows must give way, and who holds it up.

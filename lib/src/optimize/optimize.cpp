@@ -179,7 +179,8 @@ void tell_track(const Candidate& best, const OptimizeOptions& options, SearchCon
   report.checks = best.judgement.checks;
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = best.finer_mesh_wins;
-  report.active = active_limits(*best.problem, priced(*best.problem, found, best.multipliers_ahead, options, control));
+  report.active =
+      active_limits(*best.problem, priced(*best.problem, found, best.multipliers_ahead, options, control));
 }
 
 /// Tells why there is no track.
@@ -221,8 +222,8 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
     const Resolve resolve = resolve_with(options, control);
     at_once = too_close_at_an_end(problem, [&](const LimitName& limit, double value) {
       const auto changed = with_bound(problem, limit, value);
-      return !changed || (!too_close_at_an_end(*changed, {}) &&
-                          resolve.anew(*changed, std::numeric_limits<int>::max()));
+      return !changed ||
+             (!too_close_at_an_end(*changed, {}) && resolve.anew(*changed, std::numeric_limits<int>::max()));
     });
   }
   if (at_once) {

@@ -362,7 +362,7 @@ class Minimiser {
     constexpr double kParts[] = {1.0, 0.5, 0.2};  // taste
     constexpr double kShorter = 0.3;              // theory: below 1, the natural monotonicity test
     // A metric that makes the steps this much shorter is kept: another would cost more than a step.
-    constexpr double kFast = 0.1;   // taste
+    constexpr double kFast = 0.1;    // taste
     constexpr double kClose = 1e-3;  // taste
     for (const double part : kParts) {
       Vector z = point_.state.z;

@@ -46,7 +46,8 @@ struct Outlook {
   Vector step;
   Vector force;      ///< the Lagrangian's gradient at the point, with the program's multipliers
   double won = 0.0;  ///< by which the step lowers the objective, to second order
-  Vector by_limit;   ///< multipliers of the program, those of each limit's rows together; none where it has no solution
+  Vector
+      by_limit;  ///< multipliers of the program, those of each limit's rows together; none where it has no solution
 };
 [[nodiscard]] Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
                                  const Vector& margins, SearchControl& control, const Found& known);

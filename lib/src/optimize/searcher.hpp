@@ -25,7 +25,7 @@ struct Candidate {
   bool kept = false;  ///< the referee finds every limit kept
   bool stopped = false;
   std::optional<double> finer_mesh_wins;  ///< as in OptimizeReport
-  Vector multipliers_ahead;               ///< of each limit on a finer mesh, as in Outlook; none if not looked at
+  Vector multipliers_ahead;  ///< of each limit on a finer mesh, as in Outlook; none if not looked at
 };
 
 /// Searches coarse to fine, and goes on until the referee finds the limits kept.

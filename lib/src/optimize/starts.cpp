@@ -268,12 +268,12 @@ double mirrored_digits(int number, int base) {
 std::vector<GuessCurve> scattered_starts(const ScaledProblem& problem) {
   // measured: of a problem that 8 % of such curves solve 32 find a track in 14 of 15 cases
   constexpr int kCurves = 32;
-  constexpr double kMostAmplitude = 0.8;          // [rad]; taste
-  constexpr double kWaves[] = {0.3, 3.0};         // taste
-  constexpr double kMostTurn = 0.5;               // [rad], from end to end, either way; taste
-  constexpr double kLonger = 0.3;                 // chords a radian of amplitude; taste
+  constexpr double kMostAmplitude = 0.8;             // [rad]; taste
+  constexpr double kWaves[] = {0.3, 3.0};            // taste
+  constexpr double kMostTurn = 0.5;                  // [rad], from end to end, either way; taste
+  constexpr double kLonger = 0.3;                    // chords a radian of amplitude; taste
   constexpr double kNearlyUpright[] = {-1.5, 1.55};  // [rad]; taste
-  constexpr int kBases[] = {2, 3, 5, 7, 11};      // theory: primes
+  constexpr int kBases[] = {2, 3, 5, 7, 11};         // theory: primes
   const std::vector<GuessCurve> likely = starts(problem);
   const Vec2 finish = expected_finish(problem);
   const double mean = math::atan2(finish.y, finish.x);

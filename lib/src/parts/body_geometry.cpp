@@ -136,7 +136,8 @@ std::vector<Slab> slabs_of(const RolledSheet& sheet, const std::vector<PathPiece
       // Of the edges above and below the middle, those that run on count for what lies below them.
       const bool left = (signed_area(*loops[l]) > 0.0) == (l == 0);
       for (const PathPiece& edge : pieces_of(*loops[l])) {
-        const bool spans = std::min(edge.from.x, edge.to.x) <= middle && middle < std::max(edge.from.x, edge.to.x);
+        const bool spans =
+            std::min(edge.from.x, edge.to.x) <= middle && middle < std::max(edge.from.x, edge.to.x);
         if (!spans) continue;
         const double sense = (edge.to.x < edge.from.x) == left ? 1.0 : -1.0;
         slab.width += sense * edge.from.y;
@@ -296,7 +297,8 @@ std::vector<Vec3> points_of(const RolledSheet& sheet, double inset) {
       const double whole = norm(step);
       if (!(whole > 0.0)) continue;
       const Vec2 inward = ((left ? inset : -inset) / whole) * Vec2{-step.y, step.x};
-      const int count = 4 + static_cast<int>(4.0 * whole / starts.back() * static_cast<double>(pieces.size()));
+      const int count =
+          4 + static_cast<int>(4.0 * whole / starts.back() * static_cast<double>(pieces.size()));
       for (int k = 0; k < count; ++k) put(edge.from + ((k + 0.5) / count) * step + inward);
     }
   };
@@ -412,11 +414,13 @@ double depth_along(const std::vector<PathPiece>& pieces, Vec2 point, Across acro
 }
 
 double depth_in(const SweptBody& body, Vec3 point) {
-  return depth_along(pieces_of(body.path), {point.x, point.y}, [&](std::size_t i, double share, double above) {
-    ArcPath section{{}, true};
-    for (const Vec2 corner : section_at(body, i, share)) section.vertices.push_back({corner, 0.0});
-    return depth_in(PlaneRegion{section, {}, {}}, Vec2{above, point.z});
-  });
+  return depth_along(pieces_of(body.path), {point.x, point.y},
+                     [&](std::size_t i, double share, double above) {
+                       ArcPath section{{}, true};
+                       for (const Vec2 corner : section_at(body, i, share))
+                         section.vertices.push_back({corner, 0.0});
+                       return depth_in(PlaneRegion{section, {}, {}}, Vec2{above, point.z});
+                     });
 }
 
 double depth_in(const RolledSheet& sheet, Vec3 point) {

@@ -313,7 +313,8 @@ SheetGrid grid_of(const RolledSheet& sheet, const Fineness& fineness) {
 
 class SheetMesh {
  public:
-  SheetMesh(const RolledSheet& sheet, const Fineness& fineness) : sheet_(sheet), grid_(grid_of(sheet, fineness)) {}
+  SheetMesh(const RolledSheet& sheet, const Fineness& fineness)
+      : sheet_(sheet), grid_(grid_of(sheet, fineness)) {}
 
   TriangleMesh whole() {
     for (std::size_t i = 0; i + 1 < grid_.along.size(); ++i) {
@@ -327,7 +328,8 @@ class SheetMesh {
  private:
   [[nodiscard]] bool filled(std::size_t i, std::size_t j) const {
     if (i + 1 >= grid_.along.size() || j >= grid_.cells()) return false;
-    const Vec2 middle{0.5 * (grid_.along[i] + grid_.along[i + 1]), 0.5 * (grid_.across[j] + grid_.across[j + 1])};
+    const Vec2 middle{0.5 * (grid_.along[i] + grid_.along[i + 1]),
+                      0.5 * (grid_.across[j] + grid_.across[j + 1])};
     if (!contains(sheet_.region.outline, middle)) return false;
     return std::none_of(sheet_.region.cutouts.begin(), sheet_.region.cutouts.end(),
                         [&](const ArcPath& cutout) { return contains(cutout, middle); });
@@ -344,7 +346,8 @@ class SheetMesh {
 
   /// A side below an edge of the upper face that has the sheet on its left, seen from below.
   void add_side(std::size_t i, std::size_t j, std::size_t to_i, std::size_t to_j) {
-    add_quad(mesh_, vertex(i, j, true), vertex(to_i, to_j, true), vertex(to_i, to_j, false), vertex(i, j, false));
+    add_quad(mesh_, vertex(i, j, true), vertex(to_i, to_j, true), vertex(to_i, to_j, false),
+             vertex(i, j, false));
   }
 
   void add_cell(std::size_t i, std::size_t j) {

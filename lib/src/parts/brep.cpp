@@ -149,7 +149,9 @@ class SweptFaces {
 
  private:
   [[nodiscard]] std::size_t corners() const { return sections_.front().size(); }
-  [[nodiscard]] Vec2 corner(std::size_t station, std::size_t j) const { return sections_[station][j % corners()]; }
+  [[nodiscard]] Vec2 corner(std::size_t station, std::size_t j) const {
+    return sections_[station][j % corners()];
+  }
   [[nodiscard]] std::size_t vertex(std::size_t station, std::size_t corner) const {
     return station * corners() + corner % corners();
   }
@@ -160,7 +162,9 @@ class SweptFaces {
   [[nodiscard]] std::size_t along(std::size_t piece, std::size_t corner) const {
     return vertex(pieces_.size() + 1 + piece, corner);
   }
-  [[nodiscard]] bool moves(std::size_t i, std::size_t j) const { return corner(i, j).y != corner(i + 1, j).y; }
+  [[nodiscard]] bool moves(std::size_t i, std::size_t j) const {
+    return corner(i, j).y != corner(i + 1, j).y;
+  }
 
   void stations() {
     constexpr double kKink = 1e-7;  // what bulges rounded to doubles leave is far less
@@ -248,7 +252,8 @@ class SweptFaces {
     const double sweep = arc_of(pieces_[i]).sweep;
     const Vec2 centre = arc_of(pieces_[i]).centre;
     for (std::size_t k = 0; k < 2; ++k)
-      made.rails[k] = helix_poles(brep_.vertices[vertex(i, j + k)], brep_.vertices[vertex(i + 1, j + k)], centre, sweep);
+      made.rails[k] =
+          helix_poles(brep_.vertices[vertex(i, j + k)], brep_.vertices[vertex(i + 1, j + k)], centre, sweep);
     return made;
   }
 

@@ -21,9 +21,9 @@ struct BrepEdge {
   CurveKind kind = CurveKind::line;
   Vec3 centre;
   Vec3 axis;
-  Vec3 reference;              ///< unit, square to the axis; of an ellipse along its first semi-axis
-  double radius = 0.0;         ///< of an ellipse its semi-axis along the reference
-  double second_radius = 0.0;  ///< of an ellipse
+  Vec3 reference;               ///< unit, square to the axis; of an ellipse along its first semi-axis
+  double radius = 0.0;          ///< of an ellipse its semi-axis along the reference
+  double second_radius = 0.0;   ///< of an ellipse
   std::array<Vec3, 4> poles{};  ///< of a cubic, in Bezier's form, from its first vertex to its last
 };
 

@@ -71,7 +71,8 @@ class SheetFaces {
       const Vec2 from = corners[k];
       const Vec2 to = corners[(k + 1) % corners.size()];
       if (from == to) continue;
-      if (from.x != to.x && from.y != to.y) throw bad_body(part_, "an edge of its sheet is neither along nor across");
+      if (from.x != to.x && from.y != to.y)
+        throw bad_body(part_, "an edge of its sheet is neither along nor across");
       all.push_back(from);
       std::vector<double> between;
       for (const double joint : starts_) {
@@ -120,7 +121,8 @@ class SheetFaces {
       }
     }
     const Vec2 below = point - thickness_ * Vec2{-tangent.y, tangent.x};
-    entry->second = {at, add_vertex(brep_, at_height(point, at.y)), add_vertex(brep_, at_height(below, at.y))};
+    entry->second = {at, add_vertex(brep_, at_height(point, at.y)),
+                     add_vertex(brep_, at_height(below, at.y))};
     return entry->second;
   }
 

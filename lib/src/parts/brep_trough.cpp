@@ -51,8 +51,12 @@ class TroughFaces {
     return (sense > 0.0 ? 0U : 2U) + (outside ? 1U : 0U);
   }
   [[nodiscard]] double radius(bool outside) const { return outside ? outer_ : inner_; }
-  [[nodiscard]] const Lengthwise& round(double sense, bool outside) const { return round_.at(index(sense, outside)); }
-  [[nodiscard]] const Lengthwise& rim(double sense, bool outside) const { return rim_.at(index(sense, outside)); }
+  [[nodiscard]] const Lengthwise& round(double sense, bool outside) const {
+    return round_.at(index(sense, outside));
+  }
+  [[nodiscard]] const Lengthwise& rim(double sense, bool outside) const {
+    return rim_.at(index(sense, outside));
+  }
 
   Lengthwise lengthwise(double x, double y) {
     Lengthwise made;
@@ -114,9 +118,13 @@ class TroughFaces {
         face.axis = {0.0, to_left ? 1.0 : -1.0, 0.0};
         face.reference = kUp;
         if (to_left) {
-          add_face(face, {{foot.edge, true}, {high_side_.at(i), true}, {top.edge, false}, {low_side_.at(i), false}});
+          add_face(
+              face,
+              {{foot.edge, true}, {high_side_.at(i), true}, {top.edge, false}, {low_side_.at(i), false}});
         } else {
-          add_face(face, {{low_side_.at(i), true}, {top.edge, true}, {high_side_.at(i), false}, {foot.edge, false}});
+          add_face(
+              face,
+              {{low_side_.at(i), true}, {top.edge, true}, {high_side_.at(i), false}, {foot.edge, false}});
         }
       }
     }

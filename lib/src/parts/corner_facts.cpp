@@ -18,8 +18,10 @@ double least_web(const PlaneRegion& region) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < region.cutouts.size(); ++i) {
     least = std::min(least, distance(region.cutouts[i], region.outline));
-    for (std::size_t k = 0; k < i; ++k) least = std::min(least, distance(region.cutouts[i], region.cutouts[k]));
-    for (const Circle& hole : region.holes) least = std::min(least, distance(region.cutouts[i], path_of(hole)));
+    for (std::size_t k = 0; k < i; ++k)
+      least = std::min(least, distance(region.cutouts[i], region.cutouts[k]));
+    for (const Circle& hole : region.holes)
+      least = std::min(least, distance(region.cutouts[i], path_of(hole)));
   }
   return least;
 }
@@ -32,8 +34,8 @@ void measure_corners(const Job& job, const std::vector<Unit>& units, Workshop& w
   const double tabbed = beside ? job.channel.thickness : job.channel.wall();
   ShopFacts facts(workshop);
   for (const Unit& unit : units) {
-    const std::string where =
-        (beside ? unit.floor.name : unit.wall->name) + " at " + length_text(unit.span.from, 3) + " along the track";
+    const std::string where = (beside ? unit.floor.name : unit.wall->name) + " at " +
+                              length_text(unit.span.from, 3) + " along the track";
     for (std::size_t i = 0; i < unit.tabs.size(); ++i) {
       const double width = unit.tabs[i].to - unit.tabs[i].from;
       facts.at(where, "tab_width", width);

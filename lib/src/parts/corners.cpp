@@ -38,7 +38,8 @@ std::vector<Span> tab_room(const Job& job, const FloorFace& face) {
 }
 
 /// The middle of a tab nearest to a place; none where all room nearby is beyond `within`.
-std::optional<double> nearest_middle(const std::vector<Span>& rooms, double half, double about, double within) {
+std::optional<double> nearest_middle(const std::vector<Span>& rooms, double half, double about,
+                                     double within) {
   std::optional<double> best;
   for (const Span& room : rooms) {
     const double place = std::clamp(about, room.from + half, room.to - half);
@@ -84,10 +85,9 @@ std::optional<ArcPath> lower_line(const Job& job, const Span& span, const FloorF
   if (!walls_beside(job) || overlap(job) == 0.0 || lap.from == 0.0) return offset_line(job.track, span, low);
   const double flush = low + overlap(job);
   ArcPath path;
-  const std::array<std::pair<Span, double>, 3> steps = {
-      {{{span.from, span.from + lap.from}, flush},
-       {{span.from + lap.from, span.from + lap.to}, low},
-       {{span.from + lap.to, span.to}, flush}}};
+  const std::array<std::pair<Span, double>, 3> steps = {{{{span.from, span.from + lap.from}, flush},
+                                                         {{span.from + lap.from, span.from + lap.to}, low},
+                                                         {{span.from + lap.to, span.to}, flush}}};
   for (const auto& [part, height] : steps) {
     const auto line = offset_line(job.track, part, height);
     if (!line) return std::nullopt;
@@ -148,13 +148,13 @@ std::vector<Span> tab_places(const Job& job, const FloorFace& face, std::size_t 
     for (const TrackArc& arc : face.line.arcs()) {
       if (!face.facets || arc.curvature == 0.0) longest = std::max(longest, arc.length);
     }
-    throw InputError({"corners.tab",
-                      "tab: " + length_text(corners.tab) + " finds no place on the floor of unit " +
-                          std::to_string(unit),
-                      (face.facets ? "Its longest flat between bends is " : "Its longest arc is ") +
-                          length_text(longest, 3) + ", and frames take the ends.",
-                      "tab: " + length_text(0.3 * longest, 2) +
-                          (face.facets ? ", fewer bends, or corners: lap" : ", or corners: lap")});
+    throw InputError(
+        {"corners.tab",
+         "tab: " + length_text(corners.tab) + " finds no place on the floor of unit " + std::to_string(unit),
+         (face.facets ? "Its longest flat between bends is " : "Its longest arc is ") +
+             length_text(longest, 3) + ", and frames take the ends.",
+         "tab: " + length_text(0.3 * longest, 2) +
+             (face.facets ? ", fewer bends, or corners: lap" : ", or corners: lap")});
   }
   const double low = rooms.front().from + half;
   const double high = rooms.back().to - half;
@@ -185,8 +185,7 @@ PlaneRegion floor_sheet(const Job& job, const ArcSpline& line, const std::vector
     const double lap = overlap(job);
     const double slack = 0.5 * job.options.corners.clearance;
     const Span out = lapped(job, line);
-    if (out.from > 0.0)
-      right = {{0.0, lap}, {out.from, lap}, {out.from, 0.0}, {out.to, 0.0}, {out.to, lap}};
+    if (out.from > 0.0) right = {{0.0, lap}, {out.from, lap}, {out.from, 0.0}, {out.to, 0.0}, {out.to, lap}};
     for (const Span& tab : tabs) {
       const Vec2 low{tab.from - slack, lap - slack};
       const Vec2 high{tab.to + slack, lap + job.channel.wall() + slack};
@@ -234,7 +233,8 @@ std::optional<PlaneRegion> wall_region(const Job& job, const Span& span, const F
   if (!walls_beside(job)) return region;
   const double slack = 0.5 * job.options.corners.clearance;
   for (const Span& tab : tabs) {
-    const auto slot = band(face.line, {tab.from - slack, tab.to + slack}, -job.channel.thickness - slack, slack);
+    const auto slot =
+        band(face.line, {tab.from - slack, tab.to + slack}, -job.channel.thickness - slack, slack);
     region.cutouts.push_back(moved_by(*slot, face.origin));
   }
   return region;
@@ -256,11 +256,12 @@ std::vector<Issue> corner_problems(const ChannelMeasures& channel, const PlateOp
   const bool tabs = corners.kind == CornerJoint::tab_and_slot;
   const double least = tabs ? slotted + 0.5 * corners.clearance : 0.0;
   if (!(corners.overlap > 0.0) || corners.overlap < least) {
-    issues.push_back({"corners.overlap",
-                      "overlap: " + length_text(corners.overlap) + (tabs ? " leaves too little beyond the slots"
-                                                                         : " is not positive"),
-                      tabs ? "A web is at least as wide as its plate is thick, " + length_text(slotted) + "." : "",
-                      "overlap: " + length_text(std::max(15e-3, 2.0 * least), 2)});
+    issues.push_back(
+        {"corners.overlap",
+         "overlap: " + length_text(corners.overlap) +
+             (tabs ? " leaves too little beyond the slots" : " is not positive"),
+         tabs ? "A web is at least as wide as its plate is thick, " + length_text(slotted) + "." : "",
+         "overlap: " + length_text(std::max(15e-3, 2.0 * least), 2)});
   }
   if (!tabs) return issues;
   if (!(corners.clearance >= 0.0) || corners.clearance > 0.5 * tabbed) {
@@ -277,11 +278,11 @@ std::vector<Issue> corner_problems(const ChannelMeasures& channel, const PlateOp
                       "tab: " + length_text(4.0 * tabbed)});
   }
   if (!(corners.spacing >= 2.0 * corners.tab)) {
-    issues.push_back({"corners.spacing",
-                      "spacing: " + length_text(corners.spacing) + " is too close for tabs of " +
-                          length_text(corners.tab),
-                      "They are at least twice their width apart.",
-                      "spacing: " + length_text(std::max(0.3, 4.0 * corners.tab))});
+    issues.push_back(
+        {"corners.spacing",
+         "spacing: " + length_text(corners.spacing) + " is too close for tabs of " + length_text(corners.tab),
+         "They are at least twice their width apart.",
+         "spacing: " + length_text(std::max(0.3, 4.0 * corners.tab))});
   }
   return issues;
 }

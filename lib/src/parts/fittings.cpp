@@ -17,13 +17,13 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kAside = 1e-3;      // between a rim and the frame that it ends before [m]
-constexpr double kLap = 30e-3;       // of a lid beyond its opening, all round [m]
-constexpr double kLeastWeb = 20e-3;  // of a wall above and below an opening [m]
+constexpr double kAside = 1e-3;        // between a rim and the frame that it ends before [m]
+constexpr double kLap = 30e-3;         // of a lid beyond its opening, all round [m]
+constexpr double kLeastWeb = 20e-3;    // of a wall above and below an opening [m]
 constexpr double kLeastRound = 20e-3;  // of a stiffener, beyond a corner that laps [m]
-constexpr double kLugHalf = 40e-3;   // of a lug, along the track [m]
-constexpr double kLugHigh = 60e-3;   // above the wall's top [m]
-constexpr double kLugLow = 60e-3;    // below it, on a wall without a rim [m]
+constexpr double kLugHalf = 40e-3;     // of a lug, along the track [m]
+constexpr double kLugHigh = 60e-3;     // above the wall's top [m]
+constexpr double kLugLow = 60e-3;      // below it, on a wall without a rim [m]
 
 /// Half the width of the channel outside.
 double outside(const Job& job) {
@@ -594,8 +594,8 @@ std::vector<Issue> fitting_problems(const ChannelMeasures& channel, const PlateO
     const double lap = options.corners.kind != CornerJoint::butt && walls ? options.corners.overlap : 0.0;
     if (lap > 0.0 && options.stiffeners->width < lap + kLeastRound) {
       refusals.add("stiffeners.width",
-                   "width: " + length_text(options.stiffeners->width) + " leaves nothing round corners that lap by " +
-                       length_text(lap),
+                   "width: " + length_text(options.stiffeners->width) +
+                       " leaves nothing round corners that lap by " + length_text(lap),
                    "At least " + length_text(kLeastRound) + " of it go round them.",
                    "width: " + length_text(lap + 0.04));
     }

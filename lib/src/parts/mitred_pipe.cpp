@@ -101,13 +101,13 @@ Facets flats_of(const PipeJob& job, double largest_kink) {
   }
   const std::string key = job.side ? "width" : "inner_diameter";
   const std::string words = std::string(job.word()) + "s";
-  throw InputError(
-      {"cross_section." + key,
-       key + ": " + length_text(job.pipe.inner_diameter) + " is too large for mitred " + words,
-       "Where this track turns fastest, " + words + " would be shorter than " + length_text(job.least_crown()) +
-           (job.side ? " at the rim." : " at the crown."),
-       "a smaller_radius limit of the track above " + length_text(2.0 * job.pipe.inner_diameter, 2) +
-           ", a smaller pipe, or round: staves"});
+  throw InputError({"cross_section." + key,
+                    key + ": " + length_text(job.pipe.inner_diameter) + " is too large for mitred " + words,
+                    "Where this track turns fastest, " + words + " would be shorter than " +
+                        length_text(job.least_crown()) + (job.side ? " at the rim." : " at the crown."),
+                    "a smaller_radius limit of the track above " +
+                        length_text(2.0 * job.pipe.inner_diameter, 2) +
+                        ", a smaller pipe, or round: staves"});
 }
 
 /// A stretch of a flat; an end that is none of the flat is square, and so are those of the track.
@@ -280,8 +280,9 @@ ArcPath trough_edge(const PipeJob& job, Angle tilt, double level) {
 FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
   const double mean = job.mean_radius();
   const double phase = gore.odd ? -kSeam : kSeam;
-  const ArcPath low = job.side ? trough_edge(job, gore.body.start_tilt, 0.0)
-                               : arcs_of({mean * math::tan(gore.body.start_tilt.radians()), mean, phase, 0.0});
+  const ArcPath low = job.side
+                          ? trough_edge(job, gore.body.start_tilt, 0.0)
+                          : arcs_of({mean * math::tan(gore.body.start_tilt.radians()), mean, phase, 0.0});
   const ArcPath high =
       job.side ? trough_edge(job, gore.body.end_tilt, gore.body.length)
                : arcs_of({mean * math::tan(gore.body.end_tilt.radians()), mean, phase, gore.body.length});
@@ -429,7 +430,8 @@ RoundSection section_of(const PipeJob& job) {
 
 ArcPath edge_of(const PipeJob& job, Angle tilt, double phase) {
   const double mean = job.mean_radius();
-  return job.side ? trough_edge(job, tilt, 0.0) : arcs_of({mean * math::tan(tilt.radians()), mean, phase, 0.0});
+  return job.side ? trough_edge(job, tilt, 0.0)
+                  : arcs_of({mean * math::tan(tilt.radians()), mean, phase, 0.0});
 }
 
 PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const Workshop& workshop) {
@@ -440,9 +442,9 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const W
     for (const Gore& gore : unit.gores) {
       proof.volume += part_of(job, gore).volume;
       // By the lowest line and the mitres.
-      proof.exact_volume += section.area * gore.floor_length -
-                            section.moment * (math::tan(gore.body.start_tilt.radians()) -
-                                              math::tan(gore.body.end_tilt.radians()));
+      proof.exact_volume +=
+          section.area * gore.floor_length - section.moment * (math::tan(gore.body.start_tilt.radians()) -
+                                                               math::tan(gore.body.end_tilt.radians()));
       if (before != nullptr) {
         const double one = length(edge_of(job, before->body.end_tilt, kSeam));
         const double other = length(edge_of(job, gore.body.start_tilt, -kSeam));
@@ -458,8 +460,7 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const W
   if (!(std::fabs(proof.volume - proof.exact_volume) <= kPartsVolumeAccuracy * proof.exact_volume)) {
     throw InternalError({"",
                          "the " + std::string(job.word()) + "s hold " + rounded_text(proof.volume, 12) +
-                             " m^3, the pipe " +
-                             rounded_text(proof.exact_volume, 12) + " m^3",
+                             " m^3, the pipe " + rounded_text(proof.exact_volume, 12) + " m^3",
                          "", ""});
   }
   constexpr double kSameEdge = 1e-9;  // [m]
@@ -493,8 +494,8 @@ void list_tubes(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop
       const int number = add_part(workshop, std::move(part), kWallColour);
       if (workshop.parts.size() == before) continue;
       const Angle turn = job.side ? kHalfTurn : kWholeTurn;
-      workshop.bends.push_back({number, 1, job.side.value_or(0.0), turn.radians() * job.mean_radius(), turn, turn,
-                                job.radius(), 0.0});
+      workshop.bends.push_back({number, 1, job.side.value_or(0.0), turn.radians() * job.mean_radius(), turn,
+                                turn, job.radius(), 0.0});
     }
   }
 }

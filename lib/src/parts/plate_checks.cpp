@@ -120,7 +120,8 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
   const auto only_on_channels = [&](bool wanted, const char* key) {
     if (!wanted) return;
     objections.add(key, std::string(key) + ": it goes with a flat floor of one width and upright walls alone",
-                   "Other sections have no place that it fits.", "a cross_section of kind: u-channel, of one width");
+                   "Other sections have no place that it fits.",
+                   "a cross_section of kind: u-channel, of one width");
   };
   objections.positive(options.stave_tolerance, "stave_tolerance");
   objections.positive(options.polygon_thickness, "thickness");

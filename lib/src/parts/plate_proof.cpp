@@ -113,7 +113,8 @@ std::vector<VolumeDifference> corner_differences(const Job& job, const std::vect
   for (const Unit& unit : units) {
     const ArcSpline& line = unit.face.line;
     const auto along_face = [&](const Section& section, const Span& span) {
-      return along_track(section, span.to - span.from, line.slope_angle(span.from) - line.slope_angle(span.to));
+      return along_track(section, span.to - span.from,
+                         line.slope_angle(span.from) - line.slope_angle(span.to));
     };
     if (beside) {
       const double low = wall_heights(job).from;
@@ -127,10 +128,9 @@ std::vector<VolumeDifference> corner_differences(const Job& job, const std::vect
     for (const Span& tab : unit.tabs) {
       const Span slot{tab.from - slack, tab.to + slack};
       tabs.volume += along_face(rectangle_section(2.0 * wall, -thickness, 0.0), tab);
-      slots.volume -=
-          along_face(beside ? rectangle_section(2.0 * wall, -thickness - slack, slack)
-                            : rectangle_section(2.0 * (wall + 2.0 * slack), -thickness, 0.0),
-                     slot);
+      slots.volume -= along_face(beside ? rectangle_section(2.0 * wall, -thickness - slack, slack)
+                                        : rectangle_section(2.0 * (wall + 2.0 * slack), -thickness, 0.0),
+                                 slot);
     }
   }
   if (!has_tabs(job)) return {laps};
@@ -231,7 +231,8 @@ double largest_edge_mismatch(const Job& job, const std::vector<Unit>& units) {
       const auto line = offset_line(unit.face.line, {arc.start, arc.start + arc.length}, -below);
       fibre += length(*line);
     }
-    most = std::max({most, std::fabs(developed - fibre), tab_mismatch(job, unit), flat_tab_mismatch(job, unit)});
+    most =
+        std::max({most, std::fabs(developed - fibre), tab_mismatch(job, unit), flat_tab_mismatch(job, unit)});
     most = std::max(most, std::fabs(bounds(unit.floor.pattern->region.outline).width() - developed));
     if (bent || !unit.wall || job.options.walls != WallSeat::beside_floor) continue;
     // Lower edges of floor and wall.

@@ -71,7 +71,8 @@ void set_number_place(FlatPattern& pattern, const PlaneBox& box) {
 }
 
 OwnPlane own_plane(const ArcPath& outline) {
-  constexpr double kSagitta = 20e-6;  // of chords that stand for arcs; corners, which chords lie on, are exact
+  constexpr double kSagitta =
+      20e-6;  // of chords that stand for arcs; corners, which chords lie on, are exact
   const Vec2 first = outline.vertices.front().at;
   Vec2 far = first;
   for (const PathVertex& vertex : outline.vertices) {

@@ -95,7 +95,8 @@ void add_corner_notes(const Job& job, const PartsProof& proof, Workshop& worksho
   if (overlap(job) == 0.0) return;
   const bool beside = job.options.walls == WallSeat::beside_floor;
   std::string note = beside ? "Walls reach " : "The floor reaches ";
-  note += length_text(overlap(job)) + (beside ? " below the floor" : " beyond the walls") + ", frames excepted";
+  note +=
+      length_text(overlap(job)) + (beside ? " below the floor" : " beyond the walls") + ", frames excepted";
   if (has_tabs(job)) {
     const CornerOptions& corners = job.options.corners;
     note += std::string("; tabs of the ") + (beside ? "floor" : "walls") + ", " + length_text(corners.tab) +

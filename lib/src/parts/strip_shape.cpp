@@ -18,9 +18,9 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kMostSweep = 5.0 / 180.0 * std::numbers::pi;  // of an arc beside a width that changes
-constexpr double kMostLean = 0.1;                                    // across per height
-constexpr double kMostTaper = 0.3;                                   // of one side, per length of track
-constexpr double kNoFold = 1e-6;                                     // angle that nobody bends [rad]
+constexpr double kMostLean = 0.1;                              // across per height
+constexpr double kMostTaper = 0.3;                             // of one side, per length of track
+constexpr double kNoFold = 1e-6;                               // angle that nobody bends [rad]
 
 // Gauss, four points.
 constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
@@ -52,7 +52,8 @@ std::vector<double> breaks_of(const ArcSpline& track, const WidthLaw& widths) {
 
 }  // namespace
 
-StripJob::StripJob(const ArcSpline& on, const PlateSection& of, const PlateOptions& with, const Placement& where)
+StripJob::StripJob(const ArcSpline& on, const PlateSection& of, const PlateOptions& with,
+                   const Placement& where)
     : track(on), section(of), options(with), placement(where) {
   if (!section.widths) {
     for (const TrackArc& arc : track.arcs()) arcs_.push_back({arc, 0.0, 0.0, 0.0, 0.0});
@@ -75,8 +76,8 @@ StripJob::StripJob(const ArcSpline& on, const PlateSection& of, const PlateOptio
     high = std::max(high, lean);
     if (std::fabs(one.taper()) > kMostTaper) {
       throw InputError({"cross_section.width",
-                        "the width changes by " + rounded_text(2.0 * std::fabs(one.taper()), 3) + " m per metre at " +
-                            length_text(arc.start, 3) + " along the track",
+                        "the width changes by " + rounded_text(2.0 * std::fabs(one.taper()), 3) +
+                            " m per metre at " + length_text(arc.start, 3) + " along the track",
                         "Walls of plates turn aside by at most " + rounded_text(2.0 * kMostTaper, 2) +
                             " m per metre of track, both together.",
                         "a longer stretch for the change"});
@@ -91,12 +92,13 @@ StripJob::StripJob(const ArcSpline& on, const PlateSection& of, const PlateOptio
   }
   most_lean_ = 0.5 * (high - low);
   if (most_lean_ <= kMostLean) return;
-  throw InputError({"cross_section.width",
-                    "walls of plates would lean " +
-                        angle_text(Angle::from_radians(math::atan(most_lean_)), 3) + " where the width changes",
-                    "A plate beside a width that changes in a bend is not strained only if it leans; at most by " +
-                        angle_text(Angle::from_radians(math::atan(kMostLean)), 2) + ".",
-                    "a smaller change, or one where the track bends less"});
+  throw InputError(
+      {"cross_section.width",
+       "walls of plates would lean " + angle_text(Angle::from_radians(math::atan(most_lean_)), 3) +
+           " where the width changes",
+       "A plate beside a width that changes in a bend is not strained only if it leans; at most by " +
+           angle_text(Angle::from_radians(math::atan(kMostLean)), 2) + ".",
+       "a smaller change, or one where the track bends less"});
 }
 
 std::vector<StripArc> StripJob::arcs_in(const Span& span) const {
@@ -185,7 +187,8 @@ struct Side {
 };
 
 /// A floor, or any level plate: its edges stand where they stand.
-Development developed_level(const StripJob& job, const SectionPlate& plate, const std::vector<StripArc>& arcs) {
+Development developed_level(const StripJob& job, const SectionPlate& plate,
+                            const std::vector<StripArc>& arcs) {
   Development strip;
   double reached = 0.0;
   const auto put = [&](double wider, double lean) {
@@ -203,7 +206,8 @@ Development developed_level(const StripJob& job, const SectionPlate& plate, cons
   return strip;
 }
 
-Development developed_widening(const StripJob& job, const SectionPlate& plate, const std::vector<StripArc>& arcs) {
+Development developed_widening(const StripJob& job, const SectionPlate& plate,
+                               const std::vector<StripArc>& arcs) {
   const Vec2 nominal = plate.middle_from() - plate.middle_to();
   const double half = plate.middle_from().x + plate.middle_to().x > 0.0 ? 1.0 : -1.0;
   Development strip;
@@ -219,8 +223,13 @@ Development developed_widening(const StripJob& job, const SectionPlate& plate, c
     const StripArc& one = arcs[i];
     const auto across = [&](double lean) { return nominal + Vec2{half * nominal.y * lean, 0.0}; };
     const double aside = half * one.taper();
-    Side side{plate.middle_to().y, aside, nominal.y > 0.0 ? 1.0 : -1.0, across(one.lean_from).x / nominal.y,
-              half * (one.lean_to - one.lean_from), one.arc.curvature, one.arc.length};
+    Side side{plate.middle_to().y,
+              aside,
+              nominal.y > 0.0 ? 1.0 : -1.0,
+              across(one.lean_from).x / nominal.y,
+              half * (one.lean_to - one.lean_from),
+              one.arc.curvature,
+              one.arc.length};
     const double psi = angle_to_ruling(across(one.lean_from), aside);
     if (i == 0) {
       ruling = psi;
@@ -229,8 +238,8 @@ Development developed_widening(const StripJob& job, const SectionPlate& plate, c
       // Planes of both sides: normals Y - aside T - lean N.
       const Vec2 one_side{before, side.lean};
       const Vec2 other{aside, side.lean};
-      const double cosine = (1.0 + dot(one_side, other)) /
-                            (math::hypot(1.0, norm(one_side)) * math::hypot(1.0, norm(other)));
+      const double cosine =
+          (1.0 + dot(one_side, other)) / (math::hypot(1.0, norm(one_side)) * math::hypot(1.0, norm(other)));
       const double angle = math::acos(std::clamp(cosine, -1.0, 1.0));
       if (angle > kNoFold && std::fabs(aside - before) > kNoFold) {
         strip.folds.push_back({strip.base.back(), strip.upper.back(), Angle::from_radians(angle),
@@ -254,7 +263,8 @@ Development developed(const StripJob& job, const SectionPlate& plate, const Span
   const std::vector<StripArc> arcs = job.arcs_in(span);
   const Vec2 across = plate.middle_from() - plate.middle_to();
   if (job.widens()) {
-    return std::fabs(across.y) < 1e-12 ? developed_level(job, plate, arcs) : developed_widening(job, plate, arcs);
+    return std::fabs(across.y) < 1e-12 ? developed_level(job, plate, arcs)
+                                       : developed_widening(job, plate, arcs);
   }
   const double width = norm(across);
   const double upright = across.y / width;  // cos b, with its sign

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "glissade/parts/plates.hpp"
+
 #include "parts/offset_line.hpp"
 #include "parts/plate_section.hpp"
-
-#include "glissade/parts/plates.hpp"
 
 #include <vector>
 
@@ -12,7 +12,8 @@ namespace glissade::parts {
 /// Where a stretch of track begins and ends, how it bends, and how a section that widens stands at both ends.
 struct StripArc {
   TrackArc arc;
-  double wide_from = 0.0;  ///< by how much each half of the section stands farther out than the narrowest one [m]
+  double wide_from =
+      0.0;  ///< by how much each half of the section stands farther out than the narrowest one [m]
   double wide_to = 0.0;
   double lean_from = 0.0;  ///< by how much it leans out more, across per height [-]
   double lean_to = 0.0;

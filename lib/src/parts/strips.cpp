@@ -134,7 +134,8 @@ SweptBody body_of(const StripJob& job, const SectionPlate& plate, const Span& sp
     const auto put = [&](double s, double bulge, double wider, double lean) {
       body.path.vertices.push_back({frame_at(job.track, s).at, bulge});
       body.shifts.emplace_back();
-      for (const Vec2 corner : corners) body.shifts.back().push_back(corner.x - job.at(corner, wider, lean).x);
+      for (const Vec2 corner : corners)
+        body.shifts.back().push_back(corner.x - job.at(corner, wider, lean).x);
     };
     for (const StripArc& one : arcs) {
       put(one.arc.start, math::tan(0.25 * one.arc.curvature * one.arc.length), one.wide_from, one.lean_from);
@@ -159,8 +160,8 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
     const auto at = std::find(flat.base.begin(), flat.base.end(), fold.from) - flat.base.begin();
     const std::vector<double> turns(flat.turns.begin(), flat.turns.begin() + at);
     const Angle angle = fold.up ? fold.angle : Angle::from_radians(-fold.angle.radians());
-    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, length_along(flat.base, turns), 0.0, angle,
-                           angle, fold.inner_radius, 0.0});
+    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, length_along(flat.base, turns), 0.0,
+                           angle, angle, fold.inner_radius, 0.0});
   }
 
   ShopPart& part = strip.part;
@@ -170,8 +171,7 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   part.thickness = job.section.thickness;
   Vec2 origin;
   part.body = body_of(job, plate, span, origin);
-  part.places = {
-      plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
+  part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
   part.pattern = pattern_of(flat, radii);
   return strip;
@@ -440,17 +440,18 @@ void measure_strips(const std::vector<Strip>& strips, Workshop& workshop) {
 void add_notes(const StripJob& job, const PartsProof& proof, Workshop& workshop) {
   if (job.section.mitred) {
     workshop.notes.emplace_back(
-        "Strips meet in mitres: patterns are of the middle of the thickness, edges are bevelled to the joint.");
+        "Strips meet in mitres: patterns are of the middle of the thickness, edges are bevelled to the "
+        "joint.");
   }
   if (job.widens()) {
     workshop.notes.push_back(
         "Beside a width that changes walls lean, so that they are bent and not strained: by at most " +
-        angle_text(Angle::from_radians(math::atan(job.most_lean())), 3) + ", " + length_text(job.departure(), 3) +
-        " from where the width has them. Against the solid: " +
+        angle_text(Angle::from_radians(math::atan(job.most_lean())), 3) + ", " +
+        length_text(job.departure(), 3) + " from where the width has them. Against the solid: " +
         rounded_text(1e6 * proof.differences.front().volume, 4) + " cm^3.");
-    workshop.notes.push_back("Their thickness is counted across the track: square to them it is less by up to " +
-                             length_text(job.section.thickness * (1.0 - 1.0 / math::hypot(1.0, job.most_taper())), 2) +
-                             ".");
+    workshop.notes.push_back(
+        "Their thickness is counted across the track: square to them it is less by up to " +
+        length_text(job.section.thickness * (1.0 - 1.0 / math::hypot(1.0, job.most_taper())), 2) + ".");
   }
   if (job.section.departure > 0.0) {
     workshop.notes.push_back("Flat staves stand in for the round section; they lie outside it by at most " +
@@ -470,7 +471,8 @@ std::vector<Issue> strip_problems(const PlateSection& section, const PlateOption
   std::vector<Issue> issues;
   if (options.floor == FloorMake::bent) {
     issues.push_back({"floor", "floor: bent goes with upright walls beside one width",
-                      "Plates that lean, meet in mitres or widen are rolled along the track.", "floor: rolled"});
+                      "Plates that lean, meet in mitres or widen are rolled along the track.",
+                      "floor: rolled"});
   }
   for (const SectionPlate& plate : section.plates) {
     if (dot(plate.back_to - plate.back_from, plate.face_to - plate.face_from) > 0.0) continue;

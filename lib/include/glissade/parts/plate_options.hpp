@@ -53,10 +53,10 @@ enum class CornerJoint {
 };
 struct CornerOptions {
   CornerJoint kind = CornerJoint::butt;
-  double overlap = 15e-3;      ///< beyond the other plate's far face [m]; > 0
-  double tab = 40e-3;          ///< width of a tab, along the track [m]
-  double spacing = 300e-3;     ///< greatest distance of tabs [m]
-  double clearance = 0.2e-3;   ///< by which a slot is larger than its tab, in all, both ways [m]; >= 0
+  double overlap = 15e-3;     ///< beyond the other plate's far face [m]; > 0
+  double tab = 40e-3;         ///< width of a tab, along the track [m]
+  double spacing = 300e-3;    ///< greatest distance of tabs [m]
+  double clearance = 0.2e-3;  ///< by which a slot is larger than its tab, in all, both ways [m]; >= 0
 
   friend bool operator==(const CornerOptions&, const CornerOptions&) = default;
 };

@@ -51,7 +51,7 @@ struct SweptBody {
 
 /// A sheet bent to a chain of lines and arcs: floors with slots and tabs. Its faces are planes and cylinders.
 struct RolledSheet {
-  ArcPath path;  ///< of its upper face: open, in the part's x-y plane; tangents continuous
+  ArcPath path;            ///< of its upper face: open, in the part's x-y plane; tangents continuous
   double thickness = 0.0;  ///< below the path, to its right [m]; > 0
   /// x: arc length along the path, from 0 to its length; y: along z [m]. Edges run along x or y; those along y, and cutouts,
   /// keep off the joints of the path, but for its ends.

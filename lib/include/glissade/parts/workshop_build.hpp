@@ -31,8 +31,8 @@ struct VolumeDifference {
 
 /// How the parts stand to the solid that they make.
 struct PartsProof {
-  double volume = 0.0;         ///< of all parts that make up the solid [m^3]
-  double exact_volume = 0.0;   ///< of the solid along the arcs, by another route [m^3]
+  double volume = 0.0;        ///< of all parts that make up the solid [m^3]
+  double exact_volume = 0.0;  ///< of the solid along the arcs, by another route [m^3]
   /// By which `volume` departs from `exact_volume`, in closed form; none of plain plates.
   std::vector<VolumeDifference> differences;
   double added_volume = 0.0;   ///< of flanges and what else is not of the channel, holes taken off [m^3]
