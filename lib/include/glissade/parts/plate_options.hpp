@@ -51,6 +51,7 @@ enum class CornerJoint {
   lap,          ///< the plate that passes the other reaches beyond it, with room for a weld
   tab_and_slot  ///< as lap; tabs of the plate that ends there stand in slots of the one that passes
 };
+/// The joint along the edges where plates of a channel meet.
 struct CornerOptions {
   CornerJoint kind = CornerJoint::butt;
   double overlap = 15e-3;     ///< beyond the other plate's far face [m]; > 0
