@@ -165,9 +165,10 @@ std::vector<GuessCurve> constant_speed_starts(const ScaledProblem& problem) {
     (entry(rate) + delta < kSteepest ? low : high) = rate;
   }
   const double first = entry(low);
-  if (!(first > 0.0)) return {};
-  GuessCurve curve;
   const double last = first - low * across;
+  // Close to the reach limit psi vanishes at the exit, to rounding, and the track has no end.
+  if (!(first > 0.0 && last > 0.0)) return {};
+  GuessCurve curve;
   const double whole = math::log(math::tan(0.5 * first) / math::tan(0.5 * last)) / low;
   for (int i = 0; i <= kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps;

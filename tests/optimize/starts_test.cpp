@@ -1,0 +1,41 @@
+// What searches begin with.
+
+#include "optimize/random_limits.hpp"
+#include "optimize/scaled_problem.hpp"
+#include "optimize/starts.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace glissade;
+using namespace glissade::optimizer;
+
+namespace {
+
+bool is_finite(const GuessCurve& curve) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::isfinite(curve.length) && curve.length > 0.0 &&
+         std::all_of(curve.sigma.begin(), curve.sigma.end(), finite) &&
+         std::all_of(curve.zeta.begin(), curve.zeta.end(), finite);
+}
+
+}  // namespace
+
+TEST_CASE("starts are tracks of finite length, up to the reach limit") {
+  testing::Random random = testing::seeded_random();
+  for (int i = 0; i < 300; ++i) {
+    Problem drawn = testing_problems::random_limited(random);
+    // From far above the reach limit to a billionth beside it.
+    const double mu = drawn.body.friction.coefficient();
+    drawn.endpoints.drop = drawn.endpoints.run * mu * (1.0 + std::pow(10.0, random.between(-9.0, 0.5)));
+    if (!(mu > 1e-3)) continue;
+    drawn.limits.keep_outs.clear();
+    const ScaledProblem problem = scaled(drawn, {});
+    CAPTURE(i, mu, drawn.endpoints.run, drawn.endpoints.drop);
+    for (const auto curves_of : {&starts, &constant_speed_starts, &winding_starts, &stepped_starts}) {
+      for (const GuessCurve& curve : curves_of(problem)) CHECK(is_finite(curve));
+    }
+  }
+}
