@@ -47,7 +47,10 @@ std::string wear_lines(const Design& design, const Track& track) {
   if (const auto loss = liner_loss(design, wear)) {
     text += "\nliner " + length_text(loss->per_1000_h, 3) + " thinner after 1000 h, " +
             length_text(loss->per_megatonne, 3) + " after a million tonnes; through after " +
-            rounded_text(loss->life_hours, 3) + " h";
+            rounded_text(loss->life_hours, 3) + " h, first " + length_text(wear.pressed.arc_length, 3) +
+            " down the track" +
+            (rides.size() > 1 ? ", at " + std::string(to_text(rides[wear.pressed_ride].level)) + " friction"
+                              : "");
   }
   return labelled("Wear", text);
 }

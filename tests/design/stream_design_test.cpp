@@ -115,6 +115,23 @@ TEST_CASE("a stream that would enter over its wall is refused, with the entry sp
              Contains("enters 273.9 mm deep, over its wall of 250 mm") && Contains("at least 0.2849 m/s"));
 }
 
+TEST_CASE("a liner by wear needs a stream, and a life a wear coefficient of the same plate") {
+  const auto lined = [](const std::string& stream, const std::string& liner) {
+    return problems_of(sound_design_with(
+        "friction_angle: 17 deg",
+        "friction_angle: 17 deg\n  entry_speed: 2 m/s\n" + stream + "fabrication: {liner: {" + liner + "}}"));
+  };
+  const std::string stream = "stream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3";
+  CHECK_THAT(lined("", "where: worn"), Contains("where: of a body that is no stream"));
+  CHECK_THAT(lined("", "life: 20000 h"), Contains("life: of a body that is no stream"));
+  CHECK_THAT(lined(stream + "}\n", "tonnage: 1e6 t"), Contains("life of a liner whose wear is not known") &&
+                                                          Contains("liner_plate: {thickness: 12 mm"));
+  CHECK_THAT(lined(stream + ", liner_plate: {thickness: 10 mm, hardness: 4 GPa, wear_coefficient: 2e-4}}\n",
+                   "life: 20000 h"),
+             Contains("thickness: 6 mm contradicts the liner_plate's 10 mm"));
+  CHECK_THAT(lined(stream + "}\n", "where: everywhere"), Contains("whole or worn"));
+}
+
 TEST_CASE("keys of other groups are told where they belong") {
   CHECK_THAT(problems(kWheat + ", friction_angle: 20 deg"), Contains("below body:"));
   CHECK_THAT(problems(kWheat + ", width: 400 mm"), Contains("below cross_section:"));

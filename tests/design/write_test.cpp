@@ -184,6 +184,19 @@ TEST_CASE("every key is written back") {
         "friction_angle: 17 deg\nstream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3}\n"
         "feed: {kind: hopper, outlet_speed: 0.5 m/s, drop: 0.8 m}\n"
         "limits: {objective: least_peak_wear}");
+  check(
+      "friction_angle: 17 deg",
+      "friction_angle: 17 deg\nstream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3, liner_plate: "
+      "{thickness: "
+      "6 mm, hardness: 4 GPa, wear_coefficient: 2e-4}}\n"
+      "feed: {kind: hopper, outlet_speed: 0.5 m/s, drop: 0.8 m}\n"
+      "fabrication: {process: plate, liner: {thickness: 6 mm, where: worn, worn_from: 40 %, life: 20000 h}}");
+  check("friction_angle: 17 deg",
+        "friction_angle: 17 deg\nstream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3, liner_plate: "
+        "{thickness: "
+        "6 mm, hardness: 4 GPa, wear_coefficient: 2e-4}}\n"
+        "feed: {kind: hopper, outlet_speed: 0.5 m/s, drop: 0.8 m}\n"
+        "fabrication: {process: plate, liner: {thickness: 6 mm, tonnage: 5e6 t}}");
   check("mesh:", "probes: [{from_start: 2 m, name: gate}, {from_finish: 10 cm}, {x: 3.1 m}]\nmesh:");
 }
 

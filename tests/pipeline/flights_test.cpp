@@ -51,7 +51,8 @@ struct Transfer {
 };
 
 json verdict_of(const Design& design, const Track& track) {
-  for (const json& rule : json::parse(track_json(design, track))["verdicts"]) {
+  const json document = json::parse(track_json(design, track));
+  for (const json& rule : document["verdicts"]) {
     if (rule["id"] == "chute.5.air") return rule;
   }
   return nullptr;

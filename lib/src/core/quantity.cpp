@@ -66,6 +66,7 @@ constexpr std::array kUnits = {
     Unit{"s", Dimension::time, 1.0, 1.0, true},
     Unit{"ms", Dimension::time, 1.0, 1e3, true},
     Unit{"min", Dimension::time, 60.0, 1.0, true},
+    Unit{"h", Dimension::time, 3600.0, 1.0, true},
     Unit{"kg", Dimension::mass, 1.0, 1.0, true},
     Unit{"t", Dimension::mass, 1e3, 1.0, true},
     Unit{"lb", Dimension::mass, 45359237.0, 1e8, true},

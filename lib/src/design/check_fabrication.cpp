@@ -59,8 +59,33 @@ void report_all(std::vector<Issue> issues, Collected& findings) {
   }
 }
 
+/// Where a liner is worn, and for how long it lasts, follows from what flows over it.
+void check_liner(const Design& design, const LinerOptions& liner, Collected& findings) {
+  const bool worn = liner.where == LinerPlaces::worn;
+  const bool lasting = liner.life || liner.tonnage;
+  if (!design.stream && (worn || lasting)) {
+    const char* const key = worn ? "where" : liner.life ? "life" : "tonnage";
+    report(findings, {std::string("fabrication.liner.") + key},
+           {"", std::string(key) + ": of a body that is no stream",
+            "What rubs on the floor follows from a mass flow.",
+            "stream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}"});
+  } else if (lasting && !design.stream->liner_plate) {
+    report(findings, {liner.life ? "fabrication.liner.life" : "fabrication.liner.tonnage"},
+           {"", "life of a liner whose wear is not known",
+            "Its thickness goes by Archard's law, with a coefficient of yours.",
+            "stream: {liner_plate: {thickness: 12 mm, hardness: 4 GPa, wear_coefficient: 2e-4}}"});
+  } else if (lasting && design.stream->liner_plate->thickness != liner.thickness) {
+    report(findings, {"fabrication.liner.thickness", "stream.liner_plate.thickness"},
+           {"",
+            "thickness: " + length_text(liner.thickness) + " contradicts the liner_plate's " +
+                length_text(design.stream->liner_plate->thickness),
+            "They are the same plate.", length_text(design.stream->liner_plate->thickness) + " in both"});
+  }
+}
+
 void check_process(const Design& design, const PlateOptions& plate, Collected& findings) {
   check_bend(plate.bend, findings);
+  if (plate.liner) check_liner(design, *plate.liner, findings);
   report_all(plate_problems(*design.cross_section, plate), findings);
 }
 

@@ -131,6 +131,16 @@ StiffenerOptions read_stiffeners(const Value& value, Findings& findings) {
   return stiffeners;
 }
 
+/// Where tiles go, and how long they are to last.
+void read_places(MapReader& map, LinerOptions& liner) {
+  static const std::vector<std::pair<std::string_view, LinerPlaces>> places = {{"whole", LinerPlaces::whole},
+                                                                               {"worn", LinerPlaces::worn}};
+  if (const auto where = map.find("where")) liner.where = map.choice(*where, places).value_or(liner.where);
+  liner.worn_from = map.quantity("worn_from", Dimension::number).value_or(liner.worn_from);
+  liner.life = map.quantity("life", Dimension::time);
+  liner.tonnage = map.quantity("tonnage", Dimension::mass);
+}
+
 LinerOptions read_liner(const Value& value, Findings& findings) {
   MapReader map(value, "A liner", "{thickness: 6 mm, tile_length: 600 mm, tile_width: 200 mm}", findings);
   LinerOptions liner;
@@ -142,6 +152,7 @@ LinerOptions read_liner(const Value& value, Findings& findings) {
   set_length(map, "gap", liner.gap);
   liner.heaviest = map.quantity("heaviest", Dimension::mass).value_or(liner.heaviest);
   set_bolt(map, "bolt", liner.bolt, findings);
+  read_places(map, liner);
   map.refuse_unknown_keys();
   return liner;
 }

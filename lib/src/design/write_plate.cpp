@@ -88,6 +88,10 @@ std::string liner(const LinerOptions& options) {
   group.add("gap", options.gap, Dimension::length);
   group.add("heaviest", options.heaviest, Dimension::mass);
   group.add("bolt", bolt(options.bolt));
+  group.add("where", options.where == LinerPlaces::worn ? "worn" : "whole");
+  group.add("worn_from", options.worn_from, Dimension::number);
+  if (options.life) group.add("life", *options.life, Dimension::time);
+  if (options.tonnage) group.add("tonnage", *options.tonnage, Dimension::mass);
   return group.inlined();
 }
 

@@ -222,6 +222,11 @@ class Rider {
   bool down(const CenterlinePtr& piece) {
     Body body = body_;
     body.entry_speed = speed_;
+    // What came down on the first piece runs along the others.
+    if (passed_ > 0.0) {
+      body.landing.reset();
+      body.approach = nullptr;
+    }
     for (FrictionChange& change : body.friction_changes) change.from = std::max(0.0, change.from - passed_);
     const Motion motion(piece, body, gravity_);
     if (!motion.arrived()) return false;

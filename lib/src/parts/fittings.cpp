@@ -481,6 +481,21 @@ void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options
     refusals.add("liner.heaviest", "heaviest: " + rounded_text(liner.heaviest, 4) + " kg is not positive", "",
                  "25 kg");
   }
+  if (!(liner.worn_from > 0.0 && liner.worn_from <= 1.0)) {
+    refusals.add("liner.worn_from",
+                 "worn_from: " + rounded_text(100.0 * liner.worn_from, 6) + " % is out of range",
+                 "It is a share of the wear where the floor wears most: above 0 to 100 %.", "50 %");
+  }
+  for (const auto& [value, key] :
+       {std::pair(liner.life, "liner.life"), std::pair(liner.tonnage, "liner.tonnage")}) {
+    if (value && !(*value > 0.0))
+      refusals.add(key, std::string(key).substr(6) + " is not positive", "A liner is to last for some time.",
+                   "20000 h");
+  }
+  if (liner.life && liner.tonnage) {
+    refusals.add("liner.tonnage", "tonnage beside life", "Either says how long tiles are to last.",
+                 "one of them");
+  }
   if (!(liner.gap >= 0.0) || liner.gap > 0.1 * channel.width) {
     refusals.add(
         "liner.gap", "gap: " + length_text(liner.gap) + " is out of range",

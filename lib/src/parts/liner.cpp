@@ -2,10 +2,12 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
+#include "parts/shop_facts.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -21,6 +23,33 @@ struct Course {
   std::vector<double> edges;
   std::vector<double> widths;
 };
+
+/// What a stream does to the floor along a course, the most of it.
+struct CourseWear {
+  double share = 0.0;
+  double loss_rate = 0.0;  ///< [m/s]
+};
+
+CourseWear wear_along(const std::vector<FloorWear>& wear, const Span& span) {
+  CourseWear most;
+  const auto see = [&](double share, double loss_rate) {
+    most.share = std::max(most.share, share);
+    most.loss_rate = std::max(most.loss_rate, loss_rate);
+  };
+  for (std::size_t i = 0; i < wear.size(); ++i) {
+    if (wear[i].at >= span.from && wear[i].at <= span.to) see(wear[i].share, wear[i].loss_rate);
+    if (i == 0) continue;
+    // At the ends of the course, between two places.
+    const FloorWear& a = wear[i - 1];
+    const FloorWear& b = wear[i];
+    for (const double end : {span.from, span.to}) {
+      if (!(a.at <= end && end <= b.at && a.at < b.at)) continue;
+      const double t = (end - a.at) / (b.at - a.at);
+      see(a.share + t * (b.share - a.share), a.loss_rate + t * (b.loss_rate - a.loss_rate));
+    }
+  }
+  return most;
+}
 
 Course course_of(const Job& job, const Span& span, bool odd) {
   const LinerOptions& liner = *job.options.liner;
@@ -45,7 +74,10 @@ Course course_of(const Job& job, const Span& span, bool odd) {
 double courses_in(const Job& job, const Span& span) {
   const LinerOptions& liner = *job.options.liner;
   const double width = job.channel.width / std::ceil(job.channel.width / liner.tile_width - 1e-9);
-  const double heavy = liner.heaviest / (liner.material.density * liner.thickness * width);
+  const bool plain = liner.where == LinerPlaces::worn;
+  const double density =
+      plain ? std::max(liner.material.density, job.options.material.density) : liner.material.density;
+  const double heavy = liner.heaviest / (density * liner.thickness * width);
   return std::max(1.0, std::ceil((span.to - span.from) / std::min(liner.tile_length, heavy) - 1e-9));
 }
 
@@ -68,14 +100,14 @@ Bolts bolts_of(const LinerOptions& liner, const Span& span, double width) {
 }
 
 /// A tile with its holes on the flat.
-ShopPart tile_of(const Job& job, const Course& course, std::size_t index) {
+ShopPart tile_of(const Job& job, const Course& course, std::size_t index, const StockMaterial& material) {
   const LinerOptions& liner = *job.options.liner;
   const double width = course.widths[index];
   const auto outline = band(job.track, course.span, -liner.thickness, 0.0);
   ShopPart part =
       upright_plate(job, {*outline, {}, {}}, width, {-0.5 * job.channel.width + course.edges[index]});
-  part.material = liner.material.name;
-  part.density = liner.material.density;
+  part.material = material.name;
+  part.density = material.density;
   part.thickness = liner.thickness;
   const double middle = -0.5 * liner.thickness;
   const double whole = flat_from_end(job.track, course.span, middle, course.span.from);
@@ -139,29 +171,114 @@ void drill_floors(const Job& job, std::vector<Unit>& units) {
   }
 }
 
+namespace {
+
+constexpr double kHour = 3600.0;
+
+std::string hours_text(double seconds) {
+  return rounded_text(seconds / kHour, 3) + " h";
+}
+
+/// Lays the courses of all units, and tells what becomes of them.
+class Tiler {
+ public:
+  explicit Tiler(const Fitting& fitting) : fitting_(fitting), liner_(*fitting.job.options.liner) {
+    if (fitting.job.options.floor_wear.empty() && (liner_.where == LinerPlaces::worn || liner_.life))
+      throw InternalError({"", "a liner for a wear that nobody told", "", ""});
+  }
+
+  void lay() {
+    int row = 0;
+    for (const Unit& unit : fitting_.units) {
+      drilled_ += unit.floor.pattern->region.holes.size();
+      for (const Course& course : courses_of(fitting_.job, unit.span, row)) lay(course, ++row);
+    }
+    if (drilled_ != bolts_) throw InternalError({"", "holes of liner and floor do not agree", "", ""});
+  }
+
+  [[nodiscard]] std::size_t bolts() const { return bolts_; }
+
+  void note_places() const {
+    if (liner_.where != LinerPlaces::worn) return;
+    std::string text = "Tiles of " + liner_.material.name + " lie where the floor wears " +
+                       rounded_text(100.0 * liner_.worn_from, 3) + " % of its peak or more, " + places_ +
+                       " along the track";
+    text += plain_ ? "; plain ones of " + fitting_.job.options.material.name + ", as thick, elsewhere." : ".";
+    fitting_.workshop.notes.push_back(std::move(text));
+  }
+  void note_life() const {
+    if (!liner_.life || !(thinnest_ > 0.0)) return;
+    fitting_.workshop.notes.push_back("Where it wears most the liner loses " +
+                                      length_text(thinnest_ * 1000.0 * kHour, 3) + " in 1000 h: for " +
+                                      hours_text(*liner_.life) + " without an exchange it takes " +
+                                      length_text(thinnest_ * *liner_.life, 3) + ".");
+  }
+
+ private:
+  void lay(const Course& course, int row) {
+    const CourseWear wear = wear_along(fitting_.job.options.floor_wear, course.span);
+    const bool wears = liner_.where == LinerPlaces::whole || wear.share >= liner_.worn_from;
+    plain_ = plain_ || !wears;
+    if (wears) remember(course.span);
+    const double full = course.widths[course.widths.size() / 2];
+    const std::string name = (wears ? "tile_" : "plain_tile_") + std::to_string(row);
+    for (std::size_t i = 0; i < course.widths.size(); ++i) {
+      ShopPart tile =
+          tile_of(fitting_.job, course, i, wears ? liner_.material : fitting_.job.options.material);
+      tile.name = name + (course.widths[i] < 0.9 * full ? "_half" : "");
+      bolts_ += tile.pattern->region.holes.size();
+      for (const double s : bolts_of(liner_, course.span, course.widths[i]).along)
+        fitting_.below.add(s - 0.015, s + 0.015);
+      add_part(fitting_.workshop, std::move(tile), kLinerColour);
+    }
+    if (wears && liner_.life && wear.loss_rate > 0.0) count_spares(course, name, wear.loss_rate);
+  }
+
+  void count_spares(const Course& course, const std::string& name, double loss_rate) {
+    thinnest_ = std::max(thinnest_, loss_rate);
+    const double lasts = liner_.thickness / loss_rate;
+    ShopFacts(fitting_.workshop)
+        .at(name + " at " + length_text(course.span.from, 3) + " to " + length_text(course.span.to, 3) +
+                " along the track lasts " + hours_text(lasts),
+            "liner_life_share", lasts / *liner_.life, 1.0, Dimension::number);
+    constexpr double kMostSets = 1e4;
+    const double sets = std::min(kMostSets, std::ceil(*liner_.life / lasts - 1e-9) - 1.0);
+    if (!(sets > 0.0)) return;
+    add_item(fitting_.workshop,
+             {"spare " + name + ", " + liner_.material.name + ", " + length_text(liner_.thickness, 3),
+              "as the part", static_cast<std::size_t>(sets) * course.widths.size(),
+              "liner, within " + hours_text(*liner_.life)});
+  }
+
+  void remember(const Span& span) {
+    const bool joins = last_ && span.from - *last_ <= 2.0 * liner_.gap;
+    if (joins)
+      places_.resize(places_.rfind(" to "));
+    else
+      places_ += (places_.empty() ? "" : ", ") + length_text(span.from, 3);
+    places_ += " to " + length_text(span.to, 3);
+    last_ = span.to;
+  }
+
+  const Fitting& fitting_;
+  const LinerOptions& liner_;
+  std::size_t bolts_ = 0;
+  std::size_t drilled_ = 0;
+  bool plain_ = false;
+  std::string places_;          ///< where tiles of the wearing kind lie, for people
+  std::optional<double> last_;  ///< end of the last of them [m]
+  double thinnest_ = 0.0;       ///< greatest rate of loss [m/s]
+};
+
+}  // namespace
+
 void add_liner(const Fitting& fitting) {
   const Job& job = fitting.job;
   if (!job.options.liner) return;
   const LinerOptions& liner = *job.options.liner;
-  std::size_t bolts = 0;
-  std::size_t drilled = 0;
-  int row = 0;
-  for (const Unit& unit : fitting.units) {
-    drilled += unit.floor.pattern->region.holes.size();
-    for (const Course& course : courses_of(job, unit.span, row)) {
-      ++row;
-      const double full = course.widths[course.widths.size() / 2];
-      for (std::size_t i = 0; i < course.widths.size(); ++i) {
-        ShopPart tile = tile_of(job, course, i);
-        tile.name = "tile_" + std::to_string(row) + (course.widths[i] < 0.9 * full ? "_half" : "");
-        bolts += tile.pattern->region.holes.size();
-        for (const double s : bolts_of(liner, course.span, course.widths[i]).along)
-          fitting.below.add(s - 0.015, s + 0.015);
-        add_part(fitting.workshop, std::move(tile), kLinerColour);
-      }
-    }
-  }
-  if (drilled != bolts) throw InternalError({"", "holes of liner and floor do not agree", "", ""});
+  Tiler tiler(fitting);
+  tiler.lay();
+  const std::size_t bolts = tiler.bolts();
   const Bolt& bolt = bolt_of(liner.bolt);
   const std::string size = "M" + std::to_string(liner.bolt);
   add_item(fitting.workshop,
@@ -174,6 +291,8 @@ void add_liner(const Fitting& fitting) {
       "Holes of the liner's bolts are in the flat patterns of tiles and floors, the tiles' countersunk; "
       "bodies are "
       "without them.");
+  tiler.note_places();
+  tiler.note_life();
 }
 
 }  // namespace glissade::parts

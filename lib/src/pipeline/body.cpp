@@ -78,12 +78,27 @@ WearFacts wear_at_frictions(const Track& track) {
   return wear_of(motions);
 }
 
+std::vector<FloorWear> pipeline::floor_wear(const Design& design, const Track& track) {
+  std::vector<const Motion*> motions;
+  for (const LevelRide& ride : track.rides()) motions.push_back(ride.motion);
+  const std::vector<FloorLoad> loads = floor_loads(motions);
+  double peak = 0.0;
+  for (const FloorLoad& load : loads) peak = std::max(peak, load.wear);
+  const auto& plate = design.stream.value().liner_plate;
+  std::vector<FloorWear> wear;
+  for (const FloorLoad& load : loads) {
+    wear.push_back(
+        {load.at, peak > 0.0 ? load.wear / peak : 0.0,
+         plate ? thickness_loss_rate({plate->wear_coefficient, plate->hardness}, load.pressed) : 0.0});
+  }
+  return wear;
+}
+
 std::optional<LinerLoss> liner_loss(const Design& design, const WearFacts& wear) {
   const StreamDesign& stream = design.stream.value();
-  if (!stream.liner_plate || !(wear.friction > 0.0)) return {};
+  if (!stream.liner_plate || !(wear.pressed.value > 0.0)) return {};
   const LinerPlateDesign& plate = *stream.liner_plate;
-  const double rate =
-      thickness_loss_rate({plate.wear_coefficient, plate.hardness}, wear.floor.value, wear.friction);
+  const double rate = thickness_loss_rate({plate.wear_coefficient, plate.hardness}, wear.pressed.value);
   constexpr double kHour = 3600.0;
   constexpr double kMegatonne = 1e9;  // [kg]
   return LinerLoss{rate * 1000.0 * kHour, rate * kMegatonne / stream.mass_flow,

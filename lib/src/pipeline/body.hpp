@@ -3,13 +3,20 @@
 #include "glissade/core/error.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/parts/plate_options.hpp"
+#include "glissade/pipeline/solve.hpp"
 
 #include <string>
+#include <vector>
 
 namespace glissade::pipeline {
 
 /// @return what resists where a body stalls, for a message: "the friction angle, 17 deg"
 [[nodiscard]] std::string friction_text(const Body& body, const Stall& stall);
+
+/// Where the stream of a track wears its floor, the most over every friction of the design.
+/// @param track  of a design with a stream
+[[nodiscard]] std::vector<FloorWear> floor_wear(const Design& design, const Track& track);
 
 /// @param length  of the whole track [m]
 [[nodiscard]] Issue law_end_problem(const Design& design, const LawEnd& end, double length);

@@ -9,6 +9,7 @@
 #include "glissade/pipeline/shop_rules.hpp"
 
 #include "parts/shop_facts.hpp"
+#include "pipeline/body.hpp"
 #include "pipeline/located.hpp"
 #include "pipeline/parts_clearance.hpp"
 #include "pipeline/workshop_files.hpp"
@@ -49,7 +50,16 @@ std::vector<Vec2> in_plane(const TrackDesign& track, const std::vector<Vec2>& gr
   return line;
 }
 
+/// What a liner is asked for that only a stream can tell.
+void tell_wear(const Design& design, const Track& track, PlateOptions& options) {
+  if (!options.liner) return;
+  LinerOptions& liner = *options.liner;
+  if (liner.tonnage) liner.life = *liner.tonnage / design.stream.value().mass_flow;
+  if (liner.where == LinerPlaces::worn || liner.life) options.floor_wear = floor_wear(design, track);
+}
+
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PlateOptions options) {
+  tell_wear(design, track, options);
   if (options.supports) options.supports->ground = in_plane(design.track, options.supports->ground);
   return make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
                      frame, body_of(design), design.gravity);

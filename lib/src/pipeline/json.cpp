@@ -129,6 +129,8 @@ Json wear_json(const Design& design, const Track& track) {
                {"highest_wall_wear_w_per_m2", facts.wall.value},
                {"highest_wall_wear_at_m", facts.wall.arc_length},
                {"wear_plates", std::move(plates)}};
+  json["loss_at_m"] = facts.pressed.arc_length;
+  json["loss_friction"] = to_text(rides[facts.pressed_ride].level);
   const auto loss = liner_loss(design, facts);
   json["loss_mm_per_1000_h"] = loss ? Json(loss->per_1000_h * 1e3) : Json(nullptr);
   json["loss_mm_per_mt"] = loss ? Json(loss->per_megatonne * 1e3) : Json(nullptr);

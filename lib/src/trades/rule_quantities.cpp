@@ -99,6 +99,7 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"tab_thicknesses", number, "width of a tab over the thickness of its plate"},
     {"tab_gap", length, "distance of neighbouring tabs"},
     {"slot_clearance", length, "by how much a slot is larger than its tab"},
+    {"liner_life_share", number, "time in which a tile is worn through over the life that the design asks"},
     {"bolt_pitch", length, "distance of neighbouring bolts of a frame"},
     {"rolling_radius_thicknesses", number, "radius of a rolled plate over its thickness"},
     {"bend_radius_thicknesses", number, "inner radius of a bend over the thickness of its plate"},

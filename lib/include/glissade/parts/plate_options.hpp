@@ -104,6 +104,19 @@ struct StiffenerOptions {
   friend bool operator==(const StiffenerOptions&, const StiffenerOptions&) = default;
 };
 
+/// Where tiles of the wearing kind lie: all over the floor, or where it wears; plain ones as thick, of the chute's own
+/// material, everywhere else.
+enum class LinerPlaces { whole, worn };
+
+/// What a stream does to a floor at a place, the most over all of its rides.
+struct FloorWear {
+  double at = 0.0;         ///< arc length [m]
+  double share = 0.0;      ///< of the wear at its peak, 0 to 1
+  double loss_rate = 0.0;  ///< thickness that a liner loses there [m/s]; 0: not known
+
+  friend bool operator==(const FloorWear&, const FloorWear&) = default;
+};
+
 /// Plates that wear in place of the floor. Their upper faces are the track's floor; the floor plate lies below them.
 struct LinerOptions {
   StockMaterial material{"400 HB", 7850.0};
@@ -113,6 +126,10 @@ struct LinerOptions {
   double gap = 2e-3;         ///< between tiles, and beside the walls [m]
   double heaviest = 25.0;    ///< mass of a tile [kg]
   int bolt = 10;             ///< countersunk [mm]
+  LinerPlaces where = LinerPlaces::whole;
+  double worn_from = 0.5;         ///< share of the peak from which a floor counts as worn; > 0, at most 1
+  std::optional<double> life;     ///< for which spare tiles are listed [s]; > 0
+  std::optional<double> tonnage;  ///< the same, by what flows through [kg]; > 0, not both
 
   friend bool operator==(const LinerOptions&, const LinerOptions&) = default;
 };
@@ -180,6 +197,9 @@ struct PlateOptions {
   std::vector<InspectionOptions> inspection;
   std::optional<LiftingOptions> lifting;
   std::optional<SupportOptions> supports;
+  /// By ascending places; asked for by a liner with `worn` or `life`, which a stream alone has. No option: whoever knows the
+  /// stream fills it in, and the liner's `life` from its `tonnage`.
+  std::vector<FloorWear> floor_wear;
   double joint_step = 0.0;  ///< by which the floor may drop at a joint, downstream [m]; >= 0
 
   friend bool operator==(const PlateOptions&, const PlateOptions&) = default;

@@ -39,6 +39,11 @@ void join(std::vector<WearStretch>& stretches) {
   stretches = std::move(joined);
 }
 
+/// p v_slip, v_slip = K_c u.
+double pressed_at(const Motion& motion, const StreamState& state, double s) {
+  return state.floor_pressure * stream_of(motion.body())->shape().slip_ratio * motion.at(s).speed;
+}
+
 }  // namespace
 
 WearFacts wear_of(const std::vector<const Motion*>& rides) {
@@ -49,12 +54,15 @@ WearFacts wear_of(const std::vector<const Motion*>& rides) {
     for (const double s : places_of(motion)) {
       const StreamState state = stream_state(motion, s);
       if (state.wall_wear > facts.wall.value) facts.wall = {state.wall_wear, s};
-      if (state.floor_wear <= facts.floor.value) continue;
-      facts.floor = {state.floor_wear, s};
-      facts.ride = i;
-      const double speed = motion.at(s).speed;
-      const double factor = stream_of(motion.body())->resistance(s, speed * speed).factor;
-      facts.friction = state.equivalent_friction / factor;
+      if (state.floor_wear > facts.floor.value) {
+        facts.floor = {state.floor_wear, s};
+        facts.ride = i;
+      }
+      const double pressed = pressed_at(motion, state, s);
+      if (pressed > facts.pressed.value) {
+        facts.pressed = {pressed, s};
+        facts.pressed_ride = i;
+      }
     }
   }
   const Motion& worst = *rides[facts.ride];
@@ -75,8 +83,31 @@ WearFacts wear_of(const std::vector<const Motion*>& rides) {
   return facts;
 }
 
-double thickness_loss_rate(const LinerWear& liner, double floor_wear, double friction) {
-  return liner.coefficient * floor_wear / (friction * liner.hardness);
+double thickness_loss_rate(const LinerWear& liner, double pressed) {
+  return liner.coefficient * pressed / liner.hardness;
+}
+
+std::vector<FloorLoad> floor_loads(const std::vector<const Motion*>& rides) {
+  if (rides.empty()) throw InputError({"", "there is no ride to wear anything", "", ""});
+  std::vector<double> places;
+  for (const Motion* const ride : rides) {
+    const std::vector<double> of_ride = places_of(*ride);
+    places.insert(places.end(), of_ride.begin(), of_ride.end());
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<FloorLoad> loads;
+  for (const double s : places) {
+    FloorLoad load{s, 0.0, 0.0};
+    for (const Motion* const ride : rides) {
+      if (s > ride->distance()) continue;
+      const StreamState state = stream_state(*ride, s);
+      load.wear = std::max(load.wear, state.floor_wear);
+      load.pressed = std::max(load.pressed, pressed_at(*ride, state, s));
+    }
+    loads.push_back(load);
+  }
+  return loads;
 }
 
 }  // namespace glissade

@@ -16,7 +16,10 @@ struct WearStretch {
 struct WearFacts {
   ValueAt floor;            ///< greatest wear factor W_c of the floor [W/m^2]
   std::size_t ride = 0;     ///< the one that it is of
-  double friction = 0.0;    ///< mu there
+  /// Greatest p v_slip = W_c/mu of the floor [W/m^2], by which a liner gets thinner: not where W_c is greatest if mu
+  /// differs between the rides, but at the least of them as a rule, where the stream is fastest.
+  ValueAt pressed;
+  std::size_t pressed_ride = 0;  ///< the one that it is of
   ValueAt wall;             ///< greatest of the side walls, below the surface [W/m^2]
   double mean_floor = 0.0;  ///< mean W_c of that ride along the track [W/m^2]
   /// Where the floor wears at least half as fast as at its peak on any of the rides: where wear plates go.
@@ -33,9 +36,18 @@ struct LinerWear {
   double hardness = 0.0;     ///< [Pa]; > 0
 };
 
-/// @param floor_wear  W_c = mu p v_slip [W/m^2]
-/// @param friction    mu; > 0
+/// @param pressed  p v_slip [W/m^2]
 /// @return thickness lost [m/s]
-[[nodiscard]] double thickness_loss_rate(const LinerWear& liner, double floor_wear, double friction);
+[[nodiscard]] double thickness_loss_rate(const LinerWear& liner, double pressed);
+
+/// What a floor has to stand at one place of its track, the most over several rides.
+struct FloorLoad {
+  double at = 0.0;       ///< arc length [m]
+  double wear = 0.0;     ///< W_c [W/m^2]
+  double pressed = 0.0;  ///< p v_slip [W/m^2]
+};
+/// @param rides  as for wear_of()
+/// @return by ascending places, close enough for what changes with load and width
+[[nodiscard]] std::vector<FloorLoad> floor_loads(const std::vector<const Motion*>& rides);
 
 }  // namespace glissade

@@ -1,0 +1,143 @@
+// Liners by wear, with what they lose and the spares that they take, and rides of a fed stream as it is built.
+
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/parts/plates.hpp"
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
+constexpr ChannelMeasures kChannel{0.4, 0.25, 4e-3};
+
+CoulombBrachistochrone chute() {
+  return {{5.4, 5.1}, kFriction};
+}
+
+/// In units of 2.9 m, with tiles of their own material.
+PlateOptions lined() {
+  PlateOptions options;
+  options.split.longest = 2.9;
+  options.liner.emplace();
+  options.liner->material = {"400 HB", 7900.0};
+  return options;
+}
+
+WorkshopBuild plates(const PlateOptions& options) {
+  return make_plates(chute(), kChannel, {1e-4}, options, Placement(), {.friction = kFriction});
+}
+
+std::vector<const ShopPart*> named(const WorkshopBuild& build, const std::string& word) {
+  std::vector<const ShopPart*> found;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.find(word) != std::string::npos) found.push_back(&part);
+  }
+  return found;
+}
+
+std::string refusal(const PlateOptions& options) {
+  try {
+    (void)plates(options);
+  } catch (const InputError& error) {
+    return error.issues().front().where + "|" + error.issues().front().what + "|" +
+           error.issues().front().why;
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "liner: where it is worn tiles wear, elsewhere plain ones are as thick; the same holes, weights by "
+    "material") {
+  const PlateOptions whole = lined();
+  PlateOptions worn = whole;
+  worn.liner->where = LinerPlaces::worn;
+  worn.liner->worn_from = 0.6;
+  worn.liner->life = 1000.0 * 3600.0;
+  const double length = chute().length();
+  // A hump of wear in the middle: above 0.6 of the peak from 0.4 to 0.6 of the length.
+  worn.floor_wear = {{0.0, 0.2, 1e-10},
+                     {0.4 * length, 0.6, 1e-9},
+                     {0.5 * length, 1.0, 4e-9},
+                     {0.6 * length, 0.6, 1e-9},
+                     {length, 0.0, 1e-10}};
+  const WorkshopBuild plain = plates(whole);
+  const WorkshopBuild build = plates(worn);
+  CHECK(build.proof.volume == Approx(plain.proof.volume).epsilon(1e-9));
+  CHECK(build.proof.smallest_gap == Approx(plain.proof.smallest_gap).margin(1e-9));
+  std::size_t tiles = 0;
+  double wearing = 0.0;
+  std::vector<std::string> spare;
+  for (const ShopPart* part : named(build, "tile_")) {
+    const bool wears = part->name.find("plain_") != 0;
+    CHECK(part->material == (wears ? "400 HB" : "S235"));
+    CHECK(part->mass == Approx(part->volume * (wears ? 7900.0 : 7850.0)).epsilon(1e-12));
+    tiles += part->places.size();
+    if (wears) wearing += part->volume * static_cast<double>(part->places.size());
+  }
+  std::size_t all = 0;
+  for (const ShopPart* part : named(plain, "tile_")) all += part->places.size();
+  CHECK(tiles == all);
+  // The worn fifth of the track, and up to a course at either end.
+  const double floor = 0.4 * 6e-3 * length;
+  CHECK(wearing > 0.2 * floor * 0.97);
+  CHECK(wearing < (0.2 + 2.0 * 0.6 / length) * floor);
+  // The course over the peak loses 4e-9 m/s: 6 mm in 416.7 h, so that 1000 h take two sets more.
+  std::size_t most = 0;
+  for (const BoughtInItem& item : build.workshop.items) {
+    if (item.name.find("spare tile_") != 0) continue;
+    CHECK(item.where == "liner, within 1000 h");
+    most = std::max(most, item.quantity);
+  }
+  CHECK((most == 4 || most == 6));  // two tiles, or one between halves, twice
+  double least = 1e9;
+  for (const ShopMeasurement& measured : build.workshop.measured) {
+    if (measured.quantity == "liner_life_share") least = std::min(least, measured.value);
+  }
+  CHECK(least == Approx(6e-3 / 4e-9 / (1000.0 * 3600.0)).epsilon(1e-9));
+  const auto& notes = build.workshop.notes;
+  const auto says = [&](const std::string& words) {
+    return std::any_of(notes.begin(), notes.end(),
+                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  CHECK(says("Tiles of 400 HB lie where the floor wears 60 % of its peak or more"));
+  CHECK(says("for 1000 h without an exchange it takes 14.4 mm."));
+  CHECK_FALSE(says("  "));
+}
+
+TEST_CASE(
+    "liner: of a wear that is even, or asked for in all, every tile wears; shares and lives have bounds") {
+  PlateOptions options = lined();
+  options.liner->where = LinerPlaces::worn;
+  options.floor_wear = {{0.0, 1.0, 0.0}, {10.0, 1.0, 0.0}};
+  CHECK(named(plates(options), "plain_tile_").empty());
+  options.liner->worn_from = 0.0;
+  CHECK(refusal(options).find("liner.worn_from|worn_from: 0 % is out of range|It is a share") == 0);
+  options.liner->worn_from = 0.5;
+  options.liner->life = -1.0;
+  CHECK(refusal(options).find("liner.life|life is not positive") == 0);
+  options.liner->life = 3600.0;
+  options.liner->tonnage = 1e6;
+  CHECK(refusal(options).find("liner.tonnage|tonnage beside life") == 0);
+}
+
+TEST_CASE("as built: a body that falls on its floor meets an impact once, not at each joint") {
+  PlateOptions options;
+  options.split.longest = 1.5;
+  const CoulombBrachistochrone track = chute();
+  Body body{.friction = kFriction};
+  body.landing = Landing{4.0, Angle::from_degrees(85.0)};
+  const WorkshopBuild build = make_plates(track, kChannel, {1e-4}, options, Placement(), body);
+  REQUIRE(build.joints.size() > 4);
+  CHECK(build.ride.exit_speed == Approx(build.ride.design_exit_speed).epsilon(1e-3));
+  CHECK(build.ride.travel_time == Approx(build.ride.design_travel_time).epsilon(1e-3));
+}
