@@ -4,8 +4,10 @@
 #include "optimize/drawn_problems.hpp"
 #include "optimize/random_limits.hpp"
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -14,7 +16,7 @@ using namespace glissade;
 
 namespace {
 
-// What a price may miss of the central difference.
+// What a price may miss of what re-solves win.
 constexpr double kAccuracy = 0.02;
 // By so much of the objective two searches of neighbouring problems may end apart.
 constexpr double kSearchNoise = 5e-7;
@@ -24,6 +26,8 @@ constexpr double kShare = 2e-4;
 constexpr double kLongestStep = 0.01;
 // Prices below this many times the noise of such a difference are not compared.
 constexpr double kTells = 50.0;
+// Nor are those for which re-solves contradict each other by more than this share of the price.
+constexpr double kContradiction = 0.1;
 
 double objective_of(const Problem& problem, const OptimizeReport& report) {
   return problem.objective.kind == ObjectiveKind::exit_speed ? -report.exit_speed : report.travel_time;
@@ -35,15 +39,30 @@ double giving_way(const ActiveLimit& active) {
   return shrinks ? -1.0 : 1.0;
 }
 
+/// What is won for each unit by which a bound gives way, between six problems whose bounds lie one step apart, the
+/// problem's own in their middle.
 struct Differences {
-  double tighter = 0.0;  ///< price by the tighter neighbour alone
-  double looser = 0.0;   ///< by the looser one
-  double noise = 0.0;    ///< of either
+  std::array<double, 6> steps{};
+  double noise = 0.0;  ///< of each
 
-  [[nodiscard]] double central() const { return 0.5 * (tighter + looser); }
+  /// By the central difference.
+  [[nodiscard]] double central() const { return 0.5 * (steps[2] + steps[3]); }
+  /// On the side where the bound is tighter, and where it is looser.
+  [[nodiscard]] double tighter() const { return (steps[0] + steps[1] + steps[2]) / 3.0; }
+  [[nodiscard]] double looser() const { return (steps[3] + steps[4] + steps[5]) / 3.0; }
+  /// How far steps on one side lie from each other, over what a smooth change between the sides explains.
+  [[nodiscard]] double scatter() const {
+    const double change = std::fabs(looser() - tighter());
+    double most = 0.0;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{3}}) {
+      const auto [low, high] = std::minmax({steps[side], steps[side + 1], steps[side + 2]});
+      most = std::max(most, high - low - change);
+    }
+    return std::max(most, 0.0);
+  }
   /// Whether the price is told between two that differ: the bound lies where another limit begins to bind.
   [[nodiscard]] bool has_kink_at(double price) const {
-    const auto [low, high] = std::minmax(tighter, looser);
+    const auto [low, high] = std::minmax(tighter(), looser());
     return high - low > 2.0 * kAccuracy * high && price > low - noise && price < high + noise;
   }
 };
@@ -56,19 +75,22 @@ std::optional<Differences> differences_of(const Problem& problem, const Optimize
   const double step = std::min(wanted, kLongestStep * std::fabs(active.value));
   const double noise = kSearchNoise * std::fabs(objective) / step;
   if (!(active.price > kTells * noise)) return std::nullopt;
-  const auto objective_at = [&](double change) -> std::optional<double> {
+  std::array<double, 7> objectives{};
+  for (int k = -3; k <= 3; ++k) {
     const auto changed =
-        optimizer::with_bound(problem, active.limit, active.value + change * giving_way(active));
+        optimizer::with_bound(problem, active.limit, active.value + k * step * giving_way(active));
     if (!changed) return std::nullopt;
-    const OptimizeReport there = optimize(*changed).report;
+    const OptimizeReport there = k == 0 ? report : optimize(*changed).report;
     if (there.status != OptimizeStatus::optimal) return std::nullopt;
-    return objective_of(*changed, there);
-  };
-  const auto tight = objective_at(-step);
-  const auto loose = objective_at(step);
-  if (!tight || !loose) return std::nullopt;
-  const double sign = active.limit.bound == Bound::exactly && *loose > *tight ? -1.0 : 1.0;
-  return Differences{sign * (*tight - objective) / step, sign * (objective - *loose) / step, noise};
+    objectives[static_cast<std::size_t>(k + 3)] = objective_of(*changed, there);
+  }
+  const double sign = active.limit.bound == Bound::exactly && objectives.back() > objectives.front() ? -1.0 : 1.0;
+  Differences differences;
+  differences.noise = noise;
+  for (std::size_t k = 0; k < differences.steps.size(); ++k) {
+    differences.steps[k] = sign * (objectives[k] - objectives[k + 1]) / step;
+  }
+  return differences;
 }
 
 }  // namespace
@@ -78,9 +100,14 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   INFO("GLISSADE_SEED=" << random.seed());
   // docs/optimization.md tells what more of them find.
   const bool asked = std::getenv("GLISSADE_PROBLEMS") != nullptr;
-  const int problems = asked ? testing_problems::problem_count() : 12;
+  constexpr int kQuick = 18;
+  constexpr int kThorough = 100;
+  const int problems = asked                 ? testing_problems::problem_count()
+                       : testing::thorough() ? kThorough
+                                             : kQuick;
   int compared = 0;
   int kinks = 0;
+  int unclear = 0;
   for (int i = 0; i < problems; ++i) {
     Problem problem = testing_problems::drawn(random);
     for (HalfPlane& plane : problem.limits.half_planes) {
@@ -93,17 +120,23 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
     for (const ActiveLimit& active : report.active) {
       const auto differences = differences_of(problem, report, active);
       if (!differences) continue;
-      ++compared;
-      CAPTURE(i, active.limit.key(), active.price, differences->tighter, differences->looser);
-      if (differences->has_kink_at(active.price)) {
-        ++kinks;
+      // Searches of neighbouring problems that end in different valleys tell nothing of a price.
+      if (differences->scatter() > kContradiction * active.price) {
+        ++unclear;
         continue;
       }
-      CHECK(std::fabs(active.price - differences->central()) <=
-            kAccuracy * differences->central() + differences->noise);
+      ++compared;
+      CAPTURE(i, active.limit.key(), active.price, differences->steps);
+      if (std::fabs(active.price - differences->central()) <=
+          kAccuracy * differences->central() + differences->noise) {
+        continue;
+      }
+      CHECK(differences->has_kink_at(active.price));
+      ++kinks;
     }
   }
-  CAPTURE(compared, kinks);
+  CAPTURE(compared, kinks, unclear);
   CHECK(compared > problems / 2);
-  CHECK(kinks <= compared / 4);
+  CHECK(kinks <= compared / 10);
+  CHECK(unclear <= compared / 4);
 }
