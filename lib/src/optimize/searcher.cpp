@@ -150,8 +150,10 @@ class HeldPlaces {
     constexpr double kClose = 0.02;  // taste
     if (!(sigma > 0.0 && sigma < 1.0)) return;
     // A place of a greatest value is known to half the digits: those that rounding makes are no reason to end elsewhere.
-    constexpr double kDigits = 0x1p24;  // rounding: half of a double's
-    sigma = std::round(sigma * kDigits) / kDigits;
+    constexpr int kBits = 24;  // rounding: half of a double's
+    int exponent = 0;
+    const double mantissa = std::frexp(sigma, &exponent);
+    sigma = std::ldexp(std::round(std::ldexp(mantissa, kBits)), exponent - kBits);
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
     const double piece = *above - *(above - 1);
     for (double& place : places_) {
