@@ -141,7 +141,9 @@ void add_process(Group& group, const PlateOptions& plate) {
   group.add("corners", corners(plate.corners));
   group.add("split", split(plate.split));
   group.add("flanges", flanges(plate.flanges));
-  group.add("round", plate.round == RoundMake::staves ? "staves" : "mitred");
+  group.add("round", plate.round == RoundMake::staves   ? "staves"
+                     : plate.round == RoundMake::mitred ? "mitred"
+                                                        : "as-fits");
   group.add("stave_tolerance", plate.stave_tolerance, Dimension::length);
   group.add("thickness", plate.polygon_thickness, Dimension::length);
   if (plate.rim) group.add("rim", rim(*plate.rim));

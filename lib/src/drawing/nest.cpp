@@ -31,6 +31,7 @@ struct Attitude {
   double height = 0.0;
   std::vector<double> low;
   std::vector<double> high;
+  double lowest = 0.0;  ///< of `low`
 };
 
 void cover(Attitude& attitude, Vec2 a, Vec2 b, double column) {
@@ -62,6 +63,7 @@ Attitude attitude_of(const ArcPath& outline, double angle, double column) {
   attitude.high.assign(columns, -kInfinity);
   const std::vector<Vec2> points = flattened(moved(outline, attitude.motion), kSagitta);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) cover(attitude, points[i], points[i + 1], column);
+  attitude.lowest = *std::min_element(attitude.low.begin(), attitude.low.end());
   return attitude;
 }
 
@@ -86,6 +88,9 @@ class Heap {
     std::optional<Place> best;
     const double room = stock_.width - 2.0 * stock_.margin - attitude.width;
     if (room < 0.0) return best;
+    // Wherever it lies, its lowest column stands on some column of the heap.
+    const double lowest = *std::min_element(tops_.begin(), tops_.end());
+    if (lowest + stock_.spacing - attitude.lowest + attitude.height > stock_.height - stock_.margin) return best;
     const auto steps = static_cast<std::size_t>(std::floor(room / column_));
     double ceiling = stock_.height - stock_.margin;  // above it no place is of use
     for (std::size_t step = 0; step <= steps; ++step) {
@@ -140,9 +145,11 @@ struct Piece {
 struct SheetInWork {
   Heap heap;
   NestedSheet sheet;
+  std::vector<std::size_t> refused;  ///< parts that found no place; none is there later, since heaps only grow
 };
 
 bool lay(SheetInWork& sheet, const Piece& piece) {
+  if (std::find(sheet.refused.begin(), sheet.refused.end(), piece.part) != sheet.refused.end()) return false;
   std::optional<Heap::Place> best;
   const Attitude* chosen = nullptr;
   for (const Attitude& attitude : piece.attitudes) {
@@ -152,7 +159,10 @@ bool lay(SheetInWork& sheet, const Piece& piece) {
       chosen = &attitude;
     }
   }
-  if (!best) return false;
+  if (!best) {
+    sheet.refused.push_back(piece.part);
+    return false;
+  }
   PlaneMotion motion = chosen->motion;
   motion.shift = motion.shift + best->at;
   sheet.heap.add(*chosen, best->at);
@@ -185,10 +195,13 @@ Piece piece_of(const ShopPart& part, std::size_t index, double column) {
   const ArcPath& outline = part.pattern->region.outline;
   const double lying = core::lying_angle(flattened(outline, kSagitta));
   // Along the sheet and across it, end for end; and as it was drawn, whose box is the one that a designer sees.
-  for (const double angle :
-       {lying, lying + 2.0 * kRightAngle, lying + kRightAngle, lying + 3.0 * kRightAngle, 0.0, kRightAngle}) {
-    piece.attitudes.push_back(attitude_of(outline, angle, column));
+  std::vector<double> angles = {lying, lying + 2.0 * kRightAngle, lying + kRightAngle, lying + 3.0 * kRightAngle};
+  for (const double drawn : {0.0, kRightAngle}) {
+    constexpr double kSame = 1e-12;
+    const auto is_drawn = [&](double angle) { return std::fabs(math::sin(angle - drawn)) < kSame && math::cos(angle - drawn) > 0.0; };
+    if (std::none_of(angles.begin(), angles.end(), is_drawn)) angles.push_back(drawn);
   }
+  for (const double angle : angles) piece.attitudes.push_back(attitude_of(outline, angle, column));
   return piece;
 }
 
@@ -202,7 +215,7 @@ Issue too_large(const ShopPart& part, const Piece& piece, const NestStock& stock
 }
 
 SheetInWork fresh_sheet(const ShopPart& part, const NestStock& stock, double column) {
-  return {Heap(stock, column), {part.material, part.thickness, stock, {}, 0.0}};
+  return {Heap(stock, column), {part.material, part.thickness, stock, {}, 0.0}, {}};
 }
 
 /// @param pieces  each fits an empty sheet

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace glissade::parts {
@@ -112,7 +113,7 @@ std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
   if (longer > sheet_longer || shorter > sheet_shorter) {
     return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of 5 mm",
                   "the sheet is " + length_text(sheet_longer) + " x " + length_text(sheet_shorter),
-                  longer / sheet_longer};
+                  std::max(longer / sheet_longer, shorter / sheet_shorter)};
   }
   if (split.heaviest && part.mass > *split.heaviest) {
     return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
@@ -135,6 +136,9 @@ void split_until_it_fits(const SplitOptions& split, double length,
                       "longest: " + length_text(length / 3.0, 2)});
   }
   std::string last;
+  // Where twice as many units have not made what exceeds smaller, no number of them will.
+  double least = std::numeric_limits<double>::infinity();
+  double least_at = static_cast<double>(count);
   constexpr double kSafe = 0.8;  // of the count that lengths ask for: ends of units are not even
   double next = static_cast<double>(count);
   for (; count <= kMostUnits; count = static_cast<std::size_t>(next)) {
@@ -147,6 +151,13 @@ void split_until_it_fits(const SplitOptions& split, double length,
                         "split without allowed: false, a larger sheet, or a larger heaviest"});
     }
     last = found->what + "; " + found->bound;
+    if (found->times < 0.98 * least) {
+      least = found->times;
+      least_at = whole;
+    } else if (whole >= 2.0 * least_at + 2.0) {
+      throw InputError({"split", found->what, "Shorter units do not make it smaller, and " + found->bound + ".",
+                        "a larger sheet or heaviest, or a smaller cross_section"});
+    }
   }
   throw InputError({"split", "no " + std::to_string(kMostUnits) + " units are small enough: " + last, "",
                     "a larger sheet or heaviest"});

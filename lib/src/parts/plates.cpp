@@ -204,11 +204,31 @@ struct MitredRound {
 };
 
 std::optional<MitredRound> mitred_round(const section::Measures& measures, const PlateOptions& options) {
-  if (options.round != RoundMake::mitred) return std::nullopt;
+  if (options.round == RoundMake::staves) return std::nullopt;
   if (const auto* const pipe = std::get_if<section::Pipe>(&measures)) return MitredRound{*pipe, std::nullopt};
   if (const auto* const half = std::get_if<section::HalfPipe>(&measures))
     return MitredRound{{half->width, half->thickness}, half->wall_height};
   return std::nullopt;
+}
+
+/// Mitred tubes or troughs of what is round; strips of everything else, and of what is round and does not go mitred.
+WorkshopBuild make_round_or_strips(const ArcSpline& track, const section::Measures& measures,
+                                   const PlateOptions& options, const Placement& placement, const Body& body,
+                                   double gravity, const Motion& design) {
+  const auto strips = [&] {
+    return make_strips(track, *plate_section(measures, options), options, placement, body, gravity, design);
+  };
+  const auto round = mitred_round(measures, options);
+  if (!round) return strips();
+  try {
+    return make_mitred_pipe(track, round->pipe, round->side, options, placement, body, gravity, design);
+  } catch (const InputError& error) {
+    if (options.round == RoundMake::mitred) throw;
+    WorkshopBuild build = strips();
+    build.workshop.notes.push_back("Staves along the track, since it does not go mitred: " +
+                                   error.issues().front().what + ".");
+    return build;
+  }
 }
 
 std::vector<Issue> width_changes() {
@@ -245,11 +265,7 @@ WorkshopBuild make_plates(const Centerline& track, const section::Measures& meas
     return make_plates(track, *channel, fit, options, placement, body, gravity);
   MasterCurve master = fit_arcs(track, fit);
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
-  const auto round = mitred_round(measures, options);
-  WorkshopBuild build = round ? make_mitred_pipe(*master.spline, round->pipe, round->side, options, placement,
-                                                 body, gravity, smooth)
-                              : make_strips(*master.spline, *plate_section(measures, options), options,
-                                            placement, body, gravity, smooth);
+  WorkshopBuild build = make_round_or_strips(*master.spline, measures, options, placement, body, gravity, smooth);
   build.master = std::move(master);
   return build;
 }

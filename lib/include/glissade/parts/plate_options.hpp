@@ -85,7 +85,11 @@ struct FlangeOptions {
 };
 
 /// How round sections are made of plates: rolled tubes or troughs between mitred planes, or flat strips along the track.
-enum class RoundMake { mitred, staves };
+enum class RoundMake {
+  as_fits,  ///< mitred, unless the sheet or the radii of the track forbid it
+  mitred,
+  staves
+};
 
 /// A flat bar along the outside of each wall's top.
 struct RimOptions {
@@ -187,7 +191,7 @@ struct PlateOptions {
   CornerOptions corners;
   SplitOptions split;
   FlangeOptions flanges;
-  RoundMake round = RoundMake::mitred;
+  RoundMake round = RoundMake::as_fits;
   double stave_tolerance = 2e-3;    ///< greatest distance of staves from a round section [m]; > 0
   double polygon_thickness = 4e-3;  ///< of the plates round a section that has none itself [m]; > 0
   std::optional<RimOptions> rim;
