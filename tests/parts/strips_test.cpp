@@ -281,7 +281,8 @@ TEST_CASE("rounds: those that fit no sheet as troughs become staves, unless trou
   const ClothoidSpline track(Angle::from_degrees(30.0), {{6.0, 0.0, 0.0}, {3.0, 0.02, 0.02}});
   const WorkshopBuild build = plates(track, wide);
   CHECK(build.workshop.parts.front().name.find("stave") == 0);
-  CHECK(build.workshop.notes.back().find("Staves along the track, since it does not go mitred: a trough takes 3.1") == 0);
+  CHECK(build.workshop.notes.back().find(
+            "Staves along the track, since it does not go mitred: a trough takes 3.1") == 0);
   PlateOptions mitred;
   mitred.round = RoundMake::mitred;
   try {
@@ -289,7 +290,8 @@ TEST_CASE("rounds: those that fit no sheet as troughs become staves, unless trou
     FAIL("a trough of 3.15 m came out of a sheet of 3 m");
   } catch (const InputError& error) {
     CHECK(error.issues().front().where == "split");
-    CHECK(error.issues().front().why.find("Shorter units do not make it smaller, and the sheet is 3 m x 1.5 m") == 0);
+    CHECK(error.issues().front().why.find(
+              "Shorter units do not make it smaller, and the sheet is 3 m x 1.5 m") == 0);
   }
 }
 

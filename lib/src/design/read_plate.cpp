@@ -234,10 +234,9 @@ PlateOptions read_plate(MapReader& map, Findings& findings) {
   if (const auto corners = map.find("corners")) plate.corners = read_corners(map, *corners, findings);
   if (const auto split = map.find("split")) plate.split = read_split(*split, findings);
   if (const auto flanges = map.find("flanges")) plate.flanges = read_flanges(*flanges, findings);
-  plate.round = chosen<RoundMake>(map, "round", plate.round,
-                                  {{"as-fits", RoundMake::as_fits},
-                                   {"mitred", RoundMake::mitred},
-                                   {"staves", RoundMake::staves}});
+  plate.round = chosen<RoundMake>(
+      map, "round", plate.round,
+      {{"as-fits", RoundMake::as_fits}, {"mitred", RoundMake::mitred}, {"staves", RoundMake::staves}});
   set_length(map, "stave_tolerance", plate.stave_tolerance);
   set_length(map, "thickness", plate.polygon_thickness);
   read_fittings(map, plate, findings);

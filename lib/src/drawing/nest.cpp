@@ -90,7 +90,8 @@ class Heap {
     if (room < 0.0) return best;
     // Wherever it lies, its lowest column stands on some column of the heap.
     const double lowest = *std::min_element(tops_.begin(), tops_.end());
-    if (lowest + stock_.spacing - attitude.lowest + attitude.height > stock_.height - stock_.margin) return best;
+    if (lowest + stock_.spacing - attitude.lowest + attitude.height > stock_.height - stock_.margin)
+      return best;
     const auto steps = static_cast<std::size_t>(std::floor(room / column_));
     double ceiling = stock_.height - stock_.margin;  // above it no place is of use
     for (std::size_t step = 0; step <= steps; ++step) {
@@ -145,7 +146,8 @@ struct Piece {
 struct SheetInWork {
   Heap heap;
   NestedSheet sheet;
-  std::vector<std::size_t> refused;  ///< parts that found no place; none is there later, since heaps only grow
+  std::vector<std::size_t>
+      refused;  ///< parts that found no place; none is there later, since heaps only grow
 };
 
 bool lay(SheetInWork& sheet, const Piece& piece) {
@@ -195,10 +197,13 @@ Piece piece_of(const ShopPart& part, std::size_t index, double column) {
   const ArcPath& outline = part.pattern->region.outline;
   const double lying = core::lying_angle(flattened(outline, kSagitta));
   // Along the sheet and across it, end for end; and as it was drawn, whose box is the one that a designer sees.
-  std::vector<double> angles = {lying, lying + 2.0 * kRightAngle, lying + kRightAngle, lying + 3.0 * kRightAngle};
+  std::vector<double> angles = {lying, lying + 2.0 * kRightAngle, lying + kRightAngle,
+                                lying + 3.0 * kRightAngle};
   for (const double drawn : {0.0, kRightAngle}) {
     constexpr double kSame = 1e-12;
-    const auto is_drawn = [&](double angle) { return std::fabs(math::sin(angle - drawn)) < kSame && math::cos(angle - drawn) > 0.0; };
+    const auto is_drawn = [&](double angle) {
+      return std::fabs(math::sin(angle - drawn)) < kSame && math::cos(angle - drawn) > 0.0;
+    };
     if (std::none_of(angles.begin(), angles.end(), is_drawn)) angles.push_back(drawn);
   }
   for (const double angle : angles) piece.attitudes.push_back(attitude_of(outline, angle, column));

@@ -440,8 +440,8 @@ void set_objective(const Objective& objective, double entry_speed, ScaledProblem
 
 /// To 40 bits of the unit: a place, in chords.
 void round_place(double& value) {
-  constexpr double kBits = 0x1p40;
-  value = std::round(value * kBits) / kBits;
+  constexpr double kSteps = 0x1p40;  // kBits of round_number()
+  value = std::round(value * kSteps) / kSteps;
 }
 void round_place(Vec2& point) {
   round_place(point.x);
@@ -449,7 +449,7 @@ void round_place(Vec2& point) {
 }
 /// To 40 bits of its own.
 void round_number(double& value) {
-  constexpr int kBits = 40;
+  constexpr int kBits = 40;  // accuracy: 1e-12 of a number, far below what a limit is kept to
   int exponent = 0;
   const double mantissa = std::frexp(value, &exponent);
   value = std::ldexp(std::round(std::ldexp(mantissa, kBits)), exponent - kBits);

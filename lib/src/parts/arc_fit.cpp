@@ -83,13 +83,13 @@ Vec2 biarc_joint(Vec2 from, double heading, Vec2 to, double end_heading, Vec2 wa
 
 /// An arc from the end of one leg that touches the circle of another.
 struct Touching {
-  Leg leg;
+  ArcAt leg;
   double length = 0.0;
   double beyond = 0.0;  ///< along the other leg from where that is known, to the place that is touched
 };
 
 /// @return none where the arc would run backwards or turn by more than a right angle
-std::optional<Touching> touching(const Leg& from, const Leg& other) {
+std::optional<Touching> touching(const ArcAt& from, const ArcAt& other) {
   // Both centres and the place that is touched lie on one line: C - T = N/k, O - T = N/kappa. Multiplied by k and kappa,
   // so that either may be 0.
   const Vec2 away = from.from - other.from;
@@ -212,13 +212,13 @@ class Fitter {
     double end_heading = samples_.heading[stretch_.last];
     if (stretch_.before) {
       chain.first_reach = knots_.front() - start_;
-      const Leg leg = stretch_.before->leg.after(chain.first_reach);
+      const ArcAt leg = stretch_.before->leg.after(chain.first_reach);
       at = leg.from;
       heading = leg.heading;
     }
     if (stretch_.after) {
       chain.last_reach = end_ - knots_.back();
-      const Leg leg = stretch_.after->leg.after(-chain.last_reach);
+      const ArcAt leg = stretch_.after->leg.after(-chain.last_reach);
       end = leg.from;
       end_heading = leg.heading;
     }
@@ -252,7 +252,7 @@ class Fitter {
   }
 
   /// The leg beside a place within a cell, or on a kept piece that reaches so far.
-  [[nodiscard]] const Leg& leg_at(double s, std::size_t cell) const {
+  [[nodiscard]] const ArcAt& leg_at(double s, std::size_t cell) const {
     if (stretch_.before && s < knots_.front()) return stretch_.before->leg;
     if (stretch_.after && s >= knots_.back()) return stretch_.after->leg;
     return legs_[cell];
@@ -368,13 +368,13 @@ class Fitter {
   double closing_ = 0.0;
   double heading_ = 0.0;       // of the first arc
   std::vector<bool> dropped_;  // columns that ends and kept tangents fix
-  std::vector<Leg> legs_;
+  std::vector<ArcAt> legs_;
   std::vector<double> offset_at_;  // of the chain at each sample within the stretch [m]
 };
 
 }  // namespace
 
-double Leg::distance(Vec2 point) const {
+double ArcAt::distance(Vec2 point) const {
   const Vec2 along = direction_of(heading);
   const Vec2 away = point - from;
   const double u = dot(along, away);
@@ -384,7 +384,7 @@ double Leg::distance(Vec2 point) const {
   return 2.0 * (v - 0.5 * curvature * (u * u + v * v)) / (1.0 + grade);
 }
 
-Leg Leg::after(double length) const {
+ArcAt ArcAt::after(double length) const {
   const double half = 0.5 * curvature * length;
   return {from + (length * sinc(half)) * direction_of(heading + half), heading + 2.0 * half, curvature};
 }
@@ -400,7 +400,7 @@ ArcChain tangent_arc(const TrackSamples& samples, const Stretch& stretch) {
   best.deviation = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kPlaces; ++i) {
     const double reach = stretch.before->reach * i / kPlaces;
-    const Leg from = stretch.before->leg.after(reach);
+    const ArcAt from = stretch.before->leg.after(reach);
     const auto arc = touching(from, stretch.after->leg);
     if (!arc || arc->beyond > 0.0 || arc->beyond < -stretch.after->reach) continue;
     ArcChain chain;
@@ -409,9 +409,9 @@ ArcChain tangent_arc(const TrackSamples& samples, const Stretch& stretch) {
     const double starts = samples.s[stretch.first] + reach;
     const double ends = samples.s[stretch.last] - chain.last_reach;
     for (std::size_t j = stretch.first + 1; j < stretch.last; ++j) {
-      const Leg& leg = samples.s[j] < starts ? stretch.before->leg
-                       : samples.s[j] < ends ? arc->leg
-                                             : stretch.after->leg;
+      const ArcAt& leg = samples.s[j] < starts ? stretch.before->leg
+                         : samples.s[j] < ends ? arc->leg
+                                               : stretch.after->leg;
       chain.deviation = std::max(chain.deviation, std::fabs(leg.distance(samples.point[j])));
     }
     if (!(chain.deviation < best.deviation)) continue;

@@ -11,20 +11,20 @@
 namespace glissade::parts {
 
 /// One arc, or straight line, by a place on it and what it does there.
-struct Leg {
+struct ArcAt {
   Vec2 from;
   double heading = 0.0;
   double curvature = 0.0;
 
-  /// @return signed distance of a point from the leg's circle, positive to the left
+  /// @return signed distance of a point from the arc's circle, positive to the left
   [[nodiscard]] double distance(Vec2 point) const;
-  /// @return the leg as it is a length further on
-  [[nodiscard]] Leg after(double length) const;
+  /// @return the same arc a length further on
+  [[nodiscard]] ArcAt after(double length) const;
 };
 
 /// A piece of the track beside a stretch that stays what it is, and may reach on into the stretch.
 struct KeptEnd {
-  Leg leg;             ///< where it meets the stretch, along the track
+  ArcAt leg;           ///< where it meets the stretch, along the track
   double reach = 0.0;  ///< how far it may go on, within the tolerance [m]
 };
 

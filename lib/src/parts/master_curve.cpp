@@ -136,7 +136,7 @@ std::optional<Stretch> stretch_before(const TrackSamples& samples, const std::ve
   if (!(to > from)) return std::nullopt;
   Stretch stretch{index_at(samples, from), index_at(samples, to), {}, {}};
   const auto leg_at = [&](std::size_t at, double curvature) {
-    return Leg{samples.point[at], samples.heading[at], curvature};
+    return ArcAt{samples.point[at], samples.heading[at], curvature};
   };
   if (next > 0) stretch.before = KeptEnd{leg_at(stretch.first, kept[next - 1].curvature), 0.0};
   if (next < kept.size()) stretch.after = KeptEnd{leg_at(stretch.last, kept[next].curvature), 0.0};
@@ -145,7 +145,7 @@ std::optional<Stretch> stretch_before(const TrackSamples& samples, const std::ve
 
 /// How far a kept piece stays within a tolerance of a stretch beside it, at most a part of that.
 /// @param step  1 from its start on, -1 from its end back
-double reach_of(const TrackSamples& samples, const Stretch& stretch, const Leg& leg, double tolerance,
+double reach_of(const TrackSamples& samples, const Stretch& stretch, const ArcAt& leg, double tolerance,
                 int step) {
   constexpr double kMost = 0.45;  // of the stretch: the other end may reach as far
   const double most = kMost * (samples.s[stretch.last] - samples.s[stretch.first]);

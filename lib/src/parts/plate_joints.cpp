@@ -155,7 +155,8 @@ void split_until_it_fits(const SplitOptions& split, double length,
       least = found->times;
       least_at = whole;
     } else if (whole >= 2.0 * least_at + 2.0) {
-      throw InputError({"split", found->what, "Shorter units do not make it smaller, and " + found->bound + ".",
+      throw InputError({"split", found->what,
+                        "Shorter units do not make it smaller, and " + found->bound + ".",
                         "a larger sheet or heaviest, or a smaller cross_section"});
     }
   }

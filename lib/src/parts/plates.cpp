@@ -225,8 +225,8 @@ WorkshopBuild make_round_or_strips(const ArcSpline& track, const section::Measur
   } catch (const InputError& error) {
     if (options.round == RoundMake::mitred) throw;
     WorkshopBuild build = strips();
-    build.workshop.notes.push_back("Staves along the track, since it does not go mitred: " +
-                                   error.issues().front().what + ".");
+    build.workshop.notes.push_back(
+        "Staves along the track, since it does not go mitred: " + error.issues().front().what + ".");
     return build;
   }
 }
@@ -265,7 +265,8 @@ WorkshopBuild make_plates(const Centerline& track, const section::Measures& meas
     return make_plates(track, *channel, fit, options, placement, body, gravity);
   MasterCurve master = fit_arcs(track, fit);
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
-  WorkshopBuild build = make_round_or_strips(*master.spline, measures, options, placement, body, gravity, smooth);
+  WorkshopBuild build =
+      make_round_or_strips(*master.spline, measures, options, placement, body, gravity, smooth);
   build.master = std::move(master);
   return build;
 }

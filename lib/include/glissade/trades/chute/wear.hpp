@@ -14,14 +14,14 @@ struct WearStretch {
 
 /// Where a stream wears its chute most, over several rides (docs/chutes.md, wear).
 struct WearFacts {
-  ValueAt floor;            ///< greatest wear factor W_c of the floor [W/m^2]
-  std::size_t ride = 0;     ///< the one that it is of
+  ValueAt floor;         ///< greatest wear factor W_c of the floor [W/m^2]
+  std::size_t ride = 0;  ///< the one that it is of
   /// Greatest p v_slip = W_c/mu of the floor [W/m^2], by which a liner gets thinner: not where W_c is greatest if mu
   /// differs between the rides, but at the least of them as a rule, where the stream is fastest.
   ValueAt pressed;
   std::size_t pressed_ride = 0;  ///< the one that it is of
-  ValueAt wall;             ///< greatest of the side walls, below the surface [W/m^2]
-  double mean_floor = 0.0;  ///< mean W_c of that ride along the track [W/m^2]
+  ValueAt wall;                  ///< greatest of the side walls, below the surface [W/m^2]
+  double mean_floor = 0.0;       ///< mean W_c of that ride along the track [W/m^2]
   /// Where the floor wears at least half as fast as at its peak on any of the rides: where wear plates go.
   std::vector<WearStretch> plates;
 };
