@@ -62,9 +62,8 @@ std::vector<double> strips(double width, int count) {
 
 double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows, Workshop& workshop) {
   const double overall = job.channel.overall();
-  const double sheet = std::min(job.options.split.sheet.x, job.options.split.sheet.y);
-  const int count = std::max(1, static_cast<int>(std::ceil(overall / sheet - 1e-9)));
-  const double width = overall / count;
+  const int count = job.strips();
+  const double width = job.strip_width();
   double volume = 0.0;
   for (std::size_t layer = 0; layer < rows.size(); ++layer) {
     const double top = -job.layer() * static_cast<double>(layer);
@@ -89,7 +88,19 @@ double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& r
 /// Joints of the curbs, apart from the seams of the upper layer.
 std::vector<double> curb_joints(const TimberJob& job, const std::vector<DeckRow>& upper) {
   const TimberSplit& split = job.options.split;
-  const double longest = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin - 2.0 * kSeamClear;
+  const double stock = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin - 2.0 * kSeamClear;
+  const bool sawn = job.channel.curb_thickness > kThickestSheet;
+  const double per_metre = job.channel.curb_height * job.channel.curb_thickness *
+                           (sawn ? job.options.lumber : job.options.material).density;
+  const double longest =
+      split.heaviest ? std::min(stock, *split.heaviest / per_metre - 2.0 * kSeamClear) : stock;
+  if (!(longest > kSeamClear)) {
+    throw InputError({"split.heaviest",
+                      "heaviest: " + rounded_text(*split.heaviest, 4) + " kg is a curb of " +
+                          length_text(*split.heaviest / per_metre, 3),
+                      "Its joints keep " + length_text(kSeamClear) + " from the seams of the deck.",
+                      "a larger mass, or lower curbs"});
+  }
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(job.track.length() / longest)));
   std::vector<double> joints = calm_joints(job.track, count, 0.0);
   for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
@@ -240,6 +251,38 @@ void add_offsets(const TimberJob& job, Workshop& workshop) {
   }
 }
 
+std::string in_mm(double metres) {
+  return rounded_text(metres * 1e3, 6);
+}
+
+/// Joints of every other bearer, and legs: beside what every track has in its table.
+void set_out_frame(const TimberJob& job, const BearerPlan& bearers, const std::vector<Leg>& legs,
+                   Workshop& workshop) {
+  const auto add_row = [&](const std::vector<double>& joints, const std::string& what, double s) {
+    const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, s);
+    workshop.setting_out.push_back(
+        setting_out_point(job.track, {*(next - 1), *next}, job.placement, what, s));
+  };
+  if (bearers.across.size() > 1) {
+    for (std::size_t i = 1; i + 1 < bearers.shifted.size(); ++i)
+      add_row(bearers.shifted, "shifted joint " + std::to_string(i), bearers.shifted[i]);
+  }
+  for (std::size_t i = 0; i < legs.size(); ++i)
+    add_row(bearers.joints,
+            "leg " + std::to_string(i + 1) + ": middle x " + in_mm(legs[i].x) + ", foot z " +
+                in_mm(legs[i].ground),
+            legs[i].at);
+  in_order(workshop.setting_out);
+  std::string middles;
+  for (const double middle : bearers.across)
+    middles += (middles.empty() ? "" : ", ") + rounded_text(middle * 1e3, 6);
+  const char* const name = job.options.frame == TimberFrame::ribs ? "ribs" : "beams";
+  workshop.notes.push_back("Middles of " + std::string(name) + " to the left of the axis, in mm: " + middles +
+                           ".");
+  if (bearers.across.size() > 1 && bearers.shifted.size() > 2)
+    workshop.notes.push_back("The second, fourth, ... of them have the shifted joints.");
+}
+
 AsBuiltRide ride_deck(const TimberJob& job, const std::vector<DeckRow>& upper, const Motion& design,
                       const Body& body, double gravity) {
   std::vector<std::shared_ptr<const ArcSpline>> floors;
@@ -331,6 +374,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
     for (ShopPart& part : brace_parts(job, legs, bearers)) add(workshop, std::move(part), kLegColour);
   }
   workshop.setting_out = setting_out(job.track, bearers.joints, placement);
+  set_out_frame(job, bearers, legs, workshop);
   add_offsets(job, workshop);
   for (const DeckRow& row : rows.front()) build.joints.push_back(row.span.from);
   build.joints.push_back(job.track.length());

@@ -175,7 +175,29 @@ Leg leg_below(const TimberJob& job, double s) {
   return leg;
 }
 
+/// Length of a sheet of the deck: that of the stock, or what its mass allows.
+double sheet_length(const TimberJob& job) {
+  const double stock = std::max(job.options.split.sheet.x, job.options.split.sheet.y);
+  if (!job.options.split.heaviest) return stock;
+  const double per_metre = job.layer() * job.strip_width() * job.options.material.density;
+  const double allowed = *job.options.split.heaviest / per_metre;
+  const double least = 2.0 * kStagger;
+  if (allowed >= std::min(least, stock)) return std::min(stock, allowed);
+  throw InputError({"split.heaviest",
+                    "heaviest: " + rounded_text(*job.options.split.heaviest, 4) +
+                        " kg is a sheet of the deck of " + length_text(allowed, 3) + " x " +
+                        length_text(job.strip_width(), 3),
+                    "One of " + length_text(least) + ", whose seams are apart from those below, has " +
+                        rounded_text(least * per_metre, 3) + " kg.",
+                    "a larger mass, more layers, or a narrower sheet"});
+}
+
 }  // namespace
+
+int TimberJob::strips() const {
+  const double sheet = std::min(options.split.sheet.x, options.split.sheet.y);
+  return std::max(1, static_cast<int>(std::ceil(channel.overall() / sheet - 1e-9)));
+}
 
 std::optional<TimberChannel> timber_channel_of(const section::Measures& measures) {
   if (const auto* const channel = std::get_if<section::UChannel>(&measures)) {
@@ -191,7 +213,7 @@ std::optional<TimberChannel> timber_channel_of(const section::Measures& measures
 }
 
 std::vector<std::vector<DeckRow>> deck_rows(const TimberJob& job) {
-  const double sheet = std::max(job.options.split.sheet.x, job.options.split.sheet.y);
+  const double sheet = sheet_length(job);
   const double length = job.track.length();
   const int layers = job.options.deck.layers;
   std::vector<std::vector<DeckRow>> all;

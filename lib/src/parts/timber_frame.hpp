@@ -31,6 +31,9 @@ struct TimberJob {
   const Placement& placement;
 
   [[nodiscard]] double layer() const { return channel.thickness / options.deck.layers; }
+  /// @return how many sheets lie side by side
+  [[nodiscard]] int strips() const;
+  [[nodiscard]] double strip_width() const { return channel.overall() / strips(); }
   /// Height of the upper edge of the bearers.
   [[nodiscard]] double bearer_top() const {
     return -(channel.thickness + options.cross_members.height + options.fit);
