@@ -18,7 +18,6 @@ using drawing::Eye;
 using drawing::Projection;
 
 constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr const char* kTolerance = "General tolerance ISO 2768-m; edges deburred";
 
 /// @return a length in millimetres, to a tenth
 std::string mm(double metres) {
@@ -40,7 +39,7 @@ TitleBlock title_of(const Workshop& workshop, std::string title) {
   TitleBlock block;
   block.title = std::move(title);
   block.owner = workshop.name;
-  block.note = kTolerance;
+  block.note = workshop.tolerance;
   return block;
 }
 

@@ -397,6 +397,7 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
   if (hold.dowels) add_pins(job, plan.joints, *hold.dowels, build);
   build.workshop.setting_out = setting_out(job.track, build.joints, placement);
   add_stands(job, stands, {0.0, job.track.length()}, build);
+  build.workshop.tolerance = "Printed to 0.2 mm; seams off the running surface";
   build.workshop.notes = notes_of(job, plan, hold, stands);
   const double drop = hold.tongue ? hold.tongue->fit : hold.dowels ? options.dowels.fit : 0.0;
   build.ride = ride_prints(units, smooth, body, gravity, drop);

@@ -53,27 +53,40 @@ void set_own_pattern(ShopPart& part) {
   part.pattern = std::move(pattern);
 }
 
-/// @return middles of equal strips of a width, from left to right
-std::vector<double> strips(double width, int count) {
+/// @return middles of the strips of a set, from left to right
+std::vector<double> middles_of(const TimberJob& job, std::size_t set) {
+  const int count = job.strips();
+  const std::size_t sets = job.sets_per_layer();
+  const double pitch = job.strip_width() + job.gap();
   std::vector<double> middles;
-  for (int i = 0; i < count; ++i) middles.push_back(0.5 * width - width * (i + 0.5) / count);
+  for (int i = 0; i < count; ++i) {
+    if (static_cast<std::size_t>(i) % sets == set % sets)
+      middles.push_back(0.5 * (job.channel.overall() - job.strip_width()) - pitch * i);
+  }
   return middles;
 }
 
+std::string deck_name(const TimberJob& job, std::size_t set, std::size_t row) {
+  const std::size_t sets = job.sets_per_layer();
+  const std::string side = sets == 1 ? "" : set % sets == 0 ? "_even" : "_odd";
+  return (sets == 1 ? "deck_" : "board_") + std::to_string(set / sets + 1) + side + "_" +
+         std::to_string(row + 1);
+}
+
 double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows, Workshop& workshop) {
-  const double overall = job.channel.overall();
-  const int count = job.strips();
   const double width = job.strip_width();
   double volume = 0.0;
-  for (std::size_t layer = 0; layer < rows.size(); ++layer) {
-    const double top = -job.layer() * static_cast<double>(layer);
-    for (std::size_t i = 0; i < rows[layer].size(); ++i) {
-      const DeckRow& row = rows[layer][i];
-      ShopPart part =
-          upright_part(job, *band(job.track, row.span, top - job.layer(), top), chord_angle(job, row.span),
-                       width, strips(overall, count), job.options.material);
-      part.name = "deck_" + std::to_string(layer + 1) + "_" + std::to_string(i + 1);
+  for (std::size_t set = 0; set < rows.size(); ++set) {
+    const double top = -job.layer() * static_cast<double>(set / job.sets_per_layer());
+    const std::vector<double> middles = middles_of(job, set);
+    if (middles.empty()) continue;  // of a single board there are no odd ones
+    for (std::size_t i = 0; i < rows[set].size(); ++i) {
+      const DeckRow& row = rows[set][i];
+      ShopPart part = upright_part(job, *band(job.track, row.span, top - job.layer(), top),
+                                   chord_angle(job, row.span), width, middles, job.deck_material());
+      part.name = deck_name(job, set, i);
       part.thickness = job.layer();
+      part.bought_in = job.options.deck.boards.has_value();
       FlatPattern pattern;
       pattern.region.outline = rectangle({}, {row.flat_length, width});
       set_number_place(pattern, bounds(pattern.region.outline));
@@ -297,7 +310,9 @@ double exact_volume(const TimberJob& job, bool& folded) {
   const double length = track.length();
   const double turned = track.direction(0.0).slope_angle - track.direction(length).slope_angle;
   const double thickness = job.channel.thickness;
-  double volume = job.channel.overall() * (thickness * length + 0.5 * thickness * thickness * turned);
+  // Less the gaps between boards.
+  const double deck_width = job.channel.overall() - job.gap() * (job.strips() - 1);
+  double volume = deck_width * (thickness * length + 0.5 * thickness * thickness * turned);
   const double height = job.channel.curb_height;
   const double across = 2.0 * job.channel.curb_thickness;
   folded = height > 0.0 && folds(track, {0.0, length}, height);
@@ -332,9 +347,9 @@ PartsProof prove_timber(const TimberJob& job, double made, const std::vector<Cro
   proof.smallest_gap = job.options.fit;
   for (const CrossMember& member : members)
     proof.smallest_gap = std::min(proof.smallest_gap, job.options.fit - member.sagitta);
-  for (std::size_t layer = 0; layer < rows.size(); ++layer) {
-    const double depth = (static_cast<double>(layer) + 0.5) * job.layer();
-    for (const DeckRow& row : rows[layer]) {
+  for (std::size_t set = 0; set < rows.size(); ++set) {
+    const double depth = (static_cast<double>(set / job.sets_per_layer()) + 0.5) * job.layer();
+    for (const DeckRow& row : rows[set]) {
       const double fibre = length(*offset_line(job.track, row.span, -depth));
       proof.edge_mismatch = std::max(proof.edge_mismatch, std::fabs(fibre - row.flat_length));
     }
@@ -365,6 +380,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   const BearerPlan bearers = plan_bearers(job);
   const std::vector<Leg> legs = plan_legs(job);
   Workshop& workshop = build.workshop;
+  workshop.tolerance = "Cut to 1 mm; edges of the running surface broken";
   double made = add_deck(job, rows, workshop);
   made += add_curbs(job, rows.front(), workshop);
   add_cross_members(job, members, workshop);

@@ -75,6 +75,11 @@ void check_stock(const TimberOptions& options, Problems& problems) {
     problems.add("deck.layers", std::to_string(options.deck.layers) + " layers",
                  "They are 1 to " + std::to_string(kMostLayers) + ".", "2");
   }
+  if (const auto& boards = options.deck.boards) {
+    problems.positive("deck.boards.width", boards->width, "120 mm");
+    problems.positive("deck.boards.length", boards->length, "4 m");
+    problems.not_negative("deck.boards.gap", boards->gap, "5 mm");
+  }
   if (options.lumber.density <= 0.0)
     problems.add("lumber.density", rounded_text(options.lumber.density, 6) + " kg/m^3 is not positive", "",
                  "420 kg/m^3");
