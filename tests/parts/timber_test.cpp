@@ -270,3 +270,74 @@ TEST_CASE("timber: long legs are braced across and along, boards end on the legs
   CHECK(told.verdict == ShopVerdict::warn);
   CHECK(told.bound == "at most 1.5 m");
 }
+
+TEST_CASE(
+    "timber: a deck of boards adds up to the section less its gaps, and seams of neighbours are apart") {
+  for (const double gap : {0.0, 5e-3}) {
+    TimberOptions options;
+    options.deck.boards = BoardOptions{120e-3, 4.0, gap};
+    const ArcSpline track = bend(9.0);
+    const WorkshopBuild build = timber(track, options);
+    const double overall = 1.5 + 2 * 24e-3;
+    const int count = static_cast<int>(std::ceil((overall + gap) / (120e-3 + gap)));
+    const double turned = 30.0 * std::numbers::pi / 180.0;
+    const double length = build.master.spline->length();
+    const double deck = (overall - gap * (count - 1)) * (24e-3 * length + 0.5 * 24e-3 * 24e-3 * turned);
+    double made = 0.0;
+    std::size_t across = 0;
+    for (const ShopPart* board : named(build, "board_")) {
+      made += board->volume * static_cast<double>(board->quantity());
+      CHECK(board->material == "C24");
+      CHECK(bounds(board->pattern->region.outline).width() <= 4.0 + 1e-9);
+      CHECK(bounds(board->pattern->region.outline).height() <= 120e-3 + 1e-12);
+      if (board->name == "board_1_even_1" || board->name == "board_1_odd_1") across += board->quantity();
+    }
+    CHECK(made == Approx(deck).epsilon(1e-6));  // the track's arcs turn by that to rounding
+    CHECK(across == static_cast<std::size_t>(count));
+    const auto checks = testing::shop_checks(build.workshop, "timber");
+    CHECK(testing::check_of(checks, "timber.seam-stagger").verdict == ShopVerdict::pass);
+    CHECK(testing::check_of(checks, "timber.seam-support").verdict == ShopVerdict::pass);
+    CHECK(testing::check_of(checks, "timber.board-radius").value == "9 m");
+    CHECK(testing::check_of(checks, "timber.deck-radius").rule.empty());
+  }
+}
+
+TEST_CASE("timber: sheets and curbs get shorter until none is heavier than allowed; bearers keep apart") {
+  TimberOptions options;
+  options.split.heaviest = 12.0;
+  const ArcSpline track = bend(9.0);
+  const WorkshopBuild build = timber(track, options);
+  const auto check = testing::check_of(testing::shop_checks(build.workshop, "timber"), "timber.mass");
+  CHECK(check.verdict == ShopVerdict::pass);
+  options.split.heaviest = 1.0;
+  const std::string heavy = refusal(options, track);
+  CHECK(heavy.starts_with("split.heaviest|heaviest: 1 kg is a sheet of the deck of "));
+  CHECK(heavy.find("|a larger mass, more layers, or a narrower sheet") != std::string::npos);
+  options.split.heaviest.reset();
+  options.bearers.count = 60;
+  const std::string many = refusal(options, track);
+  CHECK(many.starts_with("bearers.count|count: 60 bearers on a width of 1.548 m stand 25.9 mm apart|"));
+  CHECK(many.find("|at most 29 of them") != std::string::npos);
+  options.bearers.count = 29;
+  CHECK_NOTHROW(timber(track, options));
+}
+
+TEST_CASE("timber: the table of setting out has every joint of every bearer, and every leg with its foot") {
+  TimberOptions options;
+  options.legs = LegOptions{{{0.0, -9.0}}, 2.0, 90e-3};
+  const WorkshopBuild build = timber(bend(9.0), options);
+  const auto count = [&](const std::string& what) {
+    return std::count_if(build.workshop.setting_out.begin(), build.workshop.setting_out.end(),
+                         [&](const SettingOutPoint& row) { return row.what.starts_with(what); });
+  };
+  CHECK(count("joint ") + 1 ==
+        static_cast<std::ptrdiff_t>(named(build, "rib_").size() - named(build, "rib_shifted_").size()));
+  CHECK(count("shifted joint ") + 1 == static_cast<std::ptrdiff_t>(named(build, "rib_shifted_").size()));
+  CHECK(count("leg ") == static_cast<std::ptrdiff_t>(named(build, "leg_").size()));
+  double last = -1.0;
+  for (const SettingOutPoint& row : build.workshop.setting_out) {
+    CHECK(row.arc_length >= last);
+    last = row.arc_length;
+    REQUIRE(row.offsets.size() == 3);
+  }
+}

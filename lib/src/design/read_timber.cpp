@@ -35,6 +35,15 @@ BearerOptions read_bearers(const Value& value, Findings& findings) {
 DeckOptions read_deck(const Value& value, Findings& findings) {
   MapReader map(value, "A deck", "{layers: 2}", findings);
   DeckOptions deck;
+  deck.boards = optional_group<BoardOptions>(map, "boards", findings, [&](const Value& group) {
+    MapReader keys(group, "A set of boards", "{width: 120 mm, length: 4 m}", findings);
+    BoardOptions boards;
+    set_length(keys, "width", boards.width);
+    set_length(keys, "length", boards.length);
+    set_length(keys, "gap", boards.gap);
+    keys.refuse_unknown_keys();
+    return boards;
+  });
   deck.layers = read_count(map, "layers", findings).value_or(deck.layers);
   map.refuse_unknown_keys();
   return deck;

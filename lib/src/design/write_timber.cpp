@@ -12,6 +12,19 @@ std::string bearers(const BearerOptions& options) {
   return group.inlined();
 }
 
+std::string deck(const DeckOptions& options) {
+  Group group;
+  group.add("layers", std::to_string(options.layers));
+  if (options.boards) {
+    Group boards;
+    boards.add("width", options.boards->width, Dimension::length);
+    boards.add("length", options.boards->length, Dimension::length);
+    boards.add("gap", options.boards->gap, Dimension::length);
+    group.add("boards", boards.inlined());
+  }
+  return group.inlined();
+}
+
 std::string cross_members(const CrossMemberOptions& options) {
   Group group;
   group.add("width", options.width, Dimension::length);
@@ -45,7 +58,7 @@ void add_process(Group& group, const TimberOptions& timber) {
   group.add("lumber", written_material(timber.lumber));
   group.add("frame", timber.frame == TimberFrame::beams ? "beams" : "ribs");
   group.add("bearers", bearers(timber.bearers));
-  group.add("deck", "{layers: " + std::to_string(timber.deck.layers) + "}");
+  group.add("deck", deck(timber.deck));
   group.add("cross_members", cross_members(timber.cross_members));
   if (timber.legs) group.add("legs", legs(*timber.legs));
   group.add("split", split(timber.split));

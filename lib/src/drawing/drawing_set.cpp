@@ -2,6 +2,7 @@
 #include "glissade/drawing/workshop_drawings.hpp"
 
 #include "drawing/ink.hpp"
+#include "drawing/ordinates.hpp"
 #include "drawing/views.hpp"
 
 #include <algorithm>
@@ -18,7 +19,6 @@ using drawing::Eye;
 using drawing::Projection;
 
 constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr const char* kTolerance = "General tolerance ISO 2768-m; edges deburred";
 
 /// @return a length in millimetres, to a tenth
 std::string mm(double metres) {
@@ -40,7 +40,7 @@ TitleBlock title_of(const Workshop& workshop, std::string title) {
   TitleBlock block;
   block.title = std::move(title);
   block.owner = workshop.name;
-  block.note = kTolerance;
+  block.note = workshop.tolerance;
   return block;
 }
 
@@ -184,21 +184,20 @@ SheetTable bend_schedule(const Workshop& workshop) {
 
 SheetTable setting_out_table(const Workshop& workshop) {
   SheetTable table;
-  table.caption = "Setting out, from the start";
-  table.widths_mm = {26.0, 21.0, 21.0, 21.0, 19.0, 23.0, 21.0};
-  table.header = {"what", "s mm", "x mm", "z mm", "slope deg", "radius mm", "ordinate"};
+  table.caption =
+      "Setting out: x and z from the start, X Y Z of the site, ordinates above the chord of the piece";
+  table.widths_mm = {64.0, 20.0, 20.0, 20.0, 24.0, 24.0, 24.0, 19.0, 23.0, 18.0};
+  table.header = {"what", "s mm", "x mm",      "z mm",      "X mm",
+                  "Y mm", "Z mm", "slope deg", "radius mm", "ordinate"};
   for (std::size_t i = 0; i < workshop.offset_names.size() && i < 4; ++i) {
-    table.widths_mm.push_back(21.0);
+    table.widths_mm.push_back(30.0);
     table.header.push_back(workshop.offset_names[i]);
   }
   for (const SettingOutPoint& point : workshop.setting_out) {
-    std::vector<std::string> row{point.what,
-                                 mm(point.arc_length),
-                                 mm(point.x),
-                                 mm(point.z),
-                                 fixed(point.slope_angle.degrees(), 3),
-                                 mm(point.radius),
-                                 mm(point.ordinate)};
+    std::vector<std::string> row{
+        point.what,       mm(point.arc_length), mm(point.x),      mm(point.z),
+        mm(point.site.x), mm(point.site.y),     mm(point.site.z), fixed(point.slope_angle.degrees(), 3),
+        mm(point.radius), mm(point.ordinate)};
     for (std::size_t i = 0; i < point.offsets.size() && i < 4; ++i) row.push_back(mm(point.offsets[i]));
     table.rows.push_back(std::move(row));
   }
@@ -218,9 +217,9 @@ SheetTable check_table(const Workshop& workshop) {
 }
 
 void append_table(std::vector<Sheet>& sheets, const Workshop& workshop, const std::string& title,
-                  SheetTable table) {
+                  SheetTable table, PaperSize paper = PaperSize::a4) {
   if (table.rows.empty()) return;
-  for (Sheet& sheet : table_sheets(title_of(workshop, title), PaperSize::a4, std::move(table))) {
+  for (Sheet& sheet : table_sheets(title_of(workshop, title), paper, std::move(table))) {
     sheets.push_back(std::move(sheet));
   }
 }
@@ -310,9 +309,13 @@ std::vector<Sheet> part_sheets(const Workshop& workshop, const ShopPart& part) {
   Drawing view = cut_drawing(part);
   for (DrawingLayer& layer : view.layers) layer.width_mm = layer.name == "CUT" ? 0.5 : 0.18;
   add_overall_dimensions(view);
-  SheetTable holes;
-  if (!part.pattern->region.holes.empty()) {
-    add_holes(part, view, holes);
+  // A curve without holes is marked by its ordinates.
+  SheetTable holes = part.pattern->region.holes.empty() && part.pattern->rolls.empty()
+                         ? drawing::ordinate_table(part.pattern->region.outline)
+                         : SheetTable{};
+  const std::string listed = part.pattern->region.holes.empty() ? ": ordinates" : ": holes";
+  if (!part.pattern->region.holes.empty()) add_holes(part, view, holes);
+  if (!holes.rows.empty()) {
     room.high.x -= kTableWidth + 4.0;
     holes.at = {area.high.x - kTableWidth, area.high.y};
   }
@@ -329,7 +332,7 @@ std::vector<Sheet> part_sheets(const Workshop& workshop, const ShopPart& part) {
     std::reverse(rest.begin(), rest.end());
     holes.rows = std::move(rest);
     TitleBlock title = sheet.title;
-    title.title += ": holes";
+    title.title += listed;
     for (Sheet& more : table_sheets(title, PaperSize::a4, std::move(holes)))
       sheets.push_back(std::move(more));
   }
@@ -346,7 +349,7 @@ std::vector<Sheet> drawing_set(const Workshop& workshop) {
     for (Sheet& sheet : part_sheets(workshop, part)) sheets.push_back(std::move(sheet));
   }
   append_table(sheets, workshop, "Bend schedule", bend_schedule(workshop));
-  append_table(sheets, workshop, "Setting out", setting_out_table(workshop));
+  append_table(sheets, workshop, "Setting out", setting_out_table(workshop), PaperSize::a3);
   append_table(sheets, workshop, "Checks", check_table(workshop));
   return numbered(std::move(sheets));
 }

@@ -147,6 +147,24 @@ void sink(TriangleMesh& mesh, const FacePlane& plane, const std::vector<Recess>&
   }
 }
 
+void drop_unused_vertices(TriangleMesh& mesh) {
+  constexpr std::uint32_t kUnused = 0xffffffff;
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) number[vertex] = 0;
+  }
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == kUnused) continue;
+    mesh.vertices[kept] = mesh.vertices[i];
+    number[i] = kept++;
+  }
+  mesh.vertices.resize(kept);
+  for (Triangle& triangle : mesh.triangles) {
+    for (std::uint32_t& vertex : triangle) vertex = number[vertex];
+  }
+}
+
 TriangleMesh round_bar(double diameter, double length, double chamfer) {
   TriangleMesh mesh;
   const auto ring = [&](double radius, double z) {

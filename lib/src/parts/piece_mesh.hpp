@@ -37,6 +37,9 @@ struct FacePlane {
 /// @throws InternalError if the face is not there, or recesses touch
 void sink(TriangleMesh& mesh, const FacePlane& plane, const std::vector<Recess>& recesses);
 
+/// Drops vertices that no triangle has: those that lay within a face that was made anew.
+void drop_unused_vertices(TriangleMesh& mesh);
+
 /// A round bar along z from 0, with both edges chamfered; nowhere wider than asked.
 [[nodiscard]] TriangleMesh round_bar(double diameter, double length, double chamfer);
 

@@ -242,6 +242,7 @@ PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan, const Hold& hold
   if (joined_before) work(before, false);
   if (joined_after) work(after, true);
   if (joined_before || joined_after) number_side(job, number, unit);
+  drop_unused_vertices(unit.mesh);
   const double left = mesh_moments(unit.mesh).volume;
   if (!(std::fabs(left + unit.sunk_volume - eased) <= 1e-9 * swept)) {
     throw InternalError({which, "its holes and tongues do not add up to its volume", "", ""});

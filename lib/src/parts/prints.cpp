@@ -118,6 +118,7 @@ TriangleMesh numbered(const PrintJob& job, TriangleMesh mesh, int number, double
   const auto recesses = sunk_digits(digits, place->corner, place->height, job.options.number_depth);
   for (const Recess& recess : recesses) taken += recess.volume();
   sink(mesh, side, recesses);
+  drop_unused_vertices(mesh);
   return mesh;
 }
 
@@ -139,8 +140,11 @@ void add_block(const PrintJob& job, const Stand& stand, const StandBlock& block,
   pose.up = {0.0, 0.0, 1.0};
   const auto turned = turned_to_fit(pose, mesh.vertices, job.options.split.bed);
   if (!turned) {
-    throw InputError({"stands", "stands: the one below " + stand.what + " fits the bed in no way",
-                      "It stands on its foot.", "a higher ground, a larger bed, or stands: none"});
+    const Vec3 size = size_on_bed(pose, mesh.vertices);
+    throw InputError({"stands",
+                      "stands: the one below " + stand.what + " is " + length_text(size.x, 3) + " x " +
+                          length_text(size.y, 3) + " wide, which fits the bed in no way",
+                      "It is printed standing on its foot.", "a larger bed, or stands: none"});
   }
   build.prints.push_back({name, std::to_string(part.number), posed(mesh, *turned)});
   build.workshop.parts.push_back(std::move(part));
@@ -393,6 +397,7 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
   if (hold.dowels) add_pins(job, plan.joints, *hold.dowels, build);
   build.workshop.setting_out = setting_out(job.track, build.joints, placement);
   add_stands(job, stands, {0.0, job.track.length()}, build);
+  build.workshop.tolerance = "Printed to 0.2 mm; seams off the running surface";
   build.workshop.notes = notes_of(job, plan, hold, stands);
   const double drop = hold.tongue ? hold.tongue->fit : hold.dowels ? options.dowels.fit : 0.0;
   build.ride = ride_prints(units, smooth, body, gravity, drop);

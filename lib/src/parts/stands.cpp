@@ -23,6 +23,7 @@
 namespace glissade::parts {
 namespace {
 
+constexpr double kSpreadOfBed = 0.25;  // the most of it
 constexpr double kSpread = 0.15;       // of the foot on both sides, over the height
 constexpr double kLeastHeight = 4e-3;  // between ground and run [m]
 constexpr int kTopPieces = 12;         // chords of the top edge
@@ -72,6 +73,13 @@ std::vector<Place> places_of(const PrintJob& job, const Underside& underside,
   const auto upright = [&](double s) {
     return std::fabs(job.track.slope_angle(s)) <= options.steepest.radians();
   };
+  if (underside.at(job.track.length()).x - underside.at(0.0).x < 2.0 * inset) {
+    throw InputError({"stands.thickness",
+                      "thickness: stands of " + length_text(options.thickness) +
+                          " along the run find no place below a run of " +
+                          length_text(underside.at(job.track.length()).x - underside.at(0.0).x, 3),
+                      "One stands below it at least.", "a smaller thickness, or stands: none"});
+  }
   std::vector<Place> fixed;
   const double start = underside.at(0.0).x + inset;
   const double finish = underside.at(job.track.length()).x - inset;
@@ -117,8 +125,9 @@ Shape shape_of(const PrintJob& job, const Underside& underside, double x, double
     shape.top.push_back(point - Vec2{x, 0.0});
   }
   const double height = std::max(shape.top.front().y, shape.top.back().y) - ground;
-  shape.foot = {Vec2{shape.top.front().x - kSpread * height, ground},
-                Vec2{shape.top.back().x + kSpread * height, ground}};
+  const PrintBed& bed = job.options.split.bed;
+  const double spread = std::min(kSpread * height, kSpreadOfBed * (std::min(bed.x, bed.y) - 2.0 * bed.gap));
+  shape.foot = {Vec2{shape.top.front().x - spread, ground}, Vec2{shape.top.back().x + spread, ground}};
   return shape;
 }
 
@@ -280,6 +289,17 @@ std::vector<Vec3> pins_at(const Shape& shape, const std::array<double, 4>& acros
 void make_blocks(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across, Stand& stand) {
   const double height = std::max(shape.top.front().y, shape.top.back().y) + shape.cheek - stand.ground;
   const double count = std::ceil(height / (job.options.split.bed.z - 1e-6));
+  const double lowest = std::min(shape.top.front().y, shape.top.back().y);
+  if (count > 1.0 && stand.ground + height * (count - 1.0) / count > lowest - kStandPinDepth - kLeastHeight) {
+    throw InputError(
+        {"stands.thickness",
+         "thickness: " + length_text(job.options.stands->thickness) +
+             " along the run makes the stand below " + stand.what + " " +
+             length_text(std::fabs(shape.top.front().y - shape.top.back().y), 3) +
+             " higher on one side than on the other",
+         "It comes in blocks of " + length_text(height / count, 3) + ", and no cut may pass its top.",
+         "a smaller thickness, or a higher bed"});
+  }
   Shape upper = shape;
   double from = stand.ground;
   std::vector<Vec3> below;

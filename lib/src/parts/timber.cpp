@@ -53,28 +53,40 @@ void set_own_pattern(ShopPart& part) {
   part.pattern = std::move(pattern);
 }
 
-/// @return middles of equal strips of a width, from left to right
-std::vector<double> strips(double width, int count) {
+/// @return middles of the strips of a set, from left to right
+std::vector<double> middles_of(const TimberJob& job, std::size_t set) {
+  const int count = job.strips();
+  const std::size_t sets = job.sets_per_layer();
+  const double pitch = job.strip_width() + job.gap();
   std::vector<double> middles;
-  for (int i = 0; i < count; ++i) middles.push_back(0.5 * width - width * (i + 0.5) / count);
+  for (int i = 0; i < count; ++i) {
+    if (static_cast<std::size_t>(i) % sets == set % sets)
+      middles.push_back(0.5 * (job.channel.overall() - job.strip_width()) - pitch * i);
+  }
   return middles;
 }
 
+std::string deck_name(const TimberJob& job, std::size_t set, std::size_t row) {
+  const std::size_t sets = job.sets_per_layer();
+  const std::string side = sets == 1 ? "" : set % sets == 0 ? "_even" : "_odd";
+  return (sets == 1 ? "deck_" : "board_") + std::to_string(set / sets + 1) + side + "_" +
+         std::to_string(row + 1);
+}
+
 double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows, Workshop& workshop) {
-  const double overall = job.channel.overall();
-  const double sheet = std::min(job.options.split.sheet.x, job.options.split.sheet.y);
-  const int count = std::max(1, static_cast<int>(std::ceil(overall / sheet - 1e-9)));
-  const double width = overall / count;
+  const double width = job.strip_width();
   double volume = 0.0;
-  for (std::size_t layer = 0; layer < rows.size(); ++layer) {
-    const double top = -job.layer() * static_cast<double>(layer);
-    for (std::size_t i = 0; i < rows[layer].size(); ++i) {
-      const DeckRow& row = rows[layer][i];
-      ShopPart part =
-          upright_part(job, *band(job.track, row.span, top - job.layer(), top), chord_angle(job, row.span),
-                       width, strips(overall, count), job.options.material);
-      part.name = "deck_" + std::to_string(layer + 1) + "_" + std::to_string(i + 1);
+  for (std::size_t set = 0; set < rows.size(); ++set) {
+    const double top = -job.layer() * static_cast<double>(set / job.sets_per_layer());
+    const std::vector<double> middles = middles_of(job, set);
+    if (middles.empty()) continue;  // of a single board there are no odd ones
+    for (std::size_t i = 0; i < rows[set].size(); ++i) {
+      const DeckRow& row = rows[set][i];
+      ShopPart part = upright_part(job, *band(job.track, row.span, top - job.layer(), top),
+                                   chord_angle(job, row.span), width, middles, job.deck_material());
+      part.name = deck_name(job, set, i);
       part.thickness = job.layer();
+      part.bought_in = job.options.deck.boards.has_value();
       FlatPattern pattern;
       pattern.region.outline = rectangle({}, {row.flat_length, width});
       set_number_place(pattern, bounds(pattern.region.outline));
@@ -89,7 +101,19 @@ double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& r
 /// Joints of the curbs, apart from the seams of the upper layer.
 std::vector<double> curb_joints(const TimberJob& job, const std::vector<DeckRow>& upper) {
   const TimberSplit& split = job.options.split;
-  const double longest = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin - 2.0 * kSeamClear;
+  const double stock = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin - 2.0 * kSeamClear;
+  const bool sawn = job.channel.curb_thickness > kThickestSheet;
+  const double per_metre = job.channel.curb_height * job.channel.curb_thickness *
+                           (sawn ? job.options.lumber : job.options.material).density;
+  const double longest =
+      split.heaviest ? std::min(stock, *split.heaviest / per_metre - 2.0 * kSeamClear) : stock;
+  if (!(longest > kSeamClear)) {
+    throw InputError({"split.heaviest",
+                      "heaviest: " + rounded_text(*split.heaviest, 4) + " kg is a curb of " +
+                          length_text(*split.heaviest / per_metre, 3),
+                      "Its joints keep " + length_text(kSeamClear) + " from the seams of the deck.",
+                      "a larger mass, or lower curbs"});
+  }
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(job.track.length() / longest)));
   std::vector<double> joints = calm_joints(job.track, count, 0.0);
   for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
@@ -240,6 +264,38 @@ void add_offsets(const TimberJob& job, Workshop& workshop) {
   }
 }
 
+std::string in_mm(double metres) {
+  return rounded_text(metres * 1e3, 6);
+}
+
+/// Joints of every other bearer, and legs: beside what every track has in its table.
+void set_out_frame(const TimberJob& job, const BearerPlan& bearers, const std::vector<Leg>& legs,
+                   Workshop& workshop) {
+  const auto add_row = [&](const std::vector<double>& joints, const std::string& what, double s) {
+    const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, s);
+    workshop.setting_out.push_back(
+        setting_out_point(job.track, {*(next - 1), *next}, job.placement, what, s));
+  };
+  if (bearers.across.size() > 1) {
+    for (std::size_t i = 1; i + 1 < bearers.shifted.size(); ++i)
+      add_row(bearers.shifted, "shifted joint " + std::to_string(i), bearers.shifted[i]);
+  }
+  for (std::size_t i = 0; i < legs.size(); ++i)
+    add_row(bearers.joints,
+            "leg " + std::to_string(i + 1) + ": middle x " + in_mm(legs[i].x) + ", foot z " +
+                in_mm(legs[i].ground),
+            legs[i].at);
+  in_order(workshop.setting_out);
+  std::string middles;
+  for (const double middle : bearers.across)
+    middles += (middles.empty() ? "" : ", ") + rounded_text(middle * 1e3, 6);
+  const char* const name = job.options.frame == TimberFrame::ribs ? "ribs" : "beams";
+  workshop.notes.push_back("Middles of " + std::string(name) + " to the left of the axis, in mm: " + middles +
+                           ".");
+  if (bearers.across.size() > 1 && bearers.shifted.size() > 2)
+    workshop.notes.push_back("The second, fourth, ... of them have the shifted joints.");
+}
+
 AsBuiltRide ride_deck(const TimberJob& job, const std::vector<DeckRow>& upper, const Motion& design,
                       const Body& body, double gravity) {
   std::vector<std::shared_ptr<const ArcSpline>> floors;
@@ -254,7 +310,9 @@ double exact_volume(const TimberJob& job, bool& folded) {
   const double length = track.length();
   const double turned = track.direction(0.0).slope_angle - track.direction(length).slope_angle;
   const double thickness = job.channel.thickness;
-  double volume = job.channel.overall() * (thickness * length + 0.5 * thickness * thickness * turned);
+  // Less the gaps between boards.
+  const double deck_width = job.channel.overall() - job.gap() * (job.strips() - 1);
+  double volume = deck_width * (thickness * length + 0.5 * thickness * thickness * turned);
   const double height = job.channel.curb_height;
   const double across = 2.0 * job.channel.curb_thickness;
   folded = height > 0.0 && folds(track, {0.0, length}, height);
@@ -289,9 +347,9 @@ PartsProof prove_timber(const TimberJob& job, double made, const std::vector<Cro
   proof.smallest_gap = job.options.fit;
   for (const CrossMember& member : members)
     proof.smallest_gap = std::min(proof.smallest_gap, job.options.fit - member.sagitta);
-  for (std::size_t layer = 0; layer < rows.size(); ++layer) {
-    const double depth = (static_cast<double>(layer) + 0.5) * job.layer();
-    for (const DeckRow& row : rows[layer]) {
+  for (std::size_t set = 0; set < rows.size(); ++set) {
+    const double depth = (static_cast<double>(set / job.sets_per_layer()) + 0.5) * job.layer();
+    for (const DeckRow& row : rows[set]) {
       const double fibre = length(*offset_line(job.track, row.span, -depth));
       proof.edge_mismatch = std::max(proof.edge_mismatch, std::fabs(fibre - row.flat_length));
     }
@@ -322,6 +380,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   const BearerPlan bearers = plan_bearers(job);
   const std::vector<Leg> legs = plan_legs(job);
   Workshop& workshop = build.workshop;
+  workshop.tolerance = "Cut to 1 mm; edges of the running surface broken";
   double made = add_deck(job, rows, workshop);
   made += add_curbs(job, rows.front(), workshop);
   add_cross_members(job, members, workshop);
@@ -331,6 +390,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
     for (ShopPart& part : brace_parts(job, legs, bearers)) add(workshop, std::move(part), kLegColour);
   }
   workshop.setting_out = setting_out(job.track, bearers.joints, placement);
+  set_out_frame(job, bearers, legs, workshop);
   add_offsets(job, workshop);
   for (const DeckRow& row : rows.front()) build.joints.push_back(row.span.from);
   build.joints.push_back(job.track.length());

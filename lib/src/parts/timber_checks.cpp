@@ -4,6 +4,8 @@
 
 #include "parts/timber_frame.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace glissade {
@@ -73,9 +75,38 @@ void check_stock(const TimberOptions& options, Problems& problems) {
     problems.add("deck.layers", std::to_string(options.deck.layers) + " layers",
                  "They are 1 to " + std::to_string(kMostLayers) + ".", "2");
   }
+  if (const auto& boards = options.deck.boards) {
+    problems.positive("deck.boards.width", boards->width, "120 mm");
+    problems.positive("deck.boards.length", boards->length, "4 m");
+    problems.not_negative("deck.boards.gap", boards->gap, "5 mm");
+  }
   if (options.lumber.density <= 0.0)
     problems.add("lumber.density", rounded_text(options.lumber.density, 6) + " kg/m^3 is not positive", "",
                  "420 kg/m^3");
+}
+
+/// Bearers, their splices and legs side by side.
+void check_room(const TimberOptions& options, double overall, Problems& problems) {
+  const double width = options.bearer_width();
+  const double outer = overall - width;
+  if (!(options.bearers.spacing > 0.0) || !(width > 0.0) || outer <= width) return;
+  const double count = options.bearers.count ? *options.bearers.count
+                                             : std::ceil(outer / options.bearers.spacing - 1e-9) + 1.0;
+  if (count < 2.0) return;
+  const double pitch = outer / (count - 1.0);
+  const bool ribs = options.frame == TimberFrame::ribs;
+  double least = ribs ? 3.0 * width : width;  // a splice on both sides of a rib
+  if (options.legs) least = std::max(least, options.legs->side);
+  if (pitch >= least * (1.0 + 1e-9)) return;
+  const std::string key = options.bearers.count ? "bearers.count" : "bearers.spacing";
+  problems.add(key,
+               rounded_text(count, 9) + " bearers on a width of " + length_text(overall) + " stand " +
+                   length_text(pitch, 3) + " apart",
+               ribs ? "Between two ribs there is room for the splices of both" +
+                          std::string(options.legs ? ", and for the legs below them." : ".")
+                    : "Two beams" + std::string(options.legs ? ", and the legs below them," : "") +
+                          " stand beside each other.",
+               "at most " + rounded_text(std::floor(outer / least) + 1.0, 9) + " of them");
 }
 
 }  // namespace
@@ -93,6 +124,7 @@ std::vector<Issue> timber_problems(const section::Measures& measures, const Timb
          "kind: slab or u-channel with one width"});
     return problems.issues;
   }
+  check_room(options, channel->overall(), problems);
   if (options.bearer_width() * 2.0 > channel->overall()) {
     problems.add("bearers.width",
                  length_text(options.bearer_width()) + " is more than half the width of " +

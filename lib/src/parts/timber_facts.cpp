@@ -64,7 +64,9 @@ void measure_timber(const TimberJob& job, const std::vector<std::vector<DeckRow>
   facts.parts(job.options.split.heaviest);
   for (const TrackArc& arc : job.track.arcs()) {
     if (arc.curvature == 0.0) continue;
-    facts.at(at_text(arc.start), "deck_radius_thicknesses", 1.0 / std::fabs(arc.curvature), job.layer());
+    facts.at(at_text(arc.start),
+             job.options.deck.boards ? "board_radius_thicknesses" : "deck_radius_thicknesses",
+             1.0 / std::fabs(arc.curvature), job.layer());
   }
   measure_members(job, members, facts);
   measure_seams(job, rows, members, facts);

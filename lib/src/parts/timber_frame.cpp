@@ -175,7 +175,35 @@ Leg leg_below(const TimberJob& job, double s) {
   return leg;
 }
 
+/// Length of a sheet of the deck: that of the stock, or what its mass allows.
+double sheet_length(const TimberJob& job) {
+  const auto& boards = job.options.deck.boards;
+  const double stock =
+      boards ? boards->length : std::max(job.options.split.sheet.x, job.options.split.sheet.y);
+  if (!job.options.split.heaviest) return stock;
+  const double per_metre = job.layer() * job.strip_width() * job.deck_material().density;
+  const double allowed = *job.options.split.heaviest / per_metre;
+  const double least = 2.0 * kStagger;
+  if (allowed >= std::min(least, stock)) return std::min(stock, allowed);
+  throw InputError({"split.heaviest",
+                    "heaviest: " + rounded_text(*job.options.split.heaviest, 4) +
+                        " kg is a sheet of the deck of " + length_text(allowed, 3) + " x " +
+                        length_text(job.strip_width(), 3),
+                    "One of " + length_text(least) + ", whose seams are apart from those below, has " +
+                        rounded_text(least * per_metre, 3) + " kg.",
+                    "a larger mass, more layers, or a narrower sheet"});
+}
+
 }  // namespace
+
+int TimberJob::strips() const {
+  if (const auto& boards = options.deck.boards) {
+    const double count = std::ceil((channel.overall() + boards->gap) / (boards->width + boards->gap) - 1e-9);
+    return std::max(1, static_cast<int>(count));
+  }
+  const double sheet = std::min(options.split.sheet.x, options.split.sheet.y);
+  return std::max(1, static_cast<int>(std::ceil(channel.overall() / sheet - 1e-9)));
+}
 
 std::optional<TimberChannel> timber_channel_of(const section::Measures& measures) {
   if (const auto* const channel = std::get_if<section::UChannel>(&measures)) {
@@ -191,14 +219,15 @@ std::optional<TimberChannel> timber_channel_of(const section::Measures& measures
 }
 
 std::vector<std::vector<DeckRow>> deck_rows(const TimberJob& job) {
-  const double sheet = std::max(job.options.split.sheet.x, job.options.split.sheet.y);
+  const double sheet = sheet_length(job);
   const double length = job.track.length();
-  const int layers = job.options.deck.layers;
+  const std::size_t per_layer = job.sets_per_layer();
+  const std::size_t sets = per_layer * static_cast<std::size_t>(job.options.deck.layers);
   std::vector<std::vector<DeckRow>> all;
-  for (int layer = 0; layer < layers; ++layer) {
-    const auto depth = static_cast<std::size_t>(layer);
-    // Seams of a layer are a share of a sheet from those of the one above.
-    double flat = sheet * (1.0 - static_cast<double>(layer) / layers);
+  for (std::size_t set = 0; set < sets; ++set) {
+    const std::size_t depth = set / per_layer;
+    // Seams of a set are a share of a sheet from those of the one before.
+    double flat = sheet * (1.0 - static_cast<double>(set) / static_cast<double>(sets));
     std::vector<double> seams = {0.0};
     while (seams.back() < length) {
       seams.push_back(end_of_sheet(job, depth, seams.back(), flat));

@@ -31,6 +31,15 @@ struct TimberJob {
   const Placement& placement;
 
   [[nodiscard]] double layer() const { return channel.thickness / options.deck.layers; }
+  /// @return how many sheets or boards lie side by side
+  [[nodiscard]] int strips() const;
+  [[nodiscard]] double gap() const { return options.deck.boards ? options.deck.boards->gap : 0.0; }
+  [[nodiscard]] double strip_width() const { return (channel.overall() - gap() * (strips() - 1)) / strips(); }
+  [[nodiscard]] const StockMaterial& deck_material() const {
+    return options.deck.boards ? options.lumber : options.material;
+  }
+  /// Sheets of a layer have one set of seams; of boards every other one has seams of its own.
+  [[nodiscard]] std::size_t sets_per_layer() const { return options.deck.boards ? 2 : 1; }
   /// Height of the upper edge of the bearers.
   [[nodiscard]] double bearer_top() const {
     return -(channel.thickness + options.cross_members.height + options.fit);
@@ -44,7 +53,7 @@ struct DeckRow {
   double flat_length = 0.0;  ///< along the neutral fibre [m]
 };
 
-/// @return rows of each layer, the upper one first
+/// @return rows of each set of seams: of the upper layer first, of its even boards before its odd ones
 [[nodiscard]] std::vector<std::vector<DeckRow>> deck_rows(const TimberJob& job);
 
 /// A cross member that touches the deck.

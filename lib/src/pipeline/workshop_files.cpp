@@ -152,18 +152,27 @@ NestStock stock_of(const FabricationDesign& fabrication) {
   return {std::max(sheet.x, sheet.y), std::min(sheet.x, sheet.y), parts::kSheetMargin, kSpacing};
 }
 
+/// Whether a shape is worth a template: rectangles without holes are marked with a rule.
+bool wants_template(const ShopPart& part) {
+  if (!part.pattern) return false;
+  const PlaneRegion& region = part.pattern->region;
+  if (!region.holes.empty() || !region.cutouts.empty() || region.outline.vertices.size() != 4) return true;
+  const PlaneBox box = bounds(region.outline);
+  const double area = moments(region).area;
+  return std::fabs(area - box.width() * box.height()) > 1e-9 * area;
+}
+
 std::vector<Sheet> templates(const Workshop& workshop, TemplatePaper paper) {
   std::vector<Sheet> sheets;
   for (const ShopPart& part : workshop.parts) {
-    if (!part.pattern) continue;
+    if (!wants_template(part)) continue;
     for (Sheet& sheet : part_template(workshop, part, paper)) sheets.push_back(std::move(sheet));
   }
   return sheets;
 }
 
-bool has_patterns(const Workshop& workshop) {
-  return std::any_of(workshop.parts.begin(), workshop.parts.end(),
-                     [](const ShopPart& part) { return part.pattern.has_value(); });
+bool has_templates(const Workshop& workshop) {
+  return std::any_of(workshop.parts.begin(), workshop.parts.end(), wants_template);
 }
 
 /// Whether meshes of single pieces are written: they are on request alone.
@@ -216,7 +225,7 @@ void add_sheets(const Design& design, const std::shared_ptr<const WorkshopBuild>
       files.push_back(table(stem + ".drawings/" + number + ".svg", svg_text(sheets[i])));
     }
   }
-  if (wanted(WorkshopFormat::templates) && has_patterns(build->workshop)) {
+  if (wanted(WorkshopFormat::templates) && has_templates(build->workshop)) {
     files.push_back(
         pdf_of(stem + ".templates.pdf", build,
                [paper = design.exports.paper](const Workshop& shop) { return templates(shop, paper); }));

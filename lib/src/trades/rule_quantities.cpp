@@ -116,6 +116,7 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"number_bar", length, "width of the bars of a number"},
     // timber
     {"deck_radius_thicknesses", number, "radius of the deck over the thickness of a layer"},
+    {"board_radius_thicknesses", number, "radius of a deck of boards over the thickness of a board"},
     {"deck_span_thicknesses", number, "distance of cross members over the thickness of the deck"},
     {"seam_member_share", number, "distance of a seam from a cross member's middle over half its width"},
     {"seam_stagger", length, "distance of seams of neighbouring layers"},

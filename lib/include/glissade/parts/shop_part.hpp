@@ -200,7 +200,8 @@ struct ShopCheck {
 
 /// Everything that a workshop gets told.
 struct Workshop {
-  std::string name;  ///< of the design
+  std::string name;                                                        ///< of the design
+  std::string tolerance = "General tolerance ISO 2768-m; edges deburred";  ///< in words, on every sheet
   std::vector<ShopPart> parts;
   std::vector<BoughtInItem> items;
   std::vector<BendStep> bends;

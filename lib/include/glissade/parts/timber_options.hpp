@@ -27,9 +27,19 @@ struct BearerOptions {
   friend bool operator==(const BearerOptions&, const BearerOptions&) = default;
 };
 
+/// Boards of lumber that lie along the track, in place of sheets.
+struct BoardOptions {
+  double width = 120e-3;  ///< greatest; all are of one width [m]
+  double length = 4.0;    ///< along their middle, before they are bent [m]
+  double gap = 0.0;       ///< between two of them [m]
+
+  friend bool operator==(const BoardOptions&, const BoardOptions&) = default;
+};
+
 /// The floor: sheets bent over the cross members, in layers whose seams are apart.
 struct DeckOptions {
-  int layers = 2;  ///< as thick together as the section's floor
+  int layers = 2;                      ///< as thick together as the section's floor
+  std::optional<BoardOptions> boards;  ///< none: sheets
 
   friend bool operator==(const DeckOptions&, const DeckOptions&) = default;
 };
