@@ -303,7 +303,7 @@ TEST_CASE("degrees are made by Angle alone, and a quarter turn has one name") {
   CHECK(found == std::vector<std::string>{});
 }
 
-TEST_CASE("a limit, a section and a law stand in the files that docs/development.md names") {
+TEST_CASE("a limit, a format, a section and a law stand in the files that docs/development.md names") {
   const auto files_with = [](const std::string& words) {
     const std::regex pattern("\\b(" + words + ")\\b");
     std::set<std::string> names;
@@ -318,6 +318,11 @@ TEST_CASE("a limit, a section and a law stand in the files that docs/development
   CHECK(files_with("highest_curvature_load") ==
         std::set<std::string>{in + "task/limits.hpp", "lib/src/task/limit_catalogue.cpp",
                               "lib/src/referee/judgement.cpp", "lib/src/optimize/measures.cpp"});
+  // One of three that a design without `export` gets, which makes it five here.
+  CHECK(files_with("write_scad|ExportFormat::scad") ==
+        std::set<std::string>{in + "core/file_format.hpp", "lib/src/pipeline/formats.cpp",
+                              in + "io/scad_file.hpp", "lib/src/io/scad_writer.cpp",
+                              in + "design/design.hpp"});
   CHECK(files_with("VChannel") ==
         std::set<std::string>{in + "section/measures.hpp", "lib/src/section/shapes.cpp",
                               "lib/src/section/cross_section.cpp", "lib/src/parts/plate_section.cpp"});

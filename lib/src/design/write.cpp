@@ -72,21 +72,22 @@ std::string track(const TrackDesign& design) {
   return group.lines();
 }
 
-/// @return the angle of a friction as a text that reads as that very friction; none if no angle does
+std::string coefficient_of(Friction friction) {
+  return exact_text(friction.coefficient());
+}
+
+/// @return the angle of a friction as a text that reads as that very friction; none if no angle does, or if the
+///         coefficient, in which it was given then, is the shorter text
 std::optional<std::string> angle_of(Friction friction) {
-  constexpr int kMostDigits = 17;
+  const int most_digits = static_cast<int>(coefficient_of(friction).size());
   const double angle = friction.angle().radians();
-  for (int digits = 1; digits <= kMostDigits; ++digits) {
+  for (int digits = 1; digits <= most_digits; ++digits) {
     std::string text = angle_text(Angle::from_radians(angle), digits);
     const auto read = read_quantity(text, Dimension::angle, "friction_angle");
     const double* const value = std::get_if<double>(&read);
     if (value != nullptr && Friction::from_angle(Angle::from_radians(*value)) == friction) return text;
   }
   return {};
-}
-
-std::string coefficient_of(Friction friction) {
-  return exact_text(friction.coefficient());
 }
 
 /// A range of frictions, or the one value that there is.
