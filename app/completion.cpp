@@ -51,8 +51,10 @@ class Offer {
 std::string mesh_endings() {
   std::string endings;
   for (const FileFormat& format : kFileFormats) {
-    const bool is_mesh = format.content == FileContent::rounded_mesh || format.format == ExportFormat::off;
-    if (is_mesh) endings += (endings.empty() ? "" : " ") + std::string(format.ending);
+    const bool is_mesh =
+        format.content == FileContent::rounded_mesh || format.content == FileContent::exact_mesh;
+    if (!is_mesh || endings.find(format.ending) != std::string::npos) continue;
+    endings += (endings.empty() ? "" : " ") + std::string(format.ending);
   }
   return endings;
 }

@@ -132,6 +132,21 @@ TEST_CASE("friction list: less friction somewhere is never slower") {
   }
 }
 
+TEST_CASE("friction list: smoother ground beyond a short track is gone on to where that is faster") {
+  // Straight there, some 11.6 m of it rough, takes 2.93 s; down into smooth ground and up again, some 20 m, 2.43 s.
+  const double never = time_of(problem(10.0, 5.0, 0.4, {}));
+  double before = 0.0;
+  for (const double place : {11.5, 11.7, 12.5}) {
+    const double time = time_of(problem(10.0, 5.0, 0.4, {change(place, 0.0)}));
+    CAPTURE(place, time, before, never);
+    CHECK(time > before);
+    CHECK(time < 0.9 * never);
+    before = time;
+  }
+  // Nowhere near: nothing is gained.
+  CHECK(time_of(problem(10.0, 5.0, 0.4, {change(40.0, 0.0)})) == Approx(never).epsilon(1e-6));
+}
+
 TEST_CASE("friction list: no neighbour of the fastest track is faster, whatever moves") {
   auto random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

@@ -5,8 +5,10 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "design/read_in_run.hpp"
+#include "design/write_body.hpp"
 #include "design/write_fabrication.hpp"
 #include "design/write_rules.hpp"
+#include "design/write_stream.hpp"
 #include "design/written_text.hpp"
 
 #include <cmath>
@@ -72,245 +74,6 @@ std::string track(const TrackDesign& design) {
   return group.lines();
 }
 
-/// @return the angle of a friction as a text that reads as that very friction; none if no angle does
-std::optional<std::string> angle_of(Friction friction) {
-  constexpr int kMostDigits = 17;
-  const double angle = friction.angle().radians();
-  for (int digits = 1; digits <= kMostDigits; ++digits) {
-    std::string text = angle_text(Angle::from_radians(angle), digits);
-    const auto read = read_quantity(text, Dimension::angle, "friction_angle");
-    const double* const value = std::get_if<double>(&read);
-    if (value != nullptr && Friction::from_angle(Angle::from_radians(*value)) == friction) return text;
-  }
-  return {};
-}
-
-std::string coefficient_of(Friction friction) {
-  return exact_text(friction.coefficient());
-}
-
-/// A range of frictions, or the one value that there is.
-template <typename Text>
-std::string friction_range(const BodyDesign& body, Text text_of) {
-  if (!body.low_friction && !body.high_friction) return text_of(body.friction);
-  Group friction;
-  if (body.low_friction) friction.add("low", text_of(*body.low_friction));
-  friction.add("nominal", text_of(body.friction));
-  if (body.high_friction) friction.add("high", text_of(*body.high_friction));
-  return friction.inlined();
-}
-
-/// By angle where all of them are one, otherwise by coefficient.
-void add_friction(const BodyDesign& body, Group& group) {
-  const bool by_angle = angle_of(body.friction) && angle_of(body.low_friction.value_or(body.friction)) &&
-                        angle_of(body.high_friction.value_or(body.friction));
-  if (by_angle) {
-    group.add("friction_angle", friction_range(body, [](Friction friction) { return *angle_of(friction); }));
-  } else {
-    group.add("friction_coefficient", friction_range(body, coefficient_of));
-  }
-}
-
-std::string friction_from(const FrictionFrom& change) {
-  Group group;
-  group.add("from", change.from, Dimension::length);
-  const std::optional<std::string> angle = angle_of(change.friction);
-  group.add(angle ? "angle" : "coefficient", angle ? *angle : coefficient_of(change.friction));
-  return group.inlined();
-}
-
-/// Writes each measure of a kind of body under its key.
-class KindWriter {
- public:
-  KindWriter(const BodyDesign& body, Group& group) : body_(body), group_(group) {}
-
-  void resistance(const char* key, const char*) { group_.add(key, friction_range(body_, coefficient_of)); }
-  void length(const char* key, double value, double, double, const char*, const char*) {
-    group_.add(key, value, Dimension::length);
-  }
-  void angle(const char* key, Angle value, Angle most, const char*, const char*) {
-    if (value != most) group_.add(key, value.radians(), Dimension::angle);
-  }
-  void grip(const std::optional<Friction>& value, const char*) {
-    if (value) group_.add("friction_coefficient", coefficient_of(*value));
-  }
-
- private:
-  const BodyDesign& body_;
-  Group& group_;
-};
-
-void add_drag(const BodyDesign& body, Group& group) {
-  if (!body.drag) {
-    group.add_unless(0.0, "drag", body.drag_per_metre, Dimension::per_length);
-    return;
-  }
-  group.add("drag_area", body.drag->drag_area, Dimension::area);
-  group.add("mass", body.drag->mass, Dimension::mass);
-  Group air;
-  air.add("density", body.drag->density, Dimension::density);
-  if (!body.drag->density) air.add_unless(0.0, "altitude", body.drag->altitude, Dimension::length);
-  air.add("temperature", body.drag->temperature, Dimension::temperature);
-  group.add("air", air.inlined());
-}
-
-std::string body(const BodyDesign& design) {
-  Group group;
-  if (!design.slides()) {
-    group.add("kind", std::string(std::visit([](const auto& kind) { return kind.kKind; }, design.kind)));
-    visit_measures(design, KindWriter(design, group));
-  } else if (!design.friction_changes.empty()) {
-    group.add("friction", list_of(design.friction_changes, friction_from));
-  } else if (design.friction_given) {
-    add_friction(design, group);
-  }
-  group.add("centre_height", design.centre_height, Dimension::length);
-  group.add_unless(0.0, "entry_speed", design.entry_speed, Dimension::speed);
-  add_drag(design, group);
-  group.add_unless(0.0, "head_wind", design.head_wind, Dimension::speed);
-  return group.lines();
-}
-
-std::string sourced(const SourcedValue& value, Dimension dimension) {
-  Group group;
-  group.add("value", value.value, dimension);
-  if (!value.why.empty()) group.add("why", in_quotes(value.why));
-  group.add("source", in_quotes(value.from.text));
-  return group.inlined();
-}
-
-std::string wall_friction(const WallFriction& friction) {
-  Group angle;
-  angle.add("low", friction.low.radians(), Dimension::angle);
-  angle.add("nominal", friction.nominal.radians(), Dimension::angle);
-  angle.add("high", friction.high.radians(), Dimension::angle);
-  Group group;
-  group.add("liner", in_quotes(friction.liner));
-  group.add("angle", angle.inlined());
-  if (friction.moisture) {
-    group.add("moisture", "{low: " + exact_text(*friction.moisture->lowest) +
-                              ", high: " + exact_text(*friction.moisture->highest) + "}");
-  }
-  group.add("source", in_quotes(friction.from.text));
-  return group.inlined();
-}
-
-/// One of the design's own.
-std::string material(const Material& design) {
-  Group group;
-  group.add("material", in_quotes(design.word));
-  group.add("name", in_quotes(design.name));
-  if (design.density) {
-    Group density;
-    density.add("low", design.density->low, Dimension::density);
-    density.add("nominal", design.density->nominal, Dimension::density);
-    density.add("high", design.density->high, Dimension::density);
-    density.add("source", in_quotes(design.density->from.text));
-    group.add("density", density.inlined());
-  }
-  if (design.lateral_pressure_ratio)
-    group.add("lateral_pressure_ratio", sourced(*design.lateral_pressure_ratio, Dimension::number));
-  if (!design.friction.empty()) group.add("friction", list_of(design.friction, wall_friction));
-  if (design.highest_speed) group.add("highest_speed", sourced(*design.highest_speed, Dimension::speed));
-  if (!design.warnings.empty()) group.add("warnings", list_of(design.warnings, in_quotes));
-  return group.inlined();
-}
-
-std::string feed(const FeedDesign& design) {
-  Group group;
-  switch (design.kind) {
-    case FeedKind::belt:
-      group.add("kind", "belt");
-      group.add("belt_speed", design.belt_speed, Dimension::speed);
-      group.add("pulley_radius", design.pulley_radius, Dimension::length);
-      group.add_unless(0.0, "belt_angle", design.belt_angle.radians(), Dimension::angle);
-      break;
-    case FeedKind::hopper:
-      group.add("kind", "hopper");
-      group.add_unless(0.0, "outlet_speed", design.outlet_speed, Dimension::speed);
-      break;
-    case FeedKind::free_fall:
-      group.add("kind", "free-fall");
-      break;
-  }
-  group.add("drop", design.drop, Dimension::length);
-  return group.lines();
-}
-
-/// A value, or the bounds of what a search chooses.
-void add_choice(Group& group, std::string_view key, const Range& range, Dimension dimension) {
-  if (range.is_fixed()) {
-    group.add(key, *range.lowest, dimension);
-    return;
-  }
-  Group bounds;
-  bounds.add("lowest", range.lowest, dimension);
-  bounds.add("highest", range.highest, dimension);
-  group.add(key, bounds.inlined());
-}
-
-std::string hood(const HoodDesign& design) {
-  Group group;
-  add_choice(group, "radius", design.radius, Dimension::length);
-  add_choice(group, "impact_angle", design.impact_angle, Dimension::angle);
-  add_choice(group, "exit_angle", design.exit_angle, Dimension::angle);
-  group.add("drop", design.drop, Dimension::length);
-  return group.lines();
-}
-
-std::string discharge(const DischargeDesign& design) {
-  Group group;
-  group.add("belt_speed", design.belt_speed, Dimension::speed);
-  group.add_unless(0.0, "drop", design.drop, Dimension::length);
-  group.add_unless(0.0, "direction", design.direction.radians(), Dimension::angle);
-  group.add_unless(0.0, "belt_angle", design.belt_angle.radians(), Dimension::angle);
-  if (design.belt_friction != DischargeDesign{}.belt_friction)
-    group.add("belt_friction", exact_text(design.belt_friction));
-  return group.lines();
-}
-
-std::string stream(const StreamDesign& design) {
-  const StreamDesign left_out;
-  Group density;
-  density.add("low", design.low_density, Dimension::density);
-  density.add("nominal", design.bulk_density, Dimension::density);
-  density.add("high", design.high_density, Dimension::density);
-  Group group;
-  group.add("mass_flow", design.mass_flow, Dimension::mass_flow);
-  if (design.material) {
-    group.add("material", in_quotes(design.material->material));
-    if (!design.material->liner.empty()) group.add("liner", in_quotes(design.material->liner));
-    if (design.material->moisture) group.add("moisture", exact_text(*design.material->moisture));
-  }
-  if (design.material && design.material->density_follows) {
-    // Left to the material.
-  } else if (design.low_density || design.high_density) {
-    group.add("bulk_density", density.inlined());
-  } else {
-    group.add("bulk_density", design.bulk_density, Dimension::density);
-  }
-  group.add("lump_size", design.lump_size, Dimension::length);
-  const auto number = [&](std::string_view key, double value, double usual) {
-    if (value != usual) group.add(key, exact_text(value));
-  };
-  if (!design.material) {
-    number("lateral_pressure_ratio", design.lateral_pressure_ratio, left_out.lateral_pressure_ratio);
-  } else if (!design.material->pressure_ratio_follows) {
-    group.add("lateral_pressure_ratio", exact_text(design.lateral_pressure_ratio));
-  }
-  number("slip_ratio", design.slip_ratio, left_out.slip_ratio);
-  if (design.liner_plate) {
-    Group plate;
-    plate.add("thickness", design.liner_plate->thickness, Dimension::length);
-    plate.add("hardness", design.liner_plate->hardness, Dimension::pressure);
-    plate.add("wear_coefficient", exact_text(design.liner_plate->wear_coefficient));
-    group.add("liner_plate", plate.inlined());
-  }
-  number("surge", design.surge, left_out.surge);
-  number("trickle", design.trickle, left_out.trickle);
-  return group.lines();
-}
-
 /// A curvature by its radius where that reads as the very same.
 void add_bend(Group& group, const std::string& end, double curvature) {
   const double radius = 1.0 / curvature;
@@ -368,7 +131,7 @@ std::string hill(const HillDesign& design) {
 
 std::string condition(const ConditionDesign& design) {
   Group group;
-  if (design.friction) group.add("friction_coefficient", coefficient_of(*design.friction));
+  if (design.friction) group.add("friction_coefficient", exact_text(design.friction->coefficient()));
   group.add("drag", design.drag_per_metre, Dimension::per_length);
   group.add("drag_area", design.drag_area, Dimension::area);
   group.add("head_wind", design.head_wind, Dimension::speed);
@@ -588,12 +351,13 @@ std::string design_text(const Design& design) {
   std::string text = "glissade: 1\n";
   if (!design.name.empty()) text += "name: " + in_quotes(design.name) + "\n";
   text += "track:" + track(design.track);
-  text += "body:" + body(design.body);
-  if (design.stream) text += "stream:" + stream(*design.stream);
-  if (design.feed) text += "feed:" + feed(*design.feed);
-  if (design.hood) text += "hood:" + hood(*design.hood);
-  if (design.discharge) text += "discharge:" + discharge(*design.discharge);
-  if (!design.materials.empty()) text += "materials: " + list_of(design.materials, material) + "\n";
+  text += "body:" + written_body(design.body);
+  if (design.stream) text += "stream:" + written_stream(*design.stream);
+  if (design.feed) text += "feed:" + written_feed(*design.feed);
+  if (design.hood) text += "hood:" + written_hood(*design.hood);
+  if (design.discharge) text += "discharge:" + written_discharge(*design.discharge);
+  if (!design.materials.empty())
+    text += "materials: " + list_of(design.materials, written_bulk_material) + "\n";
   if (design.gravity != kDefaultGravity) {
     text += "gravity: " + written_quantity(design.gravity, Dimension::acceleration) + "\n";
   }

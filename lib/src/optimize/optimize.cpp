@@ -14,6 +14,7 @@
 #include "optimize/prices.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/searcher.hpp"
+#include "optimize/smoother_ground.hpp"
 #include "optimize/starts.hpp"
 
 #include <chrono>
@@ -64,12 +65,20 @@ class Course {
  public:
   Course(const Problem& problem, const OptimizeOptions& options, SearchControl& control,
          const Progress& progress)
-      : problem_(problem), control_(control), searcher_(problem, options, control, progress) {}
+      : problem_(problem),
+        options_(options),
+        control_(control),
+        progress_(progress),
+        searcher_(problem, options, control, progress) {}
 
   void from_starts() {
     for (const Passages& way : ways_) {
       if (stopped_) return;
-      take(searcher_.search(way));
+      Candidate found = searcher_.search(way);
+      std::vector<Candidate> others;
+      if (found.kept) others = on_smoother_ground(problem_, way, found, options_, control_, progress_);
+      take(std::move(found));
+      for (Candidate& other : others) take(std::move(other));
     }
   }
 
@@ -112,7 +121,9 @@ class Course {
   }
 
   const Problem& problem_;
+  const OptimizeOptions& options_;
   SearchControl& control_;
+  const Progress& progress_;
   Searcher searcher_;
   std::vector<Passages> ways_ = all_passages(problem_.limits);
   std::optional<Candidate> best_;

@@ -208,7 +208,7 @@ std::shared_ptr<const SolidForFiles> material_for_files(const Design& design, co
   material->unit = design.exports.unit;
   material->offset = offset;
   for (const ExportFormat format : design.exports.formats) {
-    if (format == ExportFormat::scad) {
+    if (file_format(format).content == FileContent::exact_model) {
       material->exact = solid.mesh;
       material->centerline = positions(track, solid);
     }

@@ -13,7 +13,8 @@ enum class ExportFormat { stl, stl_ascii, off, scad, csv };
 enum class FileContent {
   rounded_mesh,  ///< its facets, coordinates in single precision
   exact_mesh,    ///< its facets, every double exactly
-  stations       ///< points along the track, no facets
+  exact_model,  ///< its facets and its centerline, every double exactly, as a program that other programs run
+  stations      ///< points along the track, no facets
 };
 
 /// One format, as everybody but its writer needs to know it.
@@ -31,7 +32,7 @@ inline constexpr std::array<FileFormat, 5> kFileFormats = {{
     {ExportFormat::stl, "stl", ".stl", ".stl", FileContent::rounded_mesh},
     {ExportFormat::stl_ascii, "stl-ascii", ".stl", ".ascii.stl", FileContent::exact_mesh},
     {ExportFormat::off, "off", ".off", ".off", FileContent::exact_mesh},
-    {ExportFormat::scad, "scad", ".scad", ".scad", FileContent::exact_mesh},
+    {ExportFormat::scad, "scad", ".scad", ".scad", FileContent::exact_model},
     {ExportFormat::csv, "csv", ".csv", ".csv", FileContent::stations},
 }};
 

@@ -2,111 +2,22 @@
 
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/clearance/envelope.hpp"
-#include "glissade/core/friction_level.hpp"
-#include "glissade/core/progress.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/motion/motion.hpp"
-#include "glissade/optimize/optimize.hpp"
-#include "glissade/route/placement.hpp"
+#include "glissade/pipeline/track.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/trades/chute/ends.hpp"
 #include "glissade/trades/chute/hood.hpp"
 #include "glissade/trades/chute/wear.hpp"
-#include "glissade/trades/ski_jump/gates.hpp"
 
-#include <atomic>
 #include <optional>
-#include <stop_token>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace glissade {
 
 /// The first half of the one way that data flow: design -> centerline -> motion.
-
-/// How long work tells how far it is, and is asked to end.
-struct RunContext {
-  Progress progress;
-  std::stop_token stop;  ///< a search within limits ends with the best track so far
-  double time_budget = OptimizeOptions{}.time_budget;  ///< of a search within limits [s]; > 0
-  /// Where it is not null: true while a request to stop ends a search with the best track so far, and from then on, as the
-  /// work goes on with that. Anything else that is asked to stop ends.
-  std::atomic<bool>* goes_on_after_stop = nullptr;
-};
-
-/// The ride at one end of a friction range.
-struct RangeRide {
-  FrictionLevel level = FrictionLevel::low;
-  Motion motion;  ///< its body has that friction
-};
-
-/// One of a track's rides by its friction.
-struct LevelRide {
-  FrictionLevel level = FrictionLevel::nominal;
-  const Motion* motion = nullptr;
-};
-
-/// What an objective other than the travel time is paid for with.
-struct FastestWithin {
-  double travel_time = 0.0;    ///< [s]
-  double friction_loss = 0.0;  ///< work of rubbing on floor and walls per mass [J/kg]
-  /// Of a stream: the greatest wear of its floor over all frictions [W/m^2].
-  std::optional<double> floor_wear = {};
-};
-
-/// A centerline with the ride down it and the two rides that it is measured by.
-struct Track {
-  Endpoints endpoints;
-  Placement placement;
-  CenterlinePtr centerline;
-  Motion motion;  ///< at the nominal friction
-  /// The same body on the straight line between the endpoints; none if it does not arrive there.
-  std::optional<Motion> straight;
-  /// The ride on the fastest track there is, which the theory gives from rest and without drag
-  /// (docs/theory.md, fastest track); none where it does not apply.
-  std::optional<Motion> optimum;
-  /// Travel time of `optimum` by its closed form, which shares nothing with Motion [s].
-  std::optional<double> optimum_travel_time;
-  /// Smallest radius of curvature [m]: 0 where the curvature is unbounded at the start, infinity on a
-  /// straight.
-  double min_radius = 0.0;
-  Angle steepest_slope_angle;  ///< largest slope angle anywhere
-  /// How the search within the limits ended, of the kind fastest with limits; none otherwise. Limits have the
-  /// names and the frame of the design file: finish.x, finish.z.
-  std::optional<OptimizeReport> search;
-  /// Of a search for less wear, less peak wear or more even speed: the fastest track within the same limits; none where the
-  /// search is for that, or where it failed.
-  std::optional<FastestWithin> fastest_within;
-  /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without
-  /// limits. Places of an envelope are (x, z) as the design's limits give them.
-  std::vector<LimitCheck> limit_checks;
-  /// The same body at the ends of the design's friction range; empty where it has none.
-  std::vector<RangeRide> range;
-  /// The rides from every gate of the design; none where it has none.
-  std::optional<GateTable> gates = {};
-  /// The hood before it, as given or as the search chose it together with the track; none of a design without one.
-  std::optional<HoodDesign> hood = {};
-
-  /// @return the rides at every friction that the design names, from low to high; the nominal one is always
-  ///         among them. They live as long as the track.
-  [[nodiscard]] std::vector<LevelRide> rides() const;
-  /// @return travel time on the straight line [s]; none if the body does not arrive there
-  [[nodiscard]] std::optional<double> straight_travel_time() const;
-};
-
-/// No track keeps the limits of a design, or none was found. Its issue names those that contradict each other
-/// and the smallest relaxations that would do.
-class LimitsConflict : public InfeasibleError {
- public:
-  LimitsConflict(Issue issue, OptimizeReport report)
-      : InfeasibleError(std::move(issue)), report_(std::move(report)) {}
-  [[nodiscard]] const OptimizeReport& report() const noexcept { return report_; }
-
- private:
-  OptimizeReport report_;
-};
 
 /// Where a design's track leads, in the plane of its centerline. Of a free finish it is some place within its
 /// range.
