@@ -347,7 +347,7 @@ class PartsSection {
     this.labels = this.parts.map((part) => element("span", { class: "part-number", "aria-hidden": "true", hidden: true }, String(part.number)));
     this.panel = element("div", { id: "part", "aria-live": "polite" });
     this.built = element("p", {});
-    this.lists = element("div", {});
+    this.lists = element("div", { class: "lists" });
     this.controls = element("div", { class: "controls" });
     this.hint = element("p", { class: "hint" });
     this.share = 0.5;
