@@ -453,3 +453,10 @@ TEST_CASE("what is wrong with a section is told by itself, whatever it is to be 
     CHECK(whole == alone);
   }
 }
+
+TEST_CASE("how parts are split is asked for in one group") {
+  const std::string text =
+      std::string(kSoundDesign) + "fabrication: {process: print, bed: [1 m, 1 m, 1 m]}\n";
+  CHECK_THAT(problems_of(text), Contains("unknown key bed") &&
+                                    Contains("Try: split: {bed: [220 mm, 220 mm, 250 mm]}, of a print"));
+}
