@@ -40,7 +40,8 @@ std::string ride_text(const AsBuiltRide& ride) {
     text += ": " + counted(ride.bends, "bend") + " cost " + rounded_text(-100.0 * change, 2) +
             " % of the exit speed";
   } else if (std::fabs(change) > 1e-6) {
-    text += ": " + rounded_text(100.0 * change, 2) + " % of the exit speed";
+    text += ": " + rounded_text(std::fabs(100.0 * change), 2) + " % " + (change < 0.0 ? "less" : "more") +
+            " exit speed than designed";
   }
   return text;
 }

@@ -17,6 +17,7 @@
 #include "app/rules_text.hpp"
 #include "app/table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -177,12 +178,40 @@ std::string earlier_file_lines(const Build& build) {
   return labelled("Before", text);
 }
 
+/// Files of one ending in one folder below that of the build.
+struct FileGroup {
+  std::filesystem::path folder;
+  std::string ending;
+  std::size_t count = 0;
+  double bytes = 0.0;
+};
+
+/// One line a file of the build; folders of parts and nests, which may hold hundreds, one line an ending.
 std::string file_lines(const std::vector<WrittenFile>& files) {
-  std::string text;
+  std::vector<std::string> lines;
+  std::vector<FileGroup> groups;
   for (const WrittenFile& file : files) {
-    if (!text.empty()) text += '\n';
-    text += file.path.string() + "  " + size_text(static_cast<double>(file.bytes));
+    const std::filesystem::path folder = file.path.parent_path();
+    const auto bytes = static_cast<double>(file.bytes);
+    if (folder == files.front().path.parent_path()) {
+      lines.push_back(file.path.string() + "  " + size_text(bytes));
+      continue;
+    }
+    const std::string ending = file.path.extension().string();
+    const auto known = std::find_if(groups.begin(), groups.end(), [&](const FileGroup& group) {
+      return group.folder == folder && group.ending == ending;
+    });
+    FileGroup& group = known != groups.end() ? *known : groups.emplace_back(FileGroup{folder, ending});
+    ++group.count;
+    group.bytes += bytes;
   }
+  for (const FileGroup& group : groups) {
+    const std::string what = group.count == 1 ? " file" : " files";
+    lines.push_back((group.folder / "").string() + "  " + std::to_string(group.count) + " " + group.ending +
+                    what + ", " + size_text(group.bytes));
+  }
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
   return text;
 }
 

@@ -10,6 +10,10 @@ TEST_CASE("the nearest word is the one that was meant, or none") {
   CHECK(nearest_word("--hlep", {"--help", "--html"}) == "--help");
   CHECK(nearest_word("Wall-Height", {"width", "wall_height"}) == "wall_height");
   CHECK(nearest_word("frictoin", {"friction_angle", "gravity"}) == "friction_angle");
+  CHECK(nearest_word("height", {"width", "wall_height", "thickness"}) == "wall_height");
+  CHECK(nearest_word("radius", {"smallest_radius", "highest_curvature"}) == "smallest_radius");
+  CHECK(nearest_word("radius", {"smallest_radius", "punch_radius"}).empty());
+  CHECK(nearest_word("eight", {"wall_heighten", "thickness"}).empty());
   CHECK(nearest_word("swim", {"build", "solve"}).empty());
   CHECK(nearest_word("", {"build"}).empty());
 }

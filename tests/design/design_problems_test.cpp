@@ -440,3 +440,23 @@ TEST_CASE("a lowest speed that holds from behind the longest track is refused") 
   text += "limits: {arc_length: {highest: 9 m}, speed: {lowest: 1 m/s, lowest_from: 30 m}}\n";
   CHECK_THAT(problems_of(text), Contains("speed.lowest_from: 30 m lies past the end of the track"));
 }
+
+TEST_CASE("what is wrong with a section is told by itself, whatever it is to be made of") {
+  for (const std::string process : {"plate", "print", "timber"}) {
+    INFO(process);
+    std::string text = sound_design_with("kind: u-channel", "kind: polygon");
+    const std::string alone = problems_of(text);
+    CHECK_THAT(alone, Contains("outline is missing"));
+    text += "fabrication: {process: " + process + "}\n";
+    const std::string whole = problems_of(text);
+    CHECK_THAT(whole, StartsWith("d.yaml:9:1: outline is missing"));
+    CHECK(whole == alone);
+  }
+}
+
+TEST_CASE("how parts are split is asked for in one group") {
+  const std::string text =
+      std::string(kSoundDesign) + "fabrication: {process: print, bed: [1 m, 1 m, 1 m]}\n";
+  CHECK_THAT(problems_of(text), Contains("unknown key bed") &&
+                                    Contains("Try: split: {bed: [220 mm, 220 mm, 250 mm]}, of a print"));
+}

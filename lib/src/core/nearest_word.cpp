@@ -39,6 +39,17 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return last[to.size()];
 }
 
+/// The one candidate of which the word is a part between separators: "height" of "wall_height"; empty if several.
+std::string_view whole_of(const std::string& part, const std::vector<std::string_view>& candidates) {
+  std::string_view found;
+  for (const std::string_view candidate : candidates) {
+    if (("_" + plain(candidate) + "_").find("_" + part + "_") == std::string::npos) continue;
+    if (!found.empty()) return {};
+    found = candidate;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& candidates) {
@@ -56,7 +67,7 @@ std::string_view nearest_word(std::string_view word, const std::vector<std::stri
     least = distance;
     nearest = candidate;
   }
-  return nearest;
+  return nearest.empty() ? whole_of(sought, candidates) : nearest;
 }
 
 }  // namespace glissade

@@ -89,13 +89,8 @@ void check_process(const Design& design, const PlateOptions& plate, Collected& f
   report_all(plate_problems(*design.cross_section, plate), findings);
 }
 
-/// Of a section that is no good itself, its own check tells.
 void check_process(const Design& design, const PrintOptions& print, Collected& findings) {
-  try {
-    report_all(print_problems(CrossSection(*design.cross_section), print), findings);
-  } catch (const InputError&) {
-    return;
-  }
+  report_all(print_problems(CrossSection(*design.cross_section), print), findings);
 }
 
 void check_process(const Design& design, const TimberOptions& timber, Collected& findings) {
@@ -114,7 +109,8 @@ void check_fabrication(const Design& design, Collected& findings) {
         const double density = process.material.density;
         positive(density, "material.density", rounded_text(density, 6) + " kg/m^3",
                  "7850 kg/m^3, which is steel", findings);
-        if (design.cross_section) check_process(design, process, findings);
+        // Of a section that is no good itself, its own check tells.
+        if (sound_cross_section(design)) check_process(design, process, findings);
       },
       fabrication.process);
   if (design.cross_section) return;

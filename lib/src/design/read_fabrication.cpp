@@ -4,6 +4,7 @@
 #include "design/read_rules.hpp"
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -34,6 +35,11 @@ std::optional<FabricationDesign> read_fabrication(MapReader& top, const std::fil
   if (!value) return {};
   constexpr std::string_view kExample = "{process: plate}";
   MapReader map(*value, "A fabrication", kExample, findings);
+  for (const auto& [key, place] :
+       {std::pair("bed", "split: {bed: [220 mm, 220 mm, 250 mm]}, of a print"),
+        std::pair("sheet", "split: {sheet: [3 m, 1.5 m]}"), std::pair("longest", "split: {longest: 3 m}"),
+        std::pair("heaviest", "split: {heaviest: 50 kg}")})
+    map.add_stranger(key, place);
   map.expect({"process", "material", "arc_tolerance", "rules"});
   FabricationDesign design;
   Process kind = Process::plate;

@@ -283,7 +283,8 @@ function details(doc, part, body, units) {
 // --- lists
 
 function builtText({ master_curve: master, as_built: ride }, units) {
-  const cost = ride.exit_speed_change === null ? "" : `, ${number(100 * ride.exit_speed_change, 2)} % against the design`;
+  const change = 100 * (ride.exit_speed_change ?? 0);
+  const cost = Math.abs(change) < 1e-4 ? "" : `, ${number(Math.abs(change), 2)} % ${change < 0 ? "less" : "more"} than designed`;
   const built = ride.arrives
     ? `${units.text("time", ride.travel_time_s, 5)}, ${units.text("speed", ride.exit_speed_m_per_s, 4)}${cost}; ${ride.bends} bends, ${ride.joints} joints`
     : "the body does not arrive";
@@ -347,7 +348,7 @@ class PartsSection {
     this.labels = this.parts.map((part) => element("span", { class: "part-number", "aria-hidden": "true", hidden: true }, String(part.number)));
     this.panel = element("div", { id: "part", "aria-live": "polite" });
     this.built = element("p", {});
-    this.lists = element("div", {});
+    this.lists = element("div", { class: "lists" });
     this.controls = element("div", { class: "controls" });
     this.hint = element("p", { class: "hint" });
     this.share = 0.5;

@@ -106,7 +106,7 @@ class Figure {
   }
 }
 
-const ROOM = 72;  // for the measure beside a figure
+const ROOM = 86;  // for the measure beside a figure
 
 function drawing(label, height, ...children) {
   return svgElement("svg", { class: "pattern", viewBox: `0 0 ${WIDE} ${Math.ceil(height)}`, width: WIDE, height: Math.ceil(height), role: "img", "aria-label": label }, ...children);
