@@ -32,7 +32,10 @@ std::string pieces_text(const Workshop& workshop) {
 }
 
 std::string ride_text(const AsBuiltRide& ride) {
-  if (!ride.arrives) return "the body does not arrive on the floor as it is built";
+  if (!ride.arrives) {
+    return "the body does not arrive on the floor as it is built: " + ride.stopped +
+           "; a limit lowest_normal_load above 0 keeps it on arcs, one on speed or slope keeps it moving";
+  }
   std::string text = rounded_text(ride.travel_time, 5) + " s, " + rounded_text(ride.exit_speed, 5) + " m/s";
   if (!(ride.design_exit_speed > 0.0)) return text;
   const double change = ride.exit_speed / ride.design_exit_speed - 1.0;
@@ -42,6 +45,10 @@ std::string ride_text(const AsBuiltRide& ride) {
   } else if (std::fabs(change) > 1e-6) {
     text += ": " + rounded_text(std::fabs(100.0 * change), 2) + " % " + (change < 0.0 ? "less" : "more") +
             " exit speed than designed";
+  }
+  if (ride.hops > 0) {
+    text += "; off the floor " + (ride.hops == 1 ? std::string("once") : std::to_string(ride.hops) + " times") +
+            ", by " + length_text(ride.highest_hop, 2) + " at most, where its load is all but nothing";
   }
   return text;
 }

@@ -4,6 +4,9 @@
 #include "glissade/parts/arc_spline.hpp"
 #include "glissade/parts/workshop_build.hpp"
 
+#include "parts/facets.hpp"
+
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -15,5 +18,9 @@ namespace glissade::parts {
 [[nodiscard]] AsBuiltRide ride_units(const std::vector<std::shared_ptr<const ArcSpline>>& floors,
                                      double joint_step, const Motion& design, const Body& body,
                                      double gravity);
+
+/// @return a ride as it is told
+[[nodiscard]] AsBuiltRide as_told(const FacetRide& found, const Motion& design, std::size_t bends,
+                                  std::size_t joints);
 
 }  // namespace glissade::parts

@@ -219,22 +219,37 @@ class Rider {
   Rider(const Body& body, double gravity) : body_(body), gravity_(gravity), speed_(body.entry_speed) {}
 
   /// @return false if it does not come to the end of the piece
-  bool down(const CenterlinePtr& piece) {
-    Body body = body_;
-    body.entry_speed = speed_;
-    // What came down on the first piece runs along the others.
-    if (passed_ > 0.0) {
-      body.landing.reset();
-      body.approach = nullptr;
+  bool down(CenterlinePtr piece) {
+    constexpr std::size_t kMostHops = 1000;
+    while (ride_.hops <= kMostHops) {
+      Body body = body_;
+      body.entry_speed = speed_;
+      // What came down on the first piece runs along the others.
+      if (passed_ > 0.0) {
+        body.landing.reset();
+        body.approach = nullptr;
+      }
+      for (FrictionChange& change : body.friction_changes) change.from = std::max(0.0, change.from - passed_);
+      const Motion motion(piece, body, gravity_);
+      const auto lifted = motion.lift_off();
+      if (motion.arrived() || lifted) {
+        ride_.time += motion.travel_time();
+        ride_.highest_load = std::max(ride_.highest_load, motion.highest_load().normal_load);
+        speed_ = motion.exit_speed();
+        passed_ += motion.distance();
+        if (motion.arrived()) return true;
+        piece = landed(piece, lifted->arc_length);
+        if (piece) continue;
+        ride_.stopped = "it leaves the floor " + length_text(passed_, 4) + " along it at " +
+                        rounded_text(speed_, 4) + " m/s and does not come down on its unit";
+        return false;
+      }
+      const double at = passed_ + motion.distance();
+      ride_.stopped = (motion.stall() ? "it stalls " : "it does not run on ") + length_text(at, 4) + " along the floor";
+      return false;
     }
-    for (FrictionChange& change : body.friction_changes) change.from = std::max(0.0, change.from - passed_);
-    const Motion motion(piece, body, gravity_);
-    if (!motion.arrived()) return false;
-    ride_.time += motion.travel_time();
-    ride_.highest_load = std::max(ride_.highest_load, motion.highest_load().normal_load);
-    speed_ = motion.exit_speed();
-    passed_ += piece->length();
-    return true;
+    ride_.stopped = "it leaves the floor again and again";
+    return false;
   }
   void over_kink(double kink) {
     const auto [sine, cosine] = math::sine_cosine(std::fabs(kink));
@@ -253,6 +268,49 @@ class Rider {
 
  private:
   [[nodiscard]] double friction() const { return body_.friction.coefficient(); }
+
+  /// Flies from a place of a line until it meets it again, and loses there what it carries into the floor.
+  /// @return what is left of the line; none where it does not come down on it
+  CenterlinePtr landed(const CenterlinePtr& piece, double from) {
+    const auto line = std::dynamic_pointer_cast<const ArcSpline>(piece);
+    if (!line) return nullptr;
+    const TrackFrame start = frame_at(*line, from);
+    const Vec2 way = speed_ * start.along;
+    if (!(way.x > 0.0)) return nullptr;
+    const auto flown = [&](double s) { return (frame_at(*line, s).at.x - start.at.x) / way.x; };
+    const auto above = [&](double s) {
+      const double t = flown(s);
+      return start.at.y + t * (way.y - 0.5 * gravity_ * t) - frame_at(*line, s).at.y;
+    };
+    constexpr double kStep = 2e-3;  // [m]
+    constexpr double kOff = 1e-5;   // from where it takes off: rounding apart, it has risen
+    double low = from + kOff;
+    double high = low;
+    double rise = 0.0;
+    while (high < line->length() && (high == low || above(high) > 0.0)) {
+      rise = std::max(rise, above(high));
+      low = high;
+      high = std::min(high + kStep, line->length());
+    }
+    if (above(high) > 0.0) return nullptr;
+    for (int round = 0; round < 60; ++round) {
+      const double middle = 0.5 * (low + high);
+      (above(middle) > 0.0 ? low : high) = middle;
+    }
+    if (!(line->length() - high > 1e-6)) return nullptr;
+    const double t = flown(high);
+    const TrackFrame end = frame_at(*line, high);
+    const Vec2 arriving{way.x, way.y - gravity_ * t};
+    speed_ = std::max(0.0, dot(arriving, end.along) + friction() * std::min(0.0, dot(arriving, end.up)));
+    ride_.time += t;
+    passed_ += high - from;
+    ++ride_.hops;
+    ride_.highest_hop = std::max(ride_.highest_hop, rise);
+    ArcPath rest = *offset_line(*line, {high, line->length()}, 0.0);
+    const Vec2 origin = rest.vertices.front().at;
+    for (PathVertex& vertex : rest.vertices) vertex.at = vertex.at - origin;
+    return std::make_shared<ArcSpline>(std::move(rest));
+  }
 
   const Body& body_;
   double gravity_;

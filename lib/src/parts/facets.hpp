@@ -6,6 +6,7 @@
 #include "parts/offset_line.hpp"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace glissade::parts {
@@ -39,12 +40,16 @@ struct Facets {
 [[nodiscard]] ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness);
 
 /// A body down the flats one by one; at each corner that curls up the speed falls to cos phi - mu sin phi of it, without
-/// a rebound, at one that falls away to cos phi.
+/// a rebound, at one that falls away to cos phi. Where the load on an arc comes to nothing it flies on and comes down as at a
+/// corner.
 struct FacetRide {
   bool arrives = false;
   double time = 0.0;
   double speed = 0.0;
   double highest_load = 0.0;
+  std::size_t hops = 0;
+  double highest_hop = 0.0;  ///< above the floor [m]
+  std::string stopped;       ///< of one that does not arrive: what ends it, and where
 };
 /// @param joint_step  by which the floor drops from unit to unit; landing costs mu sqrt(2 g d) of the speed [m]
 [[nodiscard]] FacetRide ride_facets(const std::vector<Facets>& units, const Body& body, double gravity,

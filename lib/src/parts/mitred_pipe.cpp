@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/as_built.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/plate_facts.hpp"
@@ -540,9 +541,8 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   workshop.setting_out = setting_out(track, build.joints, placement);
   for (SettingOutPoint& row : mitres(job, facets)) workshop.setting_out.push_back(std::move(row));
   in_order(workshop.setting_out);
-  const FacetRide ride = ride_facets({facets}, body, gravity, options.joint_step);
-  build.ride = {ride.arrives,        ride.time,      ride.speed,       design.travel_time(),
-                design.exit_speed(), facets.bends(), units.size() - 1, ride.highest_load};
+  build.ride = as_told(ride_facets({facets}, body, gravity, options.joint_step), design, facets.bends(),
+                       units.size() - 1);
   measure_plates(options, workshop);
   measure_rolling(job.radius(), workshop.parts.front(), "every " + std::string(job.word()), workshop);
   workshop.notes = {

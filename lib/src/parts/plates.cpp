@@ -7,6 +7,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/as_built.hpp"
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
@@ -113,30 +114,20 @@ void add_corner_notes(const Job& job, const PartsProof& proof, Workshop& worksho
 
 AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const Motion& design,
                           const Body& body, double gravity) {
-  AsBuiltRide ride;
-  ride.design_travel_time = design.travel_time();
-  ride.design_exit_speed = design.exit_speed();
-  ride.joints = units.size() - 1;
-  FacetRide found;
   if (job.options.floor == FloorMake::bent) {
     std::vector<Facets> facets;
+    std::size_t bends = 0;
     for (const Unit& unit : units) {
       facets.push_back(*unit.face.facets);
-      ride.bends += unit.face.facets->bends();
+      bends += unit.face.facets->bends();
     }
-    found = ride_facets(facets, body, gravity, job.options.joint_step);
-  } else {
-    std::vector<std::shared_ptr<const ArcSpline>> lines;
-    // On the liner where there is one.
-    for (const Unit& unit : units)
-      lines.push_back(std::make_shared<ArcSpline>(rolled_face(job.track, unit.span).line));
-    found = ride_lines(lines, body, gravity, job.options.joint_step);
+    return as_told(ride_facets(facets, body, gravity, job.options.joint_step), design, bends, units.size() - 1);
   }
-  ride.arrives = found.arrives;
-  ride.travel_time = found.time;
-  ride.exit_speed = found.speed;
-  ride.highest_load = found.highest_load;
-  return ride;
+  std::vector<std::shared_ptr<const ArcSpline>> lines;
+  // On the liner where there is one.
+  for (const Unit& unit : units)
+    lines.push_back(std::make_shared<ArcSpline>(rolled_face(job.track, unit.span).line));
+  return ride_units(lines, job.options.joint_step, design, body, gravity);
 }
 
 }  // namespace

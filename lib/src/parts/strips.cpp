@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "core/plane_geometry.hpp"
+#include "parts/as_built.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/offset_line.hpp"
@@ -532,9 +533,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
     lines.push_back(
         std::make_shared<ArcSpline>(rolled_face(track, {build.joints[i], build.joints[i + 1]}).line));
   }
-  const FacetRide ride = ride_lines(lines, body, gravity, options.joint_step);
-  build.ride = {ride.arrives,        ride.time, ride.speed,       design.travel_time(),
-                design.exit_speed(), 0,         lines.size() - 1, ride.highest_load};
+  build.ride = ride_units(lines, options.joint_step, design, body, gravity);
   measure_plates(options, workshop);
   measure_strips(strips, workshop);
   build.proof = prove(job, strips, workshop);

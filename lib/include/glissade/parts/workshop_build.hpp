@@ -21,6 +21,9 @@ struct AsBuiltRide {
   std::size_t joints = 0;  ///< between units
   /// The highest load on the floor, between kinks [m/s^2].
   double highest_load = 0.0;
+  std::size_t hops = 0;      ///< off the floor and down on it again, where the load is all but nothing
+  double highest_hop = 0.0;  ///< above the floor [m]
+  std::string stopped;       ///< of one that does not arrive: what ends it, and where
 };
 
 /// By how much the parts hold more (or less) than the solid by design.

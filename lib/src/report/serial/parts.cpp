@@ -26,7 +26,9 @@ Json part_json(const ShopPart& part) {
 Json ride_json(const AsBuiltRide& ride) {
   Json json = {{"arrives", ride.arrives},         {"travel_time_s", nullptr}, {"exit_speed_m_per_s", nullptr},
                {"exit_speed_change", nullptr},    {"bends", ride.bends},      {"joints", ride.joints},
-               {"highest_load_m_per_s2", nullptr}};
+               {"highest_load_m_per_s2", nullptr}, {"hops", ride.hops}, {"highest_hop_m", ride.highest_hop},
+               {"stopped", nullptr}};
+  if (!ride.arrives) json["stopped"] = ride.stopped;
   if (!ride.arrives) return json;
   json["travel_time_s"] = ride.travel_time;
   json["exit_speed_m_per_s"] = ride.exit_speed;
