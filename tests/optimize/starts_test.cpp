@@ -1,8 +1,9 @@
 // What searches begin with.
 
+#include "optimize/starts.hpp"
+
 #include "optimize/random_limits.hpp"
 #include "optimize/scaled_problem.hpp"
-#include "optimize/starts.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
