@@ -132,6 +132,7 @@ class Minimiser {
 
   void begin(const Vector& start, const Found* known) {
     is_guessed_ = known != nullptr;
+    is_known_ = is_known_ || is_guessed_;
     if (known != nullptr) {
       point_ = point(rows_->state(start, true), carried_over(*known));
       return;
@@ -330,7 +331,7 @@ class Minimiser {
       const ElasticEnd end =
           descend_elastically(*rows_, *track_, point_.state.z, point_.next, near, control_);
       if (control_.stop()) stopped_ = true;
-      is_contradictory_ = end.violation > kContradictory;
+      is_contradictory_ = !is_known_ && end.violation > kContradictory;
       if (stopped_ || is_contradictory_ || end.z == point_.state.z) return;
       point_ = point(rows_->state(end.z, true), end.multipliers);
       if (!solved(point_) || has_arrived(point_)) return;
@@ -505,6 +506,7 @@ class Minimiser {
   std::shared_ptr<Rows> rows_;
   std::size_t n_;
   Point point_;
+  bool is_known_ = false;    ///< a track near an optimum was given
   bool is_guessed_ = false;  ///< the multipliers of the first point are of another mesh
   bool has_tried_elastic_ = false;
   bool is_contradictory_ = false;  ///< on this mesh, as far as steps of our own can tell
