@@ -74,11 +74,17 @@ class Course {
   void from_starts() {
     for (const Passages& way : ways_) {
       if (stopped_) return;
-      Candidate found = searcher_.search(way);
-      std::vector<Candidate> others;
-      if (found.kept) others = on_smoother_ground(problem_, way, found, options_, control_, progress_);
-      take(std::move(found));
-      for (Candidate& other : others) take(std::move(other));
+      take(searcher_.search(way));
+    }
+  }
+
+  /// Where a track is found: those that go on to smoother ground, which the starts may miss.
+  void onto_smoother_ground() {
+    for (const Passages& way : ways_) {
+      if (!kept() || stopped_) return;
+      const Candidate known = *best_;
+      for (Candidate& other : on_smoother_ground(problem_, way, known, options_, control_, progress_))
+        take(std::move(other));
     }
   }
 
@@ -244,6 +250,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
 
   Course course(problem, options, control, progress);
   course.from_starts();
+  course.onto_smoother_ground();
   Conflict conflict;
   bool certain = false;
   if (!course.kept() && !course.stopped())
