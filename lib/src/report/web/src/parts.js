@@ -287,7 +287,7 @@ function builtText({ master_curve: master, as_built: ride }, units) {
   const cost = Math.abs(change) < 1e-4 ? "" : `, ${number(Math.abs(change), 2)} % ${change < 0 ? "less" : "more"} than designed`;
   const built = ride.arrives
     ? `${units.text("time", ride.travel_time_s, 5)}, ${units.text("speed", ride.exit_speed_m_per_s, 4)}${cost}; ${ride.bends} bends, ${ride.joints} joints`
-    : "the body does not arrive";
+    : `the body does not arrive${ride.stopped ? `: ${ride.stopped}` : ""}`;
   return `${master.arcs} arcs; no fewer than ${master.lower_bound} reach ${units.text("length", master.tolerance_m, 3)}. As built: ${built}.`;
 }
 
