@@ -149,6 +149,18 @@ TEST_CASE("ends that cannot be are refused") {
                         "feed: {kind: belt, belt_speed: 2 m/s, pulley_radius: 300 mm, drop: 1 m}\n", ""),
                "27 deg", "27 deg, entry_speed: 2 m/s");
   CHECK_THAT(problems(fed), Contains("a belt of 9 m/s is faster than the stream can be, 7.148 m/s"));
+  // The fall of the feed counts, and what leaves its pulley.
+  CHECK_THAT(problems(spoon("limits: {match_belt: {speed: 12 m/s}}\n")),
+             Contains("match_belt: a belt of 12 m/s is faster than the stream can be, 8.") &&
+                 Contains("free fall from the feed to finish"));
+  const Design fast = parse_design(
+      replaced(spoon(), "discharge: {belt_speed: 3 m/s", "discharge: {belt_speed: 12 m/s"), "d.yaml");
+  const std::vector<Issue> told = warnings(fast, solve(fast));
+  const auto says = [&](const std::string& words) {
+    return std::any_of(told.begin(), told.end(),
+                       [&](const Issue& issue) { return issue.what.find(words) != std::string::npos; });
+  };
+  CHECK(says("the belt is faster than the stream can be: 12 m/s, along it the stream has at most 8."));
 }
 
 TEST_CASE("the search chooses how steep to start with what the impact leaves") {

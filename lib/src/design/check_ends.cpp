@@ -1,6 +1,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
+#include "glissade/design/stream_channel.hpp"
 #include "glissade/trades/chute/ends.hpp"
 
 #include "design/checks.hpp"
@@ -9,6 +10,26 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+
+namespace glissade {
+
+double speed_of_free_fall(const Design& design) {
+  const double g = design.gravity;
+  double square = design.body.entry_speed * design.body.entry_speed;
+  if (design.feed) {
+    const FeedDesign& feed = *design.feed;
+    const double leaves = feed.kind == FeedKind::belt     ? feed.belt_speed
+                          : feed.kind == FeedKind::hopper ? feed.outlet_speed
+                                                          : 0.0;
+    square = leaves * leaves + 2.0 * g * feed.drop;
+    // From where it meets a hood, no further down than the hood is wide.
+    if (design.hood)
+      square += 2.0 * g * (2.0 * design.hood->radius.highest.value_or(0.0) + design.hood->drop);
+  }
+  return std::sqrt(std::max(0.0, square + 2.0 * g * design_file::drop_of(design.track)));
+}
+
+}  // namespace glissade
 
 namespace glissade::design_file {
 namespace {
@@ -194,10 +215,8 @@ void check_match(const Design& design, Collected& findings) {
             "What lands has no speed along such a belt.", "a direction between -90 and 90 deg"});
     return;
   }
-  if (design.feed || design.track.free_finish != FinishKind::point) return;
-  const double entry = design.body.entry_speed;
-  const double most =
-      std::sqrt(std::max(0.0, entry * entry + 2.0 * design.gravity * drop_of(design.track))) * cosine;
+  if (design.track.free_finish != FinishKind::point) return;
+  const double most = speed_of_free_fall(design) * cosine;
   const double least = match.speed * (1.0 - match.within);
   if (!(least > most)) return;
   report(
@@ -205,7 +224,8 @@ void check_match(const Design& design, Collected& findings) {
       {"",
        "match_belt: a belt of " + quantity_text(match.speed, Dimension::speed) +
            " is faster than the stream can be, " + quantity_text(most, Dimension::speed),
-       "That is the speed of free fall from start to finish" +
+       std::string("That is the speed of free fall from ") + (design.feed ? "the feed" : "start") +
+           " to finish" +
            std::string(match.direction == Angle() ? "." : ", of which the belt sees its direction's share."),
        "a slower belt, or a longer drop"});
 }

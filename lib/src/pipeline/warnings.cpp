@@ -1,8 +1,11 @@
 // What a user should hear of beside the answer.
 
 #include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/design/materials.hpp"
+#include "glissade/design/stream_channel.hpp"
 #include "glissade/pipeline/solve.hpp"
 #include "glissade/section/measures.hpp"
 
@@ -107,6 +110,20 @@ std::optional<Issue> kink(const Design& design, const Track& track) {
       searched ? "a smallest_radius or a highest_normal_load among the limits" : "a larger radius there"};
 }
 
+/// A belt that no stream from that height keeps up with.
+std::optional<Issue> belt_too_fast(const Design& design) {
+  if (!design.discharge || !design.track.finish_given) return {};
+  const DischargeDesign& belt = *design.discharge;
+  const double most = speed_of_free_fall(design) * std::max(0.0, math::cos(belt.direction.radians()));
+  if (belt.belt_speed <= most || belt.belt_angle.radians() < 0.0) return {};
+  return Issue{
+      design.where("discharge.belt_speed"),
+      "the belt is faster than the stream can be: " + quantity_text(belt.belt_speed, Dimension::speed) +
+          ", along it the stream has at most " + quantity_text(most, Dimension::speed),
+      "That is the speed of free fall down to the finish; the belt has to bring the stream up to its own.",
+      "a slower belt, or a longer drop"};
+}
+
 }  // namespace
 
 std::vector<Issue> warnings(const Design& design, const Track& track) {
@@ -117,6 +134,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   if (auto issue = kink(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
   add_material_warnings(design, found);
+  if (auto issue = belt_too_fast(design)) found.push_back(*std::move(issue));
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));
   return found;
 }

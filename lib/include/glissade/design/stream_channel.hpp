@@ -22,4 +22,9 @@ struct StreamChannel {
 ///         between its curbs; none of round sections, grooves, polygons and slabs without curbs
 [[nodiscard]] std::optional<StreamChannel> stream_channel(const CrossSectionDesign& section);
 
+/// The speed that free fall alone gives from where a stream leaves its feed, or enters, down to the finish: none is faster
+/// [m/s]. Below a hood, whose fall is not known before it is chosen, a bound of it.
+/// @param design  whose finish is a point
+[[nodiscard]] double speed_of_free_fall(const Design& design);
+
 }  // namespace glissade
