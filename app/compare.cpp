@@ -146,14 +146,22 @@ std::string gate_speeds_text(const std::optional<GateTable>& gates) {
   return speed(rides.front()) + " to " + speed(rides.back()) + " m/s";
 }
 
-std::string rules_text(const Design& design, const Track& track) {
-  const std::vector<Judgement> judgements = judge_rules(design, track);
+struct VerdictCount {
+  std::ptrdiff_t fail = 0;
+  std::ptrdiff_t warn = 0;
+};
+
+VerdictCount verdict_count(const std::vector<Judgement>& judgements) {
   const auto count = [&](RuleVerdict verdict) {
     return std::count_if(judgements.begin(), judgements.end(),
                          [&](const Judgement& one) { return one.verdict == verdict; });
   };
-  return std::to_string(count(RuleVerdict::fail)) + " fail, " + std::to_string(count(RuleVerdict::warn)) +
-         " warn";
+  return {count(RuleVerdict::fail), count(RuleVerdict::warn)};
+}
+
+std::string rules_text(const Design& design, const Track& track) {
+  const VerdictCount count = verdict_count(judge_rules(design, track));
+  return std::to_string(count.fail) + " fail, " + std::to_string(count.warn) + " warn";
 }
 
 /// Hills by what a planner chooses them by.
@@ -183,6 +191,76 @@ Table hills_table(const std::vector<Entry>& entries) {
 Table designs_table(const std::vector<Entry>& entries) {
   if (are_hills(entries)) return hills_table(entries);
   return rides_table("Design", entries, names_of(entries));
+}
+
+/// Hills as a page sorts them: bare numbers, units in the headings.
+Table hills_page_table(const std::vector<Entry>& entries) {
+  Table table({"Hill", "HS [m]", "K [m]", "gamma [deg]", "alpha [deg]", "r1 [m]", "t [m]", "e1 [m]",
+               "drop [m]", "length [m]", "gates", "lowest gate [m/s]", "highest gate [m/s]", "edge [m/s]",
+               "load [g]", "rules failed", "warned"});
+  const std::vector<std::string> names = names_of(entries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Design& design = entries[i].design;
+    if (!entries[i].track) {
+      table.add({names[i], entries[i].problem});
+      continue;
+    }
+    const Track& track = *entries[i].track;
+    const Centerline& centerline = *track.centerline;
+    const InRunDesign& in_run = design.centerline.in_run;
+    const bool lettered = design.centerline.kind == CenterlineKind::in_run;
+    const auto given = [](const std::optional<double>& value) {
+      return value ? rounded_text(*value, 6) : "-";
+    };
+    const auto degrees = [&](double s) {
+      return rounded_text(Angle::from_radians(centerline.slope_angle(s)).degrees(), 5);
+    };
+    const auto speed = [](const GateRide& ride) {
+      return ride.arrived ? fixed_text(ride.speed_at_measuring_place, 2) : std::string("-");
+    };
+    const auto* const rides = track.gates ? &track.gates->conditions.front().rides : nullptr;
+    const VerdictCount count = verdict_count(judge_rules(design, track));
+    table.add({names[i], given(design.hill.size), given(design.hill.construction_point), degrees(0.0),
+               degrees(centerline.length()), rounded_text(lettered ? in_run.r1 : track.min_radius, 5),
+               lettered ? rounded_text(in_run.t, 5) : "-", lettered ? rounded_text(in_run.longest(), 6) : "-",
+               fixed_text(track.endpoints.drop, 2), fixed_text(centerline.length(), 2),
+               rides != nullptr ? std::to_string(rides->size()) : "-",
+               rides != nullptr ? speed(rides->front()) : "-", rides != nullptr ? speed(rides->back()) : "-",
+               track.motion.arrived() ? fixed_text(track.motion.exit_speed(), 2) : "-",
+               fixed_text(track.motion.highest_load().normal_load / kStandardGravity, 3),
+               std::to_string(count.fail), std::to_string(count.warn)});
+  }
+  return table;
+}
+
+/// Other designs the same way.
+Table designs_page_table(const std::vector<Entry>& entries) {
+  if (are_hills(entries)) return hills_page_table(entries);
+  Table table({"Design", "travel time [s]", "exit speed [m/s]", "steepest [deg]", "highest load [g]",
+               "run [m]", "drop [m]", "arc length [m]", "least radius [m]", "limits broken"});
+  const std::vector<std::string> names = names_of(entries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (!entries[i].track) {
+      table.add({names[i], entries[i].problem});
+      continue;
+    }
+    const Track& track = *entries[i].track;
+    const Motion& motion = track.motion;
+    const auto broken = std::count_if(track.limit_checks.begin(), track.limit_checks.end(),
+                                      [](const LimitCheck& check) { return !check.kept(); });
+    const auto number = [](bool there, double value) {
+      return there ? rounded_text(value, 5) : std::string("-");
+    };
+    const bool arrived = motion.arrived();
+    table.add({names[i], number(arrived, arrived ? motion.travel_time() : 0.0),
+               number(arrived, arrived ? motion.exit_speed() : 0.0),
+               rounded_text(track.steepest_slope_angle.degrees(), 4),
+               rounded_text(motion.highest_load().normal_load / kStandardGravity, 4),
+               rounded_text(track.endpoints.run, 5), rounded_text(track.endpoints.drop, 5),
+               rounded_text(track.centerline->length(), 5),
+               number(std::isfinite(track.min_radius), track.min_radius), std::to_string(broken)});
+  }
+  return table;
 }
 
 Table sweep_table(const std::vector<Entry>& entries) {
@@ -299,9 +377,11 @@ void write_figures(const Options& options, const Design& design, const Compariso
   const std::vector<Figure> figures = figures_of(options, design, comparison.entries, context);
   if (!options.svg.empty()) write_text(options.svg, figures_svg(figures));
   if (options.html.empty()) return;
-  const auto& rows = comparison.table.rows();
+  const bool several = !options.others.empty();
+  const Table table = several ? designs_page_table(comparison.entries) : comparison.table;
+  const auto& rows = table.rows();
   std::vector<std::string> choices;
-  if (!options.others.empty()) choices = names_of(comparison.entries);
+  if (several) choices = names_of(comparison.entries);
   write_text(options.html, figure_page_html({comparison.heading,
                                              comparison.task,
                                              figures,

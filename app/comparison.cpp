@@ -234,7 +234,7 @@ Figure profiles_to_edge(const std::vector<Entry>& entries) {
     const Centerline& track = *entry.track->centerline;
     const Endpoints end = track.endpoints();
     for (int k = 0; k <= kPoints; ++k) {
-      const CenterlinePoint point = track.at(track.length() * k / kPoints);
+      const CenterlinePoint point = track.at(std::min(track.length() * k / kPoints, track.length()));
       line.xs.push_back(point.x - end.run);
       line.ys.push_back(end.drop - point.drop);
     }

@@ -126,6 +126,8 @@ std::string prices_text(const Redesign& found) {
     text += (text.empty() ? "" : "\n") + price.letter + " " + quantity_text(price.value, price.dimension) +
             ": " + price_words(price);
     if (!price.rule.empty()) text += ", held by " + price.rule;
+    if (price.certainty && needs_checking(*price.certainty))
+      text += " [" + std::string(word(*price.certainty)) + "]";
   }
   return labelled("Tower for each", text);
 }

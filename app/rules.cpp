@@ -42,6 +42,7 @@ constexpr const char* kFooter =
 struct Options {
   std::string what;
   Overrides overrides;
+  std::string csv;  ///< for the verdicts
   TimeBudget time_budget;
   Verbosity verbosity;
   bool quantities = false;
@@ -104,6 +105,7 @@ ExitCode judge_design(const Options& options) {
     return judge_rules(design,
                        solve(design, interrupt.context(progress.callback(), options.time_budget.seconds())));
   }();
+  if (!options.csv.empty()) write_verdicts_csv(options.csv, judgements);
   if (options.json) {
     print(verdicts_json(design, judgements));
   } else {
@@ -132,6 +134,9 @@ void add_rules(CLI::App& program, Action& action) {
       ->type_name("WORD|DESIGN.yaml");
   options->overrides.add_to(command);
   options->time_budget.add_to(command);
+  command
+      .add_option("--csv", options->csv, "Write the verdicts on a design, with source and certainty of each")
+      ->type_name("FILE");
   command.add_flag("--quantities", options->quantities, "List what rules may bound, with the unit");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead");
   options->verbosity.add_to(command, "Show no progress");

@@ -3,6 +3,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include "app/console.hpp"
 #include "app/summary.hpp"
@@ -21,27 +22,12 @@ std::string verdict_text(RuleVerdict verdict) {
   return verdict == RuleVerdict::fail ? emphasised(text, Emphasis::bad) : text;
 }
 
-/// What stands behind every bound that nobody read in its document.
-std::string mark_of(const Rule& rule) {
-  return needs_checking(rule.certainty) ? "[" + std::string(word(rule.certainty)) + "]" : "";
-}
-
-std::string value_text(const Judgement& judgement) {
-  if (!judgement.value) return "-";
-  std::string text = quantity_text(*judgement.value, rule_quantity(judgement.rule.quantity)->dimension);
-  if (judgement.arc_length) text += " at " + length_text(*judgement.arc_length);
-  if (!judgement.place.empty()) text += " (" + judgement.place + ")";
-  return text;
-}
-
 std::string line_of(const Judgement& judgement) {
   const Rule& rule = judgement.rule;
   std::string text = verdict_text(judgement.verdict) + ": " + rule.id + ", " +
                      std::string(rule_quantity(rule.quantity)->label);
-  if (judgement.value) text += " " + value_text(judgement);
-  text += ", " + bound_text(rule);
-  if (needs_checking(rule.certainty)) text += " " + mark_of(rule);
-  return text;
+  if (judgement.value) text += " " + measured_text(judgement);
+  return text + ", " + marked_bound_text(rule);
 }
 
 std::string counted(std::size_t count, const std::string& what) {
@@ -94,8 +80,8 @@ std::string rules_lines(const std::vector<Judgement>& judgements) {
 std::string verdicts_table(const std::vector<Judgement>& judgements) {
   Table table({"rule", "verdict", "value", "bound", "certainty"});
   for (const Judgement& judgement : judgements) {
-    table.add({judgement.rule.id, std::string(to_text(judgement.verdict)), value_text(judgement),
-               bound_text(judgement.rule), std::string(word(judgement.rule.certainty))});
+    table.add({judgement.rule.id, std::string(to_text(judgement.verdict)), measured_text(judgement),
+               bound_text(judgement.rule), certainty_text(judgement.rule.certainty)});
   }
   std::string text = table.text();
   for (const std::string& line : open_questions(judgements)) {

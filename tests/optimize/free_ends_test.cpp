@@ -4,8 +4,10 @@
 #include "glissade/core/error.hpp"
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/bound_bracket.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +17,7 @@
 #include <vector>
 
 using namespace glissade;
+using namespace glissade::optimizer;
 
 namespace {
 
@@ -59,6 +62,14 @@ Optimum solved(const Problem& problem) {
 
 double drop_of(const Optimum& optimum) {
   return optimum.centerline->endpoints().drop;
+}
+
+double rate_of(const Centerline& track) {
+  double rate = 0.0;
+  for (const ClothoidSegment& piece : dynamic_cast<const ClothoidSpline&>(track).segments()) {
+    rate = std::max(rate, std::fabs(piece.exit_curvature - piece.entry_curvature) / piece.length);
+  }
+  return rate;
 }
 
 double price_of(const Optimum& optimum, LimitId id) {
@@ -195,11 +206,84 @@ TEST_CASE("the least rate of curvature, kept as a limit, needs just the height t
   const Problem lowest = in_run(ObjectiveKind::least_drop);
   gentle.endpoints = {0.0, drop_of(solved(lowest))};
   const Optimum least = solved(gentle);
-  double rate = 0.0;
-  for (const ClothoidSegment& piece : dynamic_cast<const ClothoidSpline&>(*least.centerline).segments()) {
-    rate = std::max(rate, std::fabs(piece.exit_curvature - piece.entry_curvature) / piece.length);
+  CHECK(std::fabs(rate_of(*least.centerline) / *lowest.limits.highest_curvature_rate - 1.0) < 1e-3);
+}
+
+TEST_CASE("a search that comes to no end proves nothing of a bound") {
+  Bracket bracket;
+  bracket.loose = 20.0;
+  bracket.learn(10.0, Verdict::too_slow);
+  bracket.learn(19.0, Verdict::untold);
+  CHECK(bracket.tight == 10.0);
+  CHECK(bracket.floor() == 19.0);
+  bracket.learn(19.0 + 1e-8, Verdict::does);
+  CHECK(bracket.is_closed());
+  CHECK_FALSE(bracket.untold.empty());  // closed, but on a bound of which nothing is known
+  SECTION("a tighter bound that does answers for it") {
+    bracket.learn(15.0, Verdict::does);
+    CHECK(bracket.untold.empty());
+    CHECK(bracket.loose == 15.0);
+    CHECK(bracket.floor() == 10.0);
+    CHECK_FALSE(bracket.is_closed());
   }
-  CHECK(std::fabs(rate / *lowest.limits.highest_curvature_rate - 1.0) < 1e-3);
+  SECTION("so does a looser one that does not") {
+    bracket.learn(19.0, Verdict::kept_by_none);
+    CHECK(bracket.untold.empty());
+    CHECK(bracket.is_closed());
+  }
+}
+
+TEST_CASE("a least load that the slope of the table alone asks for is told as one that no track goes below") {
+  Problem problem = in_run(ObjectiveKind::least_load);
+  problem.finish.kind = FinishKind::level;
+  problem.endpoints = {0.0, 46.0};
+  problem.limits.exit_speed.lowest = 20.0;  // straight down the slope of the table gives 24 m/s
+  const Optimum least = solved(problem);
+  CHECK(least.report.message == "every limit holds, and no track keeps a tighter bound");
+  const double load = Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
+  CHECK(std::fabs(load / (kGravity * std::cos(11.0 * kDegree)) - 1.0) < 1e-5);
+}
+
+TEST_CASE("a least bound is one: by another way to it a track keeps a little more, and none a little less") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int problems = testing::thorough() ? 8 : 2;
+  for (int i = 0; i < problems; ++i) {
+    const bool load = i % 2 == 0;
+    Problem problem = in_run(load ? ObjectiveKind::least_load : ObjectiveKind::least_curvature_rate);
+    problem.limits.slope_angle.highest = random.between(28.0, 37.0) * kDegree;
+    problem.limits.exit_slope_angle = Range::fixed(random.between(8.0, 12.0) * kDegree);
+    problem.limits.exit_speed.lowest = random.between(22.0, 28.0);
+    if (!load) problem.limits.highest_curvature_rate.reset();
+    Problem lowest = problem;
+    lowest.objective.kind = ObjectiveKind::least_drop;
+    if (!load) lowest.limits.highest_curvature_rate = 6e-4;
+    problem.finish.kind = FinishKind::level;
+    problem.endpoints = {0.0, drop_of(solved(lowest)) * random.between(1.005, 1.05)};
+    CAPTURE(i, problem.endpoints.drop);
+    const Optimum least = solved(problem);
+    Problem other = problem;
+    other.objective.kind = ObjectiveKind::travel_time;
+    std::optional<double>& bound =
+        load ? other.limits.highest_normal_load : other.limits.highest_curvature_rate;
+    double reached = Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
+    if (!load) reached = rate_of(*least.centerline);
+    bound = reached * 1.001;
+    CHECK(optimize(other).centerline != nullptr);
+    bound = reached * 0.999;
+    CHECK(optimize(other).centerline == nullptr);
+  }
+}
+
+TEST_CASE("a least bound that time ran out on is not called the least") {
+  Problem problem = in_run(ObjectiveKind::least_load);
+  problem.finish.kind = FinishKind::level;
+  problem.endpoints = {0.0, 46.5};
+  OptimizeOptions options;
+  options.time_budget = 1e-3;
+  const Optimum optimum = optimize(problem, options);
+  CHECK(optimum.report.status != OptimizeStatus::optimal);
+  CHECK(optimum.report.ended_early);
 }
 
 TEST_CASE("a speed that drag does not allow is infeasible, not a high tower") {

@@ -76,7 +76,8 @@ double after_bend(double v, const InRunShape& shape, double mu, double k) {
 }  // namespace
 
 TEST_CASE(
-    "rides of an in-run from its certificate give the reference's speeds and loads to the last digit shown") {
+    "rides of an in-run from its certificate give another program's speeds and loads, as far as that is "
+    "exact") {
   struct Reference {
     InRunTransition transition;
     double mu, drag, edge, ten_before, at_e2, load;

@@ -184,6 +184,7 @@ TEST_CASE(
   const LetterPrice& r1 = found.prices[2];
   CHECK(r1.letter == "r1");
   CHECK(r1.rule == "fis.in-run.r1");
+  CHECK(r1.certainty == Certainty::derived);  // nobody read it in the norm
   CHECK(std::fabs(r1.value - 0.14 * found.take_off.speed * found.take_off.speed) < 1e-6);
   CHECK(r1.price > 0.0);
 }

@@ -4,15 +4,19 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/design/rule_sets.hpp"
+#include "glissade/design/template.hpp"
 #include "glissade/design/write.hpp"
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/profile_drawing.hpp"
 #include "glissade/pipeline/rules.hpp"
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <numbers>
@@ -272,4 +276,35 @@ TEST_CASE("the examples of docs/rules.md read as they stand") {
   }
   CHECK(designs == 1);
   CHECK(sets == 1);
+}
+
+TEST_CASE("how sure a bound is shows wherever the bound shows") {
+  const Design design = read_design(designs_path("hills/garmisch_hs142.yaml"));
+  const Track track = solve(design);
+  const std::vector<Judgement> judgements = judge_rules(design, track);
+  const TempDir place;
+  write_verdicts_csv(place / "verdicts.csv", judgements);
+  const std::string csv = bytes_of(place / "verdicts.csv");
+  CHECK(csv.starts_with(
+      "id,verdict,value,lowest,highest,unit,margin,where_m,place,quantity,sentence,source,certainty,"));
+  CHECK_THAT(csv, Contains("fis.in-run.gamma,pass,35,,37,deg,") && Contains(",secondary,true,"));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(judgements.size()) + 1);
+  std::string sheets;
+  for (const Sheet& sheet : profile_sheets(design, track, {})) {
+    for (const SheetTable& table : sheet.tables) {
+      for (const std::vector<std::string>& row : table.rows) {
+        for (const std::string& cell : row) sheets += cell + "\n";
+      }
+    }
+  }
+  for (const Judgement& judgement : judgements) {
+    INFO(judgement.rule.id);
+    CHECK(needs_checking(judgement.rule.certainty));
+    CHECK_THAT(marked_bound_text(judgement.rule),
+               Contains(" [" + std::string(word(judgement.rule.certainty)) + "]"));
+    CHECK_THAT(sheets, Contains(judgement.rule.id + "\n" + std::string(to_text(judgement.verdict)) + "\n" +
+                                measured_text(judgement) + "\n" + bound_text(judgement.rule) + "\n" +
+                                certainty_text(judgement.rule.certainty)));
+  }
+  CHECK_THAT(design_template("in-run"), Contains("Nobody read the bounds"));
 }

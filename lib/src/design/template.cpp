@@ -226,6 +226,9 @@ std::string in_run_text(const InRunSizes& sizes) {
   text += "body:\n";
   text += with_remark("  friction_coefficient: 0.03", "of skis on the ice track");
   text += with_remark("  drag: " + rounded_text(kInRunDrag, 4) + " 1/m", "or drag_area, mass and air");
+  text +=
+      "# Nobody read the bounds named below in the norm itself: 'glissade rules fis' tells the source and "
+      "certainty of each.\n";
   text += "centerline:\n  kind: in-run\n";
   text += with_remark("  gamma: " + degrees(sizes.gamma), "slope of the straight");
   text += with_remark("  alpha: " + degrees(sizes.alpha), "slope of the table");

@@ -72,7 +72,8 @@ void draw_frame(const Sheet& sheet, Drawing& ink) {
   field(ink, "SHEET", title.sheet, {split, row(0)}, right);
   field(ink, "NUMBER", title.number, {split, row(1)}, right);
   field(ink, "SCALE", scale, {split, row(2)}, right);
-  field(ink, "DIMENSIONS IN mm", "Glissade " + std::string(version()), {split, row(3)}, right - 20.0, 2.5);
+  field(ink, "DIMENSIONS IN " + title.unit, "Glissade " + std::string(version()), {split, row(3)},
+        right - 20.0, 2.5);
   projection_symbol(ink, {block.high.x - 10.0, row(3) + 0.5 * kRowHeight});
 }
 

@@ -1,12 +1,17 @@
 #include "optimize/least_bound.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/referee/referee.hpp"
+
+#include "optimize/bound_bracket.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace glissade::optimizer {
@@ -14,9 +19,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostSearches = 40;        // budget
+constexpr int kMostSearches = 48;        // budget
 constexpr double kSpeedAccuracy = 1e-9;  // of the speed wanted; accuracy
-constexpr double kBoundAccuracy = 1e-9;  // of the bound; accuracy
+// The least bound is looked at from so far below: a search that lost its way at it would show there.
+constexpr double kNeighbour = 1e-4;  // taste
 
 class LeastBound {
  public:
@@ -38,27 +44,21 @@ class LeastBound {
 
   [[nodiscard]] Optimum found() {
     Optimum loose = within(asked_.limits.*member_);
-    if (!loose.centerline) return told(std::move(loose));
-    if (loose.report.exit_speed < wanted_ * (1.0 - kSpeedAccuracy)) return told(too_fast());
-    double high = reached_by(loose.centerline);
-    double low = 0.0;
-    Optimum best = std::move(loose);
-    bool settled = false;
-    double bound = std::min(0.95 * high, of_a_short_bend(best.centerline));
-    while (searches_ < kMostSearches && !out_of_time()) {
-      Optimum next = within(bound);
-      const bool there = next.centerline != nullptr;
-      const double excess = there ? next.report.exit_speed - wanted_ : -wanted_;
-      const double price = there ? price_in(next.report) : 0.0;
-      (excess >= 0.0 ? high : low) = bound;
-      settled = there && std::fabs(excess) <= kSpeedAccuracy * wanted_;
-      if (settled || (there && excess >= 0.0)) best = std::move(next);
-      settled = settled || high - low <= kBoundAccuracy * high;
-      if (settled) break;
-      const double newton = price > 0.0 ? newton_step(bound, excess, price) : low;
-      bound = newton > low && newton < high ? newton : between(low, high);
+    const bool slow = loose.centerline && loose.report.exit_speed < wanted_ * (1.0 - kSpeedAccuracy);
+    if (!loose.centerline || slow) {
+      // A search that asks for the speed says why it is out of reach, or finds that it is not.
+      Optimum other = asking_for_speed(asked_.limits.*member_);
+      if (!other.centerline) return told(slow ? std::move(other) : std::move(loose));
+      loose = std::move(other);
     }
-    return priced(std::move(best), settled);
+    take(std::move(loose));
+    bracket_.loose = reached_by(best_.centerline);
+    bracket_.learn(least_at_finish(), Verdict::kept_by_none);
+    close(std::min(0.95 * bracket_.loose, of_a_short_bend(best_.centerline)));
+    for (int round = 0; round < kMostNeighbours && settled_ && !out_of_time(); ++round) {
+      if (!does_below()) break;
+    }
+    return priced();
   }
 
  private:
@@ -83,11 +83,101 @@ class LeastBound {
     tried_.limits.*member_ = bound;
     return searched(tried_);
   }
-  /// Why the speed is out of reach: a search that asks for it says so.
-  Optimum too_fast() {
+  /// Another way to the same bound, for what the one by the greatest speed leaves open.
+  Optimum asking_for_speed(const std::optional<double>& bound) {
     Problem problem = asked_;
+    problem.limits.*member_ = bound;
     problem.objective.kind = ObjectiveKind::travel_time;
     return searched(problem);
+  }
+
+  void take(Optimum optimum) {
+    best_ = std::move(optimum);
+    best_by_speed_ = best_.report.objective.kind == ObjectiveKind::exit_speed;
+  }
+
+  /// Looks at a bound, by a second way where the first comes to no end.
+  Verdict look(double bound) {
+    Optimum fastest = within(bound);
+    would_do_ = 0.0;
+    excess_ = fastest.centerline ? fastest.report.exit_speed - wanted_ : -wanted_;
+    price_ = fastest.centerline ? price_in(fastest.report) : 0.0;
+    const bool there = fastest.centerline != nullptr;
+    const bool optimal = fastest.report.status == OptimizeStatus::optimal;
+    settled_ = there && optimal && std::fabs(excess_) <= kSpeedAccuracy * wanted_;
+    if (there && (settled_ || excess_ >= 0.0)) {
+      take(std::move(fastest));
+      return Verdict::does;
+    }
+    if (there && optimal) return Verdict::too_slow;
+    if (fastest.report.status == OptimizeStatus::infeasible) {
+      // It may have found what would do.
+      for (const Relaxation& other : fastest.report.conflict.relaxations) {
+        if (other.limit == name_) would_do_ = other.needed;
+      }
+      return Verdict::kept_by_none;
+    }
+    if (out_of_time()) return Verdict::untold;
+    Optimum other = asking_for_speed(bound);
+    if (!other.centerline)
+      return other.report.status == OptimizeStatus::infeasible ? Verdict::too_slow : Verdict::untold;
+    price_ = 0.0;
+    take(std::move(other));
+    return Verdict::does;
+  }
+
+  /// Narrows the bracket down until a bound gives just the speed wanted, or nothing is left of it.
+  void close(double bound) {
+    settled_ = false;
+    int untold = 0;
+    while (searches_ < kMostSearches && untold < kMostUntold && !out_of_time()) {
+      if (bracket_.is_closed()) {
+        settled_ = bracket_.untold.empty();
+        return;
+      }
+      const Verdict verdict = look(bound);
+      if (verdict == Verdict::untold) ++untold;
+      bracket_.learn(verdict == Verdict::does ? std::min(bound, reached_by(best_.centerline)) : bound,
+                     verdict);
+      if (settled_) return;
+      const double floor = bracket_.floor();
+      const double newton = price_ > 0.0 ? newton_step(bound, excess_, price_) : would_do_;
+      // From far above the tangent leads to bounds that nothing keeps, and such searches take the longest.
+      constexpr double kBoldest = 0.25;  // taste
+      const double next = std::max(newton, kBoldest * bracket_.loose);
+      bound = next > floor && next < bracket_.loose && newton > 0.0 ? next : between(floor, bracket_.loose);
+    }
+  }
+
+  /// What no track goes below, shown without a search: where the track ends straight, or without a crest, it carries at
+  /// least the body's weight across the slope there. 0 where nothing is known.
+  [[nodiscard]] double least_at_finish() const {
+    const Limits& limits = asked_.limits;
+    if (name_.id != LimitId::highest_normal_load || !(limits.concave || limits.lead_out > 0.0)) return 0.0;
+    double steepest = kRightAngle;
+    for (const Range& range : {limits.slope_angle, limits.exit_slope_angle}) {
+      if (range.highest) steepest = std::min(steepest, *range.highest);
+    }
+    return asked_.gravity * math::cos(steepest);
+  }
+
+  /// Whether, against expectation, a bound a little below the least does: then goes on from there.
+  bool does_below() {
+    const double bound = bracket_.loose * (1.0 - kNeighbour);
+    if (bound <= bracket_.tight && bracket_.why == Verdict::kept_by_none) return false;
+    const double excess = excess_;
+    const double price = price_;
+    const Verdict verdict = look(bound);
+    if (verdict != Verdict::does) {
+      settled_ = true;
+      excess_ = excess;
+      price_ = price;
+      return false;
+    }
+    bracket_ = {std::min(bound, reached_by(best_.centerline)), 0.0, Verdict::too_slow, {}};
+    if (!settled_)
+      close(price_ > 0.0 ? std::min(newton_step(bound, excess_, price_), 0.99 * bound) : 0.9 * bound);
+    return true;
   }
 
   /// The most of what is bounded, as the referee finds it.
@@ -138,27 +228,44 @@ class LeastBound {
   }
 
   /// In units of the bound, which the speed wanted has a price in, too.
-  Optimum priced(Optimum optimum, bool settled) const {
-    OptimizeReport& report = optimum.report;
-    const double own = price_in(report);
+  Optimum priced() {
+    if (!best_by_speed_ && !out_of_time()) {
+      Optimum again = within(bracket_.loose);
+      if (again.centerline && again.report.exit_speed >= wanted_ * (1.0 - kSpeedAccuracy))
+        take(std::move(again));
+    }
+    OptimizeReport& report = best_.report;
+    const double own = best_by_speed_ ? price_in(report) : 0.0;
     std::erase_if(report.active, [&](const ActiveLimit& active) { return active.limit == name_; });
     if (own > 0.0) {
       for (ActiveLimit& active : report.active) active.price /= own;
-      const double end = optimum.centerline->length();
+      const double end = best_.centerline->length();
       report.active.push_back({{LimitId::exit_speed, Bound::lowest}, wanted_, {{end, end}}, 1.0 / own});
       std::sort(report.active.begin(), report.active.end(),
                 [](const ActiveLimit& a, const ActiveLimit& b) { return a.limit.key() < b.limit.key(); });
     } else {
       report.active.clear();
     }
-    report.checks = check_limits(asked_, optimum.centerline);
-    if (!settled) {
+    report.checks = check_limits(asked_, best_.centerline);
+    if (!settled_) {
       report.status = OptimizeStatus::feasible_not_converged;
-      report.message = "every limit holds, but the tightest bound was not found to its accuracy";
+      report.message = "every limit holds, but the tightest bound was not found: " + open_text();
     } else if (report.status == OptimizeStatus::optimal) {
-      report.message = "every limit holds, and a tighter bound keeps the exit speed from being reached";
+      report.message = bracket_.why == Verdict::kept_by_none
+                           ? "every limit holds, and no track keeps a tighter bound"
+                           : "every limit holds, and a tighter bound keeps the exit speed from being reached";
     }
-    return told(std::move(optimum));
+    return told(std::move(best_));
+  }
+
+  /// What is left open: "of bounds between 14.2 m/s^2, which is too tight, and 14.9 m/s^2 searches did not tell"
+  [[nodiscard]] std::string open_text() const {
+    const Dimension dimension = name_.dimension();
+    const std::string tight = bracket_.tight > 0.0
+                                  ? quantity_text(bracket_.tight, dimension) + ", which is too tight,"
+                                  : std::string("none");
+    return "of those between " + tight + " and " + quantity_text(bracket_.loose, dimension) +
+           (bracket_.untold.empty() ? " not all were tried" : " the searches came to no end");
   }
 
   const Problem& asked_;
@@ -170,6 +277,15 @@ class LeastBound {
   double wanted_;
   std::optional<double> Limits::*member_ = nullptr;
   LimitName name_;
+  static constexpr int kMostNeighbours = 4;  // budget
+  static constexpr int kMostUntold = 6;      // budget: they take the longest
+  Bracket bracket_;
+  Optimum best_;                ///< at `loose`
+  bool best_by_speed_ = false;  ///< the greatest speed was what it was searched for: it has prices
+  bool settled_ = false;        ///< nothing tighter does
+  double excess_ = 0.0;         ///< of the exit speed, at the bound looked at last
+  double price_ = 0.0;          ///< of that bound, in speed
+  double would_do_ = 0.0;       ///< a looser one that was found instead; 0 where none was
   int searches_ = 0;
   int iterations_ = 0;
   int evaluations_ = 0;

@@ -378,7 +378,9 @@ std::string redesign_json(const Design& design, const Redesign& found) {
     json["letters"].push_back({{"letter", price.letter},
                                {"value", price.value},
                                {"drop_m_per_unit", price.price},
-                               {"rule", price.rule.empty() ? Json(nullptr) : Json(price.rule)}});
+                               {"rule", price.rule.empty() ? Json(nullptr) : Json(price.rule)},
+                               {"certainty", price.certainty ? Json(word(*price.certainty)) : Json(nullptr)},
+                               {"needs_checking", price.certainty && needs_checking(*price.certainty)}});
   }
   json["search"] = found.search ? search_json(*found.search) : Json(nullptr);
   return document_text(json);

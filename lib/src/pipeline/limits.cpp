@@ -313,14 +313,18 @@ std::optional<Issue> limits_problem(const Design& design, const Track& track) {
 std::optional<Issue> search_problem(const Design& design, const Track& track) {
   if (!track.search || track.search->status == OptimizeStatus::optimal) return {};
   const bool ended_early = track.search->ended_early;
+  const bool to_first_order = track.search->first_order_residual <= OptimizeOptions{}.tolerance;
+  const std::string why =
+      is_least_bound(design.objective.kind) ? "Every limit holds, but a tighter bound may do."
+      : to_first_order ? "Every limit holds, and no track near is better to first order; farther ones were "
+                         "not all looked at."
+                       : "Every limit holds, but a better track may be near: the first-order residual is " +
+                             rounded_text(track.search->first_order_residual, 2) + " instead of at most " +
+                             rounded_text(OptimizeOptions{}.tolerance, 2) + ".";
   return Issue{design.where("limits"),
-               (ended_early ? "the search for the fastest track ended early: "
-                            : "the search for the fastest track did not converge: ") +
-                   track.search->message,
-               "Every limit holds, but a faster track may be near: the first-order residual is " +
-                   rounded_text(track.search->first_order_residual, 2) + " instead of at most " +
-                   rounded_text(OptimizeOptions{}.tolerance, 2) + ".",
-               ended_early ? "a larger --time-budget" : "other limits; more time would not help"};
+               "the search for the track " + searched_name(design) +
+                   (ended_early ? " ended early: " : " did not converge: ") + track.search->message,
+               why, ended_early ? "a larger --time-budget" : "other limits; more time would not help"};
 }
 
 }  // namespace glissade

@@ -3,6 +3,7 @@
 #include "glissade/centerline/in_run.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include "pipeline/letters.hpp"
 
@@ -70,8 +71,10 @@ void add_gates(const Track& track, const Plane& plane, Drawing& drawing) {
         gate.number % kEvery == 0 || gate.number == 1 || gate.to_edge == track.gates->gates.back().to_edge;
     drawing.line(layer, plane.at(gate.from_start), plane.at(gate.from_start, told ? 2.0 * kTick : kTick));
     if (!told) continue;
+    // Beside the lines that lead to dimensions from the first and the last of them.
+    constexpr double kBeside = 0.9;  // [m]
     drawing.texts.push_back({layer,
-                             plane.at(gate.from_start, 2.4 * kTick),
+                             plane.at(gate.from_start + kBeside, 2.4 * kTick),
                              1.8,
                              std::to_string(gate.number),
                              TextAnchor::centre,
@@ -118,7 +121,8 @@ void add_dimensions(const Design& design, const Track& track, const Plane& plane
   const auto* const in_run = dynamic_cast<const InRun*>(&centerline);
   if (in_run == nullptr) return;
   if (const auto area = design.centerline.in_run.start_area(); area && *area > 0.0) {
-    add(0.0, *area, 14.0, DimensionKind::aligned, "es " + metres_text(*area));
+    // High enough for its text to stand clear of the line at the level of A.
+    add(0.0, *area, 20.0, DimensionKind::aligned, "es " + metres_text(*area));
   }
   add(in_run->table_begins(), length, 12.0, DimensionKind::aligned, "t " + metres_text(in_run->shape().t));
   const double e1 = design.centerline.in_run.longest();
@@ -132,7 +136,13 @@ void add_dimensions(const Design& design, const Track& track, const Plane& plane
   note(in_run->transition_begins(), 11.0,
        "gamma " + angle_text(in_run->shape().gamma, 6) + ", e1 " + metres_text(e1) + " to the " +
            (design.centerline.in_run.counts_to_edge ? "edge" : "table"));
-  note(in_run->table_begins(), -6.0, "alpha " + angle_text(in_run->shape().alpha, 6));
+  // To the left, clear of the line down from the edge.
+  drawing.texts.push_back({notes,
+                           plane.at(in_run->table_begins(), -6.0),
+                           2.5,
+                           "alpha " + angle_text(in_run->shape().alpha, 6),
+                           TextAnchor::right,
+                           {}});
 }
 
 }  // namespace
@@ -213,6 +223,7 @@ TitleBlock title_of(const Design& design, const std::string& title) {
   block.title = title;
   block.owner = design.name;
   block.note = "Lengths in metres; x, z from the frame of the design, z up";
+  block.unit = "m";
   return block;
 }
 
@@ -233,6 +244,7 @@ std::optional<Sheet> cross_section_sheet(const Design& design) {
   Sheet sheet = blank_sheet(PaperSize::a3);
   sheet.title = title_of(design, "Cross-section / Querschnitt / profil en travers");
   sheet.title.note = "Millimetres; as seen downhill, the centerline at the cross";
+  sheet.title.unit = "mm";
   PlaneBox room = drawing_area(sheet);
   constexpr double kMargin = 40.0;  // [mm] for dimension lines
   room.low = room.low + Vec2{kMargin, kMargin};
@@ -258,6 +270,19 @@ SheetTable gates_sheet_table(const GateTable& gates) {
       row.push_back(ride.arrived ? rounded_text(ride.speed_at_measuring_place, 4) : "-");
     }
     table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// The verdicts, each bound with how sure it is.
+SheetTable rules_sheet_table(const std::vector<Judgement>& judgements) {
+  SheetTable table;
+  table.caption = "Bounds \"to be checked\" were not read in the document itself";
+  table.header = {"rule", "verdict", "value", "bound", "certainty"};
+  table.widths_mm = {80.0, 40.0, 100.0, 60.0, 60.0};
+  for (const Judgement& one : judgements) {
+    table.rows.push_back({one.rule.id, std::string(to_text(one.verdict)), measured_text(one),
+                          bound_text(one.rule), certainty_text(one.rule.certainty)});
   }
   return table;
 }
@@ -307,6 +332,8 @@ std::vector<Sheet> profile_sheets(const Design& design, const Track& track, cons
     add("Parameters / Kenngrössen / paramètres", std::move(table));
   }
   if (track.gates) add("Start gates / Startluken / portes de départ", gates_sheet_table(*track.gates));
+  const std::vector<Judgement> judgements = judge_rules(design, track);
+  if (!judgements.empty()) add("Rules / Regeln / règles", rules_sheet_table(judgements));
   add("Coordinates / Koordinaten / coordonnées",
       coordinates_sheet_table(coordinate_table(design, track, options), options));
   return numbered(std::move(sheets));

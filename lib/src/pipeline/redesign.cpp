@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 5> kGoalWords = {"least-drop", "least-len
 /// A bound of a letter and the rule that sets it.
 struct RuledBound {
   double value = 0.0;
-  std::string rule;
+  const Rule* rule = nullptr;
 };
 
 struct RuledLetters {
@@ -39,8 +39,8 @@ struct RuledLetters {
   std::optional<RuledBound> table;     ///< t at least
 };
 
-void tighten(std::optional<RuledBound>& bound, double value, const std::string& rule, double sign) {
-  if (!bound || sign * value > sign * bound->value) bound = RuledBound{value, rule};
+void tighten(std::optional<RuledBound>& bound, double value, const Rule& rule, double sign) {
+  if (!bound || sign * value > sign * bound->value) bound = RuledBound{value, &rule};
 }
 
 bool applies(const Rule& rule, const Measurements& measurements) {
@@ -60,14 +60,13 @@ RuledLetters ruled_letters(const Design& design, const Measurements& measurement
     if (!applies(rule, measurements)) continue;
     const Range& bound = rule.bound;
     if (rule.quantity == "in_run_slope_angle" && bound.highest)
-      tighten(letters.steepest, *bound.highest, rule.id, -1.0);
+      tighten(letters.steepest, *bound.highest, rule, -1.0);
     if (rule.quantity == "transition_radius" && bound.lowest)
-      tighten(letters.radius, *bound.lowest, rule.id, 1.0);
+      tighten(letters.radius, *bound.lowest, rule, 1.0);
     if (rule.quantity == "design_radial_acceleration" && bound.highest)
-      tighten(letters.radius, v0 * v0 / *bound.highest, rule.id, 1.0);
-    if (rule.quantity == "table_length" && bound.lowest) tighten(letters.table, *bound.lowest, rule.id, 1.0);
-    if (rule.quantity == "table_time" && bound.lowest)
-      tighten(letters.table, v0 * *bound.lowest, rule.id, 1.0);
+      tighten(letters.radius, v0 * v0 / *bound.highest, rule, 1.0);
+    if (rule.quantity == "table_length" && bound.lowest) tighten(letters.table, *bound.lowest, rule, 1.0);
+    if (rule.quantity == "table_time" && bound.lowest) tighten(letters.table, v0 * *bound.lowest, rule, 1.0);
   }
   return letters;
 }
@@ -163,7 +162,7 @@ void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, dou
     shapes.push_back(attempted("its letters, " + name_of(other), take_off,
                                [&] { return std::make_shared<const InRun>(reaching(shape, take_off)); }));
   }
-  shapes.push_back(attempted("power curve (Zanevskyy)", take_off, [&] {
+  shapes.push_back(attempted("power curve (after Zanevskyy)", take_off, [&] {
     return std::make_shared<const ClothoidSpline>(power_in_run(certificate, take_off));
   }));
   shapes.push_back(attempted("load-controlled (after Palej, Filipowska)", take_off, [&] {
@@ -357,17 +356,21 @@ class FreeShape {
 std::vector<LetterPrice> prices_of(const InRunShape& shape, const TakeOff& take_off,
                                    const RuledLetters& ruled) {
   const DropSlopes slopes = drop_slopes(shape, take_off);
-  const auto at_bound = [](const std::optional<RuledBound>& bound, double value) {
+  const auto letter = [](const char* name, double value, double price, Dimension dimension,
+                         const std::optional<RuledBound>& bound = {}) {
+    LetterPrice row{name, value, price, dimension, {}, {}};
     constexpr double kAt = 1e-9;
-    const bool there = bound && std::fabs(value - bound->value) <= kAt * std::fabs(bound->value);
-    return there ? bound->rule : std::string();
+    if (bound && std::fabs(value - bound->value) <= kAt * std::fabs(bound->value)) {
+      row.rule = bound->rule->id;
+      row.certainty = bound->rule->certainty;
+    }
+    return row;
   };
-  return {{"gamma", shape.gamma.radians(), slopes.by_gamma, Dimension::angle,
-           at_bound(ruled.steepest, shape.gamma.radians())},
-          {"alpha", shape.alpha.radians(), slopes.by_alpha, Dimension::angle, ""},
-          {"r1", shape.r1, slopes.by_r1, Dimension::length, at_bound(ruled.radius, shape.r1)},
-          {"t", shape.t, slopes.by_t, Dimension::length, at_bound(ruled.table, shape.t)},
-          {"v", take_off.speed, slopes.by_speed, Dimension::speed, ""}};
+  return {letter("gamma", shape.gamma.radians(), slopes.by_gamma, Dimension::angle, ruled.steepest),
+          letter("alpha", shape.alpha.radians(), slopes.by_alpha, Dimension::angle),
+          letter("r1", shape.r1, slopes.by_r1, Dimension::length, ruled.radius),
+          letter("t", shape.t, slopes.by_t, Dimension::length, ruled.table),
+          letter("v", take_off.speed, slopes.by_speed, Dimension::speed)};
 }
 
 TakeOff take_off_of(const Design& design, const RedesignOptions& options, const CenterlinePtr& certificate) {

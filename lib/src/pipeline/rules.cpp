@@ -1,6 +1,9 @@
 #include "glissade/pipeline/rules.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/io/atomic_file.hpp"
 
 #include "pipeline/chute_rules.hpp"
 #include "pipeline/extremes.hpp"
@@ -113,6 +116,61 @@ Measurements rule_measurements(const Design& design, const Track& track) {
 std::vector<Judgement> judge_rules(const Design& design, const Track& track) {
   if (design.rules.in_force.empty()) return {};
   return judge(design.rules.in_force, rule_measurements(design, track));
+}
+
+std::string marked_bound_text(const Rule& rule) {
+  const std::string text = bound_text(rule);
+  return needs_checking(rule.certainty) ? text + " [" + std::string(word(rule.certainty)) + "]" : text;
+}
+
+std::string certainty_text(Certainty certainty) {
+  return std::string(word(certainty)) + (needs_checking(certainty) ? ", to be checked" : "");
+}
+
+std::string measured_text(const Judgement& judgement) {
+  if (!judgement.value) return "-";
+  std::string text = quantity_text(*judgement.value, rule_quantity(judgement.rule.quantity)->dimension);
+  if (judgement.arc_length) text += " at " + length_text(*judgement.arc_length);
+  if (!judgement.place.empty()) text += " (" + judgement.place + ")";
+  return text;
+}
+
+namespace {
+
+/// A text as a cell of CSV has it.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char letter : text) {
+    if (letter == '"') cell += '"';
+    cell += letter == '\n' ? ' ' : letter;
+  }
+  return cell + "\"";
+}
+
+}  // namespace
+
+void write_verdicts_csv(const std::filesystem::path& file, const std::vector<Judgement>& judgements) {
+  std::string text =
+      "id,verdict,value,lowest,highest,unit,margin,where_m,place,quantity,sentence,source,certainty,needs_"
+      "checking,reason\n";
+  for (const Judgement& judgement : judgements) {
+    const Rule& rule = judgement.rule;
+    const Dimension dimension = rule_quantity(rule.quantity)->dimension;
+    const auto number = [&](const std::optional<double>& value) {
+      return value ? exact_text(in_unit_for_people(*value, dimension)) : std::string();
+    };
+    text += quoted(rule.id) + "," + std::string(to_text(judgement.verdict)) + "," + number(judgement.value) +
+            "," + number(rule.bound.lowest) + "," + number(rule.bound.highest) + "," +
+            std::string(unit_for_people(dimension)) + "," + number(judgement.margin) + "," +
+            (judgement.arc_length ? exact_text(*judgement.arc_length) : "") + "," + quoted(judgement.place) +
+            "," + rule.quantity + "," + quoted(rule.sentence) + "," + quoted(rule.source) + "," +
+            std::string(word(rule.certainty)) + "," + (needs_checking(rule.certainty) ? "true" : "false") +
+            "," + quoted(judgement.reason) + "\n";
+  }
+  AtomicFile target(file);
+  target.write(text);
+  target.commit();
 }
 
 }  // namespace glissade

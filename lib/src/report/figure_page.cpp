@@ -2,7 +2,9 @@
 
 #include "glissade/core/version.hpp"
 
+#include "report/line_style.hpp"
 #include "report/markup.hpp"
+#include "report/page_assets.hpp"
 
 #include <array>
 #include <cstddef>
@@ -78,7 +80,28 @@ std::string table_of(const PageTable& table, bool chosen) {
   return text + "</tbody></table></div>\n";
 }
 
-/// Boxes that take lines and rows away by style alone: the page has no script.
+constexpr const char* kChoiceStyle =
+    ".choice{position:absolute;opacity:0}"
+    ".choices{display:flex;flex-wrap:wrap;gap:8px;align-items:center;margin:0 0 16px}"
+    ".choices label,.choices "
+    "button{display:inline-flex;align-items:center;gap:6px;min-height:36px;padding:2px 12px;"
+    "border:1px solid "
+    "var(--grid);border-radius:99px;background:var(--panel);color:var(--ink);font:inherit;cursor:pointer}"
+    ".choices label svg{flex:none;width:28px;height:10px;background:#fff;border-radius:3px}"
+    ".choices output{color:var(--soft);padding:0 4px}"
+    "table button{all:unset;cursor:pointer;display:inline-block;min-height:28px}"
+    "table button:focus-visible,.choices button:focus-visible{outline:2px solid}"
+    "th[aria-sort=ascending] button::after{content:' \\25b2'}th[aria-sort=descending] "
+    "button::after{content:' \\25bc'}"
+    "th:first-child{position:sticky;left:0;background:var(--panel)}"
+    "tr.lit>*,th button[aria-pressed=true]{font-weight:600}"
+    "[data-lit] path.line:not(.lit){opacity:.15}path.line.lit{stroke-width:3.5}"
+    "@media (max-width:640px){body{padding:12px}.choices label,.choices button{min-height:44px}table "
+    "button{min-height:40px}"
+    "th:first-child{max-width:42vw}.figures{columns:1}.choices{max-height:45vh;overflow-y:auto}}"
+    "@media print{.choices button,.choices output{display:none}}";
+
+/// Boxes that take lines and rows away, by style alone.
 std::string choices_of(const std::vector<std::string>& names) {
   if (names.empty()) return "";
   std::string boxes;
@@ -91,31 +114,39 @@ std::string choices_of(const std::vector<std::string>& names) {
     rules += "#choose-" + n + ":not(:checked)~main .choice-" + n + "{display:none}#choose-" + n +
              ":not(:checked)~.choices label[for=choose-" + n + "]{opacity:.45}#choose-" + n +
              ":focus-visible~.choices label[for=choose-" + n + "]{outline:2px solid}";
-    labels += "<label for=\"choose-" + n + "\">" + escaped_markup(names[i - 1]) + "</label>";
+    labels += "<label for=\"choose-" + n + "\"><svg viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path " +
+              choice_stroke(static_cast<int>(i)) + " stroke-width=\"2\" d=\"M0 5h28\"/></svg>" +
+              escaped_markup(names[i - 1]) + "</label>";
   }
-  return "<style>.choice{position:absolute;opacity:0}.choices label{display:inline-block;margin:0 8px 8px "
-         "0;padding:2px "
-         "10px;border:1px solid var(--grid);border-radius:99px;background:var(--panel);cursor:pointer}" +
-         rules + "</style>\n" + boxes + "\n<div class=\"choices\">" + labels + "</div>\n";
+  return "<style>" + std::string(kChoiceStyle) + rules + "</style>\n" + boxes + "\n<div class=\"choices\">" +
+         labels + "</div>\n";
 }
 
 }  // namespace
 
 std::string figure_page_html(const FigurePage& page) {
+  const bool chosen = !page.choices.empty() && !page.table.rows.empty();
   std::string text =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-      "base-uri 'none'; form-action 'none'\">\n";
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+      "'unsafe-inline'; ";
+  if (chosen) text += "script-src 'unsafe-inline'; ";
+  text += "base-uri 'none'; form-action 'none'\">\n";
   text +=
       "<title>" + escaped_markup(page.title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
   text += "<h1>" + escaped_markup(page.title) + "</h1>\n<p>" + escaped_markup(page.subtitle) + "</p>\n";
   text += choices_of(page.choices) + "<main>\n";
   if (!page.table.rows.empty()) text += table_of(page.table, !page.choices.empty());
   text += "<div class=\"figures\">\n";
-  for (const Figure& figure : page.figures) text += "<figure>" + figures_svg({figure}, 540.0) + "</figure>\n";
-  text += "</div>\n</main>\n<p>Made by Glissade " + std::string(version()) + ".</p>\n</body>\n</html>\n";
-  return text;
+  for (Figure figure : page.figures) {
+    // The boxes name the lines.
+    figure.legend = page.choices.empty();
+    text += "<figure>" + figures_svg({figure}, 540.0) + "</figure>\n";
+  }
+  text += "</div>\n</main>\n<p>Made by Glissade " + std::string(version()) + ".</p>\n";
+  if (chosen) text += "<script>" + std::string(page_assets::kChooser) + "</script>\n";
+  return text + "</body>\n</html>\n";
 }
 
 }  // namespace glissade

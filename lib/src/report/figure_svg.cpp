@@ -3,6 +3,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/report/figure.hpp"
 
+#include "report/line_style.hpp"
 #include "report/markup.hpp"
 
 #include <algorithm>
@@ -21,10 +22,6 @@ using namespace report;
 namespace {
 
 // Lightness differs from one to the next, so that the lines stay apart in grey.
-constexpr std::array<const char*, 8> kColours = {"#0b6e99", "#b4531a", "#1a7f5a", "#6d3fa0",
-                                                 "#a3325f", "#52606d", "#8a7000", "#16202a"};
-constexpr std::array<const char*, 4> kDashes = {"", "8 4", "2 4", "10 3 2 3"};
-
 constexpr double kLeft = 74.0;
 constexpr double kRight = 20.0;
 constexpr double kTop = 38.0;
@@ -198,10 +195,9 @@ class Panel {
     const bool dashed = figure_.lines[index].dashed;
     const bool marked = std::any_of(figure_.lines.begin(), figure_.lines.end(),
                                     [](const FigureLine& line) { return line.dashed; });
+    if (!marked && figure_.lines[index].choice > 0) return choice_stroke(figure_.lines[index].choice);
     // Where the caller marks none, lines that lie on each other stay visible through the gaps.
-    const std::size_t style = dashed ? 1 + index % 3 : marked ? 0 : index % kDashes.size();
-    return fmt::format("stroke=\"{}\"{}", kColours[index % kColours.size()],
-                       style == 0 ? "" : fmt::format(" stroke-dasharray=\"{}\"", kDashes[style]));
+    return line_stroke(index, dashed ? 1 + index % 3 : marked ? 0 : index);
   }
 
   static std::string choice_class(const FigureLine& line) {
@@ -217,7 +213,7 @@ class Panel {
   [[nodiscard]] std::vector<LegendEntry> legend_entries() const {
     std::vector<LegendEntry> entries;
     // The title names a line that is alone.
-    if (figure_.lines.size() == 1 && figure_.areas.empty()) return entries;
+    if (!figure_.legend || (figure_.lines.size() == 1 && figure_.areas.empty())) return entries;
     for (std::size_t i = 0; i < figure_.lines.size(); ++i) {
       if (!figure_.lines[i].name.empty()) entries.push_back({&figure_.lines[i].name, i});
     }

@@ -8,5 +8,7 @@ namespace glissade::report::page_assets {
 extern const std::string_view kScript;
 extern const std::string_view kStyle;
 extern const std::string_view kLicences;
+/// Of a page of figures that lets its reader choose.
+extern const std::string_view kChooser;
 
 }  // namespace glissade::report::page_assets

@@ -15,13 +15,14 @@ enum class PaperSize { a4, a3 };
 
 /// What the title block says (ISO 7200); empty fields stay empty.
 struct TitleBlock {
-  std::string title;     ///< of the sheet: "Side plate, left"
-  std::string owner;     ///< the design's name
-  std::string number;    ///< of the drawing or part
-  std::string material;  ///< with thickness
-  std::string scale;     ///< "1:20"; empty: of the first view
-  std::string note;      ///< one line, e.g. general tolerance
-  std::string sheet;     ///< "2/14"; numbered() fills it in
+  std::string title;        ///< of the sheet: "Side plate, left"
+  std::string owner;        ///< the design's name
+  std::string number;       ///< of the drawing or part
+  std::string material;     ///< with thickness
+  std::string scale;        ///< "1:20"; empty: of the first view
+  std::string note;         ///< one line, e.g. general tolerance
+  std::string sheet;        ///< "2/14"; numbered() fills it in
+  std::string unit = "mm";  ///< that dimensions are in
 };
 
 /// A drawing on paper.

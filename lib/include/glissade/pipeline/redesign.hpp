@@ -56,6 +56,7 @@ struct LetterPrice {
   double price = 0.0;  ///< d(drop)/d(letter) [m per SI unit]
   Dimension dimension = Dimension::length;
   std::string rule;  ///< the id of the rule that the letter lies at the bound of; may be empty
+  std::optional<Certainty> certainty;  ///< of that rule
 };
 
 /// A certificate beside what the rules would allow.

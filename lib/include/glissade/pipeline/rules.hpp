@@ -3,6 +3,8 @@
 #include "glissade/pipeline/solve.hpp"
 #include "glissade/trades/rules.hpp"
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace glissade {
@@ -13,5 +15,17 @@ namespace glissade {
 
 /// Holds the rules of a design against its track.
 [[nodiscard]] std::vector<Judgement> judge_rules(const Design& design, const Track& track);
+
+/// @return ">= 0.25 s [derived]": a bound for people, marked where nobody read it in its document
+[[nodiscard]] std::string marked_bound_text(const Rule& rule);
+/// @return "derived, to be checked": how sure a bound is, for a column of its own
+[[nodiscard]] std::string certainty_text(Certainty certainty);
+/// @return "27.1 m/s^2 at 88 m (gate 49)", "-": what was measured, and where
+[[nodiscard]] std::string measured_text(const Judgement& judgement);
+
+/// A line a rule: id, verdict, value, lowest, highest, unit, margin, where_m, place, quantity, sentence, source, certainty,
+/// needs_checking, reason; values as --json has them.
+/// @throws FileError if the file cannot be written
+void write_verdicts_csv(const std::filesystem::path& file, const std::vector<Judgement>& judgements);
 
 }  // namespace glissade

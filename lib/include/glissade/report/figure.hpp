@@ -32,6 +32,7 @@ struct Figure {
   std::vector<FigureLine> lines;
   std::vector<FigureArea> areas;
   bool to_scale = false;  ///< one length on x is the same length on y
+  bool legend = true;     ///< names its lines
 };
 
 /// A drawing of panels one below the other; `width` in CSS pixels (96 per inch), each panel about 0.55 of it

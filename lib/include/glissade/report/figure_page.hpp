@@ -10,7 +10,8 @@ namespace glissade {
 /// A table of a page: headings, and rows of texts.
 struct PageTable {
   std::vector<std::string> headings;
-  std::vector<std::vector<std::string>> rows;  ///< a row that is shorter ends with a remark over the rest
+  /// A row that is shorter ends with a remark over the rest. A column of bare numbers is sorted as such; "-": no value.
+  std::vector<std::vector<std::string>> rows;
 };
 
 /// A page of figures above a table, for comparisons.
@@ -24,7 +25,9 @@ struct FigurePage {
   std::vector<std::string> choices = {};
 };
 
-/// The page as one self-contained file: drawings inside, no script, no request to anywhere. Text is escaped.
+/// The page as one self-contained file: drawings inside, no request to anywhere. Text is escaped. A script there is only
+/// where there are choices: it sorts the table by a column (of numbers by their value), tells how many are shown and follows
+/// one line through all figures; taking lines away needs none.
 /// @throws InputError as figures_svg()
 [[nodiscard]] std::string figure_page_html(const FigurePage& page);
 

@@ -1,4 +1,4 @@
-// Bundles src/ into dist/report.js and dist/report.css, and gathers the licences of what went in.
+// Bundles src/ into dist/report.js, dist/report.css and dist/chooser.js, and gathers the licences of what went in.
 // `node build.mjs --check` builds to memory and fails if the committed dist/ differs.
 import { readFile, writeFile, mkdir } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
@@ -10,7 +10,7 @@ const check = process.argv.includes("--check");
 
 const result = await esbuild.build({
   absWorkingDir: here,
-  entryPoints: { report: "src/main.js" },
+  entryPoints: { report: "src/main.js", chooser: "src/chooser.js" },
   outdir: "dist",
   bundle: true,
   minify: true,
