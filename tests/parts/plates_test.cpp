@@ -187,7 +187,9 @@ TEST_CASE("plates: a kink costs 1 - (cos phi - mu sin phi) of the speed, against
   CHECK(std::fabs(ride.time / time - 1.0) < 1e-12);
 }
 
-TEST_CASE("plates: over a crest that is a hair too tight the body hops and goes on; over an edge it is told where it flies") {
+TEST_CASE(
+    "plates: over a crest that is a hair too tight the body hops and goes on; over an edge it is told where "
+    "it flies") {
   // 20 deg down for 2 m, a crest to 26 deg, 3 m straight; without friction u^2 = 2 g drop.
   const auto crest = [](double radius, double after) {
     const double first = Angle::from_degrees(-20.0).radians();
@@ -218,10 +220,12 @@ TEST_CASE("plates: over a crest that is a hair too tight the body hops and goes 
   const parts::FacetRide off = parts::ride_lines({crest(0.5 * free, 0.05)}, body, g, 0.0);
   CHECK_FALSE(off.arrives);
   CHECK(off.stopped.find("it leaves the floor 2 m along it at 3.66") == 0);
-  const parts::FacetRide stalls = parts::ride_lines({crest(free, 3.0)}, {.friction = kFriction, .entry_speed = 0.0}, g, 0.0);
+  const parts::FacetRide stalls =
+      parts::ride_lines({crest(free, 3.0)}, {.friction = kFriction, .entry_speed = 0.0}, g, 0.0);
   CHECK(stalls.arrives);
   const parts::FacetRide stuck = parts::ride_lines(
-      {crest(free, 3.0)}, {.friction = Friction::from_angle(Angle::from_degrees(40.0)), .entry_speed = 1.0}, g, 0.0);
+      {crest(free, 3.0)}, {.friction = Friction::from_angle(Angle::from_degrees(40.0)), .entry_speed = 1.0},
+      g, 0.0);
   CHECK(stuck.stopped.find("it stalls ") == 0);
 }
 

@@ -440,7 +440,7 @@ void set_objective(const Objective& objective, double entry_speed, ScaledProblem
 
 /// To 40 bits of the unit: a place, in chords.
 void round_place(double& value) {
-  constexpr double kSteps = 0x1p40;  // kBits of round_number()
+  constexpr double kSteps = 0x1p40;  // accuracy: as round_number()
   value = std::round(value * kSteps) / kSteps;
 }
 void round_place(Vec2& point) {

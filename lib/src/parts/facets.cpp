@@ -245,7 +245,8 @@ class Rider {
         return false;
       }
       const double at = passed_ + motion.distance();
-      ride_.stopped = (motion.stall() ? "it stalls " : "it does not run on ") + length_text(at, 4) + " along the floor";
+      ride_.stopped =
+          (motion.stall() ? "it stalls " : "it does not run on ") + length_text(at, 4) + " along the floor";
       return false;
     }
     ride_.stopped = "it leaves the floor again and again";

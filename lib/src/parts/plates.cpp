@@ -121,7 +121,8 @@ AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const 
       facets.push_back(*unit.face.facets);
       bends += unit.face.facets->bends();
     }
-    return as_told(ride_facets(facets, body, gravity, job.options.joint_step), design, bends, units.size() - 1);
+    return as_told(ride_facets(facets, body, gravity, job.options.joint_step), design, bends,
+                   units.size() - 1);
   }
   std::vector<std::shared_ptr<const ArcSpline>> lines;
   // On the liner where there is one.

@@ -24,9 +24,15 @@ Json part_json(const ShopPart& part) {
 }
 
 Json ride_json(const AsBuiltRide& ride) {
-  Json json = {{"arrives", ride.arrives},         {"travel_time_s", nullptr}, {"exit_speed_m_per_s", nullptr},
-               {"exit_speed_change", nullptr},    {"bends", ride.bends},      {"joints", ride.joints},
-               {"highest_load_m_per_s2", nullptr}, {"hops", ride.hops}, {"highest_hop_m", ride.highest_hop},
+  Json json = {{"arrives", ride.arrives},
+               {"travel_time_s", nullptr},
+               {"exit_speed_m_per_s", nullptr},
+               {"exit_speed_change", nullptr},
+               {"bends", ride.bends},
+               {"joints", ride.joints},
+               {"highest_load_m_per_s2", nullptr},
+               {"hops", ride.hops},
+               {"highest_hop_m", ride.highest_hop},
                {"stopped", nullptr}};
   if (!ride.arrives) json["stopped"] = ride.stopped;
   if (!ride.arrives) return json;
