@@ -261,6 +261,12 @@ TEST_CASE("timber: long legs are braced across and along, boards end on the legs
     CHECK(low.z == Approx(other.z).epsilon(1e-12));
     CHECK(board->mass == Approx(420.0 * board->volume).epsilon(1e-12));
   }
+  // Ground that falls with the track leaves the other diagonal alone.
+  options.legs->ground = {{0.0, -2.5}, {4.6, -6.4}, {8.9, -8.6}, {15.0, -9.8}};
+  const WorkshopBuild slope = timber(track, options);
+  CHECK(named(slope, "cross_brace_").size() > 1);
+  CHECK(named(slope, "long_brace_").size() > 1);
+  options.legs->ground = {{0.0, -9.0}};
   // Without braces the longest legs are told.
   options.legs->braced_from = 100.0;
   const WorkshopBuild bare = timber(track, options);

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kSteepestBay = 1.2;  // height of one board over the width of its bay
 constexpr double kBeside = 1e-3;      // between boards that end on one leg [m]
-constexpr double kFarthest = 12.0;    // boards in one bay, above that the legs are no timber structure
+constexpr double kClear = 5e-3;       // below the bearers [m]
+constexpr double kMostBoards = 12.0;  // in one bay
 
 /// Heights between which boards are fixed to a leg.
 struct Reach {
@@ -22,7 +23,7 @@ struct Reach {
   double high = 0.0;
 };
 
-/// @param side  1.5 board widths below the slanted top, a board's half above the ground
+/// @return 1.5 board widths below the slanted top, one above the ground
 Reach reach_of(const TimberJob& job, const Leg& leg) {
   const double width = job.options.legs->brace_width;
   return {leg.ground + width, std::min(leg.top_left.y, leg.top_right.y) - 1.5 * width};
@@ -59,7 +60,7 @@ ShopPart board_part(const TimberJob& job, const ArcPath& outline, std::string na
 
 /// @return heights at which boards of a bay begin and end, from below
 std::vector<double> levels(double low, double high, double run) {
-  const double count = std::clamp(std::ceil((high - low) / (kSteepestBay * run) - 1e-9), 1.0, kFarthest);
+  const double count = std::clamp(std::ceil((high - low) / (kSteepestBay * run) - 1e-9), 1.0, kMostBoards);
   std::vector<double> heights;
   for (double k = 0.0; k <= count; k += 1.0) heights.push_back(low + (high - low) * k / count);
   return heights;
@@ -93,30 +94,72 @@ void brace_row(const TimberJob& job, const Leg& leg, const BearerPlan& plan, con
   }
 }
 
-/// Boards between two rows, on the outsides of the outer legs; they rise towards the shorter leg.
+/// Height of the bearers' underside at x.
+double underside_at(const TimberJob& job, double x) {
+  const auto point = [&](double s) {
+    const TrackFrame at = frame_at(job.track, s);
+    return at.at + job.bearer_bottom() * at.up;
+  };
+  double low = 0.0;
+  double high = job.track.length();
+  for (int round = 0; round < 60; ++round) {
+    const double middle = 0.5 * (low + high);
+    (point(middle).x < x ? low : high) = middle;
+  }
+  return point(0.5 * (low + high)).y;
+}
+
+/// A way to put boards into a bay.
+struct Diagonal {
+  bool rises = true;  ///< downstream
+  std::vector<double> heights;
+};
+
+/// @return whether the uppermost board of a bay stays below the bearers
+bool is_clear(const TimberJob& job, const Diagonal& diagonal, double from, double run) {
+  const double top = diagonal.heights.back();
+  const double below = diagonal.heights[diagonal.heights.size() - 2];
+  const double rise = (diagonal.rises ? 1.0 : -1.0) * (top - below) / run;
+  const double half = 0.5 * job.options.legs->brace_width * std::sqrt(1.0 + rise * rise);
+  constexpr int kPlaces = 24;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double along = run * k / kPlaces;
+    const double upper = (diagonal.rises ? below : top) + rise * along + half;
+    if (upper > underside_at(job, from + along) - kClear) return false;
+  }
+  return true;
+}
+
+/// Boards between two rows, on the outsides of the outer legs; they rise towards the shorter leg where that can be, else
+/// the other way.
 void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const BearerPlan& plan,
                const std::string& number, std::vector<ShopPart>& parts) {
   const LegOptions& options = *job.options.legs;
   const Reach a = reach_of(job, before);
   const Reach b = reach_of(job, after);
-  const bool rises = b.high <= a.high;  // towards the leg downstream
   const double from = before.x + kBeside;
   const double run = after.x - kBeside - from;
-  const double low = rises ? a.low : b.low;
-  const double high = rises ? b.high : a.high;
-  if (!(high - low > 2.0 * options.brace_width)) return;
-  const std::vector<double> heights = levels(low, high, run);
-  for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
-    const double rise = heights[k + 1] - heights[k];
-    ShopPart part =
-        board_part(job, board(run, rises ? 0.0 : rise, rises ? rise : 0.0, options.brace_width),
-                   "long_brace_" + number + (heights.size() > 2 ? "_" + std::to_string(k + 1) : ""));
-    for (const double shift : {-plan.across.front() - 0.5 * options.side - options.brace_thickness,
-                               -plan.across.back() + 0.5 * options.side}) {
-      part.places.push_back(plane_of_track(job.placement, {from, heights[k]}, 0.0, shift));
+  const bool shorter_is_after = b.high <= a.high;
+  for (const bool rises : {shorter_is_after, !shorter_is_after}) {
+    const double low = rises ? a.low : b.low;
+    const double high = rises ? b.high : a.high;
+    if (!(high - low > 2.0 * options.brace_width)) continue;
+    const Diagonal diagonal{rises, levels(low, high, run)};
+    if (!is_clear(job, diagonal, from, run)) continue;
+    const std::vector<double>& heights = diagonal.heights;
+    for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+      const double rise = heights[k + 1] - heights[k];
+      ShopPart part =
+          board_part(job, board(run, rises ? 0.0 : rise, rises ? rise : 0.0, options.brace_width),
+                     "long_brace_" + number + (heights.size() > 2 ? "_" + std::to_string(k + 1) : ""));
+      for (const double shift : {-plan.across.front() - 0.5 * options.side - options.brace_thickness,
+                                 -plan.across.back() + 0.5 * options.side}) {
+        part.places.push_back(plane_of_track(job.placement, {from, heights[k]}, 0.0, shift));
+      }
+      weigh(part);
+      parts.push_back(std::move(part));
     }
-    weigh(part);
-    parts.push_back(std::move(part));
+    return;
   }
 }
 
