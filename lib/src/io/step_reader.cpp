@@ -193,6 +193,11 @@ struct Placement3 {
   Vec3 reference;
 };
 
+/// What of a gap is more than the rounding of a radius: an arc all but straight has its centre thousands of kilometres away.
+double beyond_rounding(double gap, double radius) {
+  return std::max(0.0, gap - 4.0 * std::numeric_limits<double>::epsilon() * radius);
+}
+
 Placement3 placement(const StepEntities& step, Id id) {
   const auto parts = step.parameters(id, 4);
   return {step.triple(step.reference(parts[1])), step.triple(step.reference(parts[2])),
@@ -217,7 +222,8 @@ double gap_from_curve(const StepEntities& step, Id id, Vec3 point) {
   const double y = dot(spoke, cross(place.axis, place.reference));
   const double off = std::fabs(dot(spoke, place.axis));
   const double first = step.number(parts[2]);
-  if (curve.keyword == "CIRCLE") return std::max(off, std::fabs(math::hypot(x, y) - first));
+  if (curve.keyword == "CIRCLE")
+    return std::max(off, beyond_rounding(std::fabs(math::hypot(x, y) - first), first));
   if (curve.keyword == "ELLIPSE" && parts.size() > 3) {
     const double second = step.number(parts[3]);
     return std::max(off, std::fabs(math::hypot(x / first, y / second) - 1.0) * second);
@@ -241,10 +247,10 @@ double gap_from_surface(const StepEntities& step, Id id, Vec3 point) {
   if (surface.keyword == "PLANE") return std::fabs(along);
   const double away = norm(spoke - along * place.axis);
   const double radius = step.number(parts.back());
-  if (surface.keyword == "CYLINDRICAL_SURFACE") return std::fabs(away - radius);
+  if (surface.keyword == "CYLINDRICAL_SURFACE") return beyond_rounding(std::fabs(away - radius), radius);
   const double half_angle = step.number(parts.back());
   const double wanted = step.number(parts[2]) + along * math::tan(half_angle);
-  return std::fabs(away - wanted) * math::cos(half_angle);
+  return beyond_rounding(std::fabs(away - wanted) * math::cos(half_angle), wanted);
 }
 
 /// Reads one solid and holds its topology together.

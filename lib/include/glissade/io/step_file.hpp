@@ -19,7 +19,8 @@ namespace glissade {
 
 /// Coordinates are whole multiples of this [mm].
 inline constexpr double kStepRounding = 1e-10;
-/// Largest distance of a vertex from its curves and surfaces [mm], for parts up to 100 m across.
+/// Largest distance of a vertex from its curves and surfaces [mm], for parts up to 100 m across; beyond the rounding of a radius,
+/// four units in its last place, where an arc is all but straight.
 inline constexpr double kStepAccuracy = 1e-8;
 
 /// @return one part, in its own frame
