@@ -34,12 +34,15 @@ constexpr double kAllButNone = 1e-3;  // taste
 // Above the least that a mesh finds, by these shares: the track that keeps it between the stations too.
 constexpr double kAbove[] = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // taste: tried in turn
 
-constexpr LimitName kWear{LimitId::highest_floor_wear, Bound::highest};
+/// What gives way.
+LimitName wear_limit() {
+  return {LimitId::highest_floor_wear, Bound::highest};
+}
 
 Elastic wear_alone(const ScaledProblem& problem) {
   Elastic elastic;
   elastic.equalities = false;
-  for (const LimitSpec& limit : problem.limits) elastic.limits.push_back(limit.name == kWear);
+  for (const LimitSpec& limit : problem.limits) elastic.limits.push_back(limit.name == wear_limit());
   return elastic;
 }
 
@@ -83,14 +86,14 @@ class LeastPeak {
     std::unique_ptr<Built> best;
     for (int round = 0; least && round < kMostRounds; ++round) {
       std::unique_ptr<Built> built = built_near(*least);
-      if (!built) break;
-      if (!best || built->peak < best->peak) best = std::move(built);
+      if (!built || (best && built->peak >= best->peak)) break;
+      best = std::move(built);
       const Found& found = *best->candidate.found;
       least = descended(best->end.way, found.track->mesh(), found.z, best->end.bound);
       if (!least || out_of_time()) break;
-      // The finer mesh finds no less than what stands: then that is the least.
-      best->settled = best->settled || least->relaxed.settled;
-      if (best->peak <= least->peak * (1.0 + kSame)) break;
+      // Where the search on the finer mesh, begun at what stands, finds hardly less, that is the least.
+      best->settled = best->peak <= least->peak * (1.0 + kSame);
+      if (best->settled) break;
     }
     if (!best) return unsettled(std::move(fastest));
     return described(*best, std::move(fastest.report));
@@ -102,7 +105,7 @@ class LeastPeak {
     End end;
     Candidate candidate;
     double peak = 0.0;     ///< as the referee finds it [W/m^2]
-    bool settled = false;  ///< no small change lowers the least, on this mesh or a finer one
+    bool settled = false;  ///< a search from it on its own, finer mesh finds hardly less
   };
 
   [[nodiscard]] double seconds() const {
@@ -118,7 +121,7 @@ class LeastPeak {
     problem.limits = {};
     problem.limits.highest_floor_wear = kTight;
     for (const LimitCheck& check : check_limits(problem, track)) {
-      if (check.limit == kWear) return check.reached;
+      if (check.limit == wear_limit()) return check.reached;
     }
     return 0.0;
   }
@@ -183,7 +186,7 @@ class LeastPeak {
       Candidate candidate = searcher.search_from(ways_[end.way], end.mesh, end.relaxed.found.z);
       if (!candidate.kept) continue;
       const double peak = peak_of(candidate.track);
-      return std::make_unique<Built>(Built{end, std::move(candidate), peak, end.relaxed.settled});
+      return std::make_unique<Built>(Built{end, std::move(candidate), peak});
     }
     return nullptr;
   }
@@ -214,7 +217,7 @@ class LeastPeak {
     report.checks = check_limits(asked_, candidate.track);
     const bool flies = best.end.peak <= hardly_any_;
     report.active = flies ? std::vector<ActiveLimit>{} : prices(best.end);
-    const bool settled = flies || (best.settled && best.peak <= best.end.peak * (1.0 + 2.0 * kSame));
+    const bool settled = flies || best.settled;
     report.status =
         settled && !out_of_time() ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
     report.message = !settled ? "every limit holds, but the least peak was not found to its accuracy"
@@ -229,7 +232,7 @@ class LeastPeak {
     problem.time_weight = 1.0;
     problem.time = end.bound;
     std::vector<ActiveLimit> active = active_limits(problem, end.relaxed.found);
-    std::erase_if(active, [](const ActiveLimit& limit) { return limit.limit == kWear; });
+    std::erase_if(active, [](const ActiveLimit& limit) { return limit.limit == wear_limit(); });
     return active;
   }
 
