@@ -171,8 +171,9 @@ Survey survey_of(const Centerline& design, const std::vector<SurveyPoint>& point
                  const SurveyOptions& options) {
   require_options(options);
   if (points.size() < kFewestPoints) {
-    throw InputError({"", std::to_string(points.size()) + " points make no survey",
-                      "Slope and radius as built need at least " + std::to_string(kFewestPoints) + ".", ""});
+    throw InputError({"points", std::to_string(points.size()) + " points make no survey",
+                      "Slope and radius as built need at least " + std::to_string(kFewestPoints) + ".",
+                      "a point every 2 m along the track"});
   }
   const std::vector<std::pair<Foot, SurveyPoint>> feet = footed(design, points, options);
   std::vector<Vec2> moved = on_track(design, feet, options.height);
