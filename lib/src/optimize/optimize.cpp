@@ -18,6 +18,7 @@
 #include "optimize/starts.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -82,9 +83,13 @@ class Course {
   void onto_smoother_ground() {
     for (const Passages& way : ways_) {
       if (!kept() || stopped_) return;
+      // The same track by another way differs by less, and that is no reason to prefer it.
+      constexpr double kFaster = 1e-6;  // accuracy: that of a time
       const Candidate known = *best_;
-      for (Candidate& other : on_smoother_ground(problem_, way, known, options_, control_, progress_))
-        take(std::move(other));
+      const double enough = known.found->objective - kFaster * std::fabs(known.found->objective);
+      for (Candidate& other : on_smoother_ground(problem_, way, known, options_, control_, progress_)) {
+        if (other.found->objective < enough) take(std::move(other));
+      }
     }
   }
 

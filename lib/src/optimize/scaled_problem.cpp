@@ -473,6 +473,7 @@ void round_off(ScaledProblem& out) {
     }
   }
   for (Vec2& waypoint : out.waypoints) round_place(waypoint);
+  for (double& change : out.changes) round_place(change);
   for (LimitSpec& limit : out.limits) {
     if (limit.built_in || limit.name.dimension() == Dimension::angle) continue;
     round_number(limit.bound);
