@@ -1,0 +1,73 @@
+// Sums that are compiled anew for wider processors, against the same sums one number at a time: to the last bit. A variant
+// that fused, reordered or widened anything would show.
+
+#include "optimize/dense.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+using namespace glissade;
+using optimizer::Vector;
+
+namespace {
+
+/// Numbers of many sizes, so that the order of additions shows in the last bits.
+Vector drawn(testing::Random& random, std::size_t n) {
+  Vector result;
+  for (std::size_t i = 0; i < n; ++i) {
+    result.push_back(random.between(-1.0, 1.0) * std::ldexp(1.0, random.integer(-20, 20)));
+  }
+  return result;
+}
+
+/// Four sums, of every fourth element each; what is left over goes to the first.
+double one_by_one(const Vector& a, const Vector& b) {
+  std::array<double, 4> sum{};
+  const std::size_t whole = a.size() / 4 * 4;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const volatile double product = a[i] * b[i];
+    sum[i < whole ? i % 4 : 0] += product;
+  }
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+}  // namespace
+
+TEST_CASE("sums of products have the same bits on whatever processor they are") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (std::size_t n = 0; n < 70; ++n) {
+    CAPTURE(n);
+    constexpr std::size_t kRows = 7;  // four at once, and the rest
+    const Vector b = drawn(random, n);
+    const Vector factors = drawn(random, kRows);
+    std::vector<Vector> rows;
+    std::vector<const double*> pointers;
+    for (std::size_t k = 0; k < kRows; ++k) rows.push_back(drawn(random, n));
+    for (const Vector& row : rows) pointers.push_back(row.data());
+    Vector sums(kRows);
+    optimizer::dots(pointers, b.data(), n, sums.data());
+    for (std::size_t k = 0; k < kRows; ++k) {
+      CHECK(optimizer::dot(rows[k].data(), b.data(), n) == one_by_one(rows[k], b));
+      CHECK(sums[k] == one_by_one(rows[k], b));
+    }
+    Vector together = b;
+    optimizer::add_scaled_rows(together.data(), factors, pointers, n);
+    Vector single = b;
+    Vector expected = b;
+    for (std::size_t k = 0; k < kRows; ++k) {
+      optimizer::add_scaled(single.data(), factors[k], rows[k].data(), n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const volatile double product = factors[k] * rows[k][i];
+        expected[i] += product;
+      }
+    }
+    CHECK(together == expected);
+    CHECK(single == expected);
+  }
+}
