@@ -98,7 +98,8 @@ TEST_CASE("STEP of random parts is closed and exact, wherever they lie and howev
   }
 }
 
-TEST_CASE("STEP of arcs all but straight, their centres thousands of kilometres away, is read back as written") {
+TEST_CASE(
+    "STEP of arcs all but straight, their centres thousands of kilometres away, is read back as written") {
   const TempDir directory;
   const auto file = directory / "part.step";
   for (const double sagitta : {1e-4, 1e-6, 1e-8, 1e-10}) {
@@ -107,8 +108,10 @@ TEST_CASE("STEP of arcs all but straight, their centres thousands of kilometres 
     const Vec2 up{0.02 * std::sin(0.3), 0.02 * std::cos(0.3)};
     const ArcPath band{{{{0.0, 0.0}, bulge}, {end, 0.0}, {end + up, -bulge}, {up, 0.0}}, true};
     const ShopPart plate = testing::shop_part(1, "plate", Prism{{band, {}, {}}, 1.0});
-    const ShopPart swept = testing::shop_part(
-        2, "swept", SweptBody{{{{{0.0, 0.0}, bulge}, {end, 0.0}}, false}, {{0.0, 0.0}, {0.1, 0.2}, {0.1, 0.204}, {0.0, 0.004}}});
+    const ShopPart swept =
+        testing::shop_part(2, "swept",
+                           SweptBody{{{{{0.0, 0.0}, bulge}, {end, 0.0}}, false},
+                                     {{0.0, 0.0}, {0.1, 0.2}, {0.1, 0.204}, {0.0, 0.004}}});
     for (const ShopPart& part : {plate, swept}) {
       INFO(part.name << " " << sagitta);
       write_step(file, part);
