@@ -110,6 +110,32 @@ TEST_CASE("the view from the side shows parts in their true size") {
   CHECK(pipe.height() == Approx(104.0));
 }
 
+TEST_CASE(
+    "the general arrangement takes the largest scale that fits, with the names of places below the view") {
+  Workshop workshop;
+  // 4.7 m long, 6.4 m high, 1 m wide: 1:20 is too large for A3, 1:50 is not.
+  workshop.parts.push_back(
+      testing::shop_part(1, "plate", Prism{{rectangle({0.0, -6.4}, {4.7, 0.0}), {}, {}}, 1.0}));
+  workshop.parts[0].places = {{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, -1.0, 0.0}}};
+  workshop.setting_out = {{"start", 0, 0, 0, {0.0, 0.0, 0.0}, {}, 0, 0, {}},
+                          {"mitre 1, 14.39 deg", 3, 2.0, -3.0, {2.0, 0.0, -3.0}, {}, 0, 0, {}},
+                          {"joint 2", 3.1, 2.01, -3.1, {2.01, 0.0, -3.1}, {}, 0, 0, {}},
+                          {"finish", 8, 4.7, -6.4, {4.7, 0.0, -6.4}, {}, 0, 0, {}}};
+  const Sheet sheet = drawing_set(workshop).front();
+  REQUIRE(sheet.views.size() == 2);
+  const SheetView& side = sheet.views.front();
+  CHECK(side.scale == Approx(1.0 / 50.0));
+  CHECK(sheet.views.back().scale == side.scale);
+  std::vector<std::string> names;
+  for (const DrawnText& text : side.drawing.texts) {
+    if (text.angle == Angle{}) continue;
+    names.push_back(text.text);
+    CHECK(text.at.y < -6400.0);
+  }
+  // Joint 2 lies so close to the mitre that its name would lie across the other.
+  CHECK(names == std::vector<std::string>{"start", "mitre 1", "finish"});
+}
+
 TEST_CASE("tables as CSV: units in the header, one row each, texts with commas in quotes") {
   Workshop workshop = testing::sample_workshop();
   workshop.items[0].where = "joint 1, \"left\"";

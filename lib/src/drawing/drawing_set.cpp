@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -100,6 +101,32 @@ void add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye) {
   }
 }
 
+/// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn. Of names
+/// that would lie across one another the first is told; the setting-out table has all.
+void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen) {
+  const double per_paper = 1.0 / view.scale;
+  constexpr double kBelow = 12.0;  // of the names, with room for a dimension above them, on paper [mm]
+  constexpr double kApart = 3.5;   // names, on paper [mm]
+  std::vector<drawing::MarkedPlace> places = drawing::marked_places(workshop, seen, eye);
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.at.x < b.at.x; });
+  const std::size_t layer = view.drawing.layer({"JOINTS", LineStyle::chain, 0.18, 1});
+  const double low = seen.low.y - kBelow * per_paper;
+  double last = -std::numeric_limits<double>::infinity();
+  for (const drawing::MarkedPlace& place : places) {
+    if (place.at.x - last < kApart * per_paper) continue;
+    last = place.at.x;
+    view.drawing.line(layer, place.at, {place.at.x, low});
+    DrawnText text;
+    text.layer = layer;
+    text.at = {place.at.x + 1.25 * per_paper, low - 1.0 * per_paper};
+    text.text = place.what.substr(0, place.what.find_first_of(",:"));
+    text.angle = Angle::from_degrees(90.0);
+    text.anchor = TextAnchor::right;
+    view.drawing.texts.push_back(std::move(text));
+  }
+}
+
 Sheet general_arrangement(const Workshop& workshop) {
   Sheet sheet = blank_sheet(PaperSize::a3);
   sheet.title = title_of(workshop, "General arrangement");
@@ -108,17 +135,25 @@ Sheet general_arrangement(const Workshop& workshop) {
   Drawing plan = plan_view(workshop);
   const PlaneBox above = bounds(plan).value_or(PlaneBox{});
   const PlaneBox beside = bounds(side).value_or(PlaneBox{});
-  // Both views at one scale, the plan below (first-angle projection), heights shared as they need it.
+  // Both views at one scale, the plan below (first-angle projection): each gets its share of the height that balloons,
+  // dimensions and names leave.
+  constexpr double kBalloons = 20.0;   // above the side view, on paper [mm]
+  constexpr double kNames = 32.0;      // below it
+  constexpr double kAroundPlan = 8.0;  // below and above the plan
+  constexpr double kDimension = 20.0;  // to the right of both
+  const double free = room.height() - kBalloons - kNames - kAroundPlan;
   const double share = above.height() / std::max(above.height() + beside.height(), 1e-9);
-  const double plan_room = std::clamp(share, 0.12, 0.5) * room.height();
-  const PlaneBox for_side = shrunk(room, 5.0, plan_room + 14.0, 20.0, 20.0);
-  const PlaneBox for_plan{{room.low.x + 5.0, room.low.y + 6.0},
-                          {room.high.x - 20.0, room.low.y + plan_room - 8.0}};
+  const double plan_height = share * free;
+  const PlaneBox for_plan{{room.low.x + 5.0, room.low.y + 0.5 * kAroundPlan},
+                          {room.high.x - kDimension, room.low.y + 0.5 * kAroundPlan + plan_height}};
+  const PlaneBox for_side = shrunk(room, 5.0, plan_height + kAroundPlan + kNames, kDimension, kBalloons);
   SheetView side_view_ = fitted_view(std::move(side), for_side);
   SheetView plan_view_ = fitted_view(std::move(plan), for_plan);
   const double scale = std::min(side_view_.scale, plan_view_.scale);
   side_view_.scale = plan_view_.scale = scale;
-  add_balloons(side_view_, workshop, drawing::eye_beside(workshop));
+  const Eye eye = drawing::eye_beside(workshop);
+  add_balloons(side_view_, workshop, eye);
+  add_marks(side_view_, workshop, eye, beside);
   // Dimensions of the parts, not of the balloons above them.
   const std::size_t thin = side_view_.drawing.layer({"DIM", LineStyle::continuous, 0.18, 7});
   side_view_.drawing.dimensions.push_back(

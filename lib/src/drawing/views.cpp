@@ -267,31 +267,23 @@ Eye eye_above(const Workshop& workshop) {
   return {along, {-along.y, along.x, 0.0}};
 }
 
+std::vector<MarkedPlace> marked_places(const Workshop& workshop, const PlaneBox& seen, const Eye& eye) {
+  const double reach = 0.03 * std::max(seen.width(), seen.height());
+  const Vec2 start = kMillimetres * eye.see(start_of(workshop, seen, eye));
+  std::vector<MarkedPlace> places;
+  for (const SettingOutPoint& point : workshop.setting_out) {
+    const Vec2 at = start + kMillimetres * Vec2{point.x, point.z};
+    const bool near = at.x >= seen.low.x - reach && at.x <= seen.high.x + reach &&
+                      at.y >= seen.low.y - reach && at.y <= seen.high.y + reach;
+    if (point.what != "station" && near) places.push_back({point.what, at});
+  }
+  return places;
+}
+
 }  // namespace drawing
 
 Drawing side_view(const Workshop& workshop) {
-  using namespace drawing;
-  const Eye eye = eye_beside(workshop);
-  Drawing view = whole_view(workshop, eye, "side view");
-  const auto box = bounds(view);
-  if (!box) return view;
-  const std::size_t marks = view.layer({"JOINTS", LineStyle::chain, 0.18, 1});
-  const double reach = 0.03 * std::max(box->width(), box->height());
-  const Vec2 start = kMillimetres * eye.see(start_of(workshop, *box, eye));
-  for (const SettingOutPoint& point : workshop.setting_out) {
-    const Vec2 at = start + kMillimetres * Vec2{point.x, point.z};
-    const bool near = at.x >= box->low.x - reach && at.x <= box->high.x + reach &&
-                      at.y >= box->low.y - reach && at.y <= box->high.y + reach;
-    if (point.what == "station" || !near) continue;
-    view.line(marks, at - Vec2{0.0, reach}, at + Vec2{0.0, reach});
-    DrawnText text;
-    text.layer = marks;
-    text.at = at + Vec2{0.0, 1.1 * reach};
-    text.text = point.what;
-    text.angle = Angle::from_degrees(90.0);
-    view.texts.push_back(std::move(text));
-  }
-  return view;
+  return drawing::whole_view(workshop, drawing::eye_beside(workshop), "side view");
 }
 
 Drawing plan_view(const Workshop& workshop) {

@@ -3,6 +3,7 @@
 #include "glissade/drawing/drawing.hpp"
 #include "glissade/parts/shop_part.hpp"
 
+#include <string>
 #include <vector>
 
 namespace glissade::drawing {
@@ -36,5 +37,14 @@ class Projection {
 [[nodiscard]] Eye eye_beside(const Workshop& workshop);
 /// @return the eye above it, the track again from left to right
 [[nodiscard]] Eye eye_above(const Workshop& workshop);
+
+/// An end, joint or support of the track, where an eye sees it.
+struct MarkedPlace {
+  std::string what;  ///< "joint 2"
+  Vec2 at;           ///< [mm]
+};
+/// @param seen  what is drawn [mm]; places far from it are left out
+[[nodiscard]] std::vector<MarkedPlace> marked_places(const Workshop& workshop, const PlaneBox& seen,
+                                                     const Eye& eye);
 
 }  // namespace glissade::drawing

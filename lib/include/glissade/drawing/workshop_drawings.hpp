@@ -15,8 +15,8 @@ namespace glissade {
 /// @throws InputError if the part has no pattern
 [[nodiscard]] Drawing cut_drawing(const ShopPart& part, LayerPreset preset = LayerPreset::own);
 
-/// All edges of all parts as seen from the side (the track from left to right) and from above, with the joints and supports
-/// that are set out; hidden edges are drawn too, edges that fall together once.
+/// All edges of all parts as seen from the side (the track from left to right) and from above; hidden edges are drawn too,
+/// edges that fall together once.
 [[nodiscard]] Drawing side_view(const Workshop& workshop);
 [[nodiscard]] Drawing plan_view(const Workshop& workshop);
 
