@@ -66,9 +66,11 @@ void add_gates(const Track& track, const Plane& plane, Drawing& drawing) {
   const std::size_t layer = drawing.layer({"gates", LineStyle::continuous, 0.18, 3});
   constexpr double kTick = 0.6;  // [m]
   constexpr int kEvery = 5;
+  const int last = track.gates->gates.back().number;
   for (const Gate& gate : track.gates->gates) {
-    const bool told =
-        gate.number % kEvery == 0 || gate.number == 1 || gate.to_edge == track.gates->gates.back().to_edge;
+    // A number close to the last would lie across it.
+    const bool told = gate.number == 1 || gate.number == last ||
+                      (gate.number % kEvery == 0 && last - gate.number > kEvery / 2);
     drawing.line(layer, plane.at(gate.from_start), plane.at(gate.from_start, told ? 2.0 * kTick : kTick));
     if (!told) continue;
     // Beside the lines that lead to dimensions from the first and the last of them.
