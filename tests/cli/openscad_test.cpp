@@ -8,11 +8,22 @@
 #include "support/thorough.hpp"
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
 
 TEST_CASE("OpenSCAD takes every shipped design for a closed solid", "[external]") {
   std::size_t checked = 0;
@@ -23,6 +34,8 @@ TEST_CASE("OpenSCAD takes every shipped design for a closed solid", "[external]"
   for (const fs::path& design : designs) {
     const TempDir place;
     const std::string stem = design.stem().string();
+    // Parts of a workshop change nothing of the swept solid, of which the others have every kind.
+    if (!testing::thorough() && text_of(design).find("\nfabrication:") != std::string::npos) continue;
     // Coarse: its exact arithmetic takes seconds for what the designs ask. The end faces, trims and plates
     // are the same.
     const Outcome outcome = glissade_run({"build", design.string(), "-q", "-o", ".", "--set",

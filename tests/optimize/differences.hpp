@@ -16,25 +16,38 @@ inline constexpr double kDifferenceError = 2e-8;
 // The curvature between a foot and the stations beside it is interpolated.
 inline constexpr double kFootError = 2e-3;
 
+/// As gradient_error(), of many functions that one evaluation gives together.
+/// @param gradients  one of each
+template <class Functions>
+Vector gradient_errors(const Functions& functions, const Vector& z, const std::vector<Vector>& gradients) {
+  Vector worst(gradients.size(), 0.0);
+  Vector size(gradients.size(), 1.0);
+  for (std::size_t j = 0; j < z.size(); ++j) {
+    const auto moved = [&](double step) {
+      Vector at = z;
+      at[j] += step;
+      return functions(at);
+    };
+    // Richardson: fourth order from two second-order differences.
+    const Vector above = moved(kStep);
+    const Vector below = moved(-kStep);
+    const Vector far_above = moved(2.0 * kStep);
+    const Vector far_below = moved(-2.0 * kStep);
+    for (std::size_t i = 0; i < gradients.size(); ++i) {
+      const double wide = (above[i] - below[i]) / (2.0 * kStep);
+      const double wider = (far_above[i] - far_below[i]) / (4.0 * kStep);
+      worst[i] = std::max(worst[i], std::fabs((4.0 * wide - wider) / 3.0 - gradients[i][j]));
+      size[i] = std::max(size[i], std::fabs(gradients[i][j]));
+    }
+  }
+  for (std::size_t i = 0; i < worst.size(); ++i) worst[i] /= size[i];
+  return worst;
+}
+
 /// Greatest distance between a gradient and central differences of its function, over the gradient's size.
 template <class Function>
 double gradient_error(const Function& function, const Vector& z, const Vector& gradient) {
-  double worst = 0.0;
-  double size = 1.0;
-  for (std::size_t j = 0; j < z.size(); ++j) {
-    Vector above = z;
-    Vector below = z;
-    above[j] += kStep;
-    below[j] -= kStep;
-    // Richardson: fourth order from two second-order differences.
-    const double wide = (function(above) - function(below)) / (2.0 * kStep);
-    above[j] = z[j] + 2.0 * kStep;
-    below[j] = z[j] - 2.0 * kStep;
-    const double wider = (function(above) - function(below)) / (4.0 * kStep);
-    worst = std::max(worst, std::fabs((4.0 * wide - wider) / 3.0 - gradient[j]));
-    size = std::max(size, std::fabs(gradient[j]));
-  }
-  return worst / size;
+  return gradient_errors([&](const Vector& at) { return Vector{function(at)}; }, z, {gradient}).front();
 }
 
 /// Greatest distance of the Lagrangian's Hessian from central differences of its gradient.
