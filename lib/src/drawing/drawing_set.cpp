@@ -1,14 +1,13 @@
-#include "glissade/core/number_text.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 
+#include "drawing/general_arrangement.hpp"
 #include "drawing/ink.hpp"
 #include "drawing/ordinates.hpp"
+#include "drawing/sheet_words.hpp"
 #include "drawing/views.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,33 +15,17 @@
 namespace glissade {
 namespace {
 
-using drawing::Eye;
+using drawing::kMillimetres;
+using drawing::mm;
+using drawing::number_of;
 using drawing::Projection;
-
-constexpr double kMillimetres = 1000.0;  // in a metre
-
-/// @return a length in millimetres, to a tenth
-std::string mm(double metres) {
-  if (!std::isfinite(metres)) return "-";
-  return decimal_text(std::round(metres * 1e4) / 10.0 + 0.0);
-}
+using drawing::shrunk;
+using drawing::title_of;
 
 std::string fixed(double value, int decimals) {
   double unit = 1.0;
   for (int i = 0; i < decimals; ++i) unit *= 10.0;
   return std::isfinite(value) ? decimal_text(std::round(value * unit) / unit + 0.0) : "-";
-}
-
-std::string number_of(const ShopPart& part) {
-  return (part.number < 10 ? "0" : "") + std::to_string(part.number);
-}
-
-TitleBlock title_of(const Workshop& workshop, std::string title) {
-  TitleBlock block;
-  block.title = std::move(title);
-  block.owner = workshop.name;
-  block.note = workshop.tolerance;
-  return block;
 }
 
 /// Overall sizes of a drawing, below and to its right.
@@ -53,126 +36,6 @@ void add_overall_dimensions(Drawing& drawing) {
   drawing.dimensions.push_back({thin, box->low, {box->high.x, box->low.y}, -9.0, DimensionKind::level, ""});
   drawing.dimensions.push_back(
       {thin, {box->high.x, box->low.y}, box->high, -9.0, DimensionKind::upright, ""});
-}
-
-PlaneBox shrunk(PlaneBox box, double left, double below, double right, double above) {
-  return {box.low + Vec2{left, below}, box.high - Vec2{right, above}};
-}
-
-// --- general arrangement
-
-/// Numbers of the parts in a row above a view, each with a line to the part.
-void add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye) {
-  const auto box = bounds(view.drawing);
-  if (!box) return;
-  const double per_paper = 1.0 / view.scale;
-  constexpr double kStep = 9.0;    // between balloons, on paper [mm]
-  constexpr double kAbove = 12.0;  // of the row over the view, on paper [mm]
-  constexpr double kRadius = 3.5;
-  std::vector<std::pair<Vec2, std::string>> targets;
-  // Where there are more parts than a row has room for, the first of each family stands for all.
-  constexpr std::size_t kMostBalloons = 36;
-  const bool all = workshop.parts.size() <= kMostBalloons;
-  std::set<std::string> families;
-  for (const ShopPart& part : workshop.parts) {
-    if (!all && !families.insert(part.name.substr(0, part.name.find_last_not_of("_0123456789") + 1)).second)
-      continue;
-    if (!part.places.empty())
-      targets.emplace_back(kMillimetres * eye.see(part.centre_of_gravity), number_of(part));
-  }
-  std::sort(targets.begin(), targets.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first.x, a.second) < std::pair(b.first.x, b.second);
-  });
-  const std::size_t layer = view.drawing.layer({"NUMBERS", LineStyle::continuous, 0.18, 7});
-  const double step = std::min(kStep * per_paper,
-                               box->width() / static_cast<double>(targets.size()) + kStep * 0.4 * per_paper);
-  const double first =
-      0.5 * (box->low.x + box->high.x) - 0.5 * step * static_cast<double>(targets.size() - 1);
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const Vec2 at{first + step * static_cast<double>(i), box->high.y + kAbove * per_paper};
-    view.drawing.add(layer, Circle{at, kRadius * per_paper});
-    view.drawing.line(layer, at - Vec2{0.0, kRadius * per_paper}, targets[i].first);
-    DrawnText text;
-    text.layer = layer;
-    text.at = at - Vec2{0.0, 1.25 * per_paper};
-    text.text = targets[i].second;
-    text.anchor = TextAnchor::centre;
-    view.drawing.texts.push_back(std::move(text));
-  }
-}
-
-/// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn. Of names
-/// that would lie across one another the first is told; the setting-out table has all.
-void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen) {
-  const double per_paper = 1.0 / view.scale;
-  constexpr double kBelow = 12.0;  // of the names, with room for a dimension above them, on paper [mm]
-  constexpr double kApart = 3.5;   // names, on paper [mm]
-  std::vector<drawing::MarkedPlace> places = drawing::marked_places(workshop, seen, eye);
-  std::stable_sort(places.begin(), places.end(),
-                   [](const auto& a, const auto& b) { return a.at.x < b.at.x; });
-  const std::size_t layer = view.drawing.layer({"JOINTS", LineStyle::chain, 0.18, 1});
-  const double low = seen.low.y - kBelow * per_paper;
-  double last = -std::numeric_limits<double>::infinity();
-  for (const drawing::MarkedPlace& place : places) {
-    if (place.at.x - last < kApart * per_paper) continue;
-    last = place.at.x;
-    view.drawing.line(layer, place.at, {place.at.x, low});
-    DrawnText text;
-    text.layer = layer;
-    text.at = {place.at.x + 1.25 * per_paper, low - 1.0 * per_paper};
-    text.text = place.what.substr(0, place.what.find_first_of(",:"));
-    text.angle = Angle::from_degrees(90.0);
-    text.anchor = TextAnchor::right;
-    view.drawing.texts.push_back(std::move(text));
-  }
-}
-
-Sheet general_arrangement(const Workshop& workshop) {
-  Sheet sheet = blank_sheet(PaperSize::a3);
-  sheet.title = title_of(workshop, "General arrangement");
-  const PlaneBox room = drawing_area(sheet);
-  Drawing side = side_view(workshop);
-  Drawing plan = plan_view(workshop);
-  const PlaneBox above = bounds(plan).value_or(PlaneBox{});
-  const PlaneBox beside = bounds(side).value_or(PlaneBox{});
-  // Both views at one scale, the plan below (first-angle projection): each gets its share of the height that balloons,
-  // dimensions and names leave.
-  constexpr double kBalloons = 20.0;   // above the side view, on paper [mm]
-  constexpr double kNames = 32.0;      // below it
-  constexpr double kAroundPlan = 8.0;  // below and above the plan
-  constexpr double kDimension = 20.0;  // to the right of both
-  const double free = room.height() - kBalloons - kNames - kAroundPlan;
-  const double share = above.height() / std::max(above.height() + beside.height(), 1e-9);
-  const double plan_height = share * free;
-  const PlaneBox for_plan{{room.low.x + 5.0, room.low.y + 0.5 * kAroundPlan},
-                          {room.high.x - kDimension, room.low.y + 0.5 * kAroundPlan + plan_height}};
-  const PlaneBox for_side = shrunk(room, 5.0, plan_height + kAroundPlan + kNames, kDimension, kBalloons);
-  SheetView side_view_ = fitted_view(std::move(side), for_side);
-  SheetView plan_view_ = fitted_view(std::move(plan), for_plan);
-  const double scale = std::min(side_view_.scale, plan_view_.scale);
-  side_view_.scale = plan_view_.scale = scale;
-  const Eye eye = drawing::eye_beside(workshop);
-  add_balloons(side_view_, workshop, eye);
-  add_marks(side_view_, workshop, eye, beside);
-  // Dimensions of the parts, not of the balloons above them.
-  const std::size_t thin = side_view_.drawing.layer({"DIM", LineStyle::continuous, 0.18, 7});
-  side_view_.drawing.dimensions.push_back(
-      {thin, beside.low, {beside.high.x, beside.low.y}, -9.0, DimensionKind::level, ""});
-  side_view_.drawing.dimensions.push_back(
-      {thin, {beside.high.x, beside.low.y}, beside.high, -9.0, DimensionKind::upright, ""});
-  const std::size_t width = plan_view_.drawing.layer({"DIM", LineStyle::continuous, 0.18, 7});
-  plan_view_.drawing.dimensions.push_back(
-      {width, {above.high.x, above.low.y}, above.high, -9.0, DimensionKind::upright, ""});
-  sheet.views = {std::move(side_view_), std::move(plan_view_)};
-  double line = room.high.y - 4.0;
-  for (const std::string& note : workshop.notes) {
-    DrawnText text;
-    text.at = {room.low.x, line};
-    text.text = note;
-    sheet.texts.push_back(std::move(text));
-    line -= 4.5;
-  }
-  return sheet;
 }
 
 // --- lists
@@ -377,7 +240,7 @@ std::vector<Sheet> part_sheets(const Workshop& workshop, const ShopPart& part) {
 }  // namespace
 
 std::vector<Sheet> drawing_set(const Workshop& workshop) {
-  std::vector<Sheet> sheets{general_arrangement(workshop)};
+  std::vector<Sheet> sheets = drawing::general_arrangement(workshop);
   append_table(sheets, workshop, "Parts list", parts_list(workshop));
   append_table(sheets, workshop, "Bought-in items", items_list(workshop));
   for (const ShopPart& part : workshop.parts) {

@@ -18,6 +18,8 @@ struct Ink {
 
 /// Ink of frame and title block.
 void draw_frame(const Sheet& sheet, Drawing& ink);
+/// @return the room to the left of the title block [mm]
+[[nodiscard]] PlaneBox notes_area(const Sheet& sheet);
 /// Ink of a table.
 void draw_table(const SheetTable& table, Drawing& ink);
 /// @return how high a table gets with so many rows [mm]

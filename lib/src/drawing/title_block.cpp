@@ -47,6 +47,13 @@ void projection_symbol(Drawing& ink, Vec2 centre) {
 
 }  // namespace
 
+PlaneBox notes_area(const Sheet& sheet) {
+  constexpr double kClear = 5.0;
+  const PlaneBox frame = frame_of(sheet);
+  const PlaneBox block = block_of(sheet);
+  return {{frame.low.x + kClear, frame.low.y + 0.5 * kClear}, {block.low.x - kClear, block.high.y}};
+}
+
 void draw_frame(const Sheet& sheet, Drawing& ink) {
   const std::size_t thick = ink.layer(thick_ink());
   const std::size_t thin = ink.layer(thin_ink());

@@ -1,0 +1,234 @@
+#include "drawing/general_arrangement.hpp"
+
+#include "glissade/drawing/workshop_drawings.hpp"
+
+#include "drawing/balloons.hpp"
+#include "drawing/ink.hpp"
+#include "drawing/sheet_words.hpp"
+#include "drawing/views.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace glissade::drawing {
+namespace {
+
+constexpr double kBalloons =
+    18.0;  // for a row or a column of balloons beside the view from the side, on paper [mm]
+constexpr double kDimension = 20.0;  // for dimensions to the right of both views
+constexpr double kNames = 32.0;      // for names below the view from the side
+constexpr double kAroundPlan = 8.0;  // below and above the plan
+
+/// Middles of all pieces of a part as an eye sees them [mm].
+Named pieces_of(const ShopPart& part, const Eye& eye) {
+  const Frame& first = part.places.front();
+  const Vec3 from = part.centre_of_gravity - first.origin;
+  const Vec3 own{dot(from, first.x), dot(from, first.y), dot(from, first.z)};
+  Named named;
+  for (const Frame& place : part.places) named.pieces.push_back(kMillimetres * eye.see(place.to_space(own)));
+  return named;
+}
+
+/// What carries a number. Where there are more parts than there is room for, the first of each family stands for all.
+std::vector<const ShopPart*> numbered_parts(const Workshop& workshop, std::size_t room) {
+  std::vector<const ShopPart*> parts;
+  const bool all = workshop.parts.size() <= room;
+  std::set<std::string> families;
+  for (const ShopPart& part : workshop.parts) {
+    if (part.places.empty() || parts.size() == room) continue;
+    const std::string family = part.name.substr(0, part.name.find_last_not_of("_0123456789") + 1);
+    if (all || families.insert(family).second) parts.push_back(&part);
+  }
+  return parts;
+}
+
+/// Places for balloons round three sides of what is seen: a row above, a column to the left, one to the right
+/// of the dimensions (ISO 6433: in rows and columns).
+/// @param seen   of the view [mm of the drawing]
+/// @param paper  that balloons may take [mm of paper]
+std::vector<Vec2> balloon_places(const SheetView& view, const PlaneBox& seen, const PlaneBox& paper) {
+  constexpr double kStep = 9.0;    // between balloons
+  constexpr double kAway = 12.0;   // of a row or a column from what is seen
+  constexpr double kRadius = 4.0;  // of a balloon, with a little air
+  const Vec2 low = view.at + view.scale * (seen.low - view.anchor);
+  const Vec2 high = view.at + view.scale * (seen.high - view.anchor);
+  std::vector<Vec2> on_paper;
+  const auto add = [&](Vec2 at) {
+    if (at.x - kRadius >= paper.low.x && at.x + kRadius <= paper.high.x && at.y + kRadius <= paper.high.y) {
+      on_paper.push_back(at);
+    }
+  };
+  const double middle = 0.5 * (low.x + high.x);
+  const int half = static_cast<int>(0.5 * paper.width() / kStep);
+  for (int i = -half; i <= half; ++i) add({middle + i * kStep, high.y + kAway});
+  for (double y = high.y - 0.5 * kStep; y >= low.y; y -= kStep) {
+    add({low.x - kAway, y});
+    add({high.x + kDimension, y});
+  }
+  for (Vec2& at : on_paper) at = view.anchor + (1.0 / view.scale) * (at - view.at);
+  return on_paper;
+}
+
+/// Numbers of the parts round a view, each with a line to a piece of the part.
+void add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen,
+                  const PlaneBox& paper) {
+  const double per_paper = 1.0 / view.scale;
+  constexpr double kRadius = 3.5;
+  constexpr double kDot = 0.4;  // where a line ends on a part
+  const std::vector<Vec2> places = balloon_places(view, seen, paper);
+  const std::vector<const ShopPart*> parts = numbered_parts(workshop, places.size());
+  std::vector<Named> names;
+  for (const ShopPart* const part : parts) names.push_back(pieces_of(*part, eye));
+  const std::vector<Label> labels = labelled(names, places, (kRadius + 0.5) * per_paper);
+  const std::size_t layer = view.drawing.layer({"NUMBERS", LineStyle::continuous, 0.18, 7});
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const Vec2 at = places[labels[i].slot];
+    const Vec2 line = labels[i].target - at;
+    const Vec2 along = norm(line) > 0.0 ? (1.0 / norm(line)) * line : Vec2{0.0, -1.0};
+    view.drawing.add(layer, Circle{at, kRadius * per_paper});
+    view.drawing.line(layer, at + kRadius * per_paper * along, labels[i].target);
+    view.drawing.add(layer, Circle{labels[i].target, kDot * per_paper});
+    DrawnText text;
+    text.layer = layer;
+    text.at = at - Vec2{0.0, 1.25 * per_paper};
+    text.text = number_of(*parts[i]);
+    text.anchor = TextAnchor::centre;
+    view.drawing.texts.push_back(std::move(text));
+  }
+}
+
+/// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn. Of names
+/// that would lie across one another the first is told; the setting-out table has all.
+void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen) {
+  const double per_paper = 1.0 / view.scale;
+  constexpr double kBelow = 12.0;  // of the names, with room for a dimension above them, on paper [mm]
+  constexpr double kApart = 3.5;   // names, on paper [mm]
+  std::vector<MarkedPlace> places = marked_places(workshop, seen, eye);
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.at.x < b.at.x; });
+  const std::size_t layer = view.drawing.layer({"JOINTS", LineStyle::chain, 0.18, 1});
+  const double low = seen.low.y - kBelow * per_paper;
+  double last = -std::numeric_limits<double>::infinity();
+  for (const MarkedPlace& place : places) {
+    if (place.at.x - last < kApart * per_paper) continue;
+    last = place.at.x;
+    view.drawing.line(layer, place.at, {place.at.x, low});
+    DrawnText text;
+    text.layer = layer;
+    text.at = {place.at.x + 1.25 * per_paper, low - 1.0 * per_paper};
+    text.text = place.what.substr(0, place.what.find_first_of(",:"));
+    text.angle = Angle::from_degrees(90.0);
+    text.anchor = TextAnchor::right;
+    view.drawing.texts.push_back(std::move(text));
+  }
+}
+
+/// Overall sizes of the parts, not of the balloons round them.
+void add_sizes(SheetView& side, const PlaneBox& beside, SheetView& plan, const PlaneBox& above) {
+  constexpr double kAway = -9.0;
+  const std::size_t thin = side.drawing.layer({"DIM", LineStyle::continuous, 0.18, 7});
+  side.drawing.dimensions.push_back(
+      {thin, beside.low, {beside.high.x, beside.low.y}, kAway, DimensionKind::level, ""});
+  side.drawing.dimensions.push_back(
+      {thin, {beside.high.x, beside.low.y}, beside.high, kAway, DimensionKind::upright, ""});
+  const std::size_t width = plan.drawing.layer({"DIM", LineStyle::continuous, 0.18, 7});
+  plan.drawing.dimensions.push_back(
+      {width, {above.high.x, above.low.y}, above.high, kAway, DimensionKind::upright, ""});
+}
+
+constexpr double kNoteHeight = 2.5;
+constexpr double kNoteStep = 4.5;
+
+/// Notes in lines no wider than a room [mm].
+std::vector<std::string> note_lines(const std::vector<std::string>& notes, double room) {
+  std::vector<std::string> lines;
+  for (const std::string& note : notes) {
+    std::string line;
+    for (std::size_t at = 0; at < note.size();) {
+      const std::size_t end = std::min(note.find(' ', at), note.size());
+      const std::string longer = line + (line.empty() ? "" : " ") + note.substr(at, end - at);
+      if (!line.empty() && stroked_width(longer, kNoteHeight) > room) {
+        lines.push_back(std::move(line));
+        line = note.substr(at, end - at);
+      } else {
+        line = longer;
+      }
+      at = end + 1;
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+/// Notes beside the title block, as many as there is room for.
+/// @return whether all were told
+bool add_notes(const Workshop& workshop, Sheet& sheet) {
+  const PlaneBox room = notes_area(sheet);
+  std::vector<std::string> lines = note_lines(workshop.notes, room.width());
+  const auto most = static_cast<std::size_t>(room.height() / kNoteStep);
+  const bool all = lines.size() <= most;
+  if (!all) {
+    lines.resize(most - 1);
+    lines.emplace_back("... and more on the sheet of notes.");
+  }
+  Vec2 at{room.low.x, room.high.y - kNoteHeight};
+  for (std::string& line : lines) {
+    DrawnText text;
+    text.at = at;
+    text.text = std::move(line);
+    text.height_mm = kNoteHeight;
+    sheet.texts.push_back(std::move(text));
+    at.y -= kNoteStep;
+  }
+  return all;
+}
+
+std::vector<Sheet> sheets_of_notes(const Workshop& workshop) {
+  SheetTable table;
+  table.caption = "Notes";
+  table.widths_mm = {170.0};
+  table.header = {"of this set"};
+  for (std::string& line : note_lines(workshop.notes, table.widths_mm.front() - 4.0)) {
+    table.rows.push_back({std::move(line)});
+  }
+  return table_sheets(title_of(workshop, "Notes"), PaperSize::a4, std::move(table));
+}
+
+}  // namespace
+
+std::vector<Sheet> general_arrangement(const Workshop& workshop) {
+  Sheet sheet = blank_sheet(PaperSize::a3);
+  sheet.title = title_of(workshop, "General arrangement");
+  const PlaneBox room = drawing_area(sheet);
+  Drawing side = side_view(workshop);
+  Drawing plan = plan_view(workshop);
+  const PlaneBox above = bounds(plan).value_or(PlaneBox{});
+  const PlaneBox beside = bounds(side).value_or(PlaneBox{});
+  // Both views at one scale, the plan below (first-angle projection): each gets its share of the height that balloons,
+  // dimensions and names leave.
+  const double free = room.height() - kBalloons - kNames - kAroundPlan;
+  const double share = above.height() / std::max(above.height() + beside.height(), 1e-9);
+  const double plan_height = share * free;
+  const PlaneBox for_plan{{room.low.x + 5.0, room.low.y + 0.5 * kAroundPlan},
+                          {room.high.x - kDimension, room.low.y + 0.5 * kAroundPlan + plan_height}};
+  const PlaneBox for_side = shrunk(room, 5.0, plan_height + kAroundPlan + kNames, kDimension, kBalloons);
+  SheetView from_side = fitted_view(std::move(side), for_side);
+  SheetView from_above = fitted_view(std::move(plan), for_plan);
+  from_side.scale = from_above.scale = std::min(from_side.scale, from_above.scale);
+  const Eye eye = eye_beside(workshop);
+  add_balloons(from_side, workshop, eye, beside, room);
+  add_marks(from_side, workshop, eye, beside);
+  add_sizes(from_side, beside, from_above, above);
+  sheet.views = {std::move(from_side), std::move(from_above)};
+  const bool all_notes = add_notes(workshop, sheet);
+  std::vector<Sheet> sheets{std::move(sheet)};
+  if (!all_notes) {
+    for (Sheet& more : sheets_of_notes(workshop)) sheets.push_back(std::move(more));
+  }
+  return sheets;
+}
+
+}  // namespace glissade::drawing
