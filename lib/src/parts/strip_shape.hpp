@@ -66,6 +66,15 @@ struct Development {
   std::vector<BendLine> folds;  ///< where a width begins or ends to change
 };
 
+/// The stretch of track over which a plate stands unfolded; beyond it, at either end, the radius is less than its height.
+/// @throws InputError if it folds over farther from the ends: names the place and the height that would do
+[[nodiscard]] Span unfolded(const StripJob& job, const SectionPlate& plate);
+
+/// The finished strip: x counts upwards from the track, z to the right of the section's middle.
+/// @param origin  gets the upstream end of its floor line, in the frame (x, height)
+[[nodiscard]] SweptBody strip_body(const StripJob& job, const SectionPlate& plate, const Span& span,
+                                   Vec2& origin);
+
 [[nodiscard]] Development developed(const StripJob& job, const SectionPlate& plate, const Span& span);
 
 /// @return the length of a chain of arcs through places that turn so

@@ -27,9 +27,7 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kRoomAtFold = 1.02;  // radius over height, from which a strip is not folded
-constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
-constexpr double kSameEdge = 1e-9;    // lengths of edges that meet [m]
+constexpr double kSameEdge = 1e-9;  // lengths of edges that meet [m]
 
 /// A strip of a unit with the lengths of its developed edges.
 struct Strip {
@@ -40,46 +38,6 @@ struct Strip {
   double edge_from = 0.0;  ///< at the side of `face_from` [m]
   double edge_to = 0.0;
 };
-
-double highest_of(const SectionPlate& plate) {
-  return std::max({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
-}
-
-double lowest_of(const SectionPlate& plate) {
-  return std::min({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
-}
-
-bool folds_over(const TrackArc& arc, const SectionPlate& plate) {
-  return arc.curvature * highest_of(plate) * kRoomAtFold > 1.0 ||
-         -arc.curvature * -lowest_of(plate) * kRoomAtFold > 1.0;
-}
-
-/// The stretch of track over which a plate stands unfolded.
-Span unfolded(const StripJob& job, const SectionPlate& plate) {
-  const std::vector<TrackArc>& arcs = job.track.arcs();
-  Span span{0.0, job.track.length()};
-  for (const TrackArc& arc : arcs) {
-    if (!folds_over(arc, plate)) continue;
-    const double end = arc.start + arc.length;
-    if (end <= kMostCutOff * job.track.length()) {
-      span.from = std::max(span.from, end);
-      continue;
-    }
-    if (arc.start >= (1.0 - kMostCutOff) * job.track.length()) {
-      span.to = std::min(span.to, arc.start);
-      continue;
-    }
-    const double radius = 1.0 / std::fabs(arc.curvature);
-    throw InputError(
-        {"cross_section",
-         "the " + plate.name + " folds over at " + length_text(arc.start, 3) + " along the track",
-         "It is " + length_text(std::max(highest_of(plate), -lowest_of(plate)), 3) +
-             " high above the floor line, the radius there " + length_text(radius, 3) + ".",
-         "a section of at most " + length_text(radius / kRoomAtFold, 3) +
-             ", or a limit smallest_valley_radius above it"});
-  }
-  return span;
-}
 
 double radius_of(double curvature) {
   return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
@@ -122,32 +80,6 @@ std::vector<double> rolled_radii(const StripJob& job, const SectionPlate& plate,
   return {};
 }
 
-/// The finished strip: x counts upwards from the track, z to the right of the section's middle.
-SweptBody body_of(const StripJob& job, const SectionPlate& plate, const Span& span, Vec2& origin) {
-  const double middle = 0.5 * (plate.face_from.x + plate.face_to.x);
-  const std::array<Vec2, 4> corners = {plate.face_from, plate.face_to, plate.back_to, plate.back_from};
-  SweptBody body;
-  for (const Vec2 corner : corners) body.section.push_back({corner.y, middle - corner.x});
-  if (!job.widens()) {
-    body.path = *offset_line(job.track, span, 0.0);
-  } else {
-    const std::vector<StripArc> arcs = job.arcs_in(span);
-    const auto put = [&](double s, double bulge, double wider, double lean) {
-      body.path.vertices.push_back({frame_at(job.track, s).at, bulge});
-      body.shifts.emplace_back();
-      for (const Vec2 corner : corners)
-        body.shifts.back().push_back(corner.x - job.at(corner, wider, lean).x);
-    };
-    for (const StripArc& one : arcs) {
-      put(one.arc.start, math::tan(0.25 * one.arc.curvature * one.arc.length), one.wide_from, one.lean_from);
-    }
-    put(span.to, 0.0, arcs.back().wide_to, arcs.back().lean_to);
-  }
-  origin = body.path.vertices.front().at;
-  for (PathVertex& vertex : body.path.vertices) vertex.at = vertex.at - origin;
-  return body;
-}
-
 Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   const SectionPlate& plate = job.section.plates[index];
   const Development flat = developed(job, plate, span);
@@ -171,7 +103,7 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   part.density = job.options.material.density;
   part.thickness = job.section.thickness;
   Vec2 origin;
-  part.body = body_of(job, plate, span, origin);
+  part.body = strip_body(job, plate, span, origin);
   part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
   part.pattern = pattern_of(flat, radii);
