@@ -9,6 +9,7 @@
 
 #include "parts/body_geometry.hpp"
 #include "parts/brep.hpp"
+#include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -21,13 +22,7 @@
 namespace {
 
 using namespace glissade;
-
-const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
-constexpr ChannelMeasures kChannel{0.4, 0.25, 4e-3};
-
-CoulombBrachistochrone chute() {
-  return {{5.4, 5.1}, kFriction};
-}
+using namespace testing;
 
 PlateOptions with_corners(CornerJoint kind, WallSeat seat = WallSeat::beside_floor,
                           FloorMake floor = FloorMake::rolled) {
@@ -37,23 +32,6 @@ PlateOptions with_corners(CornerJoint kind, WallSeat seat = WallSeat::beside_flo
   options.floor = floor;
   options.bend = {FacetRule::segment_angle, Angle::from_degrees(4.0).radians(), {}, {}};
   return options;
-}
-
-WorkshopBuild plates(const Centerline& track, const PlateOptions& options,
-                     const ChannelMeasures& channel = kChannel) {
-  return make_plates(track, channel, {1e-4}, options, Placement(), {.friction = kFriction});
-}
-
-std::string refusal(const PlateOptions& options, const ChannelMeasures& channel = kChannel) {
-  try {
-    (void)plates(chute(), options, channel);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const Issue& issue : error.issues())
-      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
-    return text;
-  }
-  return "";
 }
 
 /// Faces that are no closed surface, or not seen counter-clockwise from outside.

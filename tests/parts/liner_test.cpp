@@ -4,6 +4,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/parts/plates.hpp"
 
+#include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -14,13 +15,7 @@
 namespace {
 
 using namespace glissade;
-
-const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
-constexpr ChannelMeasures kChannel{0.4, 0.25, 4e-3};
-
-CoulombBrachistochrone chute() {
-  return {{5.4, 5.1}, kFriction};
-}
+using namespace testing;
 
 /// In units of 2.9 m, with tiles of their own material.
 PlateOptions lined() {
@@ -29,28 +24,6 @@ PlateOptions lined() {
   options.liner.emplace();
   options.liner->material = {"400 HB", 7900.0};
   return options;
-}
-
-WorkshopBuild plates(const PlateOptions& options) {
-  return make_plates(chute(), kChannel, {1e-4}, options, Placement(), {.friction = kFriction});
-}
-
-std::vector<const ShopPart*> named(const WorkshopBuild& build, const std::string& word) {
-  std::vector<const ShopPart*> found;
-  for (const ShopPart& part : build.workshop.parts) {
-    if (part.name.find(word) != std::string::npos) found.push_back(&part);
-  }
-  return found;
-}
-
-std::string refusal(const PlateOptions& options) {
-  try {
-    (void)plates(options);
-  } catch (const InputError& error) {
-    return error.issues().front().where + "|" + error.issues().front().what + "|" +
-           error.issues().front().why;
-  }
-  return "";
 }
 
 }  // namespace
@@ -70,8 +43,8 @@ TEST_CASE(
                      {0.5 * length, 1.0, 4e-9},
                      {0.6 * length, 0.6, 1e-9},
                      {length, 0.0, 1e-10}};
-  const WorkshopBuild plain = plates(whole);
-  const WorkshopBuild build = plates(worn);
+  const WorkshopBuild plain = plates(chute(), whole);
+  const WorkshopBuild build = plates(chute(), worn);
   CHECK(build.proof.volume == Approx(plain.proof.volume).epsilon(1e-9));
   CHECK(build.proof.smallest_gap == Approx(plain.proof.smallest_gap).margin(1e-9));
   std::size_t tiles = 0;
@@ -119,7 +92,7 @@ TEST_CASE(
   PlateOptions options = lined();
   options.liner->where = LinerPlaces::worn;
   options.floor_wear = {{0.0, 1.0, 0.0}, {10.0, 1.0, 0.0}};
-  CHECK(named(plates(options), "plain_tile_").empty());
+  CHECK(named(plates(chute(), options), "plain_tile_").empty());
   options.liner->worn_from = 0.0;
   CHECK(refusal(options).find("liner.worn_from|worn_from: 0 % is out of range|It is a share") == 0);
   options.liner->worn_from = 0.5;

@@ -7,6 +7,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
+#include "parts/chute_plates.hpp"
 #include "parts/facets.hpp"
 #include "parts/offset_line.hpp"
 #include "support/catch.hpp"
@@ -22,30 +23,7 @@
 namespace {
 
 using namespace glissade;
-
-const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
-
-CoulombBrachistochrone chute() {
-  return {{5.4, 5.1}, kFriction};
-}
-
-constexpr ChannelMeasures kChannel{0.4, 0.25, 4e-3};
-
-WorkshopBuild plates(const Centerline& track, const PlateOptions& options,
-                     const ChannelMeasures& channel = kChannel) {
-  return make_plates(track, channel, {1e-4}, options, Placement(), {.friction = kFriction});
-}
-
-std::string refusal(const PlateOptions& options, const ChannelMeasures& channel = kChannel) {
-  try {
-    (void)plates(chute(), options, channel);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const Issue& issue : error.issues()) text += issue.where + "|" + issue.what + "|" + issue.why + "\n";
-    return text;
-  }
-  return "";
-}
+using namespace testing;
 
 double sum_of_volumes(const Workshop& workshop) {
   double sum = 0.0;

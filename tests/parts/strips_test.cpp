@@ -8,6 +8,7 @@
 #include "glissade/section/cross_section.hpp"
 
 #include "parts/body_geometry.hpp"
+#include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -20,28 +21,10 @@
 namespace {
 
 using namespace glissade;
-
-const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
-
-CoulombBrachistochrone chute() {
-  return {{5.4, 5.1}, kFriction};
-}
-
-WorkshopBuild plates(const Centerline& track, const section::Measures& measures,
-                     const PlateOptions& options = {}) {
-  return make_plates(track, measures, {1e-4}, options, Placement(), {.friction = kFriction});
-}
+using namespace testing;
 
 section::Trapezoid trapezoid(double lean_deg) {
   return {WidthLaw(0.4), 0.25, Angle::from_degrees(lean_deg), 4e-3};
-}
-
-const ShopPart& part_of(const WorkshopBuild& build, const std::string& name) {
-  for (const ShopPart& part : build.workshop.parts) {
-    if (part.name.starts_with(name)) return part;
-  }
-  FAIL("no part " << name);
-  throw 0;
 }
 
 /// Length of the line at a height above the track.
@@ -54,7 +37,7 @@ double space_length(const ArcSpline& line, double height) {
 }  // namespace
 
 TEST_CASE("strips: those of a trapezoid add up to the section that is swept, A S - M phi") {
-  const WorkshopBuild build = plates(chute(), trapezoid(25.0));
+  const WorkshopBuild build = plates_of(chute(), trapezoid(25.0));
   const CrossSection section{section::Measures(trapezoid(25.0))};
   const ArcSpline& line = *build.master.spline;
   const double turned = line.slope_angle(0.0) - line.slope_angle(line.length());
@@ -69,7 +52,7 @@ TEST_CASE(
     "space") {
   PlateOptions options;
   options.split.sheet = {20.0, 8.0};
-  const WorkshopBuild build = plates(chute(), trapezoid(35.0), options);
+  const WorkshopBuild build = plates_of(chute(), trapezoid(35.0), options);
   const ArcSpline& line = *build.master.spline;
   const ShopPart& wall = part_of(build, "left_wall");
   const std::vector<PathPiece> pieces = pieces_of(wall.pattern->region.outline);
@@ -95,8 +78,8 @@ TEST_CASE(
 TEST_CASE("strips: upright walls come out as the plates of a channel do") {
   PlateOptions options;
   options.flanges.wanted = false;
-  const WorkshopBuild leaning = plates(chute(), trapezoid(1e-7), options);
-  const WorkshopBuild upright = plates(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}, options);
+  const WorkshopBuild leaning = plates_of(chute(), trapezoid(1e-7), options);
+  const WorkshopBuild upright = plates_of(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}, options);
   CHECK(std::fabs(leaning.proof.volume / upright.proof.volume - 1.0) < 1e-6);
   CHECK(leaning.joints == upright.joints);
 }
@@ -107,7 +90,7 @@ TEST_CASE(
     PlateOptions options;
     options.stave_tolerance = tolerance;
     options.round = RoundMake::staves;
-    const WorkshopBuild build = plates(chute(), section::HalfPipe{0.4, 0.05, 4e-3}, options);
+    const WorkshopBuild build = plates_of(chute(), section::HalfPipe{0.4, 0.05, 4e-3}, options);
     const ShopPart& floor = part_of(build, "floor");
     const auto& body = std::get<SweptBody>(floor.body);
     double highest = -1.0;
@@ -118,7 +101,7 @@ TEST_CASE(
     // Half a stave from its middle, at most as far as the round departs by the tolerance there.
     CHECK(widest > 0.0);
     CHECK(build.workshop.notes.size() >= 2);
-    const WorkshopBuild again = plates(chute(), section::HalfPipe{0.4, 0.05, 4e-3}, options);
+    const WorkshopBuild again = plates_of(chute(), section::HalfPipe{0.4, 0.05, 4e-3}, options);
     CHECK(again.workshop.parts.size() == build.workshop.parts.size());
   }
 }
@@ -126,7 +109,7 @@ TEST_CASE(
 TEST_CASE("mitred pipe: tubes add up to the pipe along their axes, and both edges of a mitre are one curve") {
   PlateOptions options;
   options.bend = {FacetRule::segment_angle, Angle::from_degrees(7.5).radians(), {}, {}};
-  const WorkshopBuild build = plates(chute(), section::Pipe{0.15, 2e-3}, options);
+  const WorkshopBuild build = plates_of(chute(), section::Pipe{0.15, 2e-3}, options);
   double volume = 0.0;
   std::size_t tubes = 0;
   for (const ShopPart& part : build.workshop.parts) {
@@ -152,7 +135,7 @@ TEST_CASE(
   PlateOptions options;
   options.bend = {FacetRule::segment_angle, Angle::from_degrees(7.5).radians(), {}, {}};
   for (const double side : {0.0, 0.06}) {
-    const WorkshopBuild build = plates(chute(), section::HalfPipe{0.3, side, 3e-3}, options);
+    const WorkshopBuild build = plates_of(chute(), section::HalfPipe{0.3, side, 3e-3}, options);
     const double mean = 0.1515;
     double volume = 0.0;
     std::size_t troughs = 0;
@@ -247,7 +230,7 @@ TEST_CASE("strips: random tracks and sections make plates that add up, with no c
     for (const section::Measures& measures : kinds) {
       INFO(section::kind(measures));
       const WorkshopBuild build =
-          plates(track, measures, options);  // throws where parts clash or do not add up
+          plates_of(track, measures, options);  // throws where parts clash or do not add up
       for (const ShopPart& part : build.workshop.parts) {
         CHECK(part.mass > 0.0);
         CHECK(faults_of(part.pattern->region).empty());
@@ -255,28 +238,28 @@ TEST_CASE("strips: random tracks and sections make plates that add up, with no c
     }
     PlateOptions staves = options;
     staves.round = RoundMake::staves;
-    CHECK(plates(track, section::HalfPipe{random.between(0.2, 0.6), 0.0, t}, staves).proof.pairs > 0);
+    CHECK(plates_of(track, section::HalfPipe{random.between(0.2, 0.6), 0.0, t}, staves).proof.pairs > 0);
     PlateOptions pipe = options;
     pipe.bend = {FacetRule::segment_angle, Angle::from_degrees(random.between(4.0, 15.0)).radians(), {}, {}};
-    CHECK(plates(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
-    CHECK(plates(track, section::HalfPipe{0.3, random.integer(0, 1) * random.between(0.02, 0.2), t}, pipe)
+    CHECK(plates_of(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
+    CHECK(plates_of(track, section::HalfPipe{0.3, random.integer(0, 1) * random.between(0.02, 0.2), t}, pipe)
               .proof.pairs > 0);
     pipe.round = RoundMake::staves;
-    CHECK(plates(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
+    CHECK(plates_of(track, section::Pipe{0.2, t}, pipe).proof.pairs > 0);
   }
 }
 
 TEST_CASE("rounds: those that fit no sheet as troughs become staves, unless troughs are asked for") {
   const section::HalfPipe wide{2.0, 0.0, 4e-3};  // 3.15 m round
   const ClothoidSpline track(Angle::from_degrees(30.0), {{6.0, 0.0, 0.0}, {3.0, 0.02, 0.02}});
-  const WorkshopBuild build = plates(track, wide);
+  const WorkshopBuild build = plates_of(track, wide);
   CHECK(build.workshop.parts.front().name.find("stave") == 0);
   CHECK(build.workshop.notes.back().find(
             "Staves along the track, since it does not go mitred: a trough takes 3.1") == 0);
   PlateOptions mitred;
   mitred.round = RoundMake::mitred;
   try {
-    (void)plates(track, wide, mitred);
+    (void)plates_of(track, wide, mitred);
     FAIL("a trough of 3.15 m came out of a sheet of 3 m");
   } catch (const InputError& error) {
     CHECK(error.issues().front().where == "split");
@@ -288,13 +271,7 @@ TEST_CASE("rounds: those that fit no sheet as troughs become staves, unless trou
 TEST_CASE("strips: what cannot be made is refused with place, value and bound") {
   const auto refusal = [](const section::Measures& measures, const PlateOptions& options,
                           const Centerline& track) {
-    try {
-      (void)plates(track, measures, options);
-    } catch (const InputError& error) {
-      const Issue& issue = error.issues().front();
-      return issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint;
-    }
-    return std::string();
+    return refusal_of([&] { return plates_of(track, measures, options); });
   };
   PlateOptions bent;
   bent.floor = FloorMake::bent;

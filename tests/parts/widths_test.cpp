@@ -10,6 +10,7 @@
 
 #include "parts/body_geometry.hpp"
 #include "parts/body_mesh.hpp"
+#include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/temp_dir.hpp"
@@ -22,31 +23,14 @@
 namespace {
 
 using namespace glissade;
-
-const Friction kFriction = Friction::from_angle(Angle::from_degrees(17.0));
-
-CoulombBrachistochrone chute() {
-  return {{5.4, 5.1}, kFriction};
-}
+using namespace testing;
 
 const WidthLaw kWidening({{2.0, 0.4}, {4.0, 0.6}, {6.0, 0.35}});
-
-WorkshopBuild plates(const Centerline& track, const section::Measures& measures, PlateOptions options = {}) {
-  return make_plates(track, measures, {1e-4}, options, Placement(), {.friction = kFriction});
-}
 
 PlateOptions in_one_piece() {
   PlateOptions options;
   options.split.sheet = {20.0, 8.0};
   return options;
-}
-
-const ShopPart& part_of(const WorkshopBuild& build, const std::string& name) {
-  for (const ShopPart& part : build.workshop.parts) {
-    if (part.name.starts_with(name)) return part;
-  }
-  FAIL("no part " << name);
-  throw 0;
 }
 
 /// The middle of two corners of a section at a share of a piece of the body's path.
@@ -99,7 +83,7 @@ Unfolded unfolded(const std::vector<Vec3>& base, const std::vector<Vec3>& upper)
 
 TEST_CASE("widths: a wall laid flat triangle by triangle is its pattern") {
   for (const bool left : {true, false}) {
-    const WorkshopBuild build = plates(chute(), section::UChannel{kWidening, 0.25, 4e-3}, in_one_piece());
+    const WorkshopBuild build = plates_of(chute(), section::UChannel{kWidening, 0.25, 4e-3}, in_one_piece());
     const ShopPart& wall = part_of(build, left ? "left_wall" : "right_wall");
     const auto& body = std::get<SweptBody>(wall.body);
     // Corners: face_from, face_to, back_to, back_from.
@@ -140,7 +124,7 @@ TEST_CASE(
        {section::Measures(section::UChannel{kWidening, 0.25, 4e-3}),
         section::Measures(section::Trapezoid{kWidening, 0.2, Angle::from_degrees(20.0), 4e-3}),
         section::Measures(section::Slab{kWidening, 6e-3})}) {
-    const WorkshopBuild build = plates(chute(), measures);
+    const WorkshopBuild build = plates_of(chute(), measures);
     const ArcSpline& line = *build.master.spline;
     // Area and moment of the design's own section at the middle of many short stretches.
     REQUIRE(build.proof.differences.size() == 1);
@@ -166,8 +150,8 @@ TEST_CASE(
 
 TEST_CASE("widths: a width that is one everywhere makes the plates of one width") {
   const WidthLaw same({{1.0, 0.4}, {3.0, 0.4 + 1e-9}});
-  const WorkshopBuild widening = plates(chute(), section::UChannel{same, 0.25, 4e-3});
-  const WorkshopBuild plain = plates(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3});
+  const WorkshopBuild widening = plates_of(chute(), section::UChannel{same, 0.25, 4e-3});
+  const WorkshopBuild plain = plates_of(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3});
   CHECK(std::fabs(widening.proof.volume / plain.proof.volume - 1.0) < 1e-8);
   CHECK(std::fabs(widening.proof.differences.front().volume) < 1e-12);
 }
@@ -176,7 +160,7 @@ TEST_CASE(
     "widths: bodies are closed, in facets and in STEP, and splines stand only where the width changes in a "
     "bend") {
   const TempDir dir;
-  const WorkshopBuild build = plates(chute(), section::UChannel{kWidening, 0.25, 4e-3});
+  const WorkshopBuild build = plates_of(chute(), section::UChannel{kWidening, 0.25, 4e-3});
   std::size_t splines = 0;
   for (const ShopPart& part : build.workshop.parts) {
     write_step(dir.path() / "part.step", part);
@@ -186,7 +170,8 @@ TEST_CASE(
     CHECK(std::fabs(measure(mesh).volume / part.volume - 1.0) < 1e-3);
   }
   CHECK(splines > 10);
-  for (const ShopPart& part : plates(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}).workshop.parts) {
+  for (const ShopPart& part :
+       plates_of(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}).workshop.parts) {
     write_step(dir.path() / "part.step", part);
     CHECK(read_step_facts(dir.path() / "part.step").solids.front().splines == 0);
   }
@@ -224,7 +209,7 @@ TEST_CASE("widths: random tracks and widths make plates that fit and add up") {
           section::Measures(section::Slab{WidthLaw(knots), t})}) {
       INFO(section::kind(measures));
       const WorkshopBuild build =
-          plates(track, measures, options);  // throws where parts clash or do not add up
+          plates_of(track, measures, options);  // throws where parts clash or do not add up
       for (const ShopPart& part : build.workshop.parts) {
         CHECK(faults_of(part.pattern->region).empty());
         CHECK(part.mass > 0.0);
@@ -235,13 +220,7 @@ TEST_CASE("widths: random tracks and widths make plates that fit and add up") {
 
 TEST_CASE("widths: what cannot be made is refused with place, value and bound") {
   const auto refusal = [](const section::Measures& measures, const PlateOptions& options) {
-    try {
-      (void)plates(chute(), measures, options);
-    } catch (const InputError& error) {
-      const Issue& issue = error.issues().front();
-      return issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint;
-    }
-    return std::string();
+    return refusal_of([&] { return plates_of(chute(), measures, options); });
   };
   const WidthLaw sudden({{2.0, 0.4}, {2.1, 0.8}});
   const std::string steep = refusal(section::UChannel{sudden, 0.25, 4e-3}, {});
