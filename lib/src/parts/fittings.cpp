@@ -271,11 +271,7 @@ void cut_wall(const Fitting& fitting, const Unit& unit, const std::vector<ArcPat
   set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
   // Of the plain wall the right one is left.
-  for (ShopPart& plain : fitting.workshop.parts) {
-    if (!plain.pattern || plain.pattern->region != unit.wall->pattern->region) continue;
-    std::erase(plain.places, unit.wall->places.front());
-    plain.centre_of_gravity = plain.places.front().to_space(moments(plain.body).centroid);
-  }
+  take_back(fitting.workshop, *unit.wall, unit.wall->places.front());
   add_part(fitting.workshop, part, kWallColour);
 }
 

@@ -222,6 +222,7 @@ class Tiler {
     if (wears) remember(course.span);
     const double full = course.widths[course.widths.size() / 2];
     const std::string name = (wears ? "tile_" : "plain_tile_") + std::to_string(row);
+    std::vector<int> numbers;
     for (std::size_t i = 0; i < course.widths.size(); ++i) {
       ShopPart tile =
           tile_of(fitting_.job, course, i, wears ? liner_.material : fitting_.job.options.material);
@@ -229,25 +230,28 @@ class Tiler {
       bolts_ += tile.pattern->region.holes.size();
       for (const double s : bolts_of(liner_, course.span, course.widths[i]).along)
         fitting_.below.add(s - 0.015, s + 0.015);
-      add_part(fitting_.workshop, std::move(tile), kLinerColour);
+      numbers.push_back(add_part(fitting_.workshop, std::move(tile), kLinerColour));
     }
-    if (wears && liner_.life && wear.loss_rate > 0.0) count_spares(course, name, wear.loss_rate);
+    if (wears && liner_.life && wear.loss_rate > 0.0) count_spares(course, row, numbers, wear.loss_rate);
   }
 
-  void count_spares(const Course& course, const std::string& name, double loss_rate) {
+  /// @param numbers  of its tiles in the list of parts
+  void count_spares(const Course& course, int row, const std::vector<int>& numbers, double loss_rate) {
     thinnest_ = std::max(thinnest_, loss_rate);
     const double lasts = liner_.thickness / loss_rate;
     ShopFacts(fitting_.workshop)
-        .at(name + " at " + length_text(course.span.from, 3) + " to " + length_text(course.span.to, 3) +
-                " along the track lasts " + hours_text(lasts),
+        .at("course " + std::to_string(row) + " of tiles, at " + length_text(course.span.from, 3) + " to " +
+                length_text(course.span.to, 3) + " along the track lasts " + hours_text(lasts),
             "liner_life_share", lasts / *liner_.life, 1.0, Dimension::number);
     constexpr double kMostSets = 1e4;
     const double sets = std::min(kMostSets, std::ceil(*liner_.life / lasts - 1e-9) - 1.0);
     if (!(sets > 0.0)) return;
-    add_item(fitting_.workshop,
-             {"spare " + name + ", " + liner_.material.name + ", " + length_text(liner_.thickness, 3),
-              "as the part", static_cast<std::size_t>(sets) * course.widths.size(),
-              "liner, within " + hours_text(*liner_.life)});
+    for (const int number : numbers) {
+      const std::string& name = fitting_.workshop.parts[static_cast<std::size_t>(number - 1)].name;
+      add_item(fitting_.workshop,
+               {"spare " + name + ", " + liner_.material.name + ", " + length_text(liner_.thickness, 3),
+                "as the part", static_cast<std::size_t>(sets), "liner, within " + hours_text(*liner_.life)});
+    }
   }
 
   void remember(const Span& span) {

@@ -8,6 +8,7 @@
 #include "parts/as_built.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
+#include "parts/equal_parts.hpp"
 #include "parts/offset_line.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <string>
@@ -370,7 +372,27 @@ void measure_strips(const std::vector<Strip>& strips, Workshop& workshop) {
   }
 }
 
+/// Which parts are cut alike and formed the other way.
+std::string mirrored_pairs(const Workshop& workshop) {
+  std::string pairs;
+  for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
+    const ShopPart& part = workshop.parts[i];
+    const auto turned = [&](const ShopPart& other) { return mirror_images(part, other); };
+    const auto after = workshop.parts.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    const auto found = std::find_if(after, workshop.parts.end(), turned);
+    if (found == workshop.parts.end()) continue;
+    pairs +=
+        (pairs.empty() ? "" : ", ") + std::to_string(part.number) + " and " + std::to_string(found->number);
+  }
+  return pairs;
+}
+
 void add_notes(const StripJob& job, const PartsProof& proof, Workshop& workshop) {
+  const std::string pairs = mirrored_pairs(workshop);
+  if (!pairs.empty()) {
+    workshop.notes.push_back("Parts " + pairs +
+                             " are mirror images: blanks alike, turned over, and formed the other way.");
+  }
   if (job.section.mitred) {
     workshop.notes.emplace_back(
         "Strips meet in mitres: patterns are of the middle of the thickness, edges are bevelled to the "

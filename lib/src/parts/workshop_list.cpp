@@ -2,42 +2,57 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
+#include "parts/equal_parts.hpp"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
-#include <variant>
 
 namespace glissade::parts {
 namespace {
 
-/// Sections along a path say where they lie: only the very same body has the same place.
-bool same_body(const PartBody& a, const PartBody& b) {
-  const auto* const one = std::get_if<SweptBody>(&a);
-  const auto* const other = std::get_if<SweptBody>(&b);
-  if (one == nullptr || other == nullptr) return a.index() == b.index();
-  return one->path == other->path && one->section == other->section;
-}
-
-/// The same on the flat and of the same volume when finished; what is bought, the same by name.
-bool same_part(const ShopPart& a, const ShopPart& b) {
-  if (a.thickness != b.thickness || a.material != b.material || a.volume != b.volume) return false;
-  if (!same_body(a.body, b.body)) return false;
-  if (a.pattern.has_value() != b.pattern.has_value()) return false;
-  return a.pattern ? a.pattern->region == b.pattern->region : a.name == b.name;
+/// A part's name without the side of the section on which it lies.
+std::string name_without_side(const std::string& name) {
+  for (const char* const side : {"left_", "right_"}) {
+    if (name.starts_with(side)) return name.substr(std::string_view(side).size());
+  }
+  return name;
 }
 
 }  // namespace
 
 int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& colour) {
   for (ShopPart& other : workshop.parts) {
-    if (!same_part(other, part)) continue;
-    other.places.insert(other.places.end(), part.places.begin(), part.places.end());
+    // Where the other one's body lies in this one's frame.
+    const auto inner = place_in(other, part);
+    if (!inner) continue;
+    for (const Frame& place : part.places) other.places.push_back(placed(place, *inner));
+    if (name_without_side(part.name) != part.name && name_without_side(other.name) != other.name &&
+        part.name.front() != other.name.front())
+      other.name = name_without_side(other.name);
     return other.number;
   }
   part.number = static_cast<int>(workshop.parts.size()) + 1;
   part.colour = colour;
   workshop.parts.push_back(std::move(part));
   return workshop.parts.back().number;
+}
+
+void take_back(Workshop& workshop, const ShopPart& part, const Frame& place) {
+  for (ShopPart& other : workshop.parts) {
+    const auto inner = place_in(other, part);
+    if (!inner) continue;
+    const Vec3 there = placed(place, *inner).origin;
+    const auto found = std::find_if(other.places.begin(), other.places.end(),
+                                    [&](const Frame& one) { return norm(one.origin - there) <= kSamePart; });
+    if (found == other.places.end()) continue;
+    other.places.erase(found);
+    if (!other.places.empty())
+      other.centre_of_gravity = other.places.front().to_space(moments(other.body).centroid);
+    return;
+  }
 }
 
 void add_item(Workshop& workshop, BoughtInItem item) {

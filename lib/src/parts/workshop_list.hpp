@@ -16,9 +16,12 @@ inline constexpr std::array<double, 3> kLinerColour{0.55, 0.50, 0.46};
 inline constexpr std::array<double, 3> kFittingColour{0.42, 0.62, 0.48};
 inline constexpr std::array<double, 3> kSupportColour{0.36, 0.42, 0.58};
 
-/// Adds a part to the list; under the number of its equal where there is one.
+/// Adds a part to the list; under the number of its equal, however that lies (equal_parts.hpp), where there is one.
 /// @return its number
 int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& colour);
+
+/// Takes one piece off the list again: that of a part, or of its equal, at a place of the part.
+void take_back(Workshop& workshop, const ShopPart& part, const Frame& place);
 
 /// Adds what is bought; to the count of its like where there is one.
 void add_item(Workshop& workshop, BoughtInItem item);
