@@ -201,6 +201,58 @@ Nearest Region::nearest_edge(std::span<const Vec2> shape) const {
   return nearest;
 }
 
+void Region::meet(std::size_t node, std::size_t begin, std::size_t end, Vec2 from, Vec2 to,
+                  std::vector<Crossing>& found) const {
+  const Box& box = boxes_[node];
+  if (std::min(from.x, to.x) > box.high.x || std::max(from.x, to.x) < box.low.x ||
+      std::min(from.y, to.y) > box.high.y || std::max(from.y, to.y) < box.low.y) {
+    return;
+  }
+  if (end - begin > kLeaf && 2 * node + 1 < boxes_.size()) {
+    const std::size_t middle = begin + (end - begin) / 2;
+    meet(2 * node, begin, middle, from, to, found);
+    meet(2 * node + 1, middle, end, from, to, found);
+    return;
+  }
+  for (std::size_t i = begin; i < end; ++i) {
+    const Edge& edge = edges_[i];
+    if (!cross_each_other(from, to, edge.from, edge.to)) continue;
+    const Vec2 along = edge.to - edge.from;
+    const double area = cross(to - from, along);
+    if (area == 0.0) continue;
+    found.push_back({std::clamp(cross(edge.from - from, along) / area, 0.0, 1.0), i});
+  }
+}
+
+std::vector<Region::Crossing> Region::crossings(Vec2 from, Vec2 to) const {
+  std::vector<Crossing> found;
+  if (kind_ == Kind::half_plane) return found;
+  meet(1, 0, edges_.size(), from, to, found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.share < b.share; });
+  return found;
+}
+
+std::vector<Vec2> Region::corners() const {
+  std::vector<Vec2> corners;
+  if (kind_ == Kind::half_plane) return corners;
+  for (const Edge& edge : edges_) corners.push_back(edge.from);
+  if (kind_ == Kind::line) corners.push_back(edges_.back().to);
+  return corners;
+}
+
+std::vector<std::vector<Vec2>> Region::cut_off(std::size_t entered, std::size_t left) const {
+  if (kind_ == Kind::half_plane || (kind_ == Kind::area && pass_ != Pass::either)) return {};
+  const std::size_t first = std::min(entered, left);
+  const std::size_t last = std::max(entered, left);
+  std::vector<Vec2> between;
+  for (std::size_t i = first; i < last; ++i) between.push_back(edges_[i].to);
+  if (kind_ == Kind::line) return {between};
+  std::vector<Vec2> others;
+  for (std::size_t i = last; i < edges_.size() + first; ++i) others.push_back(edges_[i % edges_.size()].to);
+  return {between, others};
+}
+
 bool Region::inside(Vec2 point) const {
   bool odd = false;
   for (const Edge& edge : edges_) {

@@ -43,6 +43,22 @@ class Region {
   /// @param shape  a point, a segment, or the corners of a convex polygon in order
   [[nodiscard]] Nearest nearest(std::span<const Vec2> shape) const;
 
+  /// Where a segment meets an edge of the region.
+  struct Crossing {
+    double share = 0.0;    ///< of the segment, from 0 to 1
+    std::size_t edge = 0;  ///< from corner `edge` of the outline or line to the next
+  };
+  /// @return all of them in their order along the segment; none of a half-plane
+  [[nodiscard]] std::vector<Crossing> crossings(Vec2 from, Vec2 to) const;
+
+  /// What a curve that enters the region through one edge and leaves it through another cuts off: the corners of an
+  /// area on either side of the curve; those of a line between the two edges.
+  /// @return nothing of what has no thickness to be told by: half-planes, and areas that are passed on a given side
+  [[nodiscard]] std::vector<std::vector<Vec2>> cut_off(std::size_t entered, std::size_t left) const;
+
+  /// @return the corners of an area or line; none of a half-plane
+  [[nodiscard]] std::vector<Vec2> corners() const;
+
   /// @return whether the value of a point may jump at a run in between: at the ends of what lies behind a line
   ///   or an area, which no distance is measured from
   [[nodiscard]] bool jumps_within(double low_run, double high_run) const;
@@ -68,6 +84,8 @@ class Region {
   void search(std::size_t node, std::size_t begin, std::size_t end, std::span<const Vec2> shape,
               const Box& around, Nearest& nearest) const;
   [[nodiscard]] Nearest nearest_edge(std::span<const Vec2> shape) const;
+  void meet(std::size_t node, std::size_t begin, std::size_t end, Vec2 from, Vec2 to,
+            std::vector<Crossing>& found) const;
   [[nodiscard]] bool inside(Vec2 point) const;
   [[nodiscard]] Nearest deepest_within(std::span<const Vec2> shape) const;
   [[nodiscard]] Nearest deepest_behind(std::span<const Vec2> shape) const;

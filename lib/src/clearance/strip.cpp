@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace glissade::clearance {
@@ -14,6 +15,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Halving ends here: a cell of a station's distance by 2^40 is a point.
 constexpr int kDeepest = 40;
+// Halvings that find the foot of a point on the track.
+constexpr int kFootSteps = 50;
+// Depths are known to this share of themselves.
+constexpr double kDepthAccuracy = 0.01;
 // Heights that differ by less than this share of the envelope's are the same.
 constexpr double kSameHeight = 1e-9;
 
@@ -189,8 +194,8 @@ double Strip::lower_bound(const Rib& a, const Rib& b, const Region& region) cons
   return region.nearest(shape).value - straying;
 }
 
-// Halves a cell as long as it may hold something closer. Once the envelope reaches into the region, further
-// cells are looked at no more closely than along() has: its sign is known.
+// Halves a cell as long as it may hold something closer. An envelope that reaches into the region at one place, be it by
+// a rounding, may run through a post at another: the search goes on, and depths are settled to a share of themselves.
 void Strip::look(const Rib& a, double at_a, const Rib& b, double at_b, int depth, Search& search) const {
   // No point of the cell is further from both normals than this.
   const double height = std::max(envelope_.below, envelope_.top());
@@ -203,8 +208,9 @@ void Strip::look(const Rib& a, double at_a, const Rib& b, double at_b, int depth
   const bool steady = !is_cut && !search.region.jumps_within(std::min(a.point.x, b.point.x) - reach,
                                                              std::max(a.point.x, b.point.x) + reach);
   if (steady && std::min(at_a, at_b) - across > search.best.value) return;
-  if (depth >= kDeepest || search.best.value < 0.0) return;
-  if (lower_bound(a, b, search.region) >= search.best.value - search.accuracy) return;
+  if (depth >= kDeepest) return;
+  const double accuracy = std::max(search.accuracy, -kDepthAccuracy * search.best.value);
+  if (lower_bound(a, b, search.region) >= search.best.value - accuracy) return;
   const double middle = 0.5 * (a.s + b.s);
   if (!(middle > a.s && middle < b.s)) return;
   Rib between = rib(centerline_.at(middle));
@@ -229,6 +235,104 @@ Approach Strip::least(const Region& region, const std::vector<Approach>& station
     look(ribs_[i], stations[i].value, ribs_[i + 1], stations[i + 1].value, 0, search);
   }
   return search.best;
+}
+
+/// A stretch of an edge of the envelope within a region, and the region's edges at its ends.
+struct Strip::Passage {
+  std::size_t entered;
+  std::size_t left;
+};
+
+std::vector<Strip::Passage> Strip::passages(const Region& region, double level) const {
+  struct Met {
+    std::size_t cell;
+    Vec2 at;
+    Vec2 next;  // station
+    std::size_t edge;
+  };
+  const auto on_level = [&](const Rib& rib) {
+    return rib.point + std::clamp(level, rib.low, rib.high) * rib.normal;
+  };
+  std::vector<Met> met;
+  for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
+    const Vec2 from = on_level(ribs_[i]);
+    const Vec2 to = on_level(ribs_[i + 1]);
+    for (const Region::Crossing& crossing : region.crossings(from, to)) {
+      met.push_back({i, from + crossing.share * (to - from), to, crossing.edge});
+    }
+  }
+  std::vector<Passage> found;
+  for (std::size_t k = 0; k + 1 < met.size(); ++k) {
+    // From one crossing to the next nothing changes: any point between tells on which side it is.
+    const Vec2 beyond = met[k].cell == met[k + 1].cell ? met[k + 1].at : met[k].next;
+    const Vec2 between = 0.5 * (met[k].at + beyond);
+    if (region.nearest({&between, 1}).value < 0.0) found.push_back({met[k].edge, met[k + 1].edge});
+  }
+  return found;
+}
+
+// A point as the track sees it: its height above the floor, at the foot of its perpendicular; the value tells how far beside that
+// it lies, where it has no perpendicular.
+Approach Strip::from_foot(Vec2 point) const {
+  const auto near = std::min_element(ribs_.begin(), ribs_.end(), [&](const Rib& a, const Rib& b) {
+    return norm(a.point - point) < norm(b.point - point);
+  });
+  double low = near == ribs_.begin() ? near->s : std::prev(near)->s;
+  double high = std::next(near) == ribs_.end() ? near->s : std::next(near)->s;
+  for (int step = 0; step < kFootSteps && high > low; ++step) {
+    const double middle = 0.5 * (low + high);
+    const Rib here = rib(centerline_.at(middle));
+    (dot(point - here.point, here.tangent) > 0.0 ? low : high) = middle;
+  }
+  const Rib foot = rib(centerline_.at(0.5 * (low + high)));
+  const double height = dot(point - foot.point, foot.normal);
+  return {dot(point - foot.point, foot.tangent), foot.s, {part_of(foot, height), height, point}};
+}
+
+// Of corners, the one that is furthest from an edge of the envelope.
+std::optional<Approach> Strip::furthest(const std::vector<Vec2>& corners, double level) const {
+  std::optional<Approach> furthest;
+  for (const Vec2 corner : corners) {
+    Approach reach = from_foot(corner);
+    reach.value = -math::hypot(reach.place.height - level, reach.value);
+    if (!furthest || reach.value < furthest->value) furthest = reach;
+  }
+  return furthest;
+}
+
+// How far what lies between the edges of the envelope would have to move to be out of it.
+std::optional<Approach> Strip::enclosed(const std::vector<Vec2>& corners) const {
+  std::optional<Approach> deepest;
+  for (const Vec2 corner : corners) {
+    Approach inside = from_foot(corner);
+    inside.value = -std::min(envelope_.top() - inside.place.height, inside.place.height + envelope_.below);
+    if (inside.value < 0.0 && (!deepest || inside.value < deepest->value)) deepest = inside;
+  }
+  return deepest;
+}
+
+std::optional<Approach> Strip::pierced(const Region& region) const {
+  std::vector<double> levels{-envelope_.below};
+  if (!envelope_.is_line()) levels.push_back(envelope_.top());
+  std::optional<Approach> worst;
+  bool crossed = false;
+  for (const double level : levels) {
+    for (const Passage& passage : passages(region, level)) {
+      crossed = true;
+      // A part without corners is a sliver along one edge: the distance of the edge from what it cuts tells its depth.
+      std::optional<Approach> least;
+      for (const std::vector<Vec2>& part : region.cut_off(passage.entered, passage.left)) {
+        const std::optional<Approach> reach = furthest(part, level);
+        if (!reach) {
+          least.reset();
+          break;
+        }
+        if (!least || reach->value > least->value) least = reach;
+      }
+      if (least && (!worst || least->value < worst->value)) worst = least;
+    }
+  }
+  return crossed ? worst : enclosed(region.corners());
 }
 
 }  // namespace glissade::clearance

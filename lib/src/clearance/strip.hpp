@@ -5,6 +5,8 @@
 
 #include "clearance/region.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace glissade::clearance {
@@ -26,7 +28,7 @@ struct Approach {
 ///   The cell between two stations lies within that of the hull of their normals: a lower bound of its
 ///   distance. Cells that may hold the least one are halved until the bounds meet.
 /// Accuracy: least() exceeds the true least distance by no more than `accuracy`, as long as that is positive,
-///   and its sign is right; on each smooth piece curvature is taken to be monotone or of one sign.
+///   and its sign is right; a negative one is the depth to 1 %, as far as Region tells depths; on each smooth piece curvature is taken to be monotone or of one sign.
 class Strip {
  public:
   /// @param stations  points of the centerline from start to finish, its breaks among them
@@ -40,7 +42,18 @@ class Strip {
   [[nodiscard]] Approach least(const Region& region, const std::vector<Approach>& stations,
                                double accuracy) const;
 
+  /// How far what stands right through the envelope, or through one of its edges, reaches beyond: a post a hair thin has
+  /// a depth of half a hair, and still stands in the way. Of what an edge of the envelope cuts off the part that
+  /// reaches less far counts; of what lies wholly between the edges, the way out past the nearer one.
+  /// @return a value below 0, at the furthest corner of that part; nothing where no part has a corner
+  [[nodiscard]] std::optional<Approach> pierced(const Region& region) const;
+
  private:
+  struct Passage;
+  [[nodiscard]] std::vector<Passage> passages(const Region& region, double level) const;
+  [[nodiscard]] std::optional<Approach> furthest(const std::vector<Vec2>& corners, double level) const;
+  [[nodiscard]] std::optional<Approach> enclosed(const std::vector<Vec2>& corners) const;
+  [[nodiscard]] Approach from_foot(Vec2 corner) const;
   /// A station's normal, from the underside to the top.
   struct Rib {
     double s = 0.0;
