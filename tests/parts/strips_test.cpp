@@ -273,9 +273,6 @@ TEST_CASE("strips: what cannot be made is refused with place, value and bound") 
                           const Centerline& track) {
     return refusal_of([&] { return plates_of(track, measures, options); });
   };
-  PlateOptions bent;
-  bent.floor = FloorMake::bent;
-  CHECK(refusal(trapezoid(20.0), bent, chute()).find("floor|floor: bent goes with upright walls") == 0);
   // A hollow of 0.3 m in the middle, walls of 0.4 m.
   const ClothoidSpline hollow(Angle::from_degrees(60.0),
                               {{1.0, 0.0, 0.0}, {0.2, 1.0 / 0.3, 1.0 / 0.3}, {1.0, 0.0, 0.0}});

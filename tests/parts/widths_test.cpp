@@ -229,10 +229,6 @@ TEST_CASE("widths: what cannot be made is refused with place, value and bound") 
   const WidthLaw far({{0.2, 0.3}, {7.5, 4.2}});
   CHECK(refusal(section::UChannel{far, 0.25, 4e-3}, {}).find("walls of plates would lean ") !=
         std::string::npos);
-  PlateOptions bent;
-  bent.floor = FloorMake::bent;
-  CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, bent)
-            .find("floor|floor: bent goes with upright walls beside one width") == 0);
   PlateOptions lap;
   lap.corners.kind = CornerJoint::lap;
   CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, lap).find("corners|corners: it goes with") == 0);

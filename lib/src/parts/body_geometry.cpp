@@ -178,6 +178,59 @@ BodyMoments moments_of(const RolledSheet& sheet) {
   return all;
 }
 
+/// Six outward planes of a facet of a folded plate; the last two lie at its bends or ends.
+struct FacetPlanes {
+  std::array<Vec3, 6> origins;
+  std::array<Vec3, 6> outward;
+};
+
+FacetPlanes planes_of(const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to) {
+  FacetPlanes planes;
+  const auto put = [&](std::size_t k, Vec3 a, Vec3 one, Vec3 other) {
+    const Vec3 normal = cross(one, other);
+    planes.origins[k] = a;
+    planes.outward[k] = (1.0 / norm(normal)) * normal;
+  };
+  for (std::size_t j = 0; j < 4; ++j) {
+    const std::size_t next = (j + 1) % 4;
+    put(j, from[j], to[next] - from[j], from[next] - to[j]);
+    // Corners run counter-clockwise seen against the way, so this points out of the facet.
+    planes.outward[j] = -1.0 * planes.outward[j];
+  }
+  put(4, from[0], from[3] - from[1], from[2] - from[0]);
+  put(5, to[0], to[2] - to[0], to[3] - to[1]);
+  return planes;
+}
+
+BodyMoments moments_of(const FoldedPlate& plate) {
+  BodyMoments all;
+  Vec3 first;
+  for (std::size_t i = 0; i + 1 < plate.corners.size(); ++i) {
+    const FacetPlanes planes = planes_of(plate.corners[i], plate.corners[i + 1]);
+    const Vec3 apex = plate.corners[i][0];
+    const auto add = [&](Vec3 a, Vec3 b, Vec3 c, Vec3 outward) {
+      const Vec3 normal = cross(b - a, c - a);
+      const double volume =
+          std::fabs(dot(a - apex, normal)) / 6.0 * (dot(a - apex, outward) < 0.0 ? -1.0 : 1.0);
+      all.volume += volume;
+      first = first + (0.25 * volume) * (apex + a + b + c);
+    };
+    const auto quad = [&](std::size_t k, Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+      add(a, b, c, planes.outward[k]);
+      add(a, c, d, planes.outward[k]);
+    };
+    const auto& from = plate.corners[i];
+    const auto& to = plate.corners[i + 1];
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::size_t next = (j + 1) % 4;
+      quad(j, from[j], to[j], to[next], from[next]);
+    }
+    quad(5, to[0], to[1], to[2], to[3]);
+  }
+  all.centroid = (1.0 / all.volume) * first;
+  return all;
+}
+
 BodyMoments moments_of(const TubeGore& gore) {
   const double inner = gore.inner_radius;
   const double outer = inner + gore.thickness;
@@ -304,6 +357,28 @@ std::vector<Vec3> points_of(const RolledSheet& sheet, double inset) {
   };
   along_edges(sheet.region.outline, true);
   for (const ArcPath& cutout : sheet.region.cutouts) along_edges(cutout, false);
+  return points;
+}
+
+std::vector<Vec3> points_of(const FoldedPlate& plate, double inset) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i + 1 < plate.corners.size(); ++i) {
+    const auto& from = plate.corners[i];
+    const auto& to = plate.corners[i + 1];
+    const double edge = std::min(0.25, inset / norm(to[0] - from[0]));
+    for (const double share : {edge, 0.25, 0.5, 0.75, 1.0 - edge}) {
+      const auto at = [&](std::size_t j) { return (1.0 - share) * from[j] + share * to[j]; };
+      const Vec3 middle = 0.25 * (at(0) + at(1) + at(2) + at(3));
+      points.push_back(middle);
+      for (std::size_t j = 0; j < 4; ++j) {
+        // Inside both faces of a sharp corner.
+        const Vec3 one = at((j + 1) % 4) - at(j);
+        const Vec3 other = at((j + 3) % 4) - at(j);
+        const double sine = norm(cross(one, other)) / (norm(one) * norm(other));
+        points.push_back(at(j) + (inset / (sine * norm(one))) * one + (inset / (sine * norm(other))) * other);
+      }
+    }
+  }
   return points;
 }
 
@@ -444,6 +519,24 @@ double depth_in(const TroughGore& gore, Vec3 point) {
                      math::cos(gore.end_tilt.radians());
   return std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end,
                    gore.side - point.x});
+}
+
+double depth_in(const FoldedPlate& plate, Vec3 point) {
+  double deepest = -kFar;
+  const std::size_t count = plate.corners.size() - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FacetPlanes planes = planes_of(plate.corners[i], plate.corners[i + 1]);
+    double depth = kFar;
+    for (std::size_t k = 0; k < 6; ++k) {
+      double inside = -dot(point - planes.origins[k], planes.outward[k]);
+      // Bends are no faces: beyond them the next facet goes on.
+      const bool bend = (k == 4 && i > 0) || (k == 5 && i + 1 < count);
+      if (bend && inside > -kInset) inside = kFar;
+      depth = std::min(depth, inside);
+    }
+    deepest = std::max(deepest, depth);
+  }
+  return deepest;
 }
 
 double depth_in(const MeshBody& /*body*/, Vec3 /*point*/) {

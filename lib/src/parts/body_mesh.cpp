@@ -371,6 +371,22 @@ TriangleMesh mesh_of(const RolledSheet& sheet, const Fineness& fineness) {
   return SheetMesh(sheet, fineness).whole();
 }
 
+TriangleMesh mesh_of(const FoldedPlate& plate, const Fineness& /*fineness*/) {
+  TriangleMesh mesh;
+  for (const auto& corners : plate.corners)
+    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  const Index last = count_of(mesh) - 4;
+  for (Index first = 0; first < last; first += 4) {
+    for (Index j = 0; j < 4; ++j) {
+      const Index next = (j + 1) % 4;
+      add_quad(mesh, first + j, first + next, first + 4 + next, first + 4 + j);
+    }
+  }
+  add_quad(mesh, 3, 2, 1, 0);
+  add_quad(mesh, last, last + 1, last + 2, last + 3);
+  return mesh;
+}
+
 TriangleMesh mesh_of(const MeshBody& body, const Fineness& /*fineness*/) {
   return body.mesh;
 }

@@ -322,6 +322,44 @@ Brep brep_of(const TubeGore& gore, const ShopPart& part) {
   return brep;
 }
 
+Brep brep_of(const FoldedPlate& plate, const ShopPart& part) {
+  if (plate.corners.size() < 2) throw bad_body(part, "it has no facet");
+  Brep brep;
+  for (const auto& corners : plate.corners) {
+    for (const Vec3 corner : corners) add_vertex(brep, kMillimetres * corner);
+  }
+  const std::size_t rings = plate.corners.size();
+  // Edges across at each ring, then those along to the next one.
+  for (std::size_t i = 0; i < rings; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) add_line(brep, 4 * i + j, 4 * i + (j + 1) % 4);
+  }
+  for (std::size_t i = 0; i + 1 < rings; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) add_line(brep, 4 * i + j, 4 * i + 4 + j);
+  }
+  const auto across = [](std::size_t i, std::size_t j) { return 4 * i + j; };
+  const auto along = [&](std::size_t i, std::size_t j) { return 4 * (rings + i) + j % 4; };
+  const auto add = [&](std::vector<BrepUse> loop) {
+    const auto start = [&](const BrepUse& use) {
+      const BrepEdge& edge = brep.edges[use.edge];
+      return brep.vertices[use.forward ? edge.from : edge.to];
+    };
+    BrepFace face;
+    face.origin = start(loop[0]);
+    face.axis = unit(cross(start(loop[2]) - start(loop[0]), start(loop[3]) - start(loop[1])));
+    face.reference = unit(start(loop[1]) - start(loop[0]));
+    face.loops = {std::move(loop)};
+    brep.faces.push_back(std::move(face));
+  };
+  for (std::size_t i = 0; i + 1 < rings; ++i) {
+    for (std::size_t j = 0; j < 4; ++j)
+      add({{across(i, j), true}, {along(i, j + 1), true}, {across(i + 1, j), false}, {along(i, j), false}});
+  }
+  add({{across(0, 3), false}, {across(0, 2), false}, {across(0, 1), false}, {across(0, 0), false}});
+  const std::size_t last = rings - 1;
+  add({{across(last, 0), true}, {across(last, 1), true}, {across(last, 2), true}, {across(last, 3), true}});
+  return brep;
+}
+
 Brep brep_of(const MeshBody& /*body*/, const ShopPart& part) {
   throw bad_body(part, "it is made of facets: it has no faces but those");
 }

@@ -4,6 +4,7 @@
 #include "parts/equal_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -274,6 +275,41 @@ BodyPlace place_of(const SweptBody& body, const SweptBody& other, bool end_for_e
       }
     }
     if (same) return in_space(*path, shift);
+  }
+  return std::nullopt;
+}
+
+/// By three corners far from one another; every corner has to lie on one of the other's.
+BodyPlace place_of(const FoldedPlate& body, const FoldedPlate& other, bool end_for_end) {
+  const std::size_t rings = body.corners.size();
+  if (rings != other.corners.size()) return std::nullopt;
+  const auto there = [&](std::size_t i) -> const std::array<Vec3, 4>& {
+    return other.corners[end_for_end ? rings - 1 - i : i];
+  };
+  for (std::size_t turn = 0; turn < 4; ++turn) {
+    // Seen from its other end the corners of a plate run the other way round.
+    const auto index = [&](std::size_t j) { return (end_for_end ? turn + 4 - j : turn + j) % 4; };
+    const auto basis = [](Vec3 along, Vec3 across) {
+      const Vec3 x = (1.0 / norm(along)) * along;
+      const Vec3 side = across - dot(across, x) * x;
+      const Vec3 y = (1.0 / norm(side)) * side;
+      return Frame{{}, x, y, cross(x, y)};
+    };
+    const Frame here =
+        basis(body.corners.back()[0] - body.corners[0][0], body.corners[0][1] - body.corners[0][0]);
+    const Frame new_one =
+        basis(there(rings - 1)[index(0)] - there(0)[index(0)], there(0)[index(1)] - there(0)[index(0)]);
+    const auto turned = [&](Vec3 v) {
+      return dot(v, here.x) * new_one.x + dot(v, here.y) * new_one.y + dot(v, here.z) * new_one.z;
+    };
+    Frame place{{}, turned({1.0, 0.0, 0.0}), turned({0.0, 1.0, 0.0}), turned({0.0, 0.0, 1.0})};
+    place.origin = there(0)[index(0)] - turned(body.corners[0][0]);
+    bool same = true;
+    for (std::size_t i = 0; i < rings && same; ++i) {
+      for (std::size_t j = 0; j < 4 && same; ++j)
+        same = norm(place.to_space(body.corners[i][j]) - there(i)[index(j)]) <= kSamePart;
+    }
+    if (same) return place;
   }
   return std::nullopt;
 }

@@ -35,6 +35,7 @@ class Objections {
   void add(const char* where, std::string what, std::string why, std::string hint) {
     issues_.push_back({where, std::move(what), std::move(why), std::move(hint)});
   }
+  void add(Issue issue) { issues_.push_back(std::move(issue)); }
   [[nodiscard]] std::vector<Issue> all() && { return std::move(issues_); }
 
  private:
@@ -112,6 +113,12 @@ void object_to_step(double step, Objections& objections) {
 
 }  // namespace
 
+Issue too_tight_a_bend(double radius, double thickness) {
+  return {"bend.inner_radius", "inner_radius: " + length_text(radius) + " is less than the plate's thickness",
+          "Mild steel cracks below " + length_text(thickness) + " (1 thickness).",
+          "inner_radius: " + length_text(thickness)};
+}
+
 std::vector<Issue> common_problems(const PlateOptions& options) {
   Objections objections;
   object_to_split(options.split, objections);
@@ -147,12 +154,8 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
   object_to_flanges(channel, options.flanges, objections);
   if (options.floor == FloorMake::bent) {
     const double radius = options.bend.inner_radius.value_or(channel.thickness);
-    if (radius < (1.0 - 1e-9) * channel.thickness) {
-      objections.add("bend.inner_radius",
-                     "inner_radius: " + length_text(radius) + " is less than the plate's thickness",
-                     "Mild steel cracks below " + length_text(channel.thickness) + " (1 thickness).",
-                     "inner_radius: " + length_text(channel.thickness));
-    }
+    if (radius < (1.0 - 1e-9) * channel.thickness)
+      objections.add(too_tight_a_bend(radius, channel.thickness));
     if (options.walls == WallSeat::on_floor) {
       objections.add("walls", "walls: on-floor does not go with a bent floor",
                      "Between the bends the floor departs from the walls' lower edges.",

@@ -10,4 +10,7 @@ namespace glissade::parts {
 /// What no shop can make of options alone, whatever the section is.
 [[nodiscard]] std::vector<Issue> common_problems(const PlateOptions& options);
 
+/// Of a punch that is sharper than the material stands.
+[[nodiscard]] Issue too_tight_a_bend(double radius, double thickness);
+
 }  // namespace glissade::parts

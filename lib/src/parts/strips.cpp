@@ -6,10 +6,12 @@
 
 #include "core/plane_geometry.hpp"
 #include "parts/as_built.hpp"
+#include "parts/bent_strips.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/equal_parts.hpp"
 #include "parts/offset_line.hpp"
+#include "parts/plate_checks.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
@@ -23,6 +25,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,16 +33,6 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kSameEdge = 1e-9;  // lengths of edges that meet [m]
-
-/// A strip of a unit with the lengths of its developed edges.
-struct Strip {
-  std::size_t plate = 0;
-  Span span;
-  ShopPart part;
-  std::vector<BendStep> steps;
-  double edge_from = 0.0;  ///< at the side of `face_from` [m]
-  double edge_to = 0.0;
-};
 
 double radius_of(double curvature) {
   return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
@@ -153,12 +146,12 @@ std::vector<Vec2> along_chain(std::vector<Vec2> chain, bool closed, double pitch
 }
 
 /// The outside of the section over the thickness of the frames on both sides of a joint: farther out nowhere.
-std::vector<Vec2> outside_at(const StripJob& job, double s) {
+std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
   const double t = job.options.flanges.thickness;
   double wider = 0.0;
   for (const double place : {s - t, s, s + t}) wider = std::max(wider, job.wider_at(place));
   std::vector<Vec2> corners;
-  for (const Vec2 corner : job.section.outside) corners.push_back(job.at(corner, wider, job.lean_at(s)));
+  for (const Vec2 corner : job.section.outside) corners.push_back(job.at(corner, wider, lean));
   return corners;
 }
 
@@ -204,7 +197,9 @@ Frame place_of_frame(const StripJob& job, double s, double shift) {
           direction_in_space(job.placement, at.up), direction_in_space(job.placement, at.along)};
 }
 
-void add_frames(const StripJob& job, const std::vector<double>& joints, Workshop& workshop) {
+/// @param bent  none: the plates are rolled
+void add_frames(const StripJob& job, const std::optional<BentStrips>& bent, const std::vector<double>& joints,
+                Workshop& workshop) {
   if (!job.options.flanges.wanted) return;
   if (!job.section.convex) {
     workshop.notes.emplace_back("The section is hollow outside: no frame fits round it, ends are welded.");
@@ -216,7 +211,8 @@ void add_frames(const StripJob& job, const std::vector<double>& joints, Workshop
       const bool tight = fit == HoleFit::medium;
       if (tight ? i == 0 : i + 1 == joints.size()) continue;
       // Both frames of a joint are one figure, but for their holes.
-      ShopPart frame = frame_of(job, outside_at(job, joints[i]), fit);
+      const double lean = bent ? bent->lean_at(joints[i]) : job.lean_at(joints[i]);
+      ShopPart frame = frame_of(job, outside_at(job, lean, joints[i]), fit);
       if (job.widens()) frame.name += "_" + std::to_string(i);
       frame.places = {place_of_frame(job, joints[i], tight ? -job.options.flanges.thickness : 0.0)};
       if (tight && i + 1 < joints.size()) bolts += frame.pattern->region.holes.size();
@@ -304,19 +300,16 @@ double missing_volume(const StripJob& job, const SectionPlate& plate, bool leani
          volume_along(job, alone, {span.to, job.track.length()}, leaning);
 }
 
-PartsProof prove(const StripJob& job, const std::vector<Strip>& strips, const Workshop& workshop) {
-  PartsProof proof;
-  const Span all{0.0, job.track.length()};
-  proof.exact_volume = volume_along(job, job.section, all, false);
-  double wanted = volume_along(job, job.section, all, true);
-  for (const SectionPlate& plate : job.section.plates) {
-    // What is missing where the track bends tighter than a strip is high.
-    proof.exact_volume -= missing_volume(job, plate, false);
-    wanted -= missing_volume(job, plate, true);
-  }
-  if (job.widens()) proof.differences = {{"lean of the walls", wanted - proof.exact_volume}};
+/// What the plates should hold, and the greatest difference of an edge from what it should be.
+struct Wanted {
+  double volume = 0.0;
+  double edge_mismatch = 0.0;
+};
+
+Wanted wanted_of(const StripJob& job, const std::vector<Strip>& strips) {
+  Wanted wanted{volume_along(job, job.section, {0.0, job.track.length()}, true), 0.0};
+  for (const SectionPlate& plate : job.section.plates) wanted.volume -= missing_volume(job, plate, true);
   for (const Strip& strip : strips) {
-    proof.volume += strip.part.volume;
     const SectionPlate& plate = job.section.plates[strip.plate];
     double from = 0.0;
     double to = 0.0;
@@ -327,16 +320,61 @@ PartsProof prove(const StripJob& job, const std::vector<Strip>& strips, const Wo
       from += edge(plate.middle_from());
       to += edge(plate.middle_to());
     }
-    proof.edge_mismatch =
-        std::max({proof.edge_mismatch, std::fabs(from - strip.edge_from), std::fabs(to - strip.edge_to)});
+    wanted.edge_mismatch =
+        std::max({wanted.edge_mismatch, std::fabs(from - strip.edge_from), std::fabs(to - strip.edge_to)});
   }
+  return wanted;
+}
+
+Wanted wanted_of(const BentStrips& bent, const std::vector<Strip>& strips) {
+  Wanted wanted;
+  for (const Strip& strip : strips) {
+    const BentStrips::Expected expected = bent.expected(strip);
+    wanted.volume += expected.volume;
+    wanted.edge_mismatch = std::max({wanted.edge_mismatch, std::fabs(expected.edge_from - strip.edge_from),
+                                     std::fabs(expected.edge_to - strip.edge_to)});
+  }
+  return wanted;
+}
+
+/// The section by design over what the plates cover, along the arcs.
+double exact_volume(const StripJob& job, const std::optional<BentStrips>& bent,
+                    const std::vector<Strip>& strips) {
+  double volume = 0.0;
+  if (!bent) {
+    volume = volume_along(job, job.section, {0.0, job.track.length()}, false);
+    // What is missing where the track bends tighter than a strip is high.
+    for (const SectionPlate& plate : job.section.plates) volume -= missing_volume(job, plate, false);
+    return volume;
+  }
+  for (const Strip& strip : strips) {
+    PlateSection alone;
+    alone.plates = {job.section.plates[strip.plate]};
+    volume += volume_along(job, alone, strip.span, false);
+  }
+  return volume;
+}
+
+PartsProof prove(const StripJob& job, const std::optional<BentStrips>& bent, const std::vector<Strip>& strips,
+                 const Workshop& workshop) {
+  PartsProof proof;
+  proof.exact_volume = exact_volume(job, bent, strips);
+  const Wanted wanted = bent ? wanted_of(*bent, strips) : wanted_of(job, strips);
+  if (bent) {
+    proof.differences = {{job.widens() ? "flats for arcs, lean of the walls" : "flats for arcs",
+                          wanted.volume - proof.exact_volume}};
+  } else if (job.widens()) {
+    proof.differences = {{"lean of the walls", wanted.volume - proof.exact_volume}};
+  }
+  for (const Strip& strip : strips) proof.volume += strip.part.volume;
+  proof.edge_mismatch = wanted.edge_mismatch;
   double listed = 0.0;
   for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());
   proof.added_volume = listed - proof.volume;
-  if (!(std::fabs(proof.volume - wanted) <= kPartsVolumeAccuracy * wanted)) {
+  if (!(std::fabs(proof.volume - wanted.volume) <= kPartsVolumeAccuracy * wanted.volume)) {
     throw InternalError({"",
                          "the strips hold " + rounded_text(proof.volume, 12) + " m^3, the section " +
-                             rounded_text(wanted, 12) + " m^3",
+                             rounded_text(wanted.volume, 12) + " m^3",
                          "", ""});
   }
   if (!(proof.edge_mismatch <= kSameEdge)) {
@@ -387,7 +425,38 @@ std::string mirrored_pairs(const Workshop& workshop) {
   return pairs;
 }
 
-void add_notes(const StripJob& job, const PartsProof& proof, Workshop& workshop) {
+/// Where plates begin or end short of the track.
+void note_short_plates(const StripJob& job, const std::vector<Strip>& strips, Workshop& workshop) {
+  for (std::size_t p = 0; p < job.section.plates.size(); ++p) {
+    Span span{job.track.length(), 0.0};
+    for (const Strip& strip : strips) {
+      if (strip.plate != p) continue;
+      span = {std::min(span.from, strip.span.from), std::max(span.to, strip.span.to)};
+    }
+    if (span.from == 0.0 && span.to == job.track.length()) continue;
+    workshop.notes.push_back("The " + job.section.plates[p].name + " goes from " + length_text(span.from, 4) +
+                             " to " + length_text(span.to, 4) +
+                             " along the track: beyond, its rim would fold over.");
+  }
+}
+
+void note_bends(const StripJob& job, const BentStrips& bent, const PartsProof& proof, Workshop& workshop) {
+  workshop.notes.push_back(
+      "Every plate is flats between bends; bodies have the bends without a radius, patterns with that of the "
+      "punch, " +
+      length_text(job.options.bend.inner_radius.value_or(job.section.thickness)) +
+      ". Against the solid along the arcs: " + rounded_text(1e6 * proof.differences.front().volume, 4) +
+      " cm^3.");
+  if (bent.departure() > 0.0) {
+    workshop.notes.push_back(
+        "Where the width begins to change beside a bend, it changes at the bend: sides lie off by at most " +
+        length_text(bent.departure(), 2) + ".");
+  }
+}
+
+void add_notes(const StripJob& job, const std::optional<BentStrips>& bent, const PartsProof& proof,
+               const std::vector<Strip>& strips, Workshop& workshop) {
+  if (bent) note_bends(job, *bent, proof, workshop);
   const std::string pairs = mirrored_pairs(workshop);
   if (!pairs.empty()) {
     workshop.notes.push_back("Parts " + pairs +
@@ -402,8 +471,10 @@ void add_notes(const StripJob& job, const PartsProof& proof, Workshop& workshop)
     workshop.notes.push_back(
         "Beside a width that changes walls lean, so that they are bent and not strained: by at most " +
         angle_text(Angle::from_radians(math::atan(job.most_lean())), 3) + ", " +
-        length_text(job.departure(), 3) + " from where the width has them. Against the solid: " +
-        rounded_text(1e6 * proof.differences.front().volume, 4) + " cm^3.");
+        length_text(job.departure(), 3) + " from where the width has them" +
+        (bent
+             ? "."
+             : ". Against the solid: " + rounded_text(1e6 * proof.differences.front().volume, 4) + " cm^3."));
     workshop.notes.push_back(
         "Their thickness is counted across the track: square to them it is less by up to " +
         length_text(job.section.thickness * (1.0 - 1.0 / math::hypot(1.0, job.most_taper())), 2) + ".");
@@ -412,23 +483,24 @@ void add_notes(const StripJob& job, const PartsProof& proof, Workshop& workshop)
     workshop.notes.push_back("Flat staves stand in for the round section; they lie outside it by at most " +
                              length_text(job.section.departure, 3) + ".");
   }
-  for (const SectionPlate& plate : job.section.plates) {
-    const Span span = unfolded(job, plate);
-    if (span.from == 0.0 && span.to == job.track.length()) continue;
-    workshop.notes.push_back("The " + plate.name + " goes from " + length_text(span.from, 4) + " to " +
-                             length_text(span.to, 4) + " along the track: beyond, its rim would fold over.");
-  }
+  note_short_plates(job, strips, workshop);
+}
+
+AsBuiltRide ride_rolled(const StripJob& job, const std::vector<double>& joints, const Body& body,
+                        double gravity, const Motion& design) {
+  std::vector<std::shared_ptr<const ArcSpline>> lines;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i)
+    lines.push_back(std::make_shared<ArcSpline>(rolled_face(job.track, {joints[i], joints[i + 1]}).line));
+  return ride_units(lines, job.options.joint_step, design, body, gravity);
 }
 
 }  // namespace
 
 std::vector<Issue> strip_problems(const PlateSection& section, const PlateOptions& options) {
   std::vector<Issue> issues;
-  if (options.floor == FloorMake::bent) {
-    issues.push_back({"floor", "floor: bent goes with upright walls beside one width",
-                      "Plates that lean, meet in mitres or widen are rolled along the track.",
-                      "floor: rolled"});
-  }
+  const double radius = options.bend.inner_radius.value_or(section.thickness);
+  if (options.floor == FloorMake::bent && radius < (1.0 - 1e-9) * section.thickness)
+    issues.push_back(too_tight_a_bend(radius, section.thickness));
   for (const SectionPlate& plate : section.plates) {
     if (dot(plate.back_to - plate.back_from, plate.face_to - plate.face_from) > 0.0) continue;
     issues.push_back({section.outside_on_left ? "cross_section.thickness" : "thickness",
@@ -467,10 +539,24 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
                           const Motion& design) {
   const StripJob job(track, section, options, placement);
   std::vector<Strip> strips;
+  std::optional<BentStrips> bent;
   WorkshopBuild build;
+  const double kink = options.floor == FloorMake::bent
+                          ? kink_for_speed(
+                                track, options.bend,
+                                [&](double largest) {
+                                  return bent_flats(job, {0.0, track.length()}, largest);
+                                },
+                                body, gravity, design.exit_speed())
+                          : 1.0;
   split_until_it_fits(options.split, track.length(), [&](std::size_t count) -> std::optional<Excess> {
     build.joints = joints_of(track, options.split, count);
-    strips = strips_between(job, build.joints);
+    if (options.floor == FloorMake::bent) {
+      bent.emplace(job, kink, build.joints);
+      strips = bent->strips();
+    } else {
+      strips = strips_between(job, build.joints);
+    }
     for (const Strip& strip : strips) {
       std::optional<Excess> found = excess(options.split, strip.part);
       if (found) found->what = "the " + strip.part.name + " " + found->what;
@@ -480,18 +566,18 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   });
   Workshop& workshop = build.workshop;
   list_strips(strips, workshop);
-  add_frames(job, build.joints, workshop);
+  add_frames(job, bent, build.joints, workshop);
   workshop.setting_out = setting_out(track, build.joints, placement);
-  std::vector<std::shared_ptr<const ArcSpline>> lines;
-  for (std::size_t i = 0; i + 1 < build.joints.size(); ++i) {
-    lines.push_back(
-        std::make_shared<ArcSpline>(rolled_face(track, {build.joints[i], build.joints[i + 1]}).line));
-  }
-  build.ride = ride_units(lines, options.joint_step, design, body, gravity);
+  build.ride = bent ? as_told(ride_facets(bent->facets(), body, gravity, options.joint_step), design,
+                              bent->bends(), build.joints.size() - 2)
+                    : ride_rolled(job, build.joints, body, gravity, design);
   measure_plates(options, workshop);
-  measure_strips(strips, workshop);
-  build.proof = prove(job, strips, workshop);
-  add_notes(job, build.proof, workshop);
+  if (bent)
+    measure_bends(strips, options, workshop);
+  else
+    measure_strips(strips, workshop);
+  build.proof = prove(job, bent, strips, workshop);
+  add_notes(job, bent, build.proof, strips, workshop);
   return build;
 }
 

@@ -58,6 +58,12 @@ struct RolledSheet {
   PlaneRegion region;
 };
 
+/// A plate of plane facets that meet at bends without a radius: four corners at each bend and at both ends, counter-clockwise seen
+/// against the way from the first to the last. Corners of two neighbours lie on the six planes of one facet.
+struct FoldedPlate {
+  std::vector<std::array<Vec3, 4>> corners;  ///< two or more [m]
+};
+
 /// A round tube cut off by two planes: a gore of a mitred pipe. Its axis runs along z through the origin.
 struct TubeGore {
   double inner_radius = 0.0;  ///< [m]; > 0
@@ -83,7 +89,7 @@ struct MeshBody {
   TriangleMesh mesh;  ///< closed, outward, in the part's own frame [m]
 };
 
-using PartBody = std::variant<Prism, SweptBody, RolledSheet, TubeGore, TroughGore, MeshBody>;
+using PartBody = std::variant<Prism, SweptBody, RolledSheet, FoldedPlate, TubeGore, TroughGore, MeshBody>;
 
 /// A straight bend across a flat pattern.
 struct BendLine {

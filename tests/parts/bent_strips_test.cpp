@@ -1,0 +1,246 @@
+// Sections of any kind as flats between bends, beside one width or one that changes: plane facets, lengths, volumes, refusals.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/io/step_file.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/body_mesh.hpp"
+#include "parts/chute_plates.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+using namespace testing;
+
+const WidthLaw kWidening({{2.0, 0.4}, {4.0, 0.6}, {6.0, 0.35}});
+
+PlateOptions bent(double kink_deg = 1.6) {
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  options.bend = {FacetRule::segment_angle, Angle::from_degrees(kink_deg).radians(), {}, {}};
+  return options;
+}
+
+PlateOptions bent_in_one_piece() {
+  PlateOptions options = bent();
+  options.split.sheet = {20.0, 8.0};
+  return options;
+}
+
+/// How far four points lie off the plane through the first three of them.
+double off_plane(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Vec3 normal = cross(b - a, c - a);
+  return std::fabs(dot(d - a, normal)) / norm(normal);
+}
+
+Vec3 middle(const std::array<Vec3, 4>& ring, std::size_t one, std::size_t other) {
+  return 0.5 * (ring[one] + ring[other]);
+}
+
+double whole_length(const ShopPart& part) {
+  return bounds(part.pattern->region.outline).width();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "bent strips: every facet is six planes, of walls beside a width that changes, of trapezoids and "
+    "staves") {
+  PlateOptions staves = bent();
+  staves.round = RoundMake::staves;
+  for (const section::Measures& measures :
+       {section::Measures(section::UChannel{kWidening, 0.25, 4e-3}),
+        section::Measures(section::Trapezoid{kWidening, 0.2, Angle::from_degrees(20.0), 4e-3}),
+        section::Measures(section::Trapezoid{WidthLaw(0.4), 0.2, Angle::from_degrees(20.0), 4e-3}),
+        section::Measures(section::HalfPipe{0.4, 0.05, 4e-3}),
+        section::Measures(section::Slab{kWidening, 6e-3})}) {
+    const WorkshopBuild build = plates_of(chute(), measures, staves);
+    std::size_t facets = 0;
+    for (const ShopPart& part : build.workshop.parts) {
+      const auto* const body = std::get_if<FoldedPlate>(&part.body);
+      if (body == nullptr) continue;
+      for (std::size_t i = 0; i + 1 < body->corners.size(); ++i, ++facets) {
+        const auto& from = body->corners[i];
+        const auto& to = body->corners[i + 1];
+        CHECK(off_plane(from[0], from[1], from[2], from[3]) < 1e-12);
+        for (std::size_t j = 0; j < 4; ++j)
+          CHECK(off_plane(from[j], from[(j + 1) % 4], to[j], to[(j + 1) % 4]) < 1e-12);
+      }
+    }
+    CHECK(facets > 40);
+    CHECK(build.proof.edge_mismatch < 1e-9);
+    CHECK(build.proof.differences.size() == 1);
+    CHECK(std::fabs(build.proof.differences.front().volume) < 2e-3 * build.proof.exact_volume);
+    CHECK(build.ride.arrives);
+    CHECK(build.ride.bends > 40);
+  }
+}
+
+TEST_CASE("bent strips: a wall that takes its form by itself is, laid flat facet by facet, its pattern") {
+  const WorkshopBuild build =
+      plates_of(chute(), section::UChannel{kWidening, 0.18, 4e-3}, bent_in_one_piece());
+  for (const char* const name : {"left_wall", "right_wall"}) {
+    const ShopPart& wall = part_of(build, name);
+    const auto& rings = std::get<FoldedPlate>(wall.body).corners;
+    const std::vector<PathVertex>& corners = wall.pattern->region.outline.vertices;
+    REQUIRE(corners.size() == 2 * rings.size());
+    // Ring corners: face_from, face_to, back_to, back_from, or the other way round; pattern: the middle of the thickness.
+    double worst = 0.0;
+    for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+      const std::array<Vec3, 4> quad = {middle(rings[i], 1, 2), middle(rings[i + 1], 1, 2),
+                                        middle(rings[i + 1], 0, 3), middle(rings[i], 0, 3)};
+      const std::array<std::size_t, 4> one = {i, i + 1, corners.size() - 2 - i, corners.size() - 1 - i};
+      const std::array<std::size_t, 4> other = {one[3], one[2], one[1], one[0]};
+      double as_one = 0.0;
+      double as_other = 0.0;
+      for (std::size_t a = 0; a < 4; ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+          const double there = norm(quad[a] - quad[b]);
+          as_one = std::max(as_one, std::fabs(norm(corners[one[a]].at - corners[one[b]].at) - there));
+          as_other = std::max(as_other, std::fabs(norm(corners[other[a]].at - corners[other[b]].at) - there));
+        }
+      }
+      worst = std::max(worst, std::min(as_one, as_other));
+    }
+    CHECK(worst < 1e-9);
+    // Folded where the width begins, turns and ceases to change; bends of the floor turn it by a tenth of a degree.
+    CHECK(wall.pattern->bends.size() <= 3);
+    CHECK(wall.pattern->bends.size() >= 2);
+  }
+}
+
+TEST_CASE("bent strips: beside a width that is one everywhere the floor is the bent floor of a channel") {
+  const WidthLaw same({{1.0, 0.4}, {3.0, 0.4 + 1e-9}});
+  PlateOptions options = bent_in_one_piece();
+  options.bend.inner_radius = 8e-3;
+  const WorkshopBuild strips = plates_of(chute(), section::UChannel{same, 0.18, 4e-3}, options);
+  const WorkshopBuild channel = plates(chute(), options, {0.4, 0.18, 4e-3});
+  const ShopPart& floor = part_of(strips, "floor");
+  const ShopPart& other = part_of(channel, "floor");
+  CHECK(std::fabs(whole_length(floor) - whole_length(other)) < 1e-9);
+  REQUIRE(floor.pattern->bends.size() == other.pattern->bends.size());
+  for (std::size_t i = 0; i < floor.pattern->bends.size(); ++i) {
+    const BendLine& one = floor.pattern->bends[i];
+    const BendLine& there = other.pattern->bends[i];
+    CHECK(std::fabs(one.from.x - there.from.x) < 1e-9);
+    CHECK(std::fabs(one.angle.radians() - there.angle.radians()) < 1e-9);
+    CHECK(one.up == there.up);
+    CHECK(one.inner_radius == 8e-3);
+  }
+  CHECK(std::fabs(strips.ride.exit_speed - channel.ride.exit_speed) < 1e-12);
+  // Bends without a radius hold what their corners have beyond those of the punch.
+  CHECK(std::fabs(floor.volume / other.volume - 1.0) < 1e-6);
+}
+
+TEST_CASE(
+    "bent strips: a wall that leans is pressed at each bend of the floor, by what its lean leaves of the "
+    "angle") {
+  const section::Trapezoid measures{WidthLaw(0.4), 0.2, Angle::from_degrees(30.0), 4e-3};
+  const WorkshopBuild build = plates_of(chute(), measures, bent_in_one_piece());
+  const ShopPart& floor = part_of(build, "floor");
+  const ShopPart& wall = part_of(build, "left_wall");
+  REQUIRE(wall.pattern->bends.size() == floor.pattern->bends.size());
+  for (std::size_t i = 0; i < wall.pattern->bends.size(); ++i) {
+    // Two planes that lean by b, turned by phi about a level line across: sin(theta/2) = sin(phi/2) sin b.
+    const double phi = floor.pattern->bends[i].angle.radians();
+    const double theta = 2.0 * std::asin(std::sin(0.5 * phi) * std::sin(Angle::from_degrees(30.0).radians()));
+    CHECK(std::fabs(wall.pattern->bends[i].angle.radians() - theta) < 1e-9);
+    CHECK(wall.pattern->bends[i].up == floor.pattern->bends[i].up);
+  }
+  CHECK(std::count_if(build.workshop.bends.begin(), build.workshop.bends.end(), [&](const BendStep& step) {
+          return step.part == wall.number;
+        }) == static_cast<std::ptrdiff_t>(wall.pattern->bends.size()));
+}
+
+TEST_CASE(
+    "bent strips: bodies are closed, outward and of their volume, in facets and in STEP, of planes alone") {
+  const TempDir dir;
+  const WorkshopBuild build = plates_of(chute(), section::UChannel{kWidening, 0.25, 4e-3}, bent());
+  for (const ShopPart& part : build.workshop.parts) {
+    write_step(dir.path() / "part.step", part);
+    require_same_step(dir.path() / "part.step", part);
+    if (!std::holds_alternative<FoldedPlate>(part.body)) continue;
+    CHECK(read_step_facts(dir.path() / "part.step").solids.front().splines == 0);
+    const MeshFacts facts = measure(parts::facets_of(part.body, 1e-5));
+    CHECK(facts.volume == Approx(part.volume).epsilon(1e-12));
+    for (const Vec3 point : parts::edge_points(part.body, 1e-4)) {
+      CHECK(parts::depth_inside(part.body, point) > 0.5e-4);
+      CHECK(parts::depth_inside(part.body, point + Vec3{0.0, 0.0, 20.0}) < -1.0);
+    }
+  }
+}
+
+TEST_CASE("bent strips: random tracks, widths and rules make plates that fit, add up and clear one another") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 10; ++run) {
+    const double size = random.between(3.0, 12.0);
+    std::vector<ClothoidSegment> segments;
+    for (int i = random.integer(1, 4); i > 0; --i) {
+      const double curvature = random.between(-0.5, 0.8) / size;
+      segments.push_back({random.between(0.1, 0.4) * size, curvature, curvature});
+    }
+    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
+    std::vector<WidthAt> knots;
+    double at = random.between(0.0, 0.2) * track.length();
+    double width = random.between(0.3, 0.8);
+    for (int i = random.integer(2, 4); i > 0; --i) {
+      knots.push_back({at, width});
+      const double step = random.between(0.1, 0.3) * track.length();
+      at += step;
+      width = std::max(0.15, width + random.between(-0.15, 0.15) * step);
+    }
+    const double t = random.between(2e-3, 6e-3);
+    PlateOptions options = bent(random.between(1.0, 6.0));
+    if (run % 3 == 1) options.bend = {FacetRule::chord_tolerance, 1e-3, {}, {}};
+    if (run % 3 == 2) options.bend = {FacetRule::bends, 9.0, 2.0 * t, {}};
+    options.split.longest = random.between(0.8, 3.0);
+    options.walls = random.integer(0, 1) == 0 ? WallSeat::beside_floor : WallSeat::on_floor;
+    options.round = RoundMake::staves;
+    for (const section::Measures& measures :
+         {section::Measures(section::UChannel{WidthLaw(knots), random.between(0.1, 0.25), t}),
+          section::Measures(section::Trapezoid{WidthLaw(knots), random.between(0.1, 0.25),
+                                               Angle::from_degrees(random.between(2.0, 35.0)), t}),
+          section::Measures(section::Slab{WidthLaw(knots), t}),
+          section::Measures(section::Pipe{random.between(0.1, 0.3), t}),
+          section::Measures(section::VChannel{Angle::from_degrees(80.0), 0.05, 0.2, t})}) {
+      INFO(section::kind(measures));
+      const WorkshopBuild build =
+          plates_of(track, measures, options);  // throws where parts clash or do not add up
+      for (const ShopPart& part : build.workshop.parts) {
+        CHECK(faults_of(part.pattern->region).empty());
+        CHECK(part.mass > 0.0);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "bent strips: walls higher than the flats of a hollow allow, and punches too sharp, are refused with "
+    "what would do") {
+  const ClothoidSpline hollow(Angle::from_degrees(60.0),
+                              {{1.0, 0.0, 0.0}, {0.2, 1.0 / 0.3, 1.0 / 0.3}, {1.0, 0.0, 0.0}});
+  const section::Trapezoid high{WidthLaw(0.4), 0.4, Angle::from_degrees(20.0), 4e-3};
+  const std::string fold = refusal_of([&] { return plates_of(hollow, high, bent()); });
+  CHECK(fold.find("cross_section|the left_wall folds over at ") == 0);
+  CHECK(fold.find("high above the floor line, a flat there ") != std::string::npos);
+  CHECK(fold.find("a section of at most 29") != std::string::npos);
+  PlateOptions punch = bent();
+  punch.bend.inner_radius = 1e-3;
+  CHECK(
+      refusal_of([&] {
+        return plates_of(chute(), high, punch);
+      }).find("bend.inner_radius|inner_radius: 1 mm is less than the plate's thickness|Mild steel cracks") ==
+      0);
+}
