@@ -149,6 +149,27 @@ double volume_of(const SweptBody& body) {
   return volume;
 }
 
+/// Facet by facet: two triangles of each of its six plane faces.
+double volume_of(const FoldedPlate& plate) {
+  double volume = 0.0;
+  for (std::size_t i = 0; i + 1 < plate.corners.size(); ++i) {
+    const auto& a = plate.corners[i];
+    const auto& b = plate.corners[i + 1];
+    const auto add = [&](Vec3 p, Vec3 q, Vec3 r) {
+      volume += dot(p - a[0], cross(q - a[0], r - a[0])) / 6.0;
+    };
+    add(a[0], a[1], a[2]);
+    add(a[0], a[2], a[3]);
+    add(b[0], b[2], b[1]);
+    add(b[0], b[3], b[2]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      add(a[k], b[k], b[(k + 1) % 4]);
+      add(a[k], b[(k + 1) % 4], a[(k + 1) % 4]);
+    }
+  }
+  return std::fabs(volume);
+}
+
 /// Sheet by sheet: area on the path, and what its lower face is longer.
 double volume_of(const RolledSheet& sheet) {
   double start = 0.0;
