@@ -303,7 +303,7 @@ TEST_CASE("a limit, a format, a section and a law stand in the files that docs/d
   const std::string in = "lib/include/glissade/";
   CHECK(files_naming("highest_curvature_load") ==
         std::set<std::string>{in + "task/limits.hpp", "lib/src/task/limit_catalogue.cpp",
-                              "lib/src/referee/judgement.cpp", "lib/src/optimize/measures.cpp"});
+                              "lib/src/referee/watches.cpp", "lib/src/optimize/measures.cpp"});
   // One of three that a design without `export` gets, which makes it five here.
   CHECK(files_naming("write_scad|ExportFormat::scad") ==
         std::set<std::string>{in + "core/file_format.hpp", "lib/src/pipeline/formats.cpp",
