@@ -68,7 +68,7 @@ std::vector<std::string> row_of(const Design& design, const Track& track, const 
     row[4] = emphasised(broken, Emphasis::bad);
   } else if (const ActiveLimit* const active = active_of(track, check.limit)) {
     if (!active->where.empty()) row[3] = places_text(active->where) + friction;
-    row[4] = price_text(active->price, active->limit, design.objective);
+    row[4] = price_text(*active, design.objective);
   }
   return row;
 }

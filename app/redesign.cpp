@@ -142,7 +142,7 @@ std::string free_text(const Redesign& found) {
     const std::string_view met = entry_of(active.limit.id).met;
     text += "\n" + active.limit.key() + " " +
             (met.empty() ? quantity_text(active.value, active.limit.dimension()) : std::string(met)) + ": " +
-            price_text(active.price, active.limit, found.search->objective);
+            price_text(active, found.search->objective);
   }
   return labelled("Free shape", text);
 }

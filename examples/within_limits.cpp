@@ -20,7 +20,7 @@ int main() {
   }
   std::cout << "travel time " << best.report.travel_time << " s\n";
   for (const ActiveLimit& active : best.report.active) {
-    std::cout << "held back by " << active.limit.label() << ", "
-              << price_text(active.price, active.limit, problem.objective) << '\n';
+    std::cout << "held back by " << active.limit.label() << ", " << price_text(active, problem.objective)
+              << '\n';
   }
 }

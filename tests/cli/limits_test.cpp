@@ -95,6 +95,8 @@ TEST_CASE("the price of a limit in the report is what a re-solve with one unit m
   const double flatter =
       solved(file, {"--set", "limits.slope_angle.highest=34.8deg"})["travel_time_s"].get<double>();
   for (const json& active : track["search"]["active"]) {
+    // The limit's own row tells the same.
+    CHECK(check_of(track, active["limit"])["price"] == active["price"]);
     if (active["limit"] != "slope_angle.highest") continue;
     CHECK(active["price_unit"] == "s per deg");
     CHECK(active["price"].get<double>() == Approx((flatter - steeper) / 0.4).epsilon(0.02));
@@ -102,6 +104,33 @@ TEST_CASE("the price of a limit in the report is what a re-solve with one unit m
     return;
   }
   FAIL("slope_angle.highest is not active");
+}
+
+TEST_CASE(
+    "where two limits bind at one place, relief and tightening have prices of their own, in every output") {
+  const DesignFile file(R"(
+glissade: 1
+track: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}
+body: {friction_coefficient: 0.2}
+centerline: {kind: fastest}
+limits:
+  slope_angle: {lowest: 15 deg}
+  speed: {highest: 6.9777 m/s}
+  exit_speed: {highest: 6.9777 m/s}
+)");
+  const json track = solved(file);
+  CHECK(check_of(track, "slope_angle.lowest")["price"] ==
+        check_of(track, "slope_angle.lowest")["tightening_price"]);
+  CHECK(check_of(track, "slope_angle.lowest")["price_unit"] == "s per deg");
+  CHECK(check_of(track, "lowest_normal_load")["price"].is_null());
+  for (const char* key : {"speed.highest", "exit_speed.highest"}) {
+    INFO(key);
+    const json check = check_of(track, key);
+    CHECK(check["price"].get<double>() == Approx(0.0).margin(1e-9));
+    CHECK(check["tightening_price"].get<double>() == Approx(0.0700).epsilon(0.02));
+    CHECK(check["where"].size() == 1);
+  }
+  CHECK_THAT(solve(file).output, Contains("0 s per m/s looser, 0.07 tighter"));
 }
 
 TEST_CASE("the summary shows limits, what was reached, where, and prices") {

@@ -10,8 +10,11 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <optional>
+#include <string>
 
+using Catch::Matchers::Contains;
 using namespace glissade;
 
 namespace {
@@ -100,7 +103,103 @@ std::optional<Differences> differences_of(const Problem& problem, const Optimize
   return differences;
 }
 
+const ActiveLimit& active_of(const OptimizeReport& report, const std::string& key) {
+  const auto found = std::find_if(report.active.begin(), report.active.end(),
+                                  [&](const ActiveLimit& one) { return one.limit.key() == key; });
+  INFO(key);
+  REQUIRE(found != report.active.end());
+  return *found;
+}
+
+/// What a step of a bound wins, for each unit of it; infinite against it where no track is left.
+double won_by(const Problem& problem, const OptimizeReport& report, const LimitName& limit, double bound,
+              double step) {
+  const OptimizeReport there = optimize(*optimizer::with_bound(problem, limit, bound + step)).report;
+  if (there.status == OptimizeStatus::infeasible) return -std::numeric_limits<double>::infinity();
+  REQUIRE(there.status == OptimizeStatus::optimal);
+  return (report.travel_time - there.travel_time) / std::fabs(step);
+}
+
+Problem shallow() {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.slope_angle.lowest = 15.0 * kRightAngle / 90.0;
+  return problem;
+}
+
 }  // namespace
+
+TEST_CASE("two caps that bind at one place win nothing alone, and cost what re-solves lose") {
+  Problem problem = shallow();
+  const double cap = 0.995 * optimize(problem).report.exit_speed;
+  problem.limits.speed.highest = cap;
+  problem.limits.exit_speed.highest = cap;
+  const OptimizeReport report = optimize(problem).report;
+  REQUIRE(report.status == OptimizeStatus::optimal);
+  for (const char* key : {"speed.highest", "exit_speed.highest"}) {
+    INFO(key);
+    const ActiveLimit& active = active_of(report, key);
+    CHECK(active.price == Approx(0.0).margin(1e-9));
+    REQUIRE(active.tightening_price);
+    const double step = 1e-4 * cap;
+    CHECK(won_by(problem, report, active.limit, cap, step) == Approx(0.0).margin(1e-6));
+    CHECK(-won_by(problem, report, active.limit, cap, -step) ==
+          Approx(*active.tightening_price).epsilon(0.02));
+    CHECK_THAT(price_text(active, problem.objective), Contains("0 s per m/s looser, 0.07"));
+  }
+  // Any other limit has one price.
+  CHECK_FALSE(active_of(report, "slope_angle.lowest").tightening_price);
+}
+
+TEST_CASE("where two limits leave one value, nothing tighter is kept, and what relief wins is told") {
+  Problem problem = shallow();
+  problem.endpoints.drop = 6.0;
+  problem.limits.smallest_valley_radius = 3.0;
+  const double angle = 25.0 * kRightAngle / 90.0;
+  problem.limits.slope_angle.lowest = angle;
+  problem.limits.exit_slope_angle.highest = angle;
+  const OptimizeReport report = optimize(problem).report;
+  REQUIRE(report.status == OptimizeStatus::optimal);
+  const ActiveLimit& lowest = active_of(report, "slope_angle.lowest");
+  const double step = 1e-4 * angle;
+  CHECK(won_by(problem, report, lowest.limit, angle, -step) == Approx(lowest.price).epsilon(0.02));
+  const ActiveLimit& exit = active_of(report, "exit_slope_angle.highest");
+  CHECK(won_by(problem, report, exit.limit, angle, step) == Approx(exit.price).margin(1e-6));
+  for (const ActiveLimit* const active : {&lowest, &exit}) {
+    REQUIRE(active->tightening_price);
+    CHECK(std::isinf(*active->tightening_price));
+    CHECK_THAT(price_text(*active, problem.objective), Contains(" looser, no track tighter"));
+    const double tighter = active == &lowest ? step : -step;
+    CHECK(std::isinf(won_by(problem, report, active->limit, angle, tighter)));
+  }
+}
+
+TEST_CASE("a place in the way that is named twice wins nothing by one name, and costs its price") {
+  testing::Random random = testing::seeded_random(20250306);
+  INFO("GLISSADE_SEED=" << random.seed());
+  int compared = 0;
+  for (int i = 0; i < 150 && compared < 6; ++i) {
+    Problem problem = testing_problems::drawn(random);
+    if (problem.limits.stay_above.empty()) continue;
+    const OptimizeReport once = optimize(problem).report;
+    const auto known = std::find_if(once.active.begin(), once.active.end(), [](const ActiveLimit& active) {
+      return active.limit.id == LimitId::stay_above && active.limit.index == 0;
+    });
+    if (once.status != OptimizeStatus::optimal || known == once.active.end()) continue;
+    problem.limits.stay_above.insert(problem.limits.stay_above.begin() + 1, problem.limits.stay_above[0]);
+    const OptimizeReport twice = optimize(problem).report;
+    if (twice.status != OptimizeStatus::optimal) continue;
+    CAPTURE(i, known->price);
+    ++compared;
+    for (const char* key : {"stay_above[0]", "stay_above[1]"}) {
+      const ActiveLimit& active = active_of(twice, key);
+      CHECK(active.price == Approx(0.0).margin(1e-6 * known->price));
+      CHECK(active.tightening() == Approx(known->price).epsilon(0.02));
+    }
+  }
+  CHECK(compared >= 5);
+}
 
 TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   testing::Random random = testing::seeded_random(20250305);

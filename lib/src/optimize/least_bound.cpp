@@ -238,7 +238,10 @@ class LeastBound {
     const double own = best_by_speed_ ? price_in(report) : 0.0;
     std::erase_if(report.active, [&](const ActiveLimit& active) { return active.limit == name_; });
     if (own > 0.0) {
-      for (ActiveLimit& active : report.active) active.price /= own;
+      for (ActiveLimit& active : report.active) {
+        active.price /= own;
+        if (active.tightening_price) *active.tightening_price /= own;
+      }
       const double end = best_.centerline->length();
       report.active.push_back({{LimitId::exit_speed, Bound::lowest}, wanted_, {{end, end}}, 1.0 / own});
       std::sort(report.active.begin(), report.active.end(),

@@ -1,5 +1,6 @@
 #include "optimize/prices.hpp"
 
+#include "optimize/one_sided_prices.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/switches.hpp"
 
@@ -96,7 +97,7 @@ Found priced(const ScaledProblem& problem, Found found, const Vector& ahead, con
   }
   // Where a finer mesh has other prices, they are taken from there, and from a finer one still until they stay.
   constexpr int kRounds = 3;                // budget
-  constexpr std::size_t kMostPieces = 100;  // budget
+  constexpr std::size_t kMostPieces = 200;  // budget
   Vector prices = multipliers_of(problem, found);
   bool same = ahead.empty() || same_prices(prices, ahead);
   for (int round = 0; !same && round < kRounds; ++round) {
@@ -111,23 +112,29 @@ Found priced(const ScaledProblem& problem, Found found, const Vector& ahead, con
   return found;
 }
 
-std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
-  // Seconds, or m/s or metres where speed or a length alone counts.
+namespace {
+
+/// Seconds, or m/s or metres where speed or a length alone counts.
+double objective_unit(const ScaledProblem& problem) {
   const double length_or_speed = problem.speed_weight > 0.0 ? problem.speed : problem.chord;
-  const double objective_si = problem.time_weight > 0.0 ? problem.time : length_or_speed;
+  return problem.time_weight > 0.0 ? problem.time : length_or_speed;
+}
+
+/// Each limit that carries something, or binds without.
+std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Found& found) {
   std::vector<ActiveLimit> result;
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
     const LimitSpec& limit = problem.limits[i];
     const double multiplier = multiplier_of(found, limit, i);
-    if (multiplier <= 0.0) continue;
+    if (multiplier <= 0.0 && limit.side != 0 && bindings[i].empty()) continue;
     ActiveLimit active;
     active.limit = limit.name;
     active.value = limit.bound_si;
     for (const Span& span : bindings[i]) {
       active.where.push_back({span.from * problem.chord, span.to * problem.chord});
     }
-    active.price = multiplier / limit.scale * limit.per_si * objective_si;
+    active.price = multiplier / limit.scale * limit.per_si * objective_unit(problem);
     // A limit with two sides under one name, as that on the rate of curvature, gives way on both.
     const auto same = std::find_if(result.begin(), result.end(),
                                    [&](const ActiveLimit& known) { return known.limit == active.limit; });
@@ -138,10 +145,34 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
     same->price += active.price;
     same->where = joined(std::move(same->where), active.where);
   }
-  std::sort(result.begin(), result.end(), [](const ActiveLimit& a, const ActiveLimit& b) {
+  return result;
+}
+
+/// Those that cost something, in the order of their keys.
+std::vector<ActiveLimit> told(std::vector<ActiveLimit> limits) {
+  std::erase_if(limits, [](const ActiveLimit& active) { return !(active.tightening() > 0.0); });
+  std::sort(limits.begin(), limits.end(), [](const ActiveLimit& a, const ActiveLimit& b) {
     return a.limit == b.limit ? a.value < b.value : a.limit.key() < b.limit.key();
   });
-  return result;
+  return limits;
+}
+
+}  // namespace
+
+std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
+  return told(binding_limits(problem, found));
+}
+
+std::vector<ActiveLimit> active_limits_to_either_side(const ScaledProblem& problem, const Found& found) {
+  std::vector<ActiveLimit> limits = binding_limits(problem, found);
+  for (const OneSidedPrice& price : one_sided_prices(problem, found)) {
+    for (ActiveLimit& active : limits) {
+      if (active.limit != price.limit) continue;
+      active.price = price.relaxing * objective_unit(problem);
+      active.tightening_price = price.tightening * objective_unit(problem);
+    }
+  }
+  return told(std::move(limits));
 }
 
 }  // namespace glissade::optimizer

@@ -20,4 +20,8 @@ namespace glissade::optimizer {
 /// The limits that carry multipliers, each with where it binds and its price, in the order of their keys.
 [[nodiscard]] std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found);
 
+/// The same of an optimum, with the prices to either side where they differ (one_sided_prices()).
+[[nodiscard]] std::vector<ActiveLimit> active_limits_to_either_side(const ScaledProblem& problem,
+                                                                    const Found& found);
+
 }  // namespace glissade::optimizer

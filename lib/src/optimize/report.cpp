@@ -56,6 +56,14 @@ std::string relaxed_text(const Relaxation& relaxation) {
 
 }  // namespace
 
+std::string price_text(const ActiveLimit& active, const Objective& objective) {
+  const std::string relaxing = price_text(active.price, active.limit, objective);
+  if (!active.tightening_price) return relaxing;
+  const double tightening = price_for_people(*active.tightening_price, active.limit);
+  const bool none = std::isinf(tightening);
+  return relaxing + " looser, " + (none ? "no track" : rounded_text(tightening, 3)) + " tighter";
+}
+
 std::string conflict_text(const Conflict& conflict) {
   std::vector<std::string> words;
   for (const StatedLimit& stated : conflict.limits) {
@@ -93,7 +101,7 @@ std::string OptimizeReport::brief() const {
     text += "; exit speed " + rounded_text(exit_speed, 5) + " m/s\n";
     for (const ActiveLimit& limit : active) {
       text += "  " + limit.limit.key() + " " + quantity_text(limit.value, limit.limit.dimension()) + ": " +
-              price_text(limit.price, limit.limit, objective);
+              price_text(limit, objective);
       if (!limit.where.empty()) text += ", " + places_text(limit.where);
       text += "\n";
     }

@@ -84,9 +84,17 @@ void add_curve(Json& json, const Track& track) {
   }
 }
 
-Json limits_json(const std::vector<LimitCheck>& checks) {
+Json limits_json(const std::vector<LimitCheck>& checks, const OptimizeReport* search) {
   Json limits = Json::array();
-  for (const LimitCheck& check : checks) limits.push_back(check_json(check));
+  for (const LimitCheck& check : checks) {
+    const ActiveLimit* active = nullptr;
+    if (search != nullptr && check.kept()) {
+      const auto found = std::find_if(search->active.begin(), search->active.end(),
+                                      [&](const ActiveLimit& one) { return one.limit == check.limit; });
+      if (found != search->active.end()) active = &*found;
+    }
+    limits.push_back(limit_json(check, active, search != nullptr ? search->objective : Objective{}));
+  }
   return limits;
 }
 
@@ -179,7 +187,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   }
   json["rides"] = Json::array();
   json["clearances_from"] = clearances_from_json(design);
-  json["limits"] = limits_json(report.checks);
+  json["limits"] = limits_json(report.checks, &report);
   json["search"] = search_json(report);
   json["fastest_within_limits"] = nullptr;
   json["probes"] = Json::array();
@@ -228,7 +236,7 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
   add_curve(json, track);
   json["rides"] = rides_of(track, margin);
   json["clearances_from"] = clearances_from_json(design);
-  json["limits"] = limits_json(track.limit_checks);
+  json["limits"] = limits_json(track.limit_checks, track.search ? &*track.search : nullptr);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
   json["fastest_within_limits"] = fastest_within_json(track);
   json["probes"] = probes_json(probe_readings(design, track));
@@ -419,7 +427,7 @@ std::string rides_json(const Design& design, const Track& track, const std::vect
   for (const Track& ride : rides) {
     Json entry = ride_json(FrictionLevel::nominal, ride.motion, stall_angle);
     entry.erase("friction");
-    entry["limits"] = limits_json(ride.limit_checks);
+    entry["limits"] = limits_json(ride.limit_checks, nullptr);
     json["at_frictions"].push_back(std::move(entry));
   }
   return document_text(json);

@@ -194,9 +194,7 @@ Json limits_of(const ReportInput& input) {
   Json limits = Json::array();
   for (const ReportLimit& limit : input.limits) {
     Json row{{"name", limit.name}, {"status", limit.status}};
-    row.update(check_json(limit.check));
-    const Json active = limit.active ? active_json(*limit.active, input.design->objective) : Json::object();
-    for (const char* key : {"where", "price", "price_unit"}) row[key] = active.value(key, Json(nullptr));
+    row.update(limit_json(limit.check, limit.active ? &*limit.active : nullptr, input.design->objective));
     limits.push_back(std::move(row));
   }
   return limits;

@@ -278,6 +278,7 @@ track: {start: {x: 0 m, z: 47.08 m}, finish: {x: 90.23 m, z: 0 m}}
 body: {friction_coefficient: 0.03}
 limits:
   slope_angle: {highest: 35 deg}
+  entry_slope_angle: {lowest: 35 deg}
   highest_curvature_load: 7.14 m/s^2
   keep_outs:
     - {outline: [[30 m, 13 m], [40 m, 13 m], [40 m, 17 m], [30 m, 17 m]]}
@@ -298,7 +299,11 @@ export: [stl]
     assert.equal(slope[4], "active");
     const price = json.limits.find(({ limit }) => limit === "slope_angle.highest");
     assert.ok(price, "the limit is among those of --json");
-    assert.match(slope[5], /^0\.\d+ s per deg$/);
+    // It leaves the entry slope angle one value: its price for relief is not that for tightening.
+    assert.match(slope[5], /^0\.\d+ s per deg looser, no track tighter$/);
+    assert.equal(price.tightening_price, null);
+    const load = rows.find(([name]) => name.endsWith("highest_curvature_load"));
+    assert.match(load[5], /^0\.\d+ s per m\/s\u00b2$/);
     assert.match(await page.locator("#summary .tally").textContent(), /^(\d+) of \1 checks hold/);
     // Curvature is bounded here: its plot shows all of it. That of the radius ends where the track is straight to the eye.
     const scales = await page.evaluate(() => Object.fromEntries(window.glissadeReport.charts.map(({ chart, plot }) =>

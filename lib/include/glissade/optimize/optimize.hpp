@@ -45,9 +45,20 @@ struct ActiveLimit {
   double value = 0.0;          ///< the bound [SI]
   std::vector<Stretch> where;  ///< where the track lies at the bound, in order
   /// Seconds of the objective won for each unit by which the bound is relaxed (of an objective exit_speed:
-  /// m/s); >= 0. The first-order multiplier; of a radius it belongs to a smaller radius.
+  /// m/s, of least_drop and least_length: metres); >= 0. The first-order multiplier; of a radius it belongs to a
+  /// smaller radius. Of a value to be met exactly: by which it moves the way that wins.
   double price = 0.0;
+  /// What each unit costs by which the bound is tightened instead, > price, where that is not the price: another limit
+  /// begins to bind at the same bound. Infinite where no track keeps a tighter one. None: the price, to either side.
+  std::optional<double> tightening_price = std::nullopt;
+
+  /// @return what a unit costs by which the bound is tightened
+  [[nodiscard]] double tightening() const { return tightening_price.value_or(price); }
 };
+
+/// @return "0.0123 s per deg"; of a price to either side "0.0123 s per deg looser, 0.0456 tighter", or "0.0123 s per deg
+///         looser, no track tighter"
+[[nodiscard]] std::string price_text(const ActiveLimit& active, const Objective& objective);
 
 /// The smallest change of one limit, all others kept, that was found to make the problem solvable.
 struct Relaxation {

@@ -126,20 +126,6 @@ Json closest_json(const std::optional<EnvelopePlace>& closest) {
           {"z_m", closest->point.y}};
 }
 
-Json check_json(const LimitCheck& check) {
-  return {{"limit", check.limit.key()},
-          {"side", side_name(check.limit.bound)},
-          {"bound", in_unit(check.value, check.limit)},
-          {"reached", in_unit(check.reached, check.limit)},
-          {"unit", unit_for_people(check.limit.dimension())},
-          {"at_m", check.where},
-          {"closest", closest_json(check.closest)},
-          {"friction", level_json(check.friction)},
-          {"kept", check.kept()},
-          {"violation", in_unit(check.violation, check.limit)},
-          {"violation_of_scale", number(check.violation / check.scale)}};
-}
-
 Json active_json(const ActiveLimit& active, const Objective& objective) {
   Json where = Json::array();
   for (const Stretch& stretch : active.where)
@@ -149,7 +135,26 @@ Json active_json(const ActiveLimit& active, const Objective& objective) {
           {"unit", unit_for_people(active.limit.dimension())},
           {"where", std::move(where)},
           {"price", number(price_for_people(active.price, active.limit))},
+          {"tightening_price", number(price_for_people(active.tightening(), active.limit))},
           {"price_unit", price_unit(active.limit, objective)}};
+}
+
+Json limit_json(const LimitCheck& check, const ActiveLimit* active, const Objective& objective) {
+  Json json = {{"limit", check.limit.key()},
+               {"side", side_name(check.limit.bound)},
+               {"bound", in_unit(check.value, check.limit)},
+               {"reached", in_unit(check.reached, check.limit)},
+               {"unit", unit_for_people(check.limit.dimension())},
+               {"at_m", check.where},
+               {"closest", closest_json(check.closest)},
+               {"friction", level_json(check.friction)},
+               {"kept", check.kept()},
+               {"violation", in_unit(check.violation, check.limit)},
+               {"violation_of_scale", number(check.violation / check.scale)}};
+  const Json prices = active != nullptr ? active_json(*active, objective) : Json::object();
+  for (const char* key : {"where", "price", "tightening_price", "price_unit"})
+    json[key] = prices.value(key, Json(nullptr));
+  return json;
 }
 
 Json search_json(const OptimizeReport& report) {

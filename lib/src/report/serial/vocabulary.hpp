@@ -49,7 +49,9 @@ void add_ride(Json& json, const Motion& motion);
 
 /// @return the part of an envelope that comes closest to an obstacle; null where there is none
 [[nodiscard]] Json closest_json(const std::optional<EnvelopePlace>& closest);
-[[nodiscard]] Json check_json(const LimitCheck& check);
+/// A limit as the referee finds it, and what it costs.
+/// @param active  none where it does not hold the track back
+[[nodiscard]] Json limit_json(const LimitCheck& check, const ActiveLimit* active, const Objective& objective);
 [[nodiscard]] Json active_json(const ActiveLimit& active, const Objective& objective);
 /// @return how a search ended; conflict and relaxations are null unless the limits contradict each other
 [[nodiscard]] Json search_json(const OptimizeReport& report);

@@ -154,15 +154,21 @@ function placeText(limit, units) {
   return `s = ${text}${limit.friction ? `, at ${limit.friction} friction` : ""}`;
 }
 
-// A price counts per unit of the limit: in the unit that is shown.
+// A price counts per unit of the limit: in the unit that is shown. Where another limit begins to bind at the same bound,
+// relief wins less than tightening costs, and both are told.
 function priceText(limit, units) {
   if (limit.price === null) return "\u2013";
   const quantity = QUANTITIES[limit.unit];
   const [objective] = limit.price_unit.split(" per ");
   const unit = quantity ? units.unit(quantity) : superscripts(limit.unit);
   const speed = objective === "m/s";
-  const price = speed ? units.convert("speed", limit.price) : limit.price;
-  return `${number(quantity ? price / units.convert(quantity, 1) : price, 3)} ${speed ? units.unit("speed") : objective} per ${unit}`;
+  const shown = (value) => {
+    const price = speed ? units.convert("speed", value) : value;
+    return number(quantity ? price / units.convert(quantity, 1) : price, 3);
+  };
+  const text = `${shown(limit.price)} ${speed ? units.unit("speed") : objective} per ${unit}`;
+  if (limit.tightening_price === limit.price) return text;
+  return `${text} looser, ${limit.tightening_price === null ? "no track" : shown(limit.tightening_price)} tighter`;
 }
 
 // Of a clearance that the whole solid keeps: which part of it comes closest, and where.
@@ -189,6 +195,6 @@ export function limitTable(doc, store, units) {
       element("thead", {}, element("tr", {}, ["Limit", "Bound", "Reached", "Where", "Status", "Price"]
         .map((head) => element("th", { scope: "col" }, head)))),
       body)),
-    element("p", { class: "note" }, "Active: the track lies at this bound. The price is what one unit of relief wins."
+    element("p", { class: "note" }, "Active: the track lies at this bound. The price is what one unit of relief wins, and what one unit tighter costs where that is not the same."
       + (doc.rides.length > 1 ? " Limits hold over the whole range of friction; each row tells the friction that comes nearest to its bound." : "")));
 }
