@@ -33,6 +33,33 @@ double sum_of_volumes(const Workshop& workshop) {
 
 }  // namespace
 
+TEST_CASE(
+    "plates: with nothing told there are frames that fit low walls, and plates that fit narrow outlines") {
+  const auto frame_of = [](double height) {
+    const WorkshopBuild build = plates_of(chute(), section::UChannel{WidthLaw(0.15), height, 2e-3});
+    const std::vector<const ShopPart*> frames = named(build, "end_frame");
+    const std::string& note = build.workshop.notes.empty() ? "" : build.workshop.notes.back();
+    return std::pair(frames.empty() ? 0.0 : frames.front()->thickness, note);
+  };
+  CHECK(frame_of(0.1) == std::pair(6e-3, std::string()));
+  CHECK(frame_of(0.045) ==
+        std::pair(6e-3, std::string("Frames are 40 mm wide, with M8: the usual ones find no "
+                                    "room beside walls of 45 mm.")));
+  CHECK(frame_of(0.022).first == 4e-3);
+  CHECK(frame_of(0.005).second == "No frames: none finds room beside walls of 5 mm.");
+  // What is told is refused where it does not fit.
+  PlateOptions told;
+  told.flanges.as_told = true;
+  CHECK(refusal_of([&] {
+          return plates_of(chute(), section::UChannel{WidthLaw(0.15), 0.045, 2e-3}, told);
+        }).find("flanges.width|width: 50 mm is more than the walls are high, 45 mm") == 0);
+
+  const section::TrackGroove groove{WidthLaw(0.1), 0.01, 6e-3, 0.03, 0.012};
+  const WorkshopBuild thin = plates_of(chute(), groove);
+  CHECK(thin.workshop.parts.front().thickness < 4e-3);
+  CHECK(thin.workshop.parts.front().thickness >= 0.5e-3);
+}
+
 TEST_CASE("plates: the grain chute's floor and walls add up to the volume of its channel, A S - M phi") {
   PlateOptions options;
   options.flanges.wanted = false;

@@ -73,6 +73,7 @@ std::optional<int> read_bolt(const Value& value, Findings& findings) {
 
 FlangeOptions read_flanges(const Value& value, Findings& findings) {
   FlangeOptions flanges;
+  flanges.as_told = true;
   if (value.node->kind != Node::Kind::map && is_word(value, "none", findings)) {
     flanges.wanted = false;
     return flanges;
@@ -238,7 +239,7 @@ PlateOptions read_plate(MapReader& map, Findings& findings) {
       map, "round", plate.round,
       {{"as-fits", RoundMake::as_fits}, {"mitred", RoundMake::mitred}, {"staves", RoundMake::staves}});
   set_length(map, "stave_tolerance", plate.stave_tolerance);
-  set_length(map, "thickness", plate.polygon_thickness);
+  plate.polygon_thickness = map.quantity("thickness", Dimension::length);
   read_fittings(map, plate, findings);
   plate.joint_step = map.quantity("joint_step", Dimension::length).value_or(plate.joint_step);
   return plate;

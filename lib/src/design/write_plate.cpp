@@ -140,7 +140,7 @@ void add_process(Group& group, const PlateOptions& plate) {
   group.add("walls", plate.walls == WallSeat::on_floor ? "on-floor" : "beside-floor");
   group.add("corners", corners(plate.corners));
   group.add("split", split(plate.split));
-  group.add("flanges", flanges(plate.flanges));
+  if (plate.flanges != FlangeOptions()) group.add("flanges", flanges(plate.flanges));
   group.add("round", plate.round == RoundMake::staves   ? "staves"
                      : plate.round == RoundMake::mitred ? "mitred"
                                                         : "as-fits");

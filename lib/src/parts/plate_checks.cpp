@@ -131,7 +131,7 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
                    "a cross_section of kind: u-channel, of one width");
   };
   objections.positive(options.stave_tolerance, "stave_tolerance");
-  objections.positive(options.polygon_thickness, "thickness");
+  if (options.polygon_thickness) objections.positive(*options.polygon_thickness, "thickness");
   only_on_channels(options.corners.kind != CornerJoint::butt, "corners");
   only_on_channels(options.rim.has_value(), "rim");
   only_on_channels(options.stiffeners.has_value(), "stiffeners");

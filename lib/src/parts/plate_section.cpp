@@ -224,7 +224,7 @@ std::optional<PlateSection> round_outline(const section::Measures& measures, con
     const Vec2 out = chain[(i + 1) % chain.size()] - chain[i];
     if (std::fabs(cross(in, out)) > 1e-9 * norm(in) * norm(out)) kept.push_back(chain[i]);
   }
-  PlateSection section = of_chain(kept, options.polygon_thickness, true);
+  PlateSection section = of_chain(kept, options.polygon_thickness.value_or(4e-3), true);
   section.outside = kept;
   section.outside_on_left = false;
   name_by_place(section, "side");

@@ -223,6 +223,44 @@ WorkshopBuild make_round_or_strips(const ArcSpline& track, const section::Measur
   }
 }
 
+/// Of the usual frames and narrower ones the widest that fits; none where none does.
+FlangeOptions fitted_flanges(const ChannelMeasures& channel, const PlateOptions& options) {
+  constexpr std::array<FlangeOptions, 5> kFrames = {
+      FlangeOptions(), FlangeOptions{true, 40e-3, 6e-3, 8, 120e-3},
+      FlangeOptions{true, 30e-3, 5e-3, 6, 100e-3}, FlangeOptions{true, 20e-3, 4e-3, 5, 80e-3},
+      FlangeOptions{true, 14e-3, 3e-3, 5, 60e-3}};
+  for (const FlangeOptions& frame : kFrames) {
+    PlateOptions with = options;
+    with.flanges = frame;
+    const std::vector<Issue> issues = plate_problems(channel, with);
+    const bool fits = std::none_of(issues.begin(), issues.end(),
+                                   [](const Issue& issue) { return issue.where.starts_with("flanges."); });
+    if (fits) return frame;
+  }
+  FlangeOptions none;
+  none.wanted = false;
+  return none;
+}
+
+void note_frames(const FlangeOptions& frame, const ChannelMeasures& channel, Workshop& workshop) {
+  const std::string walls = " beside walls of " + length_text(channel.wall_height, 3) + ".";
+  workshop.notes.push_back(frame.wanted
+                               ? "Frames are " + length_text(frame.width) + " wide, with M" +
+                                     std::to_string(frame.bolt) + ": the usual ones find no room" + walls
+                               : "No frames: none finds room" + walls);
+}
+
+/// The thickest usual plate of which something is left between the mitres of every side.
+std::optional<double> fitted_thickness(const section::Measures& measures, PlateOptions options) {
+  constexpr std::array<double, 9> kStock = {4e-3, 3e-3, 2.5e-3, 2e-3, 1.5e-3, 1.2e-3, 1e-3, 0.8e-3, 0.5e-3};
+  for (const double thickness : kStock) {
+    options.polygon_thickness = thickness;
+    const auto section = plate_section(measures, options);
+    if (section && strip_problems(*section, options).empty()) return thickness;
+  }
+  return std::nullopt;
+}
+
 std::vector<Issue> width_changes() {
   return {{"cross_section.width",
            "fabrication: plates of curbs or a groove beside a width that changes are not made",
@@ -232,7 +270,15 @@ std::vector<Issue> width_changes() {
 
 }  // namespace
 
-std::vector<Issue> plate_problems(const section::Measures& measures, const PlateOptions& options) {
+PlateOptions fitted(const section::Measures& measures, PlateOptions options) {
+  const auto channel = channel_of(measures);
+  if (options.flanges == FlangeOptions() && channel) options.flanges = fitted_flanges(*channel, options);
+  if (!options.polygon_thickness && !channel) options.polygon_thickness = fitted_thickness(measures, options);
+  return options;
+}
+
+std::vector<Issue> plate_problems(const section::Measures& measures, const PlateOptions& told) {
+  const PlateOptions options = fitted(measures, told);
   if (const auto channel = channel_of(measures)) {
     std::vector<Issue> issues = plate_problems(*channel, options);
     // Of a cross-section that is no good itself, its own check tells.
@@ -249,12 +295,16 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
 }
 
 WorkshopBuild make_plates(const Centerline& track, const section::Measures& measures,
-                          const MasterCurveOptions& fit, const PlateOptions& options,
-                          const Placement& placement, const Body& body, double gravity) {
+                          const MasterCurveOptions& fit, const PlateOptions& told, const Placement& placement,
+                          const Body& body, double gravity) {
+  const PlateOptions options = fitted(measures, told);
   std::vector<Issue> problems = plate_problems(measures, options);
   if (!problems.empty()) throw InputError(std::move(problems));
-  if (const auto channel = channel_of(measures))
-    return make_plates(track, *channel, fit, options, placement, body, gravity);
+  if (const auto channel = channel_of(measures)) {
+    WorkshopBuild build = make_plates(track, *channel, fit, options, placement, body, gravity);
+    if (options.flanges != told.flanges) note_frames(options.flanges, *channel, build.workshop);
+    return build;
+  }
   MasterCurve master = fit_arcs(track, fit);
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
   WorkshopBuild build =

@@ -37,6 +37,10 @@ namespace glissade {
                                         const Placement& placement, const Body& body,
                                         double gravity = kDefaultGravity);
 
+/// Options with what is not told in them as the section asks for it: narrower frames with smaller bolts beside low walls, none
+/// where none fits; the thickness of plates round a free outline. make_plates() and plate_problems() do so themselves.
+[[nodiscard]] PlateOptions fitted(const section::Measures& measures, PlateOptions options);
+
 /// As plate_problems() of a channel, of any cross-section.
 [[nodiscard]] std::vector<Issue> plate_problems(const section::Measures& measures,
                                                 const PlateOptions& options);
