@@ -111,18 +111,53 @@ void exchange(Reference& at, const Piece& piece, const Circle4& circle, std::siz
   }
 }
 
+void add_sample(TrackSamples& samples, const Centerline& track, double s) {
+  const CenterlinePoint point = track.at(s);
+  samples.s.push_back(s);
+  samples.point.push_back({point.x, -point.drop});
+  samples.heading.push_back(-point.slope_angle);
+}
+
 }  // namespace
+
+std::size_t index_at(const TrackSamples& samples, double s) {
+  return static_cast<std::size_t>(std::lower_bound(samples.s.begin(), samples.s.end(), s) -
+                                  samples.s.begin());
+}
+
+TrackSamples moved_left(const TrackSamples& samples, double distance) {
+  TrackSamples moved = samples;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const auto [sine, cosine] = math::sine_cosine(moved.heading[i]);
+    moved.point[i] = moved.point[i] + distance * Vec2{-sine, cosine};
+  }
+  return moved;
+}
+
+TrackSamples refined(const Centerline& track, const TrackSamples& samples, const CirclePieces& pieces,
+                     std::size_t count) {
+  TrackSamples more;
+  std::size_t first = 0;
+  for (const std::size_t last : pieces.ends) {
+    const std::size_t steps = std::max<std::size_t>(last - first, 1);
+    const std::size_t parts = (count + steps - 1) / steps;
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t k = 0; k < parts; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(parts);
+        add_sample(more, track, samples.s[i] + share * (samples.s[i + 1] - samples.s[i]));
+      }
+    }
+    first = last;
+  }
+  add_sample(more, track, samples.s.back());
+  return more;
+}
 
 TrackSamples sample(const Centerline& track, std::size_t count) {
   TrackSamples samples;
   const std::vector<double> breaks = track.breaks();
   const double length = track.length();
-  const auto add = [&](double s) {
-    const CenterlinePoint point = track.at(s);
-    samples.s.push_back(s);
-    samples.point.push_back({point.x, -point.drop});
-    samples.heading.push_back(-point.slope_angle);
-  };
+  const auto add = [&](double s) { add_sample(samples, track, s); };
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double span = breaks[i + 1] - breaks[i];
     const auto own = static_cast<std::size_t>(std::ceil(static_cast<double>(count) * span / length));

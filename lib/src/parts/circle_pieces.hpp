@@ -20,6 +20,12 @@ struct TrackSamples {
 /// @param count  about how many places; each stretch between breaks gets at least 16
 [[nodiscard]] TrackSamples sample(const Centerline& track, std::size_t count);
 
+/// @return the first sample at an arc length or after it
+[[nodiscard]] std::size_t index_at(const TrackSamples& samples, double s);
+
+/// @return the same places moved to the left of the track
+[[nodiscard]] TrackSamples moved_left(const TrackSamples& samples, double distance);
+
 /// The distance of points from one circle, or straight line: C |p|^2 + B x + y + A = 0 in the frame of a chord.
 /// @param first,last  indices of the piece, first < last
 /// @return whether some circle passes all samples of the piece within the tolerance. False is certain: four samples
@@ -38,6 +44,10 @@ struct CirclePieces {
   /// chain can reach farther.
   [[nodiscard]] std::size_t count() const { return ends.size(); }
 };
+/// @return more samples between those that are there, so that each piece has at least `count` steps
+[[nodiscard]] TrackSamples refined(const Centerline& track, const TrackSamples& samples,
+                                   const CirclePieces& pieces, std::size_t count);
+
 [[nodiscard]] CirclePieces circle_pieces(const TrackSamples& samples, std::size_t first, std::size_t last,
                                          double tolerance);
 

@@ -5,7 +5,9 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/arc_fit.hpp"
+#include "parts/arc_search.hpp"
 #include "parts/circle_pieces.hpp"
+#include "parts/fewest_arcs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +24,8 @@ namespace {
 
 constexpr std::size_t kFirstSamples = 2048;
 constexpr std::size_t kSamplesPerArc = 96;
-constexpr double kSameArc = 1e-10;     // relative difference of curvatures within one arc of the track
-constexpr double kSameLine = 1e-12;    // the same of straight lines, times the length of the track
-constexpr std::size_t kMoreArcs = 64;  // than the bound, before the search for a chain gives up
+constexpr double kSameArc = 1e-10;   // relative difference of curvatures within one arc of the track
+constexpr double kSameLine = 1e-12;  // the same of straight lines, times the length of the track
 
 /// An arc or straight line of the track itself.
 struct Kept {
@@ -67,63 +68,17 @@ std::vector<Kept> kept_pieces(const Centerline& track) {
   return kept;
 }
 
-/// The band of a fit, and the width to either side of its middle.
-struct Aim {
-  Band band;
-  double width = 0.0;  // [m]
-};
-
-Aim aim_at(FitSide side, double tolerance) {
+/// Where the arcs may lie.
+Band band_of(FitSide side, double tolerance) {
   switch (side) {
     case FitSide::away:
-      return {{-0.5 * tolerance}, 0.5 * tolerance};
+      return {kOneSidedSlip * tolerance, tolerance};
     case FitSide::into_flow:
-      return {{0.5 * tolerance}, 0.5 * tolerance};
+      return {tolerance, kOneSidedSlip * tolerance};
     case FitSide::both:
       break;
   }
-  return {{}, tolerance};
-}
-
-/// Places where a given number of arcs should join: ends of pieces whose common tolerance is the least that this many
-/// pieces have.
-std::vector<double> first_knots(const TrackSamples& samples, const Stretch& stretch, double tolerance,
-                                std::size_t cells) {
-  double high = tolerance;  // too many pieces below `low`, few enough at `high`
-  double low = tolerance;
-  const auto pieces_at = [&](double bound) {
-    return circle_pieces(samples, stretch.first, stretch.last, bound);
-  };
-  CirclePieces pieces = pieces_at(high);
-  while (pieces.count() > cells) pieces = pieces_at(high *= 2.0);
-  for (int k = 0; k < 8 && pieces_at(low).count() <= cells; ++k) low *= 0.5;
-  for (int k = 0; k < 5; ++k) {
-    const double middle = std::sqrt(low * high);
-    const CirclePieces tried = pieces_at(middle);
-    if (tried.count() > cells) {
-      low = middle;
-    } else {
-      high = middle;
-      pieces = tried;
-    }
-  }
-  std::vector<double> knots = {samples.s[stretch.first]};
-  for (std::size_t i = 0; i + 1 < pieces.ends.size(); ++i) knots.push_back(samples.s[pieces.ends[i]]);
-  knots.push_back(samples.s[stretch.last]);
-  while (knots.size() < cells + 1) {  // fewer pieces would do: split the longest
-    std::size_t longest = 0;
-    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-      if (knots[i + 1] - knots[i] > knots[longest + 1] - knots[longest]) longest = i;
-    }
-    const double middle = 0.5 * (knots[longest] + knots[longest + 1]);
-    knots.insert(knots.begin() + static_cast<std::ptrdiff_t>(longest) + 1, middle);
-  }
-  return knots;
-}
-
-std::size_t index_at(const TrackSamples& samples, double s) {
-  return static_cast<std::size_t>(std::lower_bound(samples.s.begin(), samples.s.end(), s) -
-                                  samples.s.begin());
+  return {tolerance, tolerance};
 }
 
 /// The stretch between a kept piece and the one before it; the first begins at the start, the last ends at the finish.
@@ -143,65 +98,20 @@ std::optional<Stretch> stretch_before(const TrackSamples& samples, const std::ve
   return stretch;
 }
 
-/// How far a kept piece stays within a tolerance of a stretch beside it, at most a part of that.
-/// @param step  1 from its start on, -1 from its end back
-double reach_of(const TrackSamples& samples, const Stretch& stretch, const ArcAt& leg, double tolerance,
-                int step) {
-  constexpr double kMost = 0.45;  // of the stretch: the other end may reach as far
-  const double most = kMost * (samples.s[stretch.last] - samples.s[stretch.first]);
-  const std::size_t from = step > 0 ? stretch.first : stretch.last;
-  double reached = 0.0;
-  for (std::size_t j = from; j >= stretch.first && j <= stretch.last; j += static_cast<std::size_t>(step)) {
-    const double away = std::fabs(samples.s[j] - samples.s[from]);
-    if (away > most || std::fabs(leg.distance(samples.point[j])) > tolerance) break;
-    reached = away;
-  }
-  return reached;
-}
-
-/// As few arcs as keep the band along a stretch.
-ArcChain fewest_arcs(const TrackSamples& samples, const Stretch& stretch, const Aim& aim) {
-  if (stretch.before && stretch.after && stretch.before->reach > 0.0 && stretch.after->reach > 0.0) {
-    ArcChain one = tangent_arc(samples, stretch);
-    if (one.deviation <= aim.width) return one;
-  }
-  // Of what a kept piece may reach, where its joint begins to look for its place.
-  constexpr double kFirstShare = 0.6;
-  Stretch inner = stretch;
-  if (stretch.before)
-    inner.first = index_at(samples, samples.s[stretch.first] + kFirstShare * stretch.before->reach);
-  if (stretch.after)
-    inner.last = index_at(samples, samples.s[stretch.last] - kFirstShare * stretch.after->reach);
-  const std::size_t bound = circle_pieces(samples, inner.first, inner.last, aim.width).count();
-  const std::size_t least = stretch.before && stretch.after ? 2 : 1;
-  ArcChain chain;
-  for (std::size_t cells = std::max(bound, least); cells <= 2 * bound + kMoreArcs; ++cells) {
-    chain = fit_chain(samples, stretch, first_knots(samples, inner, aim.width, cells), aim.band, aim.width);
-    if (chain.deviation <= aim.width) return chain;
-  }
-  throw ConvergenceError(
-      {"", "no arcs found that follow the track within " + length_text(aim.width), "", "a larger tolerance"});
-}
-
 /// The chain between a kept piece and the one before it; no vertices where there is nothing in between.
-ArcChain chain_before(const TrackSamples& samples, const std::vector<Kept>& kept, std::size_t next,
-                      const Aim& aim) {
-  std::optional<Stretch> stretch = stretch_before(samples, kept, next);
+ArcChain chain_before(const Centerline& track, const TrackSamples& samples, const std::vector<Kept>& kept,
+                      std::size_t next, const Band& band) {
+  const std::optional<Stretch> stretch = stretch_before(samples, kept, next);
   if (!stretch) return {};
-  // A band to one side closes where a kept piece begins: there that stays as long as it is.
-  if (aim.band.middle == 0.0) {
-    for (auto* end : {&stretch->before, &stretch->after}) {
-      const int step = end == &stretch->before ? 1 : -1;
-      if (*end) (*end)->reach = reach_of(samples, *stretch, (*end)->leg, aim.width, step);
-    }
-  }
-  return fewest_arcs(samples, *stretch, aim);
+  return fewest_arcs(track, samples, *stretch, band);
 }
 
 /// Lines and arcs of the track where it has them, chains in between.
-ArcPath assembled(const TrackSamples& samples, const std::vector<Kept>& kept, const Aim& aim) {
+ArcPath assembled(const Centerline& track, const TrackSamples& samples, const std::vector<Kept>& kept,
+                  const Band& band) {
   std::vector<ArcChain> chains;
-  for (std::size_t i = 0; i <= kept.size(); ++i) chains.push_back(chain_before(samples, kept, i, aim));
+  for (std::size_t i = 0; i <= kept.size(); ++i)
+    chains.push_back(chain_before(track, samples, kept, i, band));
   ArcPath path;
   const auto add = [&path](const ArcChain& chain) {
     if (!chain.vertices.empty())
@@ -220,51 +130,87 @@ ArcPath assembled(const TrackSamples& samples, const std::vector<Kept>& kept, co
   return path;
 }
 
-/// The distance of a point from the track.
+/// The distance of a point from the track, positive to its left.
 /// @param guess  arc length near the nearest point; becomes that of the point found
-double distance_to(const Centerline& track, Vec2 point, double& guess) {
+double offset_from(const Centerline& track, Vec2 point, double& guess) {
   double s = std::clamp(guess, 0.0, track.length());
   double least = std::numeric_limits<double>::infinity();
+  double side = 1.0;
   for (int step = 0; step < 12; ++step) {
     const CenterlinePoint at = track.at(s);
     const auto [sine, cosine] = math::sine_cosine(at.slope_angle);
     const Vec2 away{point.x - at.x, point.y + at.drop};
     const double distance = norm(away);
-    if (distance < least) {
-      least = distance;
-      guess = s;
-    }
     const double along = away.x * cosine - away.y * sine;
     const double left = away.x * sine + away.y * cosine;
+    if (distance < least) {
+      least = distance;
+      side = left < 0.0 ? -1.0 : 1.0;
+      guess = s;
+    }
     const double stretch = std::isfinite(at.curvature) ? std::max(1.0 - at.curvature * left, 0.25) : 1.0;
     const double next = std::clamp(s + along / stretch, 0.0, track.length());
     if (std::fabs(next - s) <= 1e-13 * track.length()) break;
     s = next;
   }
-  return least;
+  return side * least;
 }
 
-/// The greatest distance of the spline from the track, with the top between points by a parabola.
-double measured_deviation(const Centerline& track, const ArcSpline& spline) {
-  std::vector<double> found;
+/// The greatest value of a list, with the top between values by a parabola.
+double greatest(const std::vector<double>& values, double sign) {
+  double most = 0.0;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double before = sign * values[i - 1];
+    const double here = sign * values[i];
+    const double after = sign * values[i + 1];
+    most = std::max(most, here);
+    const double bend = before - 2.0 * here + after;
+    const double rise = 0.5 * (after - before);
+    if (here >= before && here >= after && bend < 0.0) most = std::max(most, here - 0.5 * rise * rise / bend);
+  }
+  return most;
+}
+
+/// How far the spline lies to either side of the track at most.
+Band measured(const Centerline& track, const ArcSpline& spline) {
+  std::vector<double> offsets;
   double guess = 0.0;
   for (const TrackArc& arc : spline.arcs()) {
     for (int k = 0; k < kPointsPerArc; ++k) {
-      const double along = arc.length * k / kPointsPerArc;
-      const CenterlinePoint at = spline.at(arc.start + along);
-      found.push_back(distance_to(track, {at.x, -at.drop}, guess));
+      const CenterlinePoint at = spline.at(arc.start + arc.length * k / kPointsPerArc);
+      offsets.push_back(offset_from(track, {at.x, -at.drop}, guess));
       guess += arc.length / kPointsPerArc;
     }
   }
-  double most = 0.0;
-  for (std::size_t i = 1; i + 1 < found.size(); ++i) {
-    most = std::max(most, found[i]);
-    const double bend = found[i - 1] - 2.0 * found[i] + found[i + 1];
-    const double rise = 0.5 * (found[i + 1] - found[i - 1]);
-    const bool top = found[i] >= found[i - 1] && found[i] >= found[i + 1] && bend < 0.0;
-    if (top) most = std::max(most, found[i] - 0.5 * rise * rise / bend);
+  return {greatest(offsets, 1.0), greatest(offsets, -1.0)};
+}
+
+/// Samples so close that each arc has many.
+TrackSamples close_samples(const Centerline& track, double tolerance) {
+  const TrackSamples samples = sample(track, kFirstSamples);
+  const CirclePieces pieces = circle_pieces(samples, 0, samples.size() - 1, tolerance);
+  return refined(track, samples, pieces, kSamplesPerArc);
+}
+
+/// No chain that keeps the track's lines and arcs has fewer arcs: the pieces that single circles pass, over the whole
+/// track or between what the kept pieces can reach.
+std::size_t least_arcs(const TrackSamples& samples, const std::vector<Kept>& kept, const Band& band) {
+  const TrackSamples middle = moved_left(samples, 0.5 * (band.left - band.right));
+  const double tolerance = band.half_width();
+  const std::size_t whole = circle_pieces(middle, 0, middle.size() - 1, tolerance).count();
+  std::size_t parts = kept.size();
+  for (std::size_t i = 0; i <= kept.size(); ++i) {
+    const std::optional<Stretch> stretch = stretch_before(samples, kept, i);
+    if (!stretch) continue;
+    const auto reach = [&](const std::optional<KeptEnd>& end, int step) {
+      return end ? reach_of(samples, *stretch, end->leg, band, step) : 0.0;
+    };
+    const double from = samples.s[stretch->first] + reach(stretch->before, 1);
+    const double to = samples.s[stretch->last] - reach(stretch->after, -1);
+    if (!(from < to)) continue;
+    parts += circle_pieces(middle, index_at(samples, from), index_at(samples, to), tolerance).count();
   }
-  return most;
+  return std::max(whole, parts);
 }
 
 void require_fine(const Centerline& track, double tolerance) {
@@ -280,32 +226,29 @@ void require_fine(const Centerline& track, double tolerance) {
 
 MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options) {
   require_fine(track, options.tolerance);
-  TrackSamples samples = sample(track, kFirstSamples);
-  std::size_t bound = circle_pieces(samples, 0, samples.size() - 1, options.tolerance).count();
-  if (bound * kSamplesPerArc > samples.size()) {
-    samples = sample(track, bound * kSamplesPerArc);
-    bound = circle_pieces(samples, 0, samples.size() - 1, options.tolerance).count();
-  }
+  const Band band = band_of(options.side, options.tolerance);
+  const TrackSamples samples = close_samples(track, band.half_width());
   const std::vector<Kept> kept = kept_pieces(track);
   MasterCurve master;
-  master.lower_bound = bound;
   master.tolerance = options.tolerance;
-  // What lies between two samples, and on the wrong arc beside a joint, is seen by the measurement alone.
-  double aim = options.tolerance;
-  for (int round = 0; round < 4; ++round) {
-    master.spline = std::make_shared<ArcSpline>(assembled(samples, kept, aim_at(options.side, aim)));
-    master.max_deviation = measured_deviation(track, *master.spline);
-    if (master.max_deviation <= options.tolerance) break;
-    aim *= 0.995 * options.tolerance / master.max_deviation;
-  }
-  if (master.max_deviation > options.tolerance) {
-    throw ConvergenceError(
-        {"", "arcs depart from the track by " + length_text(master.max_deviation, 3), "", ""});
-  }
-  master.arcs = master.spline->arcs().size();
   master.kept = kept.size();
-  for (const TrackArc& arc : master.spline->arcs()) master.lines += arc.curvature == 0.0 ? 1 : 0;
-  return master;
+  master.lower_bound = least_arcs(samples, kept, band);
+  // What lies between two samples, and on the wrong arc beside a joint, is seen by the measurement alone.
+  double aim = 1.0;
+  for (int round = 0; round < 4; ++round) {
+    master.spline = std::make_shared<ArcSpline>(assembled(track, samples, kept, band.scaled(aim)));
+    const Band found = measured(track, *master.spline);
+    master.max_deviation = std::max(found.left, found.right);
+    const double excess = std::max(found.left / band.left, found.right / band.right);
+    if (excess <= 1.0) {
+      master.arcs = master.spline->arcs().size();
+      for (const TrackArc& arc : master.spline->arcs()) master.lines += arc.curvature == 0.0 ? 1 : 0;
+      return master;
+    }
+    aim *= 0.995 / excess;
+  }
+  throw ConvergenceError(
+      {"", "arcs depart from the track by " + length_text(master.max_deviation, 3), "", ""});
 }
 
 }  // namespace glissade

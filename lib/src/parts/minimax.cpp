@@ -12,7 +12,7 @@ namespace {
 using Vector = std::vector<double>;
 
 constexpr int kMostSteps = 60;
-constexpr double kGap = 1e-7;      // of t, between the value and its bound from below
+constexpr double kGap = 1e-6;      // of t, between the value and its bound from below
 constexpr double kToWall = 0.995;  // share of the way to the nearest bound that a step goes
 
 /// Symmetric positive definite with two diagonals beside the main one; solved by L D L'.

@@ -27,7 +27,7 @@ struct MasterCurve {
   std::size_t arcs = 0;         ///< pieces of the spline, straight ones among them
   std::size_t lines = 0;        ///< straight ones
   std::size_t kept = 0;         ///< lines and arcs of the track itself, kept whole on their lines and circles
-  std::size_t lower_bound = 0;  ///< no chain of fewer arcs, joined in whatever way, keeps the tolerance
+  std::size_t lower_bound = 0;  ///< no chain of fewer arcs, joined in whatever way, keeps both tolerance and kept pieces
   double tolerance = 0.0;       ///< that was asked for [m]
   double max_deviation = 0.0;   ///< greatest distance between track and spline, measured both ways [m]
 };
@@ -35,14 +35,14 @@ struct MasterCurve {
 /// Puts lines and arcs in place of a track.
 ///
 /// Curve: straight lines and arcs of the track are kept on their lines and circles, from end to end; where the tolerance
-///   allows they reach on into what lies beside them (not where the fit is to one side). In between, joints lie where the error is the same for each arc, and the greatest distance is made least by a linear programme on
-///   the measured distance; arcs are added until that is within the tolerance. Start and finish are those of the
-///   track; the tangent there may turn by some 4 tolerances a length of the arc.
+///   allows they reach on into what lies beside them. In between, dynamic programming over places and headings within
+///   the band finds a chain of few arcs, and moving its joints finds those with fewer. Start and finish are those of the
+///   track; the tangent there may turn by some 16 tolerances a length of the arc.
 /// Source: docs/fabrication.md. |dkappa/ds| h^3/192 is the error of separate arcs of length h, h^3/124.7 that of arcs
 ///   with common tangents, so that some 1.16 times the lower bound is the least to hope for.
 /// Accuracy: max_deviation is measured at kPointsPerArc points of each arc by the nearest point of the track. The
 ///   lower bound is certified by four points of the track for each of its pieces: no circle passes all four within
-///   the tolerance.
+///   the tolerance; of a fit to one side, within half the band about its middle.
 /// Identity: same input, same bits. Works where the curvature is unbounded at the start.
 /// @throws InputError if the tolerance is not finite and positive, or finer than kFinestTolerance of the length
 [[nodiscard]] MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options = {});
