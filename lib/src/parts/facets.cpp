@@ -5,6 +5,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/nearest_place.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -70,26 +72,6 @@ Vec2 corner_between(const ArcSpline& track, double a, double b) {
   return first.at + along * first.along;
 }
 
-/// How far a point lies from a stretch of track.
-double distance_from(const ArcSpline& track, double a, double b, Vec2 point) {
-  double least = 1e300;
-  constexpr int kSteps = 64;
-  double best = a;
-  for (int k = 0; k <= kSteps; ++k) {
-    const double s = a + (b - a) * k / kSteps;
-    const double away = norm(frame_at(track, s).at - point);
-    if (away < least) {
-      least = away;
-      best = s;
-    }
-  }
-  for (int round = 0; round < 6; ++round) {
-    const TrackFrame frame = frame_at(track, best);
-    best = std::clamp(best + dot(point - frame.at, frame.along), a, b);
-  }
-  return norm(frame_at(track, best).at - point);
-}
-
 /// Corners of the flats that touch at given places.
 Facets facets_at(const ArcSpline& track, std::vector<double> touches) {
   Facets facets;
@@ -100,7 +82,7 @@ Facets facets_at(const ArcSpline& track, std::vector<double> touches) {
     const Vec2 corner = corner_between(track, touches[i], touches[i + 1]);
     facets.corners.push_back(corner);
     facets.kinks.push_back(kink);
-    facets.misses.push_back(distance_from(track, touches[i], touches[i + 1], corner));
+    facets.misses.push_back(nearest_place(track, {touches[i], touches[i + 1]}, corner).distance);
   }
   facets.corners.push_back(frame_at(track, touches.back()).at);
   facets.touches = std::move(touches);
@@ -156,7 +138,7 @@ Facets facets_by_chord(const ArcSpline& track, const Span& span, double toleranc
     double from = bow.from;
     const auto keeps = [&](double to) {
       if (std::fabs(slope_at(track, from) - slope_at(track, to)) < kSame) return true;
-      return distance_from(track, from, to, corner_between(track, from, to)) <= tolerance;
+      return nearest_place(track, {from, to}, corner_between(track, from, to)).distance <= tolerance;
     };
     while (from < bow.to - kSame) {
       double low = from;

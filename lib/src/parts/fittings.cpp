@@ -6,6 +6,7 @@
 
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
+#include "parts/nearest_place.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -347,22 +348,14 @@ struct UnitMass {
 std::vector<UnitMass> masses_of(const Fitting& fitting) {
   const Job& job = fitting.job;
   std::vector<UnitMass> masses(fitting.units.size());
-  constexpr int kPlaces = 400;
-  std::vector<Vec3> stations;
-  for (int k = 0; k <= kPlaces; ++k) {
-    stations.push_back(in_space(job.placement, frame_at(job.track, job.track.length() * k / kPlaces).at));
-  }
+  const Span whole{0.0, job.track.length()};
+  const Vec3 start = in_space(job.placement, {});
   for (const ShopPart& part : fitting.workshop.parts) {
     const BodyMoments body = moments(part.body);
     for (const Frame& place : part.places) {
       const Vec3 centre = place.to_space(body.centroid);
-      int nearest = 0;
-      for (int k = 1; k <= kPlaces; ++k) {
-        if (norm(stations[static_cast<std::size_t>(k)] - centre) <
-            norm(stations[static_cast<std::size_t>(nearest)] - centre))
-          nearest = k;
-      }
-      const double s = job.track.length() * nearest / kPlaces;
+      const Vec3 away = centre - start;
+      const double s = nearest_place(job.track, whole, {dot(away, along(job.placement)), away.z}).s;
       std::size_t unit = 0;
       while (unit + 1 < fitting.units.size() && s >= fitting.units[unit].span.to) ++unit;
       masses[unit].mass += part.mass;

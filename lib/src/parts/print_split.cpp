@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/calm_joints.hpp"
+#include "parts/nearest_place.hpp"
 #include "parts/tongue.hpp"
 
 #include <algorithm>
@@ -105,19 +106,12 @@ InputError no_bed(const PrintJob& job, bool on_side) {
 double wall_along(const PrintJob& job, double s, double sense, Vec2 place, double radius, double depth) {
   const TrackFrame joint = frame_at(job.track, s);
   double least = job.face.clearance(place) - radius;
-  double near = s;
+  const Span beside{std::max(0.0, s - 2.0 * depth), std::min(job.track.length(), s + 2.0 * depth)};
   constexpr int kPlaces = 8;
   for (int k = 1; k <= kPlaces; ++k) {
     const Vec2 point = joint.at + place.y * joint.up + (sense * depth * k / kPlaces) * joint.along;
-    double height = place.y;
-    near += sense * depth / kPlaces;
-    for (int round = 0; round < 4; ++round) {
-      near = std::clamp(near, 0.0, job.track.length());
-      const TrackFrame at = frame_at(job.track, near);
-      height = dot(point - at.at, at.up);
-      const double stretch = 1.0 - job.track.at(near).curvature * height;
-      if (stretch > 0.1) near += dot(point - at.at, at.along) / stretch;
-    }
+    const TrackFrame at = frame_at(job.track, nearest_place(job.track, beside, point).s);
+    const double height = dot(point - at.at, at.up);
     least = std::min(least, job.face.clearance({place.x, height}) - radius);
   }
   return least;

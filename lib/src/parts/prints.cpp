@@ -8,6 +8,7 @@
 #include "glissade/solid/sweep.hpp"
 
 #include "parts/as_built.hpp"
+#include "parts/nearest_place.hpp"
 #include "parts/piece_mesh.hpp"
 #include "parts/print_facts.hpp"
 #include "parts/print_split.hpp"
@@ -288,16 +289,8 @@ void require_stands_clear(const PrintJob& job, const std::vector<Stand>& stands)
   for (const Stand& stand : stands) {
     for (const Vec3& vertex : stand.blocks.back().mesh.vertices) {
       const Vec2 point{vertex.x + stand.x, vertex.z};
-      double near = stand.at;
-      double height = 0.0;
-      for (int round = 0; round < 8; ++round) {
-        near = std::clamp(near, 0.0, job.track.length());
-        const TrackFrame at = frame_at(job.track, near);
-        height = dot(point - at.at, at.up);
-        const double stretch = 1.0 - job.track.at(near).curvature * height;
-        if (stretch > 0.1) near += dot(point - at.at, at.along) / stretch;
-      }
-      const TrackFrame at = frame_at(job.track, std::clamp(near, 0.0, job.track.length()));
+      const TrackFrame at = frame_at(job.track, nearest_place(job.track, {0.0, job.track.length()}, point).s);
+      const double height = dot(point - at.at, at.up);
       if (std::fabs(dot(point - at.at, at.along)) > kSameFace) continue;  // beyond an end
       if (job.face.clearance({vertex.y, height}) <= 0.0) continue;
       throw InternalError({"", "the stand below " + stand.what + " reaches into the run", "", ""});
