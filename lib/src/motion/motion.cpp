@@ -112,6 +112,8 @@ Found least_anywhere(const std::vector<Panel>& panels, const Values& values, con
   Found least = least_node(panels, values);
   for (const Panel& panel : panels) {
     const chebyshev::Values f = values(panel);
+    // Of what is the same all along a panel, a straight's load, the nodes have told.
+    if (std::equal(f.begin() + 1, f.end(), f.begin())) continue;
     if (chebyshev::range(f).lower >= least.value) continue;
     for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
       const std::size_t before = i == 0 ? 0 : i - 1;
