@@ -21,8 +21,16 @@ constexpr double kMillimetres = 1000.0;  // in a metre
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of chords that stand for arcs where columns are measured; spacing is widened by as much.
 constexpr double kSagitta = 2e-5;
+/// Columns that are looked at together; a power of 2.
+constexpr std::size_t kBlock = 16;
 
 // --- shapes
+
+/// kBlock columns of a piece.
+struct Block {
+  std::size_t from = 0;
+  double highest_low = 0.0;  ///< of its underside
+};
 
 /// Underside and top of a piece in one of its attitudes, column by column; infinite where it has nothing.
 struct Attitude {
@@ -31,7 +39,9 @@ struct Attitude {
   double height = 0.0;
   std::vector<double> low;
   std::vector<double> high;
-  double lowest = 0.0;  ///< of `low`
+  double lowest = 0.0;        ///< of `low`
+  std::vector<Block> blocks;  ///< of narrow pieces none
+  double above_low = 0.0;     ///< area between its underside and its top, column by column [m^2]
 };
 
 void cover(Attitude& attitude, Vec2 a, Vec2 b, double column) {
@@ -64,6 +74,11 @@ Attitude attitude_of(const ArcPath& outline, double angle, double column) {
   const std::vector<Vec2> points = flattened(moved(outline, attitude.motion), kSagitta);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) cover(attitude, points[i], points[i + 1], column);
   attitude.lowest = *std::min_element(attitude.low.begin(), attitude.low.end());
+  for (std::size_t i = 0; i + kBlock <= columns; i += kBlock) {
+    const auto from = attitude.low.begin() + static_cast<std::ptrdiff_t>(i);
+    attitude.blocks.push_back({i, *std::max_element(from, from + kBlock)});
+  }
+  for (const double low : attitude.low) attitude.above_low += column * (attitude.height - low);
   return attitude;
 }
 
@@ -75,7 +90,9 @@ class Heap {
   Heap(const NestStock& stock, double column)
       : stock_(stock),
         column_(column),
-        tops_(static_cast<std::size_t>(std::floor(stock.width / column)) + 1, stock.margin - stock.spacing) {}
+        tops_(static_cast<std::size_t>(std::floor(stock.width / column)) + 1, stock.margin - stock.spacing) {
+    look_over();
+  }
 
   /// Where a piece comes to lie, and how high it then reaches.
   struct Place {
@@ -88,23 +105,18 @@ class Heap {
     std::optional<Place> best;
     const double room = stock_.width - 2.0 * stock_.margin - attitude.width;
     if (room < 0.0) return best;
-    // Wherever it lies, its lowest column stands on some column of the heap.
-    const double lowest = *std::min_element(tops_.begin(), tops_.end());
-    if (lowest + stock_.spacing - attitude.lowest + attitude.height > stock_.height - stock_.margin)
-      return best;
+    // Wherever it lies, its lowest column stands on some column of the heap, and the room above the heap holds it.
+    const double limit = stock_.height - stock_.margin;
+    if (lowest_ + stock_.spacing - attitude.lowest + attitude.height > limit) return best;
+    if (attitude.above_low > room_above_ + kRounding) return best;
     const auto steps = static_cast<std::size_t>(std::floor(room / column_));
-    double ceiling = stock_.height - stock_.margin;  // above it no place is of use
+    double ceiling = limit;  // above it no place is of use
+    std::size_t in_the_way = 0;
     for (std::size_t step = 0; step <= steps; ++step) {
       const double x = stock_.margin + static_cast<double>(step) * column_;
-      double y = stock_.margin;
-      // The piece's columns lie askew to the sheet's: each looks at both that it touches, and a spacing beyond.
       const auto shift = static_cast<std::size_t>(std::floor(x / column_));
-      for (std::size_t i = 0; i < attitude.low.size(); ++i) {
-        const double top = std::max(tops_[std::min(shift + i, tops_.size() - 1)],
-                                    tops_[std::min(shift + i + 1, tops_.size() - 1)]);
-        y = std::max(y, top + stock_.spacing - attitude.low[i]);
-        if (y + attitude.height > ceiling) break;
-      }
+      if (is_blocked(attitude, shift, ceiling, in_the_way)) continue;
+      const double y = settled(attitude, shift, ceiling);
       const double top = y + attitude.height;
       if (top > ceiling) continue;
       best = Place{{x, y}, top};
@@ -128,12 +140,61 @@ class Heap {
       double& known = tops_[static_cast<std::size_t>(on)];
       known = std::max(known, at.y + top + 2.0 * kSagitta);
     }
+    look_over();
   }
 
  private:
+  static constexpr double kRounding = 1e-9;  // of areas [m^2]
+
+  /// Whether some block of the underside alone shows that a piece does not stay below the ceiling.
+  /// @param block  the one to ask first; becomes the one that is in the way
+  [[nodiscard]] bool is_blocked(const Attitude& attitude, std::size_t shift, double ceiling,
+                                std::size_t& block) const {
+    const auto stands_up = [&](const Block& one) {
+      const double top = block_tops_[std::min(shift + one.from, block_tops_.size() - 1)];
+      return top + stock_.spacing - one.highest_low + attitude.height > ceiling;
+    };
+    if (block < attitude.blocks.size() && stands_up(attitude.blocks[block])) return true;
+    const auto found = std::find_if(attitude.blocks.begin(), attitude.blocks.end(), stands_up);
+    block = static_cast<std::size_t>(found - attitude.blocks.begin());
+    return found != attitude.blocks.end();
+  }
+
+  /// @return how high a piece comes to lie; where it reaches above the ceiling, enough to tell
+  [[nodiscard]] double settled(const Attitude& attitude, std::size_t shift, double ceiling) const {
+    double y = stock_.margin;
+    // The piece's columns lie askew to the sheet's: each looks at both that it touches, and a spacing beyond.
+    for (std::size_t i = 0; i < attitude.low.size(); ++i) {
+      const double top = std::max(tops_[std::min(shift + i, tops_.size() - 1)],
+                                  tops_[std::min(shift + i + 1, tops_.size() - 1)]);
+      y = std::max(y, top + stock_.spacing - attitude.low[i]);
+      if (y + attitude.height > ceiling) break;
+    }
+    return y;
+  }
+
+  void look_over() {
+    lowest_ = *std::min_element(tops_.begin(), tops_.end());
+    room_above_ = 0.0;
+    const double limit = stock_.height - stock_.margin - stock_.spacing;
+    for (const double top : tops_) room_above_ += column_ * std::max(0.0, limit - top);
+    // Of the columns that a block touches, one more than it has: maxima of 2, 4, 8, 16, then 17.
+    block_tops_ = tops_;
+    const std::size_t last = tops_.size() - 1;
+    for (std::size_t reach = 1; reach < kBlock; reach *= 2) {
+      for (std::size_t i = 0; i <= last; ++i)
+        block_tops_[i] = std::max(block_tops_[i], block_tops_[std::min(i + reach, last)]);
+    }
+    for (std::size_t i = 0; i <= last; ++i)
+      block_tops_[i] = std::max(block_tops_[i], tops_[std::min(i + kBlock, last)]);
+  }
+
   NestStock stock_;
   double column_;
   std::vector<double> tops_;
+  std::vector<double> block_tops_;  ///< the highest of a column and the kBlock after it
+  double lowest_ = 0.0;             ///< of `tops_`
+  double room_above_ = 0.0;         ///< up to where a piece may reach, a spacing off [m^2]
 };
 
 /// A piece to be laid down, with its attitudes.
