@@ -2,13 +2,16 @@
 
 #include "glissade/io/sheet_file.hpp"
 
+#include "drawing/ink.hpp"
 #include "support/catch.hpp"
 #include "support/oracle.hpp"
 #include "support/program.hpp"
 #include "support/temp_dir.hpp"
 #include "support/workshop_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -113,6 +116,44 @@ TEST_CASE("PDF and SVG of the same sheets are the same bytes; sheets that are no
   CHECK_THROWS_WITH(pdf_text({}, ""), "drawing set: has no sheet\n      A PDF has one or more.");
   sheets[0].views[0].drawing.circles[0].circle.radius = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(pdf_text(sheets, ""), "sheet  Seitenwand links: a number is not finite");
+}
+
+TEST_CASE(
+    "at a reduced scale lines that a pen draws over each other are drawn once, and specks are left out") {
+  Drawing drawing;
+  const std::size_t layer = drawing.layer({"EDGES", LineStyle::continuous, 0.25, 7});
+  drawing.line(layer, {0.0, 0.0}, {50'000.0, 0.0});
+  drawing.line(layer, {50'000.0, 1.0}, {1.0, 0.0});  // the other way, 2 um off on paper
+  drawing.line(layer, {0.0, 100.0}, {50'000.0, 100.0});
+  drawing.line(layer, {10.0, 10.0}, {14.0, 10.0});  // 8 um on paper
+  ArcPath wave;
+  for (int i = 0; i <= 5000; ++i) wave.vertices.push_back({{2.0 * i, 1000.0 * std::sin(0.01 * i)}, 0.0});
+  drawing.add(layer, wave);
+  Sheet sheet = blank_sheet(PaperSize::a3);
+  sheet.frame = false;
+  for (const double scale : {1.0 / 500.0, 1.0}) {
+    SheetView view;
+    view.drawing = drawing;
+    view.scale = scale;
+    sheet.views = {view};
+    const std::vector<DrawnPath> paths = drawing::ink_of(sheet).front().drawing.paths;
+    if (scale == 1.0) {
+      CHECK(paths.size() == 5);
+      CHECK(paths.back().path.vertices.size() == 5001);
+      continue;
+    }
+    REQUIRE(paths.size() == 3);
+    const std::vector<PathVertex>& kept = paths.back().path.vertices;
+    CHECK(kept.size() < 2600);
+    CHECK(kept.front().at == scale * wave.vertices.front().at);
+    CHECK(kept.back().at == scale * wave.vertices.back().at);
+    // What is left out lies within a speck of what is drawn.
+    for (const PathVertex& vertex : wave.vertices) {
+      double least = 1.0;
+      for (const PathVertex& one : kept) least = std::min(least, norm(one.at - scale * vertex.at));
+      CHECK(least < 0.02);
+    }
+  }
 }
 
 TEST_CASE("poppler finds the pages in their sizes, and the words on them", "[external]") {

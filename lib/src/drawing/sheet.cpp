@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 namespace glissade {
 namespace drawing {
@@ -18,14 +20,67 @@ Vec2 on_paper(const SheetView& view, Vec2 point) {
   return view.at + view.scale * (point - view.anchor);
 }
 
+/// What no pen on paper tells apart [mm].
+constexpr double kSpeck = 0.02;
+
+/// A path as it is drawn at a reduced scale: chords that end within a speck of where the pen is are left out.
+/// @return whether anything is left to see
+bool thin_out(ArcPath& path) {
+  double sum = 0.0;
+  for (const PathVertex& vertex : path.vertices) sum += vertex.at.x + vertex.at.y + vertex.bulge;
+  if (!std::isfinite(sum)) return true;  // refused where it is drawn
+  const PlaneBox box = bounds(path);
+  if (box.width() < kSpeck && box.height() < kSpeck) return false;
+  std::vector<PathVertex> kept = {path.vertices.front()};
+  for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i) {
+    const bool straight = path.vertices[i].bulge == 0.0 && path.vertices[i - 1].bulge == 0.0;
+    if (straight && norm(path.vertices[i].at - kept.back().at) < kSpeck) continue;
+    kept.push_back(path.vertices[i]);
+  }
+  if (path.vertices.size() > 1) kept.push_back(path.vertices.back());
+  path.vertices = std::move(kept);
+  return true;
+}
+
+/// Lines that a pen has drawn, to the speck and whichever way they run.
+class DrawnLines {
+ public:
+  /// @return false of one that is there already
+  bool add(const DrawnPath& drawn) {
+    const std::vector<PathVertex>& vertices = drawn.path.vertices;
+    if (vertices.size() != 2 || vertices.front().bulge != 0.0 || drawn.path.closed) return true;
+    const auto specks = [](Vec2 at) {
+      return std::array{std::llround(at.x / kSpeck), std::llround(at.y / kSpeck)};
+    };
+    const auto [low, high] = std::minmax({specks(vertices.front().at), specks(vertices.back().at)});
+    const long long style = drawn.style ? 1 + static_cast<long long>(*drawn.style) : 0;
+    return known_.insert({low[0], low[1], high[0], high[1], 4 * static_cast<long long>(drawn.layer) + style})
+        .second;
+  }
+
+ private:
+  using Key = std::array<long long, 5>;  // both ends, layer and style
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      std::size_t sum = 0;
+      for (const long long value : key) sum = 0x9E3779B97F4A7C15U * (sum ^ static_cast<std::size_t>(value));
+      return sum ^ (sum >> 32U);
+    }
+  };
+  std::unordered_set<Key, Hash> known_;
+};
+
 void place(const SheetView& view, Drawing& ink) {
   Drawing flat = view.drawing;
   // Texts of dimensions keep their height on paper, so dimensions are taken apart at the view's scale.
   flat.text_scale = 1.0 / view.scale;
   flat = without_dimensions(flat);
   ink.layers = flat.layers;
+  DrawnLines lines;
   for (DrawnPath& drawn : flat.paths) {
     for (PathVertex& vertex : drawn.path.vertices) vertex.at = on_paper(view, vertex.at);
+    const bool reduced = view.scale < 1.0 && !drawn.filled && !drawn.path.vertices.empty();
+    if (reduced && !(thin_out(drawn.path) && lines.add(drawn))) continue;
     ink.paths.push_back(std::move(drawn));
   }
   for (const DrawnCircle& drawn : flat.circles) {

@@ -125,23 +125,34 @@ class Painter {
       cairo_clip(context_);
     }
     cairo_set_source_rgb(context_, 0.0, 0.0, 0.0);
+    Pen pen;
+    // Lines of one pen are one stroke in a PDF: they are all black, so only what is filled between them keeps its turn.
+    // In an SVG each stays a thing of its own, to be picked.
+    const auto take = [&](const Pen& next) {
+      if (next == pen && font_ != nullptr) return;
+      stroke(pen);
+      pen = next;
+    };
     for (const DrawnPath& drawn : ink.drawing.paths) {
       const DrawingLayer& layer = ink.drawing.layers[drawn.layer];
-      trace(context_, drawn.path);
       if (drawn.filled) {
+        stroke(pen);
+        trace(context_, drawn.path);
         const double grey = lightness(drawn.colour);
         cairo_set_source_rgb(context_, grey, grey, grey);
         cairo_fill(context_);
         cairo_set_source_rgb(context_, 0.0, 0.0, 0.0);
       } else {
-        stroke(layer.width_mm, drawn.style.value_or(layer.style));
+        take({layer.width_mm, drawn.style.value_or(layer.style)});
+        trace(context_, drawn.path);
       }
     }
     for (const DrawnCircle& drawn : ink.drawing.circles) {
       const DrawingLayer& layer = ink.drawing.layers[drawn.layer];
+      take({layer.width_mm, layer.style});
       trace(context_, path_of(drawn.circle));
-      stroke(layer.width_mm, layer.style);
     }
+    stroke(pen);
     for (const DrawnText& text : ink.drawing.texts) write(text);
     cairo_restore(context_);
   }
@@ -152,15 +163,23 @@ class Painter {
     static constexpr double kGreys[] = {0.2, 0.36, 0.52, 0.68, 0.84, 1.0};
     return colour >= 250 && colour <= 255 ? kGreys[colour - 250] : 0.0;
   }
-  void stroke(double width, LineStyle style) {
+  struct Pen {
+    double width = 0.0;  ///< [mm]
+    LineStyle style = LineStyle::continuous;
+    friend bool operator==(const Pen&, const Pen&) = default;
+  };
+
+  /// Draws what has been traced.
+  void stroke(const Pen& pen) {
+    if (!cairo_has_current_point(context_)) return;
     static constexpr double kDashes[] = {3.0, 1.5};
     static constexpr double kChain[] = {8.0, 1.5, 0.5, 1.5};
-    cairo_set_line_width(context_, width);
+    cairo_set_line_width(context_, pen.width);
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_MITER);
-    if (style == LineStyle::dashed) {
+    if (pen.style == LineStyle::dashed) {
       cairo_set_dash(context_, kDashes, 2, 0.0);
-    } else if (style == LineStyle::chain) {
+    } else if (pen.style == LineStyle::chain) {
       cairo_set_dash(context_, kChain, 4, 0.0);
     } else {
       cairo_set_dash(context_, nullptr, 0, 0.0);
