@@ -10,8 +10,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <set>
+#include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -46,6 +46,7 @@ class StepEntities {
       throw error("ends early", "It is cut off.");
     }
     read({text_.data() + data + 5, end - data - 5});
+    sort();
     for (const auto& [id, entity] : entities_) require_references(id, entity.body);
   }
 
@@ -54,9 +55,9 @@ class StepEntities {
   }
 
   [[nodiscard]] const Entity& at(Id id) const {
-    const auto found = entities_.find(id);
-    if (found == entities_.end()) throw error("#" + std::to_string(id) + " is referred to and missing");
-    return found->second;
+    const Entity* const found = find(id);
+    if (found == nullptr) throw error("#" + std::to_string(id) + " is referred to and missing");
+    return *found;
   }
 
   /// @return ids of the entities with a keyword, in their order
@@ -71,6 +72,8 @@ class StepEntities {
   /// @return the parameters of an entity, apart at the commas that are inside no bracket or quote
   [[nodiscard]] static std::vector<std::string_view> split(std::string_view body) {
     std::vector<std::string_view> parts;
+    constexpr std::size_t kUsual = 8;
+    parts.reserve(kUsual);
     int depth = 0;
     bool quoted = false;
     std::size_t start = 0;
@@ -165,7 +168,26 @@ class StepEntities {
     const Id id = reference(statement.substr(0, equals));
     const Entity entity{statement.substr(equals + 1, open - equals - 1),
                         statement.substr(open + 1, statement.size() - open - 2)};
-    if (!entities_.emplace(id, entity).second) throw error("#" + std::to_string(id) + " is there twice");
+    entities_.emplace_back(id, entity);
+  }
+
+  void sort() {
+    const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+    if (!std::is_sorted(entities_.begin(), entities_.end(), before))
+      std::sort(entities_.begin(), entities_.end(), before);
+    const auto twice = std::adjacent_find(entities_.begin(), entities_.end(),
+                                          [](const auto& a, const auto& b) { return a.first == b.first; });
+    if (twice != entities_.end()) throw error("#" + std::to_string(twice->first) + " is there twice");
+  }
+
+  /// @return none of an id that is not there
+  [[nodiscard]] const Entity* find(Id id) const {
+    // As a rule they are numbered from 1 on without gaps.
+    const std::size_t usual = std::size_t{id} - 1;
+    if (usual < entities_.size() && entities_[usual].first == id) return &entities_[usual].second;
+    const auto found = std::lower_bound(entities_.begin(), entities_.end(), id,
+                                        [](const auto& entity, Id wanted) { return entity.first < wanted; });
+    return found != entities_.end() && found->first == id ? &found->second : nullptr;
   }
 
   void require_references(Id owner, std::string_view body) const {
@@ -175,7 +197,7 @@ class StepEntities {
       if (quoted || body[i] != '#') continue;
       Id id = 0;
       std::from_chars(body.data() + i + 1, body.data() + body.size(), id);
-      if (!entities_.contains(id)) {
+      if (find(id) == nullptr) {
         throw error("#" + std::to_string(owner) + " refers to #" + std::to_string(id) + ", which is missing");
       }
     }
@@ -183,7 +205,7 @@ class StepEntities {
 
   std::string text_;
   std::string name_;
-  std::map<Id, Entity> entities_;
+  std::vector<std::pair<Id, Entity>> entities_;  // by their numbers
 };
 
 /// A frame of a curve or surface.
@@ -204,53 +226,74 @@ Placement3 placement(const StepEntities& step, Id id) {
           step.triple(step.reference(parts[3]))};
 }
 
-double gap_from_curve(const StepEntities& step, Id id, Vec3 point) {
+/// How far places are from a curve of the file.
+std::function<double(Vec3)> gap_from_curve(const StepEntities& step, Id id) {
   const Entity& curve = step.at(id);
   const auto parts = step.parameters(id, 3);
   if (curve.keyword == "LINE") {
     const Vec3 from = step.triple(step.reference(parts[1]));
     const Vec3 along = step.triple(step.reference(step.parameters(step.reference(parts[2]), 3)[1]));
-    return norm(cross(along, point - from));
+    return [from, along](Vec3 point) { return norm(cross(along, point - from)); };
   }
   if (curve.keyword == "B_SPLINE_CURVE_WITH_KNOTS") {
     const std::vector<Id> poles = step.references(step.parameters(id, 3)[2]);
-    return std::min(norm(step.triple(poles.front()) - point), norm(step.triple(poles.back()) - point));
+    return [first = step.triple(poles.front()), last = step.triple(poles.back())](Vec3 point) {
+      return std::min(norm(first - point), norm(last - point));
+    };
   }
   const Placement3 place = placement(step, step.reference(parts[1]));
-  const Vec3 spoke = point - place.origin;
-  const double x = dot(spoke, place.reference);
-  const double y = dot(spoke, cross(place.axis, place.reference));
-  const double off = std::fabs(dot(spoke, place.axis));
+  const Vec3 across = cross(place.axis, place.reference);
   const double first = step.number(parts[2]);
-  if (curve.keyword == "CIRCLE")
-    return std::max(off, beyond_rounding(std::fabs(math::hypot(x, y) - first), first));
+  if (curve.keyword == "CIRCLE") {
+    return [place, across, first](Vec3 point) {
+      const Vec3 spoke = point - place.origin;
+      const double away = math::hypot(dot(spoke, place.reference), dot(spoke, across));
+      return std::max(std::fabs(dot(spoke, place.axis)), beyond_rounding(std::fabs(away - first), first));
+    };
+  }
   if (curve.keyword == "ELLIPSE" && parts.size() > 3) {
-    const double second = step.number(parts[3]);
-    return std::max(off, std::fabs(math::hypot(x / first, y / second) - 1.0) * second);
+    return [place, across, first, second = step.number(parts[3])](Vec3 point) {
+      const Vec3 spoke = point - place.origin;
+      const double away = math::hypot(dot(spoke, place.reference) / first, dot(spoke, across) / second);
+      return std::max(std::fabs(dot(spoke, place.axis)), std::fabs(away - 1.0) * second);
+    };
   }
   throw step.error("#" + std::to_string(id) + " is a curve of another kind",
                    "Lines, circles, ellipses and cubics are read.");
 }
 
-double gap_from_surface(const StepEntities& step, Id id, Vec3 point) {
+/// How far places are from a surface of the file.
+std::function<double(Vec3)> gap_from_surface(const StepEntities& step, Id id) {
   const Entity& surface = step.at(id);
   if (surface.keyword == "B_SPLINE_SURFACE_WITH_KNOTS") {
-    double least = std::numeric_limits<double>::infinity();
+    std::vector<Vec3> poles;
     for (const Id pole : step.nested_references(step.parameters(id, 4)[3]))
-      least = std::min(least, norm(step.triple(pole) - point));
-    return least;
+      poles.push_back(step.triple(pole));
+    return [poles = std::move(poles)](Vec3 point) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Vec3 pole : poles) least = std::min(least, norm(pole - point));
+      return least;
+    };
   }
   const auto parts = step.parameters(id, 2);
   const Placement3 place = placement(step, step.reference(parts[1]));
-  const Vec3 spoke = point - place.origin;
-  const double along = dot(spoke, place.axis);
-  if (surface.keyword == "PLANE") return std::fabs(along);
-  const double away = norm(spoke - along * place.axis);
-  const double radius = step.number(parts.back());
-  if (surface.keyword == "CYLINDRICAL_SURFACE") return beyond_rounding(std::fabs(away - radius), radius);
-  const double half_angle = step.number(parts.back());
-  const double wanted = step.number(parts[2]) + along * math::tan(half_angle);
-  return beyond_rounding(std::fabs(away - wanted) * math::cos(half_angle), wanted);
+  if (surface.keyword == "PLANE")
+    return [place](Vec3 point) { return std::fabs(dot(point - place.origin, place.axis)); };
+  const double last = step.number(parts.back());
+  if (surface.keyword == "CYLINDRICAL_SURFACE") {
+    return [place, radius = last](Vec3 point) {
+      const Vec3 spoke = point - place.origin;
+      const double away = norm(spoke - dot(spoke, place.axis) * place.axis);
+      return beyond_rounding(std::fabs(away - radius), radius);
+    };
+  }
+  return [place, radius = step.number(parts[2]), half_angle = last](Vec3 point) {
+    const Vec3 spoke = point - place.origin;
+    const double along = dot(spoke, place.axis);
+    const double away = norm(spoke - along * place.axis);
+    const double wanted = radius + along * math::tan(half_angle);
+    return beyond_rounding(std::fabs(away - wanted) * math::cos(half_angle), wanted);
+  };
 }
 
 /// Reads one solid and holds its topology together.
@@ -293,11 +336,12 @@ class SolidCheck {
     else
       throw step_.error("#" + std::to_string(surface) + " is a surface of another kind",
                         "Planes, cylinders, cones and B-splines are read.");
+    const auto gap = gap_from_surface(step_, surface);
     for (const Id bound : step_.references(parts[1]))
-      add_loop(step_.reference(step_.parameters(bound, 3)[1]), surface);
+      add_loop(step_.reference(step_.parameters(bound, 3)[1]), gap);
   }
 
-  void add_loop(Id id, Id surface) {
+  void add_loop(Id id, const std::function<double(Vec3)>& gap_from_face) {
     ++found_.loops;
     Id first = 0;
     Id last = 0;
@@ -311,8 +355,8 @@ class SolidCheck {
       Id from = step_.reference(ends[1]);
       Id to = step_.reference(ends[2]);
       if (there + back == 1) hold_vertices(step_.reference(ends[3]), from, to);
-      hold(gap_from_surface(step_, surface, vertex(from)));
-      hold(gap_from_surface(step_, surface, vertex(to)));
+      hold(gap_from_face(vertex(from)));
+      hold(gap_from_face(vertex(to)));
       if (!forward) std::swap(from, to);
       if (first == 0)
         first = from;
@@ -324,8 +368,9 @@ class SolidCheck {
   }
 
   void hold_vertices(Id curve, Id from, Id to) {
-    hold(gap_from_curve(step_, curve, vertex(from)));
-    hold(gap_from_curve(step_, curve, vertex(to)));
+    const auto gap = gap_from_curve(step_, curve);
+    hold(gap(vertex(from)));
+    hold(gap(vertex(to)));
   }
 
   Vec3 vertex(Id id) {
@@ -340,7 +385,7 @@ class SolidCheck {
 
   const StepEntities& step_;
   StepSolid found_;
-  std::map<Id, std::pair<int, int>> uses_;
+  std::unordered_map<Id, std::pair<int, int>> uses_;
   std::unordered_map<Id, Vec3> vertices_;
   bool chains_ = true;
 };
