@@ -2,6 +2,8 @@
 
 #include "glissade/core/math.hpp"
 
+#include "core/piece_distance.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -79,6 +81,14 @@ PlaneBox nothing() {
   return {{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
 }
 
+/// The circle of an arc, without its angles.
+Circle circle_of(const PathPiece& piece) {
+  const Vec2 along = piece.to - piece.from;
+  const double b = piece.bulge;
+  return {0.5 * (piece.from + piece.to) + ((1.0 - b * b) / (4.0 * b)) * Vec2{-along.y, along.x},
+          norm(along) * (1.0 + b * b) / (4.0 * std::fabs(b))};
+}
+
 /// @param point  on the circle of an arc
 bool on_arc(const PathPiece& arc, Vec2 point) {
   return cross(arc.to - arc.from, point - arc.from) * arc.bulge <= 0.0;
@@ -89,7 +99,7 @@ PlaneBox bounds_of(const PathPiece& piece) {
   widen(box, piece.from);
   widen(box, piece.to);
   if (piece.straight()) return box;
-  const CircularArc arc = arc_of(piece);
+  const Circle arc = circle_of(piece);
   for (const Vec2 side : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}}) {
     const Vec2 point = arc.centre + arc.radius * side;
     if (on_arc(piece, point)) widen(box, point);
@@ -120,7 +130,7 @@ double distance(const PathPiece& piece, Vec2 point) {
     }
     return least;
   }
-  const CircularArc arc = arc_of(piece);
+  const Circle arc = circle_of(piece);
   const Vec2 outward = point - arc.centre;
   const double far = norm(outward);
   if (far > 0.0 && on_arc(piece, arc.centre + (arc.radius / far) * outward)) {
@@ -233,13 +243,12 @@ double bulge_of_sweep(double sweep) {
 }
 
 CircularArc arc_of(const PathPiece& piece) {
-  const Vec2 along = piece.to - piece.from;
-  const double b = piece.bulge;
+  const Circle circle = circle_of(piece);
   CircularArc arc;
-  arc.radius = norm(along) * (1.0 + b * b) / (4.0 * std::fabs(b));
-  arc.centre = 0.5 * (piece.from + piece.to) + ((1.0 - b * b) / (4.0 * b)) * Vec2{-along.y, along.x};
+  arc.radius = circle.radius;
+  arc.centre = circle.centre;
   arc.start_angle = math::atan2(piece.from.y - arc.centre.y, piece.from.x - arc.centre.x);
-  arc.sweep = 4.0 * math::atan(b);
+  arc.sweep = 4.0 * math::atan(piece.bulge);
   return arc;
 }
 
@@ -402,7 +411,7 @@ bool ray_crosses_line(Vec2 point, const PathPiece& line) {
 
 /// @return how often the ray crosses an arc: taken apart at the circle's top and bottom
 int ray_crossings_of_arc(Vec2 point, const PathPiece& piece) {
-  const CircularArc arc = arc_of(piece);
+  const Circle arc = circle_of(piece);
   std::vector<Vec2> stops{piece.from};
   const Vec2 top = arc.centre + Vec2{0.0, arc.radius};
   const Vec2 bottom = arc.centre - Vec2{0.0, arc.radius};
@@ -436,10 +445,19 @@ int ray_crossings_of_arc(Vec2 point, const PathPiece& piece) {
 bool contains(const ArcPath& path, Vec2 point) {
   int crossings = 0;
   for (const PathPiece& piece : pieces_of(path)) {
+    // An arc of no more than half a turn stays within its rise of its chord.
+    const double rise = 0.5 * std::fabs(piece.bulge) * norm(piece.to - piece.from);
+    const bool beyond = point.y < std::min(piece.from.y, piece.to.y) - rise ||
+                        point.y > std::max(piece.from.y, piece.to.y) + rise;
+    if (std::fabs(piece.bulge) <= 1.0 && beyond) continue;
     crossings +=
         piece.straight() ? (ray_crosses_line(point, piece) ? 1 : 0) : ray_crossings_of_arc(point, piece);
   }
   return crossings % 2 == 1;
+}
+
+double core::distance_to_piece(const PathPiece& piece, Vec2 point) {
+  return distance(piece, point);
 }
 
 double distance(const PathPiece& a, const PathPiece& b) {

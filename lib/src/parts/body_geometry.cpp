@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/piece_distance.hpp"
 #include "parts/piece_mesh.hpp"
 
 #include <algorithm>
@@ -422,9 +423,14 @@ std::vector<Vec3> points_of(const TubeGore& gore, double inset) {
 }
 
 double distance_to(const ArcPath& path, Vec2 point) {
-  const PathPiece here{point, point + Vec2{1e-9, 0.0}, 0.0};
   double least = std::numeric_limits<double>::infinity();
-  for (const PathPiece& piece : pieces_of(path)) least = std::min(least, distance(here, piece));
+  for (const PathPiece& piece : pieces_of(path)) {
+    // No point of an arc of up to half a turn is farther from its middle than half its chord and its rise.
+    const double half = 0.5 * norm(piece.to - piece.from);
+    const double away = norm(point - 0.5 * (piece.from + piece.to));
+    if (std::fabs(piece.bulge) <= 1.0 && away - half * (1.0 + std::fabs(piece.bulge)) > least) continue;
+    least = std::min(least, core::distance_to_piece(piece, point));
+  }
   return least;
 }
 
@@ -553,27 +559,40 @@ double depth_in(const TubeGore& gore, Vec3 point) {
 }
 
 /// One piece in space, for looking into.
+struct Box {
+  Vec3 low{kFar, kFar, kFar};
+  Vec3 high{-kFar, -kFar, -kFar};
+
+  void widen(Vec3 point) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
+  }
+  [[nodiscard]] bool meets(const Box& other, double margin) const {
+    return other.low.x <= high.x + margin && low.x <= other.high.x + margin &&
+           other.low.y <= high.y + margin && low.y <= other.high.y + margin &&
+           other.low.z <= high.z + margin && low.z <= other.high.z + margin;
+  }
+};
+
 struct Piece {
   const ShopPart* part = nullptr;
   Frame place;
   std::vector<Vec3> points;
-  Vec3 low{kFar, kFar, kFar};
-  Vec3 high{-kFar, -kFar, -kFar};
+  Box box;
+  Box own;  ///< in its own frame, where a thin plate that leans is thin
 };
 
 std::vector<Piece> pieces_in_space(const Workshop& workshop) {
   std::vector<Piece> pieces;
   for (const ShopPart& part : workshop.parts) {
     const std::vector<Vec3> own = edge_points(part.body, kInset);
+    Box box;
+    for (const Vec3 local : own) box.widen(local);
     for (const Frame& place : part.places) {
-      Piece piece{&part, place, {}, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+      Piece piece{&part, place, {}, {}, box};
       for (const Vec3 local : own) {
-        const Vec3 point = place.to_space(local);
-        piece.points.push_back(point);
-        piece.low = {std::min(piece.low.x, point.x), std::min(piece.low.y, point.y),
-                     std::min(piece.low.z, point.z)};
-        piece.high = {std::max(piece.high.x, point.x), std::max(piece.high.y, point.y),
-                      std::max(piece.high.z, point.z)};
+        piece.points.push_back(place.to_space(local));
+        piece.box.widen(piece.points.back());
       }
       pieces.push_back(std::move(piece));
     }
@@ -583,18 +602,14 @@ std::vector<Piece> pieces_in_space(const Workshop& workshop) {
 
 constexpr double kMargin = 1e-3;  // of boxes round points that lie just inside
 
-bool within(const Piece& box, Vec3 low, Vec3 high) {
-  return low.x <= box.high.x + kMargin && box.low.x <= high.x + kMargin && low.y <= box.high.y + kMargin &&
-         box.low.y <= high.y + kMargin && low.z <= box.high.z + kMargin && box.low.z <= high.z + kMargin;
-}
-
 /// Points of one piece inside another.
 void require_apart(const Piece& a, const Piece& b) {
   for (const Vec3 point : a.points) {
-    if (!within(b, point, point)) continue;
+    if (!b.box.meets({point, point}, kMargin)) continue;
     const Vec3 away = point - b.place.origin;
-    const double depth =
-        depth_inside(b.part->body, {dot(away, b.place.x), dot(away, b.place.y), dot(away, b.place.z)});
+    const Vec3 own{dot(away, b.place.x), dot(away, b.place.y), dot(away, b.place.z)};
+    if (!b.own.meets({own, own}, kMargin)) continue;
+    const double depth = depth_inside(b.part->body, own);
     if (depth <= kInset + kDeep) continue;
     throw InternalError(
         {"", "parts clash: " + a.part->name + " reaches " + length_text(depth, 3) + " into " + b.part->name,
@@ -627,7 +642,7 @@ std::size_t require_no_clash(const Workshop& workshop) {
   const std::vector<Piece> pieces = pieces_in_space(workshop);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      if (k != i && within(pieces[k], pieces[i].low, pieces[i].high)) require_apart(pieces[i], pieces[k]);
+      if (k != i && pieces[k].box.meets(pieces[i].box, kMargin)) require_apart(pieces[i], pieces[k]);
     }
   }
   return pieces.size() * (pieces.size() - 1) / 2;
