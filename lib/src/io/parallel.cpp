@@ -122,4 +122,37 @@ void in_ranges(std::size_t count, const std::function<void(std::size_t first, st
   for (std::future<void>& other : others) other.get();
 }
 
+void each_in_turn(std::size_t count, const std::function<void(std::size_t)>& begin,
+                  const std::function<void(std::size_t)>& work) {
+  std::mutex mutex;
+  std::size_t next = 0;
+  std::size_t failed = count;
+  std::exception_ptr failure;
+  const auto take = [&](std::size_t& at) {
+    const std::scoped_lock lock(mutex);
+    if (failure || next == count) return false;
+    at = next++;
+    begin(at);
+    return true;
+  };
+  const auto run = [&] {
+    std::size_t at = 0;
+    try {
+      while (take(at)) work(at);
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!failure || at < failed) {
+        failure = std::current_exception();
+        failed = at;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (std::size_t i = 1; i < std::min(thread_count(), count); ++i) helpers.emplace_back(run);
+    run();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
 }  // namespace glissade::io

@@ -31,4 +31,11 @@ void write_in_order(AtomicFile& file, const BlockPlan& plan, const std::stop_tok
 /// @throws what `work` throws; where several do, that of the lowest range
 void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work);
 
+/// Hands 0 to count - 1 to the cores in their order, each as soon as one is free.
+/// @param begin  of each in its order, one at a time
+/// @param work   after that, on several threads at once
+/// @throws what either throws; where several do, that of the lowest. What has not begun by then does not
+void each_in_turn(std::size_t count, const std::function<void(std::size_t)>& begin,
+                  const std::function<void(std::size_t)>& work);
+
 }  // namespace glissade::io

@@ -3,6 +3,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline.hpp"
 
+#include "io/parallel.hpp"
 #include "pipeline/chute_rules.hpp"
 #include "pipeline/cross_section.hpp"
 #include "pipeline/report.hpp"
@@ -69,14 +70,19 @@ Build publish(const Design& given, Assembly assembly, const fs::path& directory,
   std::vector<fs::path> made;
   std::vector<fs::path> read_back;
   for (const PendingFile& file : assembly.files) {
-    steps.enter("writing " + file.name, file.cost);
-    const fs::path path = made.emplace_back(staging.path_for(file.name));
-    named_as(path, directory / file.name, [&] {
-      file.write(path, context.stop);
-      if (file.read_back) file.read_back(path, context.stop);
-    });
-    if (file.read_back) read_back.push_back(path);
+    made.push_back(staging.path_for(file.name));
+    if (file.read_back) read_back.push_back(made.back());
   }
+  io::each_in_turn(
+      made.size(),
+      [&](std::size_t i) { steps.enter("writing " + assembly.files[i].name, assembly.files[i].cost); },
+      [&](std::size_t i) {
+        const PendingFile& file = assembly.files[i];
+        named_as(made[i], directory / file.name, [&] {
+          file.write(made[i], context.stop);
+          if (file.read_back) file.read_back(made[i], context.stop);
+        });
+      });
   const ProvenSolid* const swept = assembly.has_solid() ? &assembly.swept() : nullptr;
   if (options.report) {
     // Last of all: it lists the others.
