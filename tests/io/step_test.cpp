@@ -41,12 +41,12 @@ TEST_CASE(
   write_step(file, workshop);
   require_same_step(file, workshop);
   const StepFacts facts = read_step_facts(file);
-  REQUIRE(facts.solids.size() == 10);
+  REQUIRE(facts.solids.size() == 13);
   for (const StepSolid& solid : facts.solids) {
     CHECK(solid.closed);
     CHECK(solid.worst_gap_mm <= kStepAccuracy);
   }
-  CHECK(facts.occurrences.size() == 12);
+  CHECK(facts.occurrences.size() == 15);
   CHECK(facts.solids[0].name == "01 left_wall");
   // A wall: 7 arcs on both edges, 9 holes, half circles at both ends of a slot; planes: faces, ends, slot.
   CHECK(facts.solids[0].cylinders == 14 + 9 + 2);
@@ -67,6 +67,14 @@ TEST_CASE(
   CHECK(facts.solids[6].cylinders == 2 * 6);
   CHECK(facts.solids[7].planes == 4 + 2 + 2);
   CHECK(facts.solids[8].planes == 2 + 2);
+  // Holes are cylinders, whatever they go through.
+  CHECK(facts.solids[10].cylinders == 2 * 6 + 2 * 7);
+  CHECK(facts.solids[11].cylinders == 7);
+  CHECK(facts.solids[11].cones == 4 * 6);
+  CHECK(facts.solids[12].cylinders == 7);
+  // Both faces, both edges, a slot and, but for one piece, a lap that make more of them.
+  CHECK(facts.solids[12].cones == 6 * (4 + 2) + 2);
+  for (std::size_t i = 10; i < 13; ++i) CHECK(facts.solids[i].splines == 0);
   // ISO 10303-21 has capital exponents, after a decimal point.
   CHECK(text.find(",7.5254E-06,") != std::string::npos);
   CHECK(text.find("e-") == std::string::npos);

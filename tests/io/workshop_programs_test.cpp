@@ -8,6 +8,7 @@
 #include "glissade/parts/prints.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
+#include "parts/body_mesh.hpp"
 #include "support/catch.hpp"
 #include "support/openscad_check.hpp"
 #include "support/oracle.hpp"
@@ -129,6 +130,13 @@ double volume_of(const MeshBody& body) {
   return measure(body.mesh).volume;
 }
 
+/// What holes take out: as out of a flat plate, but for (hole over radius)^2 / 8 of it.
+double drilled(const std::vector<Circle>& holes, double thickness) {
+  double volume = 0.0;
+  for (const Circle& hole : holes) volume += kPi * hole.radius * hole.radius * thickness;
+  return volume;
+}
+
 double volume_of(const SweptBody& body) {
   const auto section_at = [&](std::size_t vertex) {
     ArcPath section{{}, true};
@@ -146,7 +154,7 @@ double volume_of(const SweptBody& body) {
     for (const AreaMoments& area : {section_at(i), section_at(i + 1)})
       volume += 0.5 * area.area * (length(pieces[i]) - turned * area.centroid.x);
   }
-  return volume;
+  return volume - drilled(body.holes, norm(body.section.at(2) - body.section.at(1)));
 }
 
 /// Facet by facet: two triangles of each of its six plane faces.
@@ -172,6 +180,7 @@ double volume_of(const FoldedPlate& plate) {
 
 /// Sheet by sheet: area on the path, and what its lower face is longer.
 double volume_of(const RolledSheet& sheet) {
+  if (!sheet.bevels.empty()) return measure(parts::facets_of(sheet, 1e-6, 64)).volume;
   double start = 0.0;
   double volume = 0.0;
   for (const PathPiece& piece : pieces_of(sheet.path)) {
@@ -191,7 +200,13 @@ double volume_of(const RolledSheet& sheet) {
     volume += area * sheet.thickness * (1.0 + 0.5 * curvature * sheet.thickness);
     start += whole;
   }
-  return volume;
+  return volume - drilled(sheet.region.holes, sheet.thickness);
+}
+
+bool has_holes(const PartBody& body) {
+  if (const auto* const swept = std::get_if<SweptBody>(&body)) return !swept->holes.empty();
+  const auto* const sheet = std::get_if<RolledSheet>(&body);
+  return sheet != nullptr && !sheet->region.holes.empty();
 }
 
 /// Half a tube, whose planes cut off less than at its axis, and two sides.
@@ -240,7 +255,9 @@ TEST_CASE("Open CASCADE reads STEP as valid closed solids with the volumes of th
       const PartBody& body = workshop.parts[i].body;
       const bool exact = !std::holds_alternative<TubeGore>(body) &&
                          !std::holds_alternative<TroughGore>(body) && facts.solids[i].splines == 0;
-      CHECK(volume == Approx(meant).epsilon(exact ? 1e-8 : 2e-6));
+      // Of holes in curved faces, whose edges are no circles, it finds as little as 99.8 %, of its own as well.
+      const double near = has_holes(body) ? 2e-5 : exact ? 1e-8 : 2e-6;
+      CHECK(volume == Approx(meant).epsilon(near));
       CHECK(planes == facts.solids[i].planes);
       CHECK(cylinders == facts.solids[i].cylinders);
       CHECK(cones == facts.solids[i].cones);

@@ -84,6 +84,59 @@ inline glissade::SweptBody widening_plate() {
   return body;
 }
 
+/// Middles of the pieces of a path, along it.
+inline std::vector<double> middles_of(const glissade::ArcPath& path) {
+  std::vector<double> middles;
+  double start = 0.0;
+  for (const glissade::PathPiece& piece : glissade::pieces_of(path)) {
+    const double whole = glissade::length(piece);
+    middles.push_back(start + 0.5 * whole);
+    start += whole;
+  }
+  return middles;
+}
+
+/// The slotted floor with two holes in each of its pieces.
+inline glissade::RolledSheet drilled_floor() {
+  glissade::RolledSheet sheet = slotted_floor();
+  for (const double middle : middles_of(sheet.path)) {
+    sheet.region.holes.push_back({{middle + 0.06, 0.2}, 6e-3});
+    sheet.region.holes.push_back({{middle + 0.07, 0.3}, 4.5e-3});
+  }
+  return sheet;
+}
+
+inline glissade::SweptBody drilled_leaning_plate() {
+  glissade::SweptBody body = leaning_plate(0.6, 0.25, 0.004);
+  for (const double middle : middles_of(body.path)) body.holes.push_back({{middle, 0.12}, 6e-3});
+  return body;
+}
+
+/// A plate that leans, above and beside its path, with bevelled edges, a lap along a part of one of them, slots and holes.
+inline glissade::RolledSheet leaning_sheet(double lean = 0.5) {
+  glissade::RolledSheet sheet = slotted_floor();
+  const double whole = glissade::length(sheet.path);
+  sheet.foot = {0.22, -0.1};
+  sheet.across = {-std::cos(lean), std::sin(lean)};
+  sheet.bevels = {{0.0, 0.002}, {0.2, -0.003}, {0.23, 0.0}};
+  sheet.region = {};
+  sheet.region.outline.closed = true;
+  for (const glissade::Vec2 corner : {glissade::Vec2{0.0, 0.0},
+                                      {whole, 0.0},
+                                      {whole, 0.2},
+                                      {whole - 0.03, 0.2},
+                                      {whole - 0.03, 0.23},
+                                      {0.012, 0.23},
+                                      {0.012, 0.2},
+                                      {0.0, 0.2}})
+    sheet.region.outline.vertices.push_back({corner, 0.0});
+  for (const double middle : middles_of(sheet.path)) {
+    sheet.region.cutouts.push_back(glissade::rectangle({middle - 0.02, 0.16}, {middle + 0.02, 0.17}));
+    sheet.region.holes.push_back({{middle, 0.1}, 5e-3});
+  }
+  return sheet;
+}
+
 /// Plates, a floor, a leaning wall, gores of a pipe: one of each kind, some in several places.
 inline glissade::Workshop sample_workshop() {
   glissade::Workshop workshop;
@@ -125,6 +178,9 @@ inline glissade::Workshop sample_workshop() {
                                      glissade::Angle::from_radians(0.12)}));
   workshop.parts.push_back(shop_part(9, "half_round", glissade::TroughGore{0.1, 0.003, 0.0, 0.3, {}, {}}));
   workshop.parts.push_back(shop_part(10, "widening_wall", widening_plate()));
+  workshop.parts.push_back(shop_part(11, "drilled_floor", drilled_floor()));
+  workshop.parts.push_back(shop_part(12, "drilled_wall", drilled_leaning_plate()));
+  workshop.parts.push_back(shop_part(13, "slotted_wall", leaning_sheet()));
   workshop.items.push_back({"bolt M12 x 40", "ISO 4017 8.8", 24, "joint 1"});
   workshop.bends.push_back(
       {2, 1, 0.25, 0.0, glissade::Angle::from_radians(0.03), glissade::Angle::from_radians(0.03), 2.5, 2e-4});

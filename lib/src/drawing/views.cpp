@@ -52,14 +52,14 @@ ArcPath seen_round(const PlacedEdge& placed, const Eye& eye) {
   const double facing = dot(placed.axis, towards_eye);
   const double sweep = sweep_of(placed);
   constexpr double kAlong = 1.0 - 1e-12;
-  if (placed.edge->kind == parts::CurveKind::circle && std::fabs(facing) > kAlong) {
+  if (placed.edge->kind != parts::CurveKind::ellipse && std::fabs(facing) > kAlong) {
     if (placed.edge->from == placed.edge->to) return path_of({eye.see(placed.centre), placed.edge->radius});
     const double bulge = bulge_of_sweep(facing > 0.0 ? sweep : -sweep);
     return {{{eye.see(placed.from), bulge}, {eye.see(placed.to)}}, false};
   }
   const Vec3 across = cross(placed.axis, placed.reference);
   const double second =
-      placed.edge->kind == parts::CurveKind::circle ? placed.edge->radius : placed.edge->second_radius;
+      placed.edge->kind == parts::CurveKind::ellipse ? placed.edge->second_radius : placed.edge->radius;
   const Vec3 spoke = placed.from - placed.centre;
   const double start =
       math::atan2(dot(spoke, across) / second, dot(spoke, placed.reference) / placed.edge->radius);
@@ -67,8 +67,9 @@ ArcPath seen_round(const PlacedEdge& placed, const Eye& eye) {
   ArcPath path;
   for (int i = 0; i <= steps; ++i) {
     const auto [sine, cosine] = math::sine_cosine(start + sweep * i / steps);
+    const double out = cosine * cosine * (placed.edge->rise + placed.edge->skew * sine);
     path.vertices.push_back({eye.see(placed.centre + (placed.edge->radius * cosine) * placed.reference +
-                                     (second * sine) * across),
+                                     (second * sine) * across + out * placed.axis),
                              0.0});
   }
   return path;

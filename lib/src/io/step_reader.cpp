@@ -98,6 +98,18 @@ class StepEntities {
     return parts;
   }
 
+  /// @return the first parameters of one of several entities that are one
+  [[nodiscard]] std::vector<std::string_view> parameters_within(Id id, std::string_view keyword,
+                                                                std::size_t least) const {
+    const std::string_view body = at(id).body;
+    const std::size_t start = body.find(keyword);
+    std::vector<std::string_view> parts;
+    if (start != std::string_view::npos) parts = split(body.substr(start + keyword.size()));
+    if (parts.size() < least)
+      throw error("#" + std::to_string(id) + " is no " + std::string(keyword.substr(0, keyword.size() - 1)));
+    return parts;
+  }
+
   [[nodiscard]] Id reference(std::string_view text) const {
     Id id = 0;
     if (text.size() > 1 && text.front() == '#') {
@@ -229,6 +241,11 @@ Placement3 placement(const StepEntities& step, Id id) {
 /// How far places are from a curve of the file.
 std::function<double(Vec3)> gap_from_curve(const StepEntities& step, Id id) {
   const Entity& curve = step.at(id);
+  if (curve.keyword.empty()) {
+    // Several entities at once: a rational spline.
+    const std::vector<Id> poles = step.references(step.parameters_within(id, "B_SPLINE_CURVE(", 2)[1]);
+    return std::min(norm(step.triple(poles.front()) - point), norm(step.triple(poles.back()) - point));
+  }
   const auto parts = step.parameters(id, 3);
   if (curve.keyword == "LINE") {
     const Vec3 from = step.triple(step.reference(parts[1]));
@@ -259,7 +276,7 @@ std::function<double(Vec3)> gap_from_curve(const StepEntities& step, Id id) {
     };
   }
   throw step.error("#" + std::to_string(id) + " is a curve of another kind",
-                   "Lines, circles, ellipses and cubics are read.");
+                   "Lines, circles, ellipses, cubics and rational splines are read.");
 }
 
 /// How far places are from a surface of the file.

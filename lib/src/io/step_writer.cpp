@@ -5,6 +5,7 @@
 #include "glissade/io/step_file.hpp"
 
 #include "io/step_names.hpp"
+#include "parts/bores.hpp"
 #include "parts/brep.hpp"
 
 #include <array>
@@ -79,6 +80,13 @@ class StepText {
     for (std::size_t i = 0; i < ids.size(); ++i) {
       if (i > 0) text_ += ',';
       put(ids[i]);
+    }
+    text_ += ')';
+  }
+  void put(const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      text_ += i == 0 ? '(' : ',';
+      put(values[i]);
     }
     text_ += ')';
   }
@@ -163,6 +171,7 @@ class SolidText {
       return text_.add("B_SPLINE_CURVE_WITH_KNOTS('',3,", poles(edge.poles),
                        ",.UNSPECIFIED.,.F.,.F.,(4,4),(0.,1.),.UNSPECIFIED.)");
     }
+    if (edge.kind == CurveKind::mouth) return mouth(edge);
     const Id place = placement(edge.centre, edge.axis, edge.reference);
     if (edge.kind == CurveKind::circle) return text_.add("CIRCLE('',", place, ",", edge.radius, ")");
     return text_.add("ELLIPSE('',", place, ",", edge.radius, ",", edge.second_radius, ")");
@@ -171,6 +180,20 @@ class SolidText {
   Id edge_curve(const BrepEdge& edge) {
     const Id shape = curve(edge);
     return text_.add("EDGE_CURVE('',", vertices_[edge.from], ",", vertices_[edge.to], ",", shape, ",.T.)");
+  }
+
+  Id mouth(const BrepEdge& edge) {
+    const RationalCurve rational = rational_mouth(edge);
+    const std::string degree = std::to_string(rational.degree);
+    const std::string end = std::to_string(rational.degree + 1);
+    std::vector<Id> places;
+    for (const Vec3 pole : rational.poles) places.push_back(point(pole));
+    return text_.add("(BOUNDED_CURVE()B_SPLINE_CURVE(", degree, ",", places,
+                     ",.UNSPECIFIED.,.T.,.F.)B_SPLINE_CURVE_WITH_KNOTS((", end, ",", degree, ",", degree, ",",
+                     end,
+                     "),(0.,1.,2.,3.),.UNSPECIFIED.)CURVE()GEOMETRIC_REPRESENTATION_ITEM()"
+                     "RATIONAL_B_SPLINE_CURVE(",
+                     rational.weights, ")REPRESENTATION_ITEM(''))");
   }
 
   std::vector<Id> poles(const std::array<Vec3, 4>& places) {

@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "core/piece_distance.hpp"
+#include "parts/bores.hpp"
 #include "parts/piece_mesh.hpp"
 
 #include <algorithm>
@@ -15,6 +16,33 @@
 #include <string>
 
 namespace glissade::parts {
+
+Vec2 tangent_at(const PathPiece& piece, double share) {
+  const Vec2 chord = piece.to - piece.from;
+  const double angle = 4.0 * math::atan(piece.bulge) * (share - 0.5);
+  const auto [sine, cosine] = math::sine_cosine(angle);
+  return (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
+}
+
+double bevel_at(const RolledSheet& sheet, double y) {
+  const std::vector<Bevel>& bevels = sheet.bevels;
+  if (bevels.empty()) return 0.0;
+  if (y <= bevels.front().at) return bevels.front().below;
+  for (std::size_t i = 1; i < bevels.size(); ++i) {
+    const Bevel& one = bevels[i - 1];
+    const Bevel& other = bevels[i];
+    if (y == other.at) return other.below;
+    if (y < other.at) return one.below + (y - one.at) / (other.at - one.at) * (other.below - one.below);
+  }
+  return bevels.back().below;
+}
+
+Vec2 sheet_place(const RolledSheet& sheet, double y, bool upper) {
+  if (upper) return sheet.foot + y * sheet.across;
+  const Vec2 into{-sheet.across.y, sheet.across.x};
+  return sheet.foot + (y + bevel_at(sheet, y)) * sheet.across + sheet.thickness * into;
+}
+
 namespace {
 
 constexpr double kInset = 20e-6;  // from a part's edges to the points that are looked for in others [m]
@@ -46,14 +74,6 @@ SectionMoments moments_of(const std::vector<Vec2>& corners) {
   return {-all.area, -all.x, -all.y, -all.xx, -all.xy};
 }
 
-/// The unit tangent of a piece at a share of its length.
-Vec2 tangent_at(const PathPiece& piece, double share) {
-  const Vec2 chord = piece.to - piece.from;
-  const double angle = 4.0 * math::atan(piece.bulge) * (share - 0.5);
-  const auto [sine, cosine] = math::sine_cosine(angle);
-  return (1.0 / norm(chord)) * Vec2{cosine * chord.x - sine * chord.y, sine * chord.x + cosine * chord.y};
-}
-
 double curvature_of(const PathPiece& piece) {
   return 4.0 * math::atan(piece.bulge) / length(piece);
 }
@@ -65,6 +85,17 @@ std::vector<Vec2> section_at(const SweptBody& body, std::size_t piece, double sh
   for (std::size_t j = 0; j < section.size(); ++j)
     section[j].y += (1.0 - share) * body.shifts[piece][j] + share * body.shifts[piece + 1][j];
   return section;
+}
+
+/// What is left beside holes.
+BodyMoments without(BodyMoments all, const std::vector<Bore>& bores) {
+  for (const Bore& bore : bores) {
+    const BoreMoments hole = moments(bore);
+    const double left = all.volume - hole.volume;
+    all.centroid = (1.0 / left) * (all.volume * all.centroid - hole.volume * hole.centroid);
+    all.volume = left;
+  }
+  return all;
 }
 
 BodyMoments moments_of(const Prism& prism) {
@@ -104,17 +135,27 @@ BodyMoments moments_of(const SweptBody& body) {
     }
   }
   all.centroid = (1.0 / all.volume) * first;
-  return all;
+  return without(all, bores_of(body));
 }
 
-/// What lies across a sheet between two places along its path, its edges being parallel to them.
+/// What of a sheet lies between two places along its path, its edges being parallel to it.
 struct Slab {
   std::size_t piece = 0;
   double from = 0.0;  ///< along the path
   double to = 0.0;
-  double width = 0.0;   ///< of all that is there
-  double moment = 0.0;  ///< of it about y = 0
+  SectionMoments section;
 };
+
+/// Of what lies between the two edges of a stretch of a sheet's section.
+void add_strip(const RolledSheet& sheet, double low, double high, SectionMoments& sum) {
+  const SectionMoments one = moments_of({sheet_place(sheet, low, true), sheet_place(sheet, high, true),
+                                         sheet_place(sheet, high, false), sheet_place(sheet, low, false)});
+  sum.area += one.area;
+  sum.x += one.x;
+  sum.y += one.y;
+  sum.xx += one.xx;
+  sum.xy += one.xy;
+}
 
 std::vector<Slab> slabs_of(const RolledSheet& sheet, const std::vector<PathPiece>& pieces) {
   std::vector<double> breaks = {0.0};
@@ -131,20 +172,18 @@ std::vector<Slab> slabs_of(const RolledSheet& sheet, const std::vector<PathPiece
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const double middle = 0.5 * (breaks[k] + breaks[k + 1]);
     if (!(breaks[k + 1] > breaks[k]) || middle > joints.back()) continue;
-    Slab slab{0, breaks[k], breaks[k + 1], 0.0, 0.0};
+    Slab slab{0, breaks[k], breaks[k + 1], {}};
     while (slab.piece + 1 < pieces.size() && middle > joints[slab.piece + 1]) ++slab.piece;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-      // Of the edges above and below the middle, those that run on count for what lies below them.
-      const bool left = (signed_area(*loops[l]) > 0.0) == (l == 0);
-      for (const PathPiece& edge : pieces_of(*loops[l])) {
-        const bool spans =
-            std::min(edge.from.x, edge.to.x) <= middle && middle < std::max(edge.from.x, edge.to.x);
-        if (!spans) continue;
-        const double sense = (edge.to.x < edge.from.x) == left ? 1.0 : -1.0;
-        slab.width += sense * edge.from.y;
-        slab.moment += sense * 0.5 * edge.from.y * edge.from.y;
+    std::vector<double> edges;
+    for (const ArcPath* loop : loops) {
+      for (const PathPiece& edge : pieces_of(*loop)) {
+        if (std::min(edge.from.x, edge.to.x) <= middle && middle < std::max(edge.from.x, edge.to.x))
+          edges.push_back(edge.from.y);
       }
     }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i + 1 < edges.size(); i += 2)
+      add_strip(sheet, edges[i], edges[i + 1], slab.section);
     slabs.push_back(slab);
   }
   return slabs;
@@ -154,29 +193,29 @@ BodyMoments moments_of(const RolledSheet& sheet) {
   const std::vector<PathPiece> pieces = pieces_of(sheet.path);
   std::vector<double> starts = {0.0};
   for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
-  const double t = sheet.thickness;
   BodyMoments all;
   Vec3 first;
   for (const Slab& slab : slabs_of(sheet, pieces)) {
     const PathPiece& piece = pieces[slab.piece];
+    const SectionMoments& section = slab.section;
     const double curvature = curvature_of(piece);
     const double whole = length(piece);
-    const double through = t + 0.5 * curvature * t * t;
-    const double below = -0.5 * t * t - curvature * t * t * t / 3.0;
+    const double through = section.area - curvature * section.x;
+    const double up = section.x - curvature * section.xx;
     const double size = slab.to - slab.from;
-    all.volume += size * slab.width * through;
-    first.z += size * slab.moment * through;
+    all.volume += size * through;
+    first.z += size * (section.y - curvature * section.xy);
     for (std::size_t k = 0; k < kNodes.size(); ++k) {
       const double share = (slab.from + kNodes[k] * size - starts[slab.piece]) / whole;
       const Vec2 at = point_on(piece, share);
       const Vec2 along = tangent_at(piece, share);
-      const double weight = kWeights[k] * size * slab.width;
-      first.x += weight * (at.x * through - along.y * below);
-      first.y += weight * (at.y * through + along.x * below);
+      const double weight = kWeights[k] * size;
+      first.x += weight * (at.x * through - along.y * up);
+      first.y += weight * (at.y * through + along.x * up);
     }
   }
   all.centroid = (1.0 / all.volume) * first;
-  return all;
+  return without(all, bores_of(sheet));
 }
 
 /// Six outward planes of a facet of a folded plate; the last two lie at its bends or ends.
@@ -341,8 +380,12 @@ std::vector<Vec3> points_of(const RolledSheet& sheet, double inset) {
     const double share = (place.x - starts[i]) / length(pieces[i]);
     const Vec2 along = tangent_at(pieces[i], share);
     const Vec2 at = point_on(pieces[i], share);
-    for (const double depth : {inset, 0.5 * sheet.thickness, sheet.thickness - inset})
-      points.push_back({at.x + depth * along.y, at.y - depth * along.x, place.y});
+    const Vec2 upper = sheet_place(sheet, place.y, true);
+    const Vec2 way = (1.0 / sheet.thickness) * (sheet_place(sheet, place.y, false) - upper);
+    for (const double depth : {inset, 0.5 * sheet.thickness, sheet.thickness - inset}) {
+      const Vec2 there = upper + depth * way;
+      points.push_back({at.x - there.x * along.y, at.y + there.x * along.x, there.y});
+    }
   };
   const auto along_edges = [&](const ArcPath& path, bool outline) {
     const bool left = (signed_area(path) > 0.0) == outline;  // the material's side
@@ -509,10 +552,18 @@ double depth_in(const RolledSheet& sheet, Vec3 point) {
   std::vector<double> starts = {0.0};
   for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
   return depth_along(pieces, {point.x, point.y}, [&](std::size_t i, double share, double above) {
-    const double between = std::min(-above, above + sheet.thickness);
+    const Vec2 away = Vec2{above, point.z} - sheet.foot;
+    const double depth = dot(Vec2{-sheet.across.y, sheet.across.x}, away);
+    const double between = std::min(depth, sheet.thickness - depth);
     if (between <= 0.0) return between;
     const double x = starts[i] + share * length(pieces[i]);
-    const double flat = depth_in(sheet.region, Vec2{x, point.z});
+    // Where it would be on the upper face, edges leaning as they do.
+    const double lower = dot(sheet.across, away);
+    double y = lower;
+    constexpr int kRounds = 40;
+    for (int k = 0; k < kRounds && !sheet.bevels.empty(); ++k)
+      y = lower - depth / sheet.thickness * bevel_at(sheet, y);
+    const double flat = depth_in(sheet.region, Vec2{x, y});
     return flat > 0.0 ? std::min(flat, between) : flat;
   });
 }

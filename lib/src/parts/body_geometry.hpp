@@ -7,6 +7,15 @@
 
 namespace glissade::parts {
 
+/// @return the unit tangent of a piece at a share of its length
+[[nodiscard]] Vec2 tangent_at(const PathPiece& piece, double share);
+
+/// @return how much farther along y a place stands on the lower face of a sheet than on the upper one
+[[nodiscard]] double bevel_at(const RolledSheet& sheet, double y);
+/// @return a place of a sheet's section: to the left of its path, along z
+/// @param upper  on the upper face; else on the lower one
+[[nodiscard]] Vec2 sheet_place(const RolledSheet& sheet, double y, bool upper);
+
 /// A body's volume with its first moments, in its own frame.
 struct BodyMoments {
   double volume = 0.0;  ///< [m^3]

@@ -3,6 +3,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
+#include "parts/body_geometry.hpp"
+#include "parts/bores.hpp"
 #include "solid/cap_triangulation.hpp"
 
 #include <algorithm>
@@ -115,6 +117,139 @@ TriangleMesh mesh_of(const Prism& prism, Fineness fineness) {
   return prism_of(prism, fineness);
 }
 
+// --- holes through curved plates
+
+/// Places along a path at which chords end, those about holes moved to both sides of them: a hole lies between two chords.
+class ChordEnds {
+ public:
+  ChordEnds(const std::vector<PathPiece>& pieces, double reach, const Fineness& fineness) {
+    starts_ = {0.0};
+    for (const PathPiece& piece : pieces) {
+      int chords = 1;
+      if (!piece.straight()) {
+        const CircularArc arc = arc_of(piece);
+        chords = chords_of(arc.sweep, arc.radius + reach, fineness);
+      }
+      const double whole = length(piece);
+      for (int k = 0; k < chords; ++k) places_.push_back(starts_.back() + whole * k / chords);
+      starts_.push_back(starts_.back() + whole);
+    }
+    places_.push_back(starts_.back());
+  }
+
+  void leave_out(const std::vector<Circle>& holes, const std::vector<Bore>& bores) {
+    if (holes.empty()) return;
+    std::vector<std::array<double, 2>> spans;
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      const Bore& bore = bores[i];
+      // Nearer to the axis of an arc than the path is, a hole takes more of it.
+      const double least = std::min(bore.from_axis, bore.from_axis + bore.depth * bore.grows_into) -
+                           bore.radius * std::fabs(bore.grows_across);
+      const double stretch = bore.from_axis == 0.0 ? 1.0 : bore.path_radius / least;
+      constexpr double kWider = 1.02;  // than the hole
+      const double half = kWider * stretch * bore.radius;
+      spans.push_back({holes[i].centre.x - half, holes[i].centre.x + half});
+    }
+    std::sort(spans.begin(), spans.end());
+    std::vector<std::array<double, 2>> apart;
+    for (const auto& span : spans) {
+      if (!apart.empty() && span[0] <= apart.back()[1])
+        apart.back()[1] = std::max(apart.back()[1], span[1]);
+      else
+        apart.push_back(span);
+    }
+    for (const auto& span : apart) {
+      std::erase_if(places_, [&](double place) {
+        const bool joint = std::find(starts_.begin(), starts_.end(), place) != starts_.end();
+        return !joint && place > span[0] && place < span[1];
+      });
+      places_.insert(places_.end(), span.begin(), span.end());
+    }
+    std::sort(places_.begin(), places_.end());
+  }
+
+  [[nodiscard]] const std::vector<double>& starts() const { return starts_; }
+  [[nodiscard]] const std::vector<double>& places() const { return places_; }
+
+ private:
+  std::vector<double> starts_;  ///< of pieces, and the end
+  std::vector<double> places_;
+};
+
+/// A flat four-cornered face with round holes, its plane being that of three of its corners.
+class DrilledFace {
+ public:
+  /// @param quad  counter-clockwise seen from outside
+  DrilledFace(TriangleMesh& mesh, const std::array<Index, 4>& quad) : mesh_(mesh), quad_(quad) {
+    const Vec3 corner = mesh.vertices[quad[0]];
+    const Vec3 way = mesh.vertices[quad[1]] - corner;
+    const Vec3 normal = cross(way, mesh.vertices[quad[3]] - corner);
+    right_ = (1.0 / norm(way)) * way;
+    up_ = (1.0 / norm(normal)) * cross(normal, right_);
+    out_ = (1.0 / norm(normal)) * normal;
+  }
+
+  /// The circle in which a hole goes through the face, along a way that need not be square to it.
+  /// @return its first vertex
+  Index add_hole(const Bore& bore, int corners) {
+    const Index first = count_of(mesh_);
+    for (int k = 0; k < corners; ++k) {
+      const auto [sine, cosine] = math::sine_cosine(kTurn * k / corners);
+      const Vec3 at = bore.centre + bore.radius * (cosine * bore.along + sine * bore.across);
+      const double off = dot(mesh_.vertices[quad_[0]] - at, out_) / dot(bore.into, out_);
+      mesh_.vertices.push_back(at + off * bore.into);
+    }
+    holes_.push_back({first, first + static_cast<Index>(corners)});
+    return first;
+  }
+
+  void fill() {
+    std::vector<std::vector<Vec2>> loops(1);
+    std::vector<Index> indices(quad_.begin(), quad_.end());
+    for (const auto& [first, end] : holes_) {
+      loops.emplace_back();
+      for (Index k = first; k < end; ++k) indices.push_back(k);
+    }
+    const auto flat = [&](Index k) {
+      const Vec3 at = mesh_.vertices[k] - mesh_.vertices[quad_[0]];
+      return Vec2{dot(at, right_), dot(at, up_)};
+    };
+    for (const Index k : quad_) loops[0].push_back(flat(k));
+    for (std::size_t i = 0; i < holes_.size(); ++i) {
+      for (Index k = holes_[i][0]; k < holes_[i][1]; ++k) loops[i + 1].push_back(flat(k));
+    }
+    for (const auto& [a, b, c] : solid::triangulate_loops(loops))
+      mesh_.triangles.push_back({indices[a], indices[b], indices[c]});
+  }
+
+ private:
+  TriangleMesh& mesh_;
+  std::array<Index, 4> quad_;
+  Vec3 right_;
+  Vec3 up_;
+  Vec3 out_;
+  std::vector<std::array<Index, 2>> holes_;
+};
+
+/// Both faces of a plate between two chords with the holes between them, and the walls of the holes.
+void add_drilled(TriangleMesh& mesh, const std::array<Index, 4>& face, const std::array<Index, 4>& back,
+                 const std::vector<const Bore*>& bores, const Fineness& fineness) {
+  DrilledFace one(mesh, face);
+  DrilledFace other(mesh, back);
+  for (const Bore* bore : bores) {
+    const int corners = std::max(8, chords_of(kTurn, bore->radius, fineness));
+    const Index near = one.add_hole(*bore, corners);
+    const Index far = other.add_hole(*bore, corners);
+    for (Index k = 0; k < static_cast<Index>(corners); ++k) {
+      const Index next = (k + 1) % static_cast<Index>(corners);
+      // Counter-clockwise about the way into the plate: the wall looks inwards.
+      add_quad(mesh, near + k, far + k, far + next, near + next);
+    }
+  }
+  one.fill();
+  other.fill();
+}
+
 // --- sections along a path
 
 struct PathFrame {
@@ -132,22 +267,30 @@ PathFrame frame_on(const PathPiece& piece, double share) {
   return {point_on(piece, share), {-along.y, along.x}, 0, share};
 }
 
-std::vector<PathFrame> frames_along(const ArcPath& path, double reach, const Fineness& fineness) {
+std::vector<PathFrame> frames_along(const ArcPath& path, const ChordEnds& ends) {
   std::vector<PathFrame> frames;
   const std::vector<PathPiece> pieces = pieces_of(path);
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    int chords = 1;
-    if (!pieces[p].straight()) {
-      const CircularArc arc = arc_of(pieces[p]);
-      chords = chords_of(arc.sweep, arc.radius + reach, fineness);
-    }
-    if (frames.empty()) frames.push_back(frame_on(pieces[p], 0.0));
-    for (int i = 1; i <= chords; ++i) {
-      frames.push_back(frame_on(pieces[p], static_cast<double>(i) / chords));
-      frames.back().piece = p;
-    }
+  const std::vector<double>& starts = ends.starts();
+  std::size_t p = 0;
+  for (const double place : ends.places()) {
+    // A joint belongs to the piece before it.
+    while (p + 1 < pieces.size() && place > starts[p + 1]) ++p;
+    const double share = std::clamp((place - starts[p]) / (starts[p + 1] - starts[p]), 0.0, 1.0);
+    frames.push_back(frame_on(pieces[p], place == starts[p + 1] ? 1.0 : share));
+    frames.back().piece = p;
   }
   return frames;
+}
+
+/// The holes whose middles lie between two places along a path, and between two across.
+std::vector<const Bore*> between(const std::vector<Circle>& holes, const std::vector<Bore>& bores,
+                                 double from, double to, Vec2 rows = {-1e300, 1e300}) {
+  std::vector<const Bore*> found;
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    const Vec2 at = holes[i].centre;
+    if (at.x > from && at.x < to && at.y > rows.x && at.y < rows.y) found.push_back(&bores[i]);
+  }
+  return found;
 }
 
 TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
@@ -157,7 +300,10 @@ TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
   double reach = 0.0;
   for (const Vec2 corner : section) reach = std::max(reach, std::fabs(corner.x));
   TriangleMesh mesh;
-  const std::vector<PathFrame> frames = frames_along(body.path, reach, fineness);
+  ChordEnds ends(pieces_of(body.path), reach, fineness);
+  const std::vector<Bore> bores = bores_of(body);
+  ends.leave_out(body.holes, bores);
+  const std::vector<PathFrame> frames = frames_along(body.path, ends);
   for (const PathFrame& frame : frames) {
     for (std::size_t j = 0; j < section.size(); ++j) {
       const Vec2 corner = section[j];
@@ -170,14 +316,22 @@ TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
     }
   }
   const auto size = static_cast<Index>(section.size());
+  const Index last = count_of(mesh) - size;
   for (Index ring = 0; ring + 1 < frames.size(); ++ring) {
-    for (Index i = 0; i < size; ++i) {
+    const auto quad = [&](Index i) {
       const Index a = ring * size + i;
       const Index b = ring * size + (i + 1) % size;
-      add_quad(mesh, a, b, b + size, a + size);
+      return std::array<Index, 4>{a, b, b + size, a + size};
+    };
+    const std::vector<const Bore*> holes =
+        between(body.holes, bores, ends.places()[ring], ends.places()[ring + 1]);
+    for (Index i = 0; i < size; ++i) {
+      if (!holes.empty() && i % 2 == 0) continue;
+      const auto [a, b, c, d] = quad(i);
+      add_quad(mesh, a, b, c, d);
     }
+    if (!holes.empty()) add_drilled(mesh, quad(0), quad(2), holes, fineness);
   }
-  const Index last = count_of(mesh) - size;
   for (const auto& [a, b, c] : solid::triangulate_loops({section})) {
     mesh.triangles.push_back({a, c, b});
     mesh.triangles.push_back({last + a, last + b, last + c});
@@ -280,18 +434,15 @@ void sort_apart(std::vector<double>& places) {
 SheetGrid grid_of(const RolledSheet& sheet, const Fineness& fineness) {
   SheetGrid grid;
   const std::vector<PathPiece> pieces = pieces_of(sheet.path);
-  std::vector<double> starts = {0.0};
-  for (const PathPiece& piece : pieces) {
-    int chords = 1;
-    if (!piece.straight()) {
-      const CircularArc arc = arc_of(piece);
-      chords = chords_of(arc.sweep, arc.radius + sheet.thickness, fineness);
-    }
-    const double whole = length(piece);
-    for (int k = 0; k < chords; ++k) grid.along.push_back(starts.back() + whole * k / chords);
-    starts.push_back(starts.back() + whole);
+  double reach = 0.0;
+  for (const PathVertex& vertex : sheet.region.outline.vertices) {
+    for (const bool upper : {true, false})
+      reach = std::max(reach, std::fabs(sheet_place(sheet, vertex.at.y, upper).x));
   }
-  grid.along.push_back(starts.back());
+  ChordEnds ends(pieces, reach, fineness);
+  ends.leave_out(sheet.region.holes, bores_of(sheet));
+  const std::vector<double>& starts = ends.starts();
+  grid.along = ends.places();
   for (std::size_t l = 0; l <= sheet.region.cutouts.size(); ++l) {
     const ArcPath& loop = l == 0 ? sheet.region.outline : sheet.region.cutouts[l - 1];
     for (const PathVertex& vertex : loop.vertices) {
@@ -314,7 +465,7 @@ SheetGrid grid_of(const RolledSheet& sheet, const Fineness& fineness) {
 class SheetMesh {
  public:
   SheetMesh(const RolledSheet& sheet, const Fineness& fineness)
-      : sheet_(sheet), grid_(grid_of(sheet, fineness)) {}
+      : sheet_(sheet), fineness_(fineness), grid_(grid_of(sheet, fineness)), bores_(bores_of(sheet)) {}
 
   TriangleMesh whole() {
     for (std::size_t i = 0; i + 1 < grid_.along.size(); ++i) {
@@ -338,8 +489,9 @@ class SheetMesh {
   Index vertex(std::size_t i, std::size_t j, bool upper) {
     const auto [entry, fresh] = vertices_.try_emplace({i, j, upper ? 1U : 0U}, count_of(mesh_));
     if (fresh) {
-      const Vec2 at = grid_.points[i] - (upper ? 0.0 : sheet_.thickness) * grid_.lefts[i];
-      mesh_.vertices.push_back({at.x, at.y, grid_.across[j]});
+      const Vec2 place = sheet_place(sheet_, grid_.across[j], upper);
+      const Vec2 at = grid_.points[i] + place.x * grid_.lefts[i];
+      mesh_.vertices.push_back({at.x, at.y, place.y});
     }
     return entry->second;
   }
@@ -351,10 +503,19 @@ class SheetMesh {
   }
 
   void add_cell(std::size_t i, std::size_t j) {
-    add_quad(mesh_, vertex(i, j, false), vertex(i + 1, j, false), vertex(i + 1, j + 1, false),
-             vertex(i, j + 1, false));
-    add_quad(mesh_, vertex(i, j + 1, true), vertex(i + 1, j + 1, true), vertex(i + 1, j, true),
-             vertex(i, j, true));
+    const std::array<Index, 4> lower = {vertex(i, j, false), vertex(i + 1, j, false),
+                                        vertex(i + 1, j + 1, false), vertex(i, j + 1, false)};
+    const std::array<Index, 4> upper = {vertex(i, j + 1, true), vertex(i + 1, j + 1, true),
+                                        vertex(i + 1, j, true), vertex(i, j, true)};
+    const std::vector<const Bore*> holes =
+        between(sheet_.region.holes, bores_, grid_.along[i], grid_.along[i + 1],
+                {grid_.across[j], grid_.across[j + 1]});
+    if (holes.empty()) {
+      add_quad(mesh_, lower[0], lower[1], lower[2], lower[3]);
+      add_quad(mesh_, upper[0], upper[1], upper[2], upper[3]);
+    } else {
+      add_drilled(mesh_, upper, lower, holes, fineness_);
+    }
     if (j == 0 || !filled(i, j - 1)) add_side(i, j, i + 1, j);
     if (!filled(i + 1, j)) add_side(i + 1, j, i + 1, j + 1);
     if (!filled(i, j + 1)) add_side(i + 1, j + 1, i, j + 1);
@@ -362,7 +523,9 @@ class SheetMesh {
   }
 
   const RolledSheet& sheet_;
+  Fineness fineness_;
   SheetGrid grid_;
+  std::vector<Bore> bores_;
   TriangleMesh mesh_;
   std::map<std::array<std::size_t, 3>, Index> vertices_;
 };

@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/bores.hpp"
 #include "parts/brep_building.hpp"
 
 #include <algorithm>
@@ -134,6 +135,13 @@ class SweptFaces {
       if (twice < 0.0) std::reverse(section.begin(), section.end());
       sections_.push_back(std::move(section));
     }
+    if (body.holes.empty()) return;
+    if (twice < 0.0 || body.section.size() != 4) throw bad_body(part, "it is no plate that holes go through");
+    SweptBody scaled_body{scaled(body.path, kMillimetres), {}, {}, {}};
+    for (const Vec2 corner : body.section) scaled_body.section.push_back(kMillimetres * corner);
+    for (const Circle& hole : body.holes)
+      scaled_body.holes.push_back({kMillimetres * hole.centre, kMillimetres * hole.radius});
+    bores_ = bores_of(scaled_body);
   }
 
   Brep whole() {
@@ -141,6 +149,11 @@ class SweptFaces {
     for (std::size_t i = 0; i < pieces_.size(); ++i) lengthwise(i);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       for (std::size_t j = 0; j < corners(); ++j) brep_.faces.push_back(face(i, j));
+    }
+    for (const Bore& bore : bores_) {
+      const BoreLoops loops = add_bore(brep_, bore);
+      brep_.faces[bore.piece * corners()].loops.push_back({loops.face});
+      brep_.faces[bore.piece * corners() + 2].loops.push_back({loops.back});
     }
     cap(0, start_tangent(pieces_.front()), false);
     cap(pieces_.size(), end_tangent(pieces_.back()), true);
@@ -213,36 +226,16 @@ class SweptFaces {
   }
 
   BrepFace flat(std::size_t i, std::size_t j) {
-    const Vec3 from = brep_.vertices[vertex(i, j)];
-    BrepFace made;
-    made.origin = from;
-    made.reference = unit(brep_.vertices[vertex(i + 1, j)] - from);
-    made.axis = unit(cross(brep_.vertices[vertex(i, j + 1)] - from, made.reference));
-    return made;
+    return flat_face(brep_, vertex(i, j), vertex(i + 1, j), vertex(i, j + 1));
   }
 
   BrepFace round(std::size_t i, std::size_t j) {
-    const PathPiece& piece = pieces_[i];
+    const bool moved = moves(i, j) || moves(i, j + 1);
     const Vec2 from = corner(i, j);
-    const Vec2 step = corner(i, j + 1) - from;
-    if (step.y == 0.0 && !moves(i, j) && !moves(i, j + 1)) return level_plane(from.y, step.x < 0.0);
-    const CircularArc arc = arc_of(piece);
-    const double outward_per_left = piece.bulge > 0.0 ? -1.0 : 1.0;  // of the distance from the axis
-    const bool outward = step.y * outward_per_left > 0.0;
-    const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
-    BrepFace made = upright_cylinder(arc.centre, spoke, arc.radius + outward_per_left * from.x, outward);
-    if (step.x == 0.0) return made;
-    if (moves(i, j) || moves(i, j + 1)) return ruled(i, j);
-    const double widening = step.x * outward_per_left / step.y;  // per height
-    // A cone is given where it is thinnest, and widens along its axis.
-    const bool widens_up = widening > 0.0;
-    const std::size_t thin = (step.y > 0.0) == widens_up ? j : j + 1;
-    made.kind = SurfaceKind::cone;
-    made.axis = widens_up ? kUp : kDown;
-    made.origin.z = corner(i, thin).y;
-    made.radius = arc.radius + outward_per_left * corner(i, thin).x;
-    made.half_angle = math::atan(std::fabs(widening));
-    return made;
+    const Vec2 to = corner(i, j + 1);
+    // Level faces stay what they are wherever their edges go.
+    if (moved && from.x != to.x) return ruled(i, j);
+    return round_face(pieces_[i], from, to);
   }
 
   /// Straight lines across, between edges that are no arcs.
@@ -272,6 +265,7 @@ class SweptFaces {
   const ShopPart& part_;
   std::vector<PathPiece> pieces_;
   std::vector<std::vector<Vec2>> sections_;  ///< at every vertex of the path
+  std::vector<Bore> bores_;
   Brep brep_;
 };
 

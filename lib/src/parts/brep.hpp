@@ -11,7 +11,7 @@ namespace glissade::parts {
 
 /// A solid by its faces, edges and vertices, in millimetres: what STEP holds.
 
-enum class CurveKind { line, circle, ellipse, cubic };
+enum class CurveKind { line, circle, ellipse, cubic, mouth };
 
 /// From one vertex to another, counter-clockwise about the axis where it is round. A closed one has one vertex, at
 /// centre + radius reference.
@@ -25,6 +25,10 @@ struct BrepEdge {
   double radius = 0.0;          ///< of an ellipse its semi-axis along the reference
   double second_radius = 0.0;   ///< of an ellipse
   std::array<Vec3, 4> poles{};  ///< of a cubic, in Bezier's form, from its first vertex to its last
+  /// Of a mouth, the edge of a hole in a curved face: at the angle a from the reference its circle stands out along the axis by
+  /// cos^2 a (rise + skew sin a).
+  double rise = 0.0;
+  double skew = 0.0;
 };
 
 struct BrepUse {

@@ -83,6 +83,36 @@ BrepFace upright_cylinder(Vec2 centre, Vec3 reference, double radius, bool outwa
   return face;
 }
 
+BrepFace round_face(const PathPiece& piece, Vec2 from, Vec2 to) {
+  const Vec2 step = to - from;
+  if (step.y == 0.0) return level_plane(from.y, step.x < 0.0);
+  const CircularArc arc = arc_of(piece);
+  const double outward_per_left = piece.bulge > 0.0 ? -1.0 : 1.0;  // of the distance from the axis
+  const bool outward = step.y * outward_per_left > 0.0;
+  const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
+  BrepFace made = upright_cylinder(arc.centre, spoke, arc.radius + outward_per_left * from.x, outward);
+  if (step.x == 0.0) return made;
+  const double widening = step.x * outward_per_left / step.y;  // per height
+  // A cone is given where it is thinnest, and widens along its axis.
+  const bool widens_up = widening > 0.0;
+  const Vec2 thin = (step.y > 0.0) == widens_up ? from : to;
+  made.kind = SurfaceKind::cone;
+  made.axis = widens_up ? kUp : kDown;
+  made.origin.z = thin.y;
+  made.radius = arc.radius + outward_per_left * thin.x;
+  made.half_angle = math::atan(std::fabs(widening));
+  return made;
+}
+
+BrepFace flat_face(const Brep& brep, std::size_t at, std::size_t ahead, std::size_t aside) {
+  const Vec3 from = brep.vertices[at];
+  BrepFace made;
+  made.origin = from;
+  made.reference = unit(brep.vertices[ahead] - from);
+  made.axis = unit(cross(brep.vertices[aside] - from, made.reference));
+  return made;
+}
+
 Vec2 start_tangent(const PathPiece& piece) {
   const Vec2 along = piece.to - piece.from;
   const double b = piece.bulge;

@@ -38,6 +38,12 @@ std::size_t add_helix(Brep& brep, std::size_t from, std::size_t to, Vec2 centre,
 /// The plane z = height + x slope.
 [[nodiscard]] BrepFace ring_plane(double height, double slope, bool up);
 
+/// What a line of a section makes along an arc: a plane, a cylinder or a cone.
+/// @param from,to  (to the left of the path, along z); the solid lies to the left of the way between them
+[[nodiscard]] BrepFace round_face(const PathPiece& arc, Vec2 from, Vec2 to);
+/// The plane through a vertex and two others; seen from outside, `ahead` lies to the left of the way to `aside`.
+[[nodiscard]] BrepFace flat_face(const Brep& brep, std::size_t at, std::size_t ahead, std::size_t aside);
+
 /// @return unit tangents of a piece at its ends
 [[nodiscard]] Vec2 start_tangent(const PathPiece& piece);
 [[nodiscard]] Vec2 end_tangent(const PathPiece& piece);

@@ -4,6 +4,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/body_geometry.hpp"
+#include "parts/bores.hpp"
 #include "parts/brep_building.hpp"
 
 #include <algorithm>
@@ -18,6 +20,15 @@ namespace {
 
 constexpr double kSamePlace = 1e-6;  // along the path [mm]
 
+RolledSheet in_millimetres(RolledSheet sheet) {
+  sheet.path = scaled(sheet.path, kMillimetres);
+  sheet.thickness *= kMillimetres;
+  sheet.region = scaled(sheet.region, kMillimetres);
+  sheet.foot = kMillimetres * sheet.foot;
+  for (Bevel& bevel : sheet.bevels) bevel = {kMillimetres * bevel.at, kMillimetres * bevel.below};
+  return sheet;
+}
+
 /// A corner of the sheet: its vertices in the upper and the lower face.
 struct Corner {
   Vec2 at;
@@ -30,18 +41,25 @@ class SheetFaces {
   SheetFaces(const RolledSheet& sheet, const ShopPart& part)
       : part_(part),
         pieces_(pieces_of(scaled(sheet.path, kMillimetres))),
-        thickness_(sheet.thickness * kMillimetres),
-        region_(scaled(sheet.region, kMillimetres)) {
+        sheet_(in_millimetres(sheet)),
+        region_(sheet_.region) {
     if (pieces_.empty() || sheet.path.closed) throw bad_body(part, "its path is closed or has no piece");
-    if (!(thickness_ > 0.0)) throw bad_body(part, "its thickness is " + length_text(sheet.thickness));
+    if (!(sheet.thickness > 0.0)) throw bad_body(part, "its thickness is " + length_text(sheet.thickness));
     const std::vector<std::string> faults = faults_of(sheet.region);
     if (!faults.empty()) throw bad_body(part, faults.front());
     starts_ = {0.0};
     for (const PathPiece& piece : pieces_) {
       starts_.push_back(starts_.back() + length(piece));
-      const double radius = piece.straight() ? thickness_ + 1.0 : arc_of(piece).radius;
-      if (piece.bulge < 0.0 && !(radius > thickness_))
-        throw bad_body(part, "it is thicker than its path's radius, " + length_text(radius / kMillimetres));
+      if (piece.straight()) continue;
+      const double radius = arc_of(piece).radius;
+      for (const PathVertex& vertex : region_.outline.vertices) {
+        for (const bool upper : {true, false}) {
+          const double left = sheet_place(sheet_, vertex.at.y, upper).x;
+          if ((piece.bulge > 0.0 ? left : -left) < radius) continue;
+          throw bad_body(part,
+                         "it reaches beyond the radius of its path, " + length_text(radius / kMillimetres));
+        }
+      }
     }
   }
 
@@ -51,6 +69,11 @@ class SheetFaces {
     lower_.resize(pieces_.size());
     add_outline(outline);
     for (const ArcPath& cutout : region_.cutouts) add_cutout(turning(cutout, false));
+    for (const Bore& bore : bores_of(sheet_)) {
+      const BoreLoops loops = add_bore(brep_, bore);
+      upper_[bore.piece].push_back({loops.face});
+      lower_[bore.piece].push_back({loops.back});
+    }
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       for (const bool top : {true, false}) {
         BrepFace made = sheet_face(i, top);
@@ -120,9 +143,14 @@ class SheetFaces {
         tangent = (piece.bulge > 0.0 ? 1.0 : -1.0) * Vec2{-spoke.y, spoke.x};
       }
     }
-    const Vec2 below = point - thickness_ * Vec2{-tangent.y, tangent.x};
-    entry->second = {at, add_vertex(brep_, at_height(point, at.y)),
-                     add_vertex(brep_, at_height(below, at.y))};
+    const Vec2 left{-tangent.y, tangent.x};
+    const auto vertex = [&](bool upper) {
+      const Vec2 place = sheet_place(sheet_, at.y, upper);
+      return add_vertex(brep_, at_height(point + place.x * left, place.y));
+    };
+    entry->second.at = at;
+    entry->second.upper = vertex(true);
+    entry->second.lower = vertex(false);
     return entry->second;
   }
 
@@ -156,14 +184,19 @@ class SheetFaces {
     const BrepUse second = edge(to.upper, to.lower, piece, false);
     BrepFace face;
     if (along) {
-      face = level_plane(from.at.y, to.at.x < from.at.x);
+      const bool ahead = to.at.x > from.at.x;
+      // Around the section counter-clockwise: up at its right edges, down at its left ones.
+      if (pieces_[piece].straight()) {
+        face = flat_face(brep_, from.upper, from.lower, to.upper);
+      } else {
+        face = round_face(pieces_[piece], sheet_place(sheet_, from.at.y, !ahead),
+                          sheet_place(sheet_, from.at.y, ahead));
+      }
     } else {
-      const Vec3 a = brep_.vertices[from.upper];
-      const Vec3 down = unit(brep_.vertices[from.lower] - a);
-      const double ahead = to.at.y > from.at.y ? 1.0 : -1.0;
-      // Downstream is to the left of down, seen from the right.
-      face.origin = a;
-      face.axis = ahead * Vec3{-down.y, down.x, 0.0};
+      const Vec2 tangent =
+          tangent_at(pieces_[piece], (from.at.x - starts_[piece]) / (starts_[piece + 1] - starts_[piece]));
+      face.origin = brep_.vertices[from.upper];
+      face.axis = (to.at.y > from.at.y ? 1.0 : -1.0) * at_height(tangent, 0.0);
       face.reference = kUp;
     }
     face.loops = {{above, second, {below.edge, !below.forward}, {first.edge, !first.forward}}};
@@ -220,27 +253,23 @@ class SheetFaces {
     add_loop(piece, all);
   }
 
-  [[nodiscard]] BrepFace sheet_face(std::size_t i, bool top) const {
-    const PathPiece& piece = pieces_[i];
-    const Vec2 tangent = start_tangent(piece);
-    const Vec2 up{-tangent.y, tangent.x};
-    if (piece.straight()) {
-      BrepFace face;
-      face.origin = at_height(piece.from - (top ? 0.0 : thickness_) * up, 0.0);
-      face.axis = (top ? 1.0 : -1.0) * at_height(up, 0.0);
-      face.reference = at_height(tangent, 0.0);
-      return face;
-    }
-    const CircularArc arc = arc_of(piece);
-    const bool hollow = piece.bulge > 0.0;
-    const double radius = arc.radius + (top ? 0.0 : (hollow ? thickness_ : -thickness_));
-    const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
-    return upright_cylinder(arc.centre, spoke, radius, top != hollow);
+  [[nodiscard]] BrepFace sheet_face(std::size_t i, bool top) {
+    const Vec2 from = sheet_place(sheet_, 0.0, true);
+    const Vec2 low = top ? from : from + sheet_.thickness * Vec2{-sheet_.across.y, sheet_.across.x};
+    const Vec2 way = (top ? 1.0 : -1.0) * sheet_.across;
+    if (!pieces_[i].straight()) return round_face(pieces_[i], low, low + way);
+    const Vec2 tangent = start_tangent(pieces_[i]);
+    const Vec2 left{-tangent.y, tangent.x};
+    BrepFace face;
+    face.origin = at_height(pieces_[i].from + low.x * left, low.y);
+    face.reference = at_height(tangent, 0.0);
+    face.axis = cross(at_height(way.x * left, way.y), face.reference);
+    return face;
   }
 
   const ShopPart& part_;
   std::vector<PathPiece> pieces_;
-  double thickness_;
+  RolledSheet sheet_;  ///< in millimetres
   PlaneRegion region_;
   std::vector<double> starts_;
   Brep brep_;

@@ -226,8 +226,20 @@ std::pair<double, double> breadth(const ArcPath& outline) {
   return {box.low.y, box.high.y};
 }
 
+bool same_bevels(const RolledSheet& body, const RolledSheet& other) {
+  return std::equal(body.bevels.begin(), body.bevels.end(), other.bevels.begin(), other.bevels.end(),
+                    [](const Bevel& one, const Bevel& there) {
+                      return near(one.at, there.at) && near(one.below, there.below);
+                    });
+}
+
 BodyPlace place_of(const RolledSheet& body, const RolledSheet& other, bool end_for_end) {
-  if (!near(body.thickness, other.thickness)) return std::nullopt;
+  if (!near(body.thickness, other.thickness) || !near(body.foot, other.foot) ||
+      !near(body.across, other.across) || !same_bevels(body, other))
+    return std::nullopt;
+  // Ones that lean, or have another path, are not turned.
+  if (end_for_end && (!body.bevels.empty() || body.foot.y != 0.0 || body.across.x != 0.0))
+    return std::nullopt;
   const auto path = path_motion(body.path, other.path, end_for_end, [&](const PlaneMotion& motion) {
     // Forward as it is, backward end for end: its upper side stays above.
     return near(motion((end_for_end ? body.path.vertices.back() : body.path.vertices.front()).at),
@@ -250,6 +262,8 @@ BodyPlace place_of(const SweptBody& body, const SweptBody& other, bool end_for_e
   const std::size_t corners = body.section.size();
   const std::size_t stations = body.shifts.size();
   if (corners != other.section.size() || stations != other.shifts.size()) return std::nullopt;
+  // Of drilled ones, only the same as it is.
+  if (body.holes != other.holes || (end_for_end && !body.holes.empty())) return std::nullopt;
   const auto path = path_motion(body.path, other.path, end_for_end, [&](const PlaneMotion& motion) {
     return near(motion((end_for_end ? body.path.vertices.back() : body.path.vertices.front()).at),
                 other.path.vertices.front().at);

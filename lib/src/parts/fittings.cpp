@@ -68,6 +68,40 @@ ShopPart in_material(const Job& job, std::string name, double thickness) {
   return part;
 }
 
+[[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string hint) {
+  throw InputError({std::move(where), std::move(what), std::move(why), std::move(hint)});
+}
+
+/// What of a stretch is left for a cover: clear of arcs at its ends over which the walls' tops fold.
+Span under_cover(const Job& job, const Span& span) {
+  const double high = job.channel.wall_height + job.options.cover->thickness;
+  constexpr double kRoomAtFold = 1.02;  // radius over height from which nothing folds
+  constexpr double kMostOpen = 0.2;     // of the stretch, at either end
+  const double most = kMostOpen * (span.to - span.from);
+  Span left = span;
+  for (const TrackArc& arc : job.track.arcs()) {
+    const double end = arc.start + arc.length;
+    if (arc.curvature * high * kRoomAtFold <= 1.0 || end <= left.from || arc.start >= left.to) continue;
+    if (end - span.from <= most) {
+      left.from = end;
+    } else if (span.to - arc.start <= most) {
+      left.to = arc.start;
+    } else {
+      refuse("cover", "cover: the walls' tops fold over at " + length_text(arc.start, 3) + " along the track",
+             "They are " + length_text(high, 3) + " above the floor line, the radius there is " +
+                 length_text(1.0 / arc.curvature, 3) + ".",
+             "wall_height: " + length_text(0.95 / arc.curvature, 2) + ", or no cover");
+    }
+  }
+  return left;
+}
+
+/// What a rim has of a unit.
+Span rim_room(const Job& job, const Span& unit) {
+  const Span room = between_frames(job, unit);
+  return job.options.cover ? under_cover(job, room) : room;
+}
+
 /// A plate or bar between two heights that follows the track, flat across: its pattern is a rectangle.
 /// @param shifts  of the pieces' left edges to the right [m]
 std::optional<ShopPart> along_track(const Job& job, const Span& span, const Span& heights, double width,
@@ -84,15 +118,20 @@ std::optional<ShopPart> along_track(const Job& job, const Span& span, const Span
   return part;
 }
 
-/// Places along a span for bolts, an edge distance from its ends.
-std::vector<double> bolt_places(const Span& span, double pitch, double edge) {
+/// Places along a unit at which covers are bolted to rims, on one arc each: the same for both.
+std::vector<double> cover_bolts(const Job& job, const Span& span) {
+  const CoverOptions& cover = *job.options.cover;
+  constexpr double kFromEnds = 40e-3;
+  const double top = job.channel.wall_height;
+  const OnOneArc arcs(job.track, 0.5 * clearance_hole(cover.bolt, HoleFit::coarse),
+                      {top - job.options.rim->thickness, top + cover.thickness});
+  const Span within{span.from + 0.5 * kFromEnds, span.to - 0.5 * kFromEnds};
   std::vector<double> places;
-  for (const Vec2 at : evenly({span.from + edge, 0.0}, {span.to - edge, 0.0}, pitch)) places.push_back(at.x);
+  for (const Vec2 at : evenly({span.from + kFromEnds, 0.0}, {span.to - kFromEnds, 0.0}, cover.pitch)) {
+    const auto place = arcs.nearest(at.x, within);
+    if (place && (places.empty() || *place - places.back() > kFromEnds)) places.push_back(*place);
+  }
   return places;
-}
-
-[[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string hint) {
-  throw InputError({std::move(where), std::move(what), std::move(why), std::move(hint)});
 }
 
 }  // namespace
@@ -113,6 +152,20 @@ std::optional<double> TakenUp::free_place(double about, double half, const Span&
   return std::nullopt;
 }
 
+void drill_plate(const Job& job, const Span& span, double upper, double width,
+                 const std::vector<Circle>& holes, ShopPart& part) {
+  const OwnPlane plane = own_plane(*band(job.track, span, upper - part.thickness, upper));
+  RolledSheet sheet;
+  sheet.path = moved(*offset_line(job.track, span, 0.0), into(plane));
+  sheet.thickness = part.thickness;
+  sheet.region.outline = rectangle({}, {span.to - span.from, width});
+  for (const Circle& hole : holes)
+    sheet.region.holes.push_back({hole.centre - Vec2{span.from, 0.0}, hole.radius});
+  sheet.foot = {upper, 0.0};
+  part.body = std::move(sheet);
+  weigh(part);
+}
+
 double flat_from_end(const ArcSpline& track, const Span& span, double height, double s) {
   double sum = 0.0;
   for (const TrackArc& arc : track.arcs()) {
@@ -129,20 +182,21 @@ void add_rims(const Fitting& fitting) {
   const RimOptions& rim = *job.options.rim;
   const double top = job.channel.wall_height;
   for (std::size_t i = 0; i < fitting.units.size(); ++i) {
-    const Span span = between_frames(job, fitting.units[i].span);
+    const Span span = rim_room(job, fitting.units[i].span);
     auto part = along_track(job, span, {top - rim.thickness, top}, rim.width,
                             {-outside(job) - rim.width, outside(job)});
     if (!part) continue;
     part->name = "rim" + suffix(fitting, i);
     if (job.options.cover) {
-      const CoverOptions& cover = *job.options.cover;
       const double whole = bounds(part->pattern->region.outline).width();
-      for (const double s : bolt_places(span, cover.pitch, 40e-3)) {
+      const double radius = 0.5 * clearance_hole(job.options.cover->bolt, HoleFit::medium);
+      std::vector<Circle> holes;
+      for (const double s : cover_bolts(job, span)) {
+        holes.push_back({{s, 0.5 * rim.width}, radius});
         const double at = whole - flat_from_end(job.track, span, top - 0.5 * rim.thickness, s);
-        if (at < 20e-3) continue;  // where the rim is cut off at the plane of the start
-        part->pattern->region.holes.push_back(
-            {{at, 0.5 * rim.width}, 0.5 * clearance_hole(cover.bolt, HoleFit::medium)});
+        part->pattern->region.holes.push_back({{at, 0.5 * rim.width}, radius});
       }
+      drill_plate(job, span, top, rim.width, holes, *part);
     }
     add_part(fitting.workshop, *part, kFittingColour);
   }
@@ -208,22 +262,22 @@ void add_covers(const Fitting& fitting) {
   const double top = job.channel.wall_height;
   const double half = outside(job) + rim.width;
   for (std::size_t i = 0; i < fitting.units.size(); ++i) {
-    const Span span = between_frames(job, fitting.units[i].span);
+    const Span span = rim_room(job, fitting.units[i].span);
     auto part = along_track(job, span, {top, top + cover.thickness}, 2.0 * half, {-half});
     if (!part) continue;
     part->name = "cover" + suffix(fitting, i);
     const double whole = bounds(part->pattern->region.outline).width();
-    std::size_t bolts = 0;
-    for (const double s : bolt_places(span, cover.pitch, 40e-3)) {
-      const double under = length(*offset_line(job.track, span, top - 0.5 * rim.thickness)) -
-                           flat_from_end(job.track, span, top - 0.5 * rim.thickness, s);
-      if (under < 20e-3) continue;
+    const double radius = 0.5 * clearance_hole(cover.bolt, HoleFit::coarse);
+    std::vector<Circle> holes;
+    for (const double s : cover_bolts(job, span)) {
       const double at = whole - flat_from_end(job.track, span, top + 0.5 * cover.thickness, s);
       for (const double y : {0.5 * rim.width, 2.0 * half - 0.5 * rim.width}) {
-        part->pattern->region.holes.push_back({{at, y}, 0.5 * clearance_hole(cover.bolt, HoleFit::coarse)});
-        ++bolts;
+        holes.push_back({{s, y}, radius});
+        part->pattern->region.holes.push_back({{at, y}, radius});
       }
     }
+    const std::size_t bolts = holes.size();
+    drill_plate(job, span, top + cover.thickness, 2.0 * half, holes, *part);
     add_part(fitting.workshop, *part, kFittingColour);
     add_bolts(fitting.workshop, cover.bolt, rim.thickness + cover.thickness, bolts, "covers to rims");
   }

@@ -26,6 +26,13 @@ struct Fitting {
   TakenUp& below;  ///< by frames, bolts and stiffeners
 };
 
+/// Holes through a plate of one width that follows the track: its body becomes a sheet. Its pattern gets none.
+/// @param part   as upright_plate() makes it of a band
+/// @param upper  height of its upper face above the track, at which it folds nowhere
+/// @param holes  (place along the track, along z of the part) [m]
+void drill_plate(const Job& job, const Span& span, double upper, double width,
+                 const std::vector<Circle>& holes, ShopPart& part);
+
 /// @return distance along a flat that develops an offset of the track, from its downstream end [m]
 /// @param height  of the neutral line above the floor line
 [[nodiscard]] double flat_from_end(const ArcSpline& track, const Span& span, double height, double s);

@@ -81,26 +81,71 @@ double courses_in(const Job& job, const Span& span) {
   return std::max(1.0, std::ceil((span.to - span.from) / std::min(liner.tile_length, heavy) - 1e-9));
 }
 
-/// Where the bolts of a tile stand, as shares of the places along and across [m].
+/// @return the place on the track of one along the face of a floor below it
+double on_track(const Job& job, const Unit& unit, double along_face) {
+  double left = along_face;
+  for (const TrackArc& arc : job.track.arcs()) {
+    const double from = std::max(unit.span.from, arc.start);
+    const double to = std::min(unit.span.to, arc.start + arc.length);
+    if (!(to > from)) continue;
+    const double stretch = 1.0 + arc.curvature * floor_depth(job);
+    if (left <= (to - from) * stretch) return from + left / stretch;
+    left -= (to - from) * stretch;
+  }
+  return unit.span.to;
+}
+
+/// Places at which bolts go through liner and floor of a unit: on one arc each, beside tabs and slots.
+OnOneArc bolt_arcs(const Job& job, const Unit& unit) {
+  const LinerOptions& liner = *job.options.liner;
+  std::vector<double> breaks;
+  const double slack = 0.5 * job.options.corners.clearance;
+  for (const Span& tab : unit.tabs) {
+    for (const double along_face : {tab.from - slack, tab.to + slack})
+      breaks.push_back(on_track(job, unit, along_face));
+  }
+  return {job.track,
+          0.5 * clearance_hole(liner.bolt, HoleFit::coarse),
+          {-liner.thickness - job.channel.thickness, 0.0},
+          breaks};
+}
+
+/// Where the bolts of a tile stand: places along the track, and across from its left edge [m].
 struct Bolts {
   std::vector<double> along;
   std::vector<double> across;
 };
 
-Bolts bolts_of(const LinerOptions& liner, const Span& span, double width) {
+Bolts bolts_of(const LinerOptions& liner, const OnOneArc& arcs, const Span& span, double width) {
   const double hole = clearance_hole(liner.bolt, HoleFit::medium);
   const double edge = std::min(4.0 * hole, 0.25 * (span.to - span.from));
   const double side = std::min(3.0 * hole, 0.25 * width);
+  std::vector<double> wanted = {span.from + edge, span.to - edge};
+  if (span.to - span.from < 6.0 * hole) wanted = {0.5 * (span.from + span.to)};
+  const double least = std::min(1.2 * hole, 0.5 * (span.to - span.from));
   Bolts bolts;
-  bolts.along = {span.from + edge, span.to - edge};
-  if (span.to - span.from < 6.0 * hole) bolts.along = {0.5 * (span.from + span.to)};
+  for (const double about : wanted) {
+    const auto place = arcs.nearest(about, {span.from + least, span.to - least});
+    constexpr double kLeastPitch = 2.4;  // hole diameters
+    if (place && (bolts.along.empty() || *place - bolts.along.back() >= kLeastPitch * hole))
+      bolts.along.push_back(*place);
+  }
+  if (bolts.along.empty()) {
+    throw InputError({"liner.bolt",
+                      "bolt: holes for M" + std::to_string(liner.bolt) + " find no place between " +
+                          length_text(span.from, 3) + " and " + length_text(span.to, 3) + " along the track",
+                      "They lie on one arc of the floor each, and none there is as long as a hole is wide, " +
+                          length_text(hole) + ".",
+                      "a smaller bolt, a longer tile_length, or a larger arc_tolerance"});
+  }
   bolts.across = {side, width - side};
   if (width < 6.0 * hole) bolts.across = {0.5 * width};
   return bolts;
 }
 
-/// A tile with its holes on the flat.
-ShopPart tile_of(const Job& job, const Course& course, std::size_t index, const StockMaterial& material) {
+/// A tile with its holes.
+ShopPart tile_of(const Job& job, const OnOneArc& arcs, const Course& course, std::size_t index,
+                 const StockMaterial& material) {
   const LinerOptions& liner = *job.options.liner;
   const double width = course.widths[index];
   const auto outline = band(job.track, course.span, -liner.thickness, 0.0);
@@ -111,33 +156,40 @@ ShopPart tile_of(const Job& job, const Course& course, std::size_t index, const 
   part.thickness = liner.thickness;
   const double middle = -0.5 * liner.thickness;
   const double whole = flat_from_end(job.track, course.span, middle, course.span.from);
+  const double radius = 0.5 * clearance_hole(liner.bolt, HoleFit::medium);
   FlatPattern pattern;
   pattern.region.outline = rectangle({}, {whole, width});
-  const Bolts bolts = bolts_of(liner, course.span, width);
+  std::vector<Circle> holes;
+  const Bolts bolts = bolts_of(liner, arcs, course.span, width);
   for (const double s : bolts.along) {
     for (const double y : bolts.across) {
-      pattern.region.holes.push_back({{whole - flat_from_end(job.track, course.span, middle, s), y},
-                                      0.5 * clearance_hole(liner.bolt, HoleFit::medium)});
+      holes.push_back({{s, y}, radius});
+      pattern.region.holes.push_back({{whole - flat_from_end(job.track, course.span, middle, s), y}, radius});
     }
   }
   set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
-  part.mass = part.volume * part.density;
+  drill_plate(job, course.span, 0.0, width, holes, part);
   return part;
 }
 
 /// The floor of a unit gets the holes of a tile.
-void drill(const Job& job, const Unit& unit, const Course& course, std::size_t index, ShopPart& floor) {
+/// @param holes  of the finished floor: along its face and across
+void drill(const Job& job, const Unit& unit, const OnOneArc& arcs, const Course& course, std::size_t index,
+           FlatPattern& pattern, std::vector<Circle>& holes) {
   const LinerOptions& liner = *job.options.liner;
   const double middle = -liner.thickness - neutral_fibre(job) * job.channel.thickness;
   const double whole = flat_from_end(job.track, unit.span, middle, unit.span.from);
+  const double face = flat_from_end(job.track, unit.span, -liner.thickness, unit.span.from);
   const double beside = 0.5 * (floor_width(job) - job.channel.width);
-  const Bolts bolts = bolts_of(liner, course.span, course.widths[index]);
+  const double radius = 0.5 * clearance_hole(liner.bolt, HoleFit::coarse);
+  const Bolts bolts = bolts_of(liner, arcs, course.span, course.widths[index]);
   for (const double s : bolts.along) {
     for (const double y : bolts.across) {
-      floor.pattern->region.holes.push_back(
-          {{whole - flat_from_end(job.track, unit.span, middle, s), beside + course.edges[index] + y},
-           0.5 * clearance_hole(liner.bolt, HoleFit::coarse)});
+      const double across = beside + course.edges[index] + y;
+      pattern.region.holes.push_back(
+          {{whole - flat_from_end(job.track, unit.span, middle, s), across}, radius});
+      holes.push_back({{face - flat_from_end(job.track, unit.span, -liner.thickness, s), across}, radius});
     }
   }
 }
@@ -164,10 +216,14 @@ void drill_floors(const Job& job, std::vector<Unit>& units) {
   if (!job.options.liner) return;
   int row = 0;
   for (Unit& unit : units) {
+    const OnOneArc arcs = bolt_arcs(job, unit);
+    std::vector<Circle> holes;
     for (const Course& course : courses_of(job, unit.span, row)) {
       ++row;
-      for (std::size_t i = 0; i < course.widths.size(); ++i) drill(job, unit, course, i, unit.floor);
+      for (std::size_t i = 0; i < course.widths.size(); ++i)
+        drill(job, unit, arcs, course, i, *unit.floor.pattern, holes);
     }
+    drill_floor(job, unit.face, unit.tabs, std::move(holes), unit.floor);
   }
 }
 
@@ -191,7 +247,8 @@ class Tiler {
     int row = 0;
     for (const Unit& unit : fitting_.units) {
       drilled_ += unit.floor.pattern->region.holes.size();
-      for (const Course& course : courses_of(fitting_.job, unit.span, row)) lay(course, ++row);
+      const OnOneArc arcs = bolt_arcs(fitting_.job, unit);
+      for (const Course& course : courses_of(fitting_.job, unit.span, row)) lay(course, arcs, ++row);
     }
     if (drilled_ != bolts_) throw InternalError({"", "holes of liner and floor do not agree", "", ""});
   }
@@ -215,7 +272,7 @@ class Tiler {
   }
 
  private:
-  void lay(const Course& course, int row) {
+  void lay(const Course& course, const OnOneArc& arcs, int row) {
     const CourseWear wear = wear_along(fitting_.job.options.floor_wear, course.span);
     const bool wears = liner_.where == LinerPlaces::whole || wear.share >= liner_.worn_from;
     plain_ = plain_ || !wears;
@@ -225,10 +282,10 @@ class Tiler {
     std::vector<int> numbers;
     for (std::size_t i = 0; i < course.widths.size(); ++i) {
       ShopPart tile =
-          tile_of(fitting_.job, course, i, wears ? liner_.material : fitting_.job.options.material);
+          tile_of(fitting_.job, arcs, course, i, wears ? liner_.material : fitting_.job.options.material);
       tile.name = name + (course.widths[i] < 0.9 * full ? "_half" : "");
       bolts_ += tile.pattern->region.holes.size();
-      for (const double s : bolts_of(liner_, course.span, course.widths[i]).along)
+      for (const double s : bolts_of(liner_, arcs, course.span, course.widths[i]).along)
         fitting_.below.add(s - 0.015, s + 0.015);
       numbers.push_back(add_part(fitting_.workshop, std::move(tile), kLinerColour));
     }
@@ -292,9 +349,8 @@ void add_liner(const Fitting& fitting) {
   add_item(fitting.workshop, {"nut " + size, "ISO 4032 8", bolts, "liner"});
   add_item(fitting.workshop, {"washer " + size, "ISO 7089 200 HV", bolts, "liner"});
   fitting.workshop.notes.emplace_back(
-      "Holes of the liner's bolts are in the flat patterns of tiles and floors, the tiles' countersunk; "
-      "bodies are "
-      "without them.");
+      "Holes of the liner's bolts are drawn cylindrical; those of the tiles are countersunk for the bolts' "
+      "heads.");
   tiler.note_places();
   tiler.note_life();
 }

@@ -229,4 +229,34 @@ std::optional<ArcPath> band(const ArcSpline& track, const Span& span, double low
   return outline;
 }
 
+OnOneArc::OnOneArc(const ArcSpline& track, double radius, const Span& heights,
+                   const std::vector<double>& breaks) {
+  constexpr double kAside = 0.5e-3;  // from where arcs meet [m]
+  for (const TrackArc& arc : track.arcs()) {
+    const double shrunk = std::min(1.0 - arc.curvature * heights.from, 1.0 - arc.curvature * heights.to);
+    if (!(shrunk > 0.0)) continue;
+    const double half = (radius + kAside) / shrunk;
+    std::vector<double> ends = {arc.start, arc.start + arc.length};
+    for (const double place : breaks) {
+      if (place > arc.start && place < arc.start + arc.length) ends.push_back(place);
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      if (ends[i + 1] - ends[i] >= 2.0 * half) rooms_.push_back({ends[i] + half, ends[i + 1] - half});
+    }
+  }
+}
+
+std::optional<double> OnOneArc::nearest(double about, const Span& within) const {
+  std::optional<double> best;
+  for (const Span& room : rooms_) {
+    const double from = std::max(room.from, within.from);
+    const double to = std::min(room.to, within.to);
+    if (from > to) continue;
+    const double place = std::clamp(about, from, to);
+    if (!best || std::fabs(place - about) < std::fabs(*best - about)) best = place;
+  }
+  return best;
+}
+
 }  // namespace glissade::parts

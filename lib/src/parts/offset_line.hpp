@@ -4,6 +4,7 @@
 #include "glissade/parts/arc_spline.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace glissade::parts {
 
@@ -34,5 +35,20 @@ struct TrackFrame {
 /// @param low,high  low < high [m]
 /// @return counter-clockwise, from the upstream end of the lower line; none where a line folds away
 [[nodiscard]] std::optional<ArcPath> band(const ArcSpline& track, const Span& span, double low, double high);
+
+/// The places along a track at which something round goes through a plate: on one arc at all heights of the plate.
+class OnOneArc {
+ public:
+  /// @param radius   of what goes through [m]
+  /// @param heights  of the plate above the track
+  /// @param breaks   places that count as ends of arcs, too
+  OnOneArc(const ArcSpline& track, double radius, const Span& heights,
+           const std::vector<double>& breaks = {});
+  /// @return the nearest such place within a span; none if there is none
+  [[nodiscard]] std::optional<double> nearest(double about, const Span& within) const;
+
+ private:
+  std::vector<Span> rooms_;
+};
 
 }  // namespace glissade::parts

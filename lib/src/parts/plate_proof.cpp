@@ -8,7 +8,9 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/body_geometry.hpp"
+#include "parts/bores.hpp"
 #include "parts/corners.hpp"
+#include "parts/equal_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -137,6 +139,25 @@ std::vector<VolumeDifference> corner_differences(const Job& job, const std::vect
   return {laps, tabs, slots};
 }
 
+/// What holes for the liner take out of floors, in closed form.
+VolumeDifference hole_difference(const std::vector<Unit>& units) {
+  VolumeDifference holes{"holes of the liner", 0.0};
+  for (const Unit& unit : units) {
+    const auto* const sheet = std::get_if<RolledSheet>(&unit.floor.body);
+    if (sheet == nullptr) continue;
+    for (const Circle& hole : sheet->region.holes) {
+      const ArcSpline& line = unit.face.line;
+      const double curvature = line.arcs()[line.arc_at(hole.centre.x)].curvature;
+      // Of a hollow the upper face is the smaller cylinder.
+      const double face =
+          curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / std::fabs(curvature);
+      const double least = curvature < 0.0 ? face - sheet->thickness : face;
+      holes.volume -= drilled_volume(hole.radius, sheet->thickness, least);
+    }
+  }
+  return holes;
+}
+
 /// Corners of slots (or tabs) of a wall against where the finished floor has them.
 double tab_mismatch(const Job& job, const Unit& unit) {
   if (unit.tabs.empty() || !unit.wall) return 0.0;
@@ -245,6 +266,22 @@ double largest_edge_mismatch(const Job& job, const std::vector<Unit>& units) {
 
 }  // namespace
 
+void require_bolts_meet(const Workshop& workshop) {
+  // Pieces that get one number differ by what no machine cuts.
+  constexpr double kSame = 4.0 * kSamePart;
+  for (const auto& [upper, lower] : {std::pair("tile", "floor"), std::pair("cover", "rim")}) {
+    const bool there = std::any_of(workshop.parts.begin(), workshop.parts.end(), [&](const ShopPart& part) {
+      return part.name.find(upper) != std::string::npos;
+    });
+    const double mismatch = there ? bolt_mismatch(workshop, upper, lower) : 0.0;
+    if (mismatch <= kSame) continue;
+    throw InternalError({"",
+                         "holes of parts named " + std::string(upper) + " and " + lower +
+                             " do not meet: " + length_text(mismatch, 3),
+                         "", ""});
+  }
+}
+
 PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
   PartsProof proof;
   for (const Unit& unit : units) {
@@ -257,6 +294,7 @@ PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop&
   const bool folded = folds(job.track, {0.0, job.track.length()}, job.channel.wall_height);
   const double allowed = folded ? 1e-6 : kPartsVolumeAccuracy;
   proof.differences = corner_differences(job, units);
+  if (job.options.liner) proof.differences.push_back(hole_difference(units));
   double wanted = proof.exact_volume;
   for (const VolumeDifference& difference : proof.differences) wanted += difference.volume;
   if (!(std::fabs(proof.volume - wanted) <= allowed * wanted)) {
@@ -266,6 +304,7 @@ PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop&
                          "", ""});
   }
   proof.pairs = require_no_clash(workshop);
+  require_bolts_meet(workshop);
   if (job.options.flanges.wanted) proof.smallest_gap = least_frame_gap(job, units);
   if (has_tabs(job)) {
     const double slack = 0.5 * job.options.corners.clearance;

@@ -33,13 +33,12 @@ double radius_of(double curvature) {
   return curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / curvature;
 }
 
-/// From the plane of the track into a part's own.
+}  // namespace
+
 PlaneMotion into(const OwnPlane& plane) {
   const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
   return PlaneMotion::turn(-plane.angle, -1.0 * back);
 }
-
-}  // namespace
 
 Vec3 across(const Placement& placement) {
   return placement.to_space(0.0, 0.0, 1.0) - placement.to_space(0.0, 0.0, 0.0);
@@ -151,23 +150,41 @@ double flat_length(const TrackArc& arc, double thickness, double neutral, bool b
   return arc.length + from_face * thickness * turned;
 }
 
+namespace {
+
+/// What a floor looks like from its side, in the plane of the track.
+ArcPath side_view(const Job& job, const FloorFace& face) {
+  ArcPath outline = *band(face.line, {0.0, face.line.length()}, -job.channel.thickness, 0.0);
+  for (PathVertex& vertex : outline.vertices) vertex.at = vertex.at + face.origin;
+  return outline;
+}
+
+}  // namespace
+
+void drill_floor(const Job& job, const FloorFace& face, const std::vector<Span>& tabs,
+                 std::vector<Circle> holes, ShopPart& floor) {
+  ArcPath path = face.line.path();
+  for (PathVertex& vertex : path.vertices) vertex.at = vertex.at + face.origin;
+  RolledSheet sheet;
+  sheet.path = moved(path, into(own_plane(side_view(job, face))));
+  sheet.thickness = job.channel.thickness;
+  sheet.region = floor_sheet(job, face.line, tabs);
+  sheet.region.holes = std::move(holes);
+  floor.body = std::move(sheet);
+  weigh(floor);
+}
+
 ShopPart floor_plate(const Job& job, const FloorFace& face, const std::vector<Span>& tabs,
                      std::vector<BendStep>& steps) {
   const double thickness = job.channel.thickness;
   const double width = floor_width(job);
   const ArcSpline& line = face.line;
-  PlaneRegion side{*band(line, {0.0, line.length()}, -thickness, 0.0), {}, {}};
-  for (PathVertex& vertex : side.outline.vertices) vertex.at = vertex.at + face.origin;
+  const PlaneRegion side{side_view(job, face), {}, {}};
   ShopPart part = upright_plate(job, side, width, {-0.5 * width});
   part.thickness = thickness;
   part.name = "floor";
   const PlaneRegion sheet = floor_sheet(job, line, tabs);
-  if (sheet.outline.vertices.size() > 4 || !sheet.cutouts.empty()) {
-    ArcPath path = line.path();
-    for (PathVertex& vertex : path.vertices) vertex.at = vertex.at + face.origin;
-    part.body = RolledSheet{moved(path, into(own_plane(side.outline))), thickness, sheet};
-    weigh(part);
-  }
+  if (sheet.outline.vertices.size() > 4 || !sheet.cutouts.empty()) drill_floor(job, face, tabs, {}, part);
   FlatPattern pattern;
   double reached = 0.0;
   double sum = 0.0;

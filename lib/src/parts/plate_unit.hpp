@@ -52,6 +52,8 @@ struct OwnPlane {
   double angle = 0.0;
 };
 [[nodiscard]] OwnPlane own_plane(const ArcPath& outline);
+/// @return from the plane of the track into a part's own
+[[nodiscard]] PlaneMotion into(const OwnPlane& plane);
 
 /// Says where the part's number may stand, if there is room for it.
 void set_number_place(FlatPattern& pattern, const PlaneBox& box);
@@ -70,6 +72,10 @@ struct FloorFace {
 /// @param tabs  along the face (corners.hpp)
 [[nodiscard]] ShopPart floor_plate(const Job& job, const FloorFace& face, const std::vector<Span>& tabs,
                                    std::vector<BendStep>& steps);
+/// Makes the finished floor one with holes, which its pattern has already.
+/// @param holes  along the face, and across from its left edge
+void drill_floor(const Job& job, const FloorFace& face, const std::vector<Span>& tabs,
+                 std::vector<Circle> holes, ShopPart& floor);
 /// @return none where the wall folds away: its length at the top is nothing
 [[nodiscard]] std::optional<ShopPart> wall_plate(const Job& job, const Span& span, const FloorFace& face,
                                                  const std::vector<Span>& tabs);

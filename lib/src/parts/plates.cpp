@@ -91,8 +91,7 @@ void add_fittings(const Job& job, const std::vector<Unit>& units, Workshop& work
   in_order(workshop.setting_out);
 }
 
-/// How corners meet, and by how much the plates differ from the channel for it.
-void add_corner_notes(const Job& job, const PartsProof& proof, Workshop& workshop) {
+void add_corner_note(const Job& job, Workshop& workshop) {
   if (overlap(job) == 0.0) return;
   const bool beside = job.options.walls == WallSeat::beside_floor;
   std::string note = beside ? "Walls reach " : "The floor reaches ";
@@ -104,12 +103,6 @@ void add_corner_notes(const Job& job, const PartsProof& proof, Workshop& worksho
             " wide, stand in slots that are " + length_text(corners.clearance) + " larger both ways";
   }
   workshop.notes.push_back(note + ".");
-  std::string listed;
-  for (const VolumeDifference& difference : proof.differences) {
-    listed += (listed.empty() ? "" : ", ") + difference.what + " " + (difference.volume > 0.0 ? "+" : "") +
-              rounded_text(1e6 * difference.volume, 6) + " cm^3";
-  }
-  workshop.notes.push_back("Against the plain channel: " + listed + ".");
 }
 
 AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const Motion& design,
@@ -171,7 +164,8 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   measure_floor(job, units, workshop);
   measure_corners(job, units, workshop);
   build.proof = prove(job, units, workshop);
-  add_corner_notes(job, build.proof, workshop);
+  add_corner_note(job, workshop);
+  note_differences(build.proof, "the plain channel", workshop);
   return build;
 }
 

@@ -80,4 +80,14 @@ void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_
   add_bolts(workshop, flange.bolt, 2.0 * flange.thickness, holes * joints, where);
 }
 
+void note_differences(const PartsProof& proof, const std::string& whole, Workshop& workshop) {
+  if (proof.differences.empty()) return;
+  std::string listed;
+  for (const VolumeDifference& difference : proof.differences) {
+    listed += (listed.empty() ? "" : ", ") + difference.what + " " + (difference.volume > 0.0 ? "+" : "") +
+              rounded_text(1e6 * difference.volume, 6) + " cm^3";
+  }
+  workshop.notes.push_back("Against " + whole + ": " + listed + ".");
+}
+
 }  // namespace glissade::parts

@@ -2,6 +2,7 @@
 
 #include "glissade/parts/plate_options.hpp"
 #include "glissade/parts/shop_part.hpp"
+#include "glissade/parts/workshop_build.hpp"
 
 #include <array>
 #include <cstddef>
@@ -33,5 +34,9 @@ void add_bolts(Workshop& workshop, int size, double grip, std::size_t count, con
 /// @param holes   of one frame
 /// @param joints  between units
 void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_t holes, std::size_t joints);
+
+/// Says by how much the parts differ from what they make.
+/// @param whole  "the plain channel"
+void note_differences(const PartsProof& proof, const std::string& whole, Workshop& workshop);
 
 }  // namespace glissade::parts

@@ -47,15 +47,35 @@ struct SweptBody {
   /// Along z, of every corner at every vertex of the path, linear in the arc length between: plates beside a width that
   /// changes, faces among them that STEP holds as B-splines. Empty: none moves.
   std::vector<std::vector<double>> shifts = {};
+  /// Drilled square through the plate, from the first edge of the section to the one opposite, both parallel; clear of the
+  /// joints of the path, and only through level ones where corners move. x: arc length along the path; y: along the first edge
+  /// from its first corner [m]
+  std::vector<Circle> holes = {};
 };
 
-/// A sheet bent to a chain of lines and arcs: floors with slots and tabs. Its faces are planes and cylinders.
+/// An edge of a sheet that runs along it and is not square to its faces.
+struct Bevel {
+  double at = 0.0;     ///< y of the edge on the upper face [m]
+  double below = 0.0;  ///< by how much farther along y it stands on the lower one [m]
+
+  friend bool operator==(const Bevel&, const Bevel&) = default;
+};
+
+/// A sheet bent to a chain of lines and arcs: plates with slots, tabs and holes, level or leaning. Its faces are planes,
+/// cylinders and cones.
 struct RolledSheet {
-  ArcPath path;            ///< of its upper face: open, in the part's x-y plane; tangents continuous
-  double thickness = 0.0;  ///< below the path, to its right [m]; > 0
-  /// x: arc length along the path, from 0 to its length; y: along z [m]. Edges run along x or y; those along y, and cutouts,
-  /// keep off the joints of the path, but for its ends.
+  ArcPath path;            ///< open, in the part's x-y plane; tangents continuous
+  double thickness = 0.0;  ///< of the sheet, below its upper face [m]; > 0
+  /// x: arc length along the path, from 0 to its length; y: along the upper face's line across [m]. Edges run along x or y;
+  /// those along y, cutouts and holes keep off the joints of the path, but for its ends. Holes are drilled square; no edge along y
+  /// is level with one.
   PlaneRegion region;
+  /// Where the upper face's line begins, and its unit direction. x: to the left of the path, y: along z [m]. The lower face
+  /// lies to the left of that direction: of a level sheet, (0, 1), below the path.
+  Vec2 foot = {0.0, 0.0};
+  Vec2 across = {0.0, 1.0};
+  std::vector<Bevel> bevels =
+      {};  ///< by ascending `at`; between two of them evenly, beyond the last as there
 };
 
 /// A plate of plane facets that meet at bends without a radius: four corners at each bend and at both ends, counter-clockwise seen

@@ -1,0 +1,286 @@
+#include "parts/bores.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include "parts/brep_building.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Bernstein coefficients of a polynomial.
+using Bernstein = std::vector<double>;
+
+double choose(std::size_t n, std::size_t k) {
+  double product = 1.0;
+  for (std::size_t i = 0; i < k; ++i)
+    product = product * static_cast<double>(n - i) / static_cast<double>(i + 1);
+  return product;
+}
+
+Bernstein operator*(const Bernstein& a, const Bernstein& b) {
+  const std::size_t m = a.size() - 1;
+  const std::size_t n = b.size() - 1;
+  Bernstein product(m + n + 1, 0.0);
+  for (std::size_t i = 0; i <= m; ++i) {
+    for (std::size_t k = 0; k <= n; ++k)
+      product[i + k] += choose(m, i) * choose(n, k) / choose(m + n, i + k) * a[i] * b[k];
+  }
+  return product;
+}
+
+/// Gauss over the square of the radius, four points: exact for polynomials of degree 15 in the radius.
+constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                          0.9305681557970263};
+constexpr std::array<double, 4> kWeights = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                            0.1739274225687269};
+constexpr int kSpokes = 16;
+
+}  // namespace
+
+double Bore::rise(double at_depth, double x, double y) const {
+  if (from_axis == 0.0) return at_depth;
+  // The place's distance from the axis of the arc exceeds that of the plane through the hole's axis; faces are straight lines
+  // in planes through the axis of the arc.
+  double z = at_depth;
+  constexpr int kRounds = 60;
+  for (int k = 0; k < kRounds; ++k) {
+    const double level = from_axis + y * grows_across + z * grows_into;
+    const double next = at_depth - grows_into * (x * x / (math::hypot(level, x) + level));
+    if (next == z) break;
+    z = next;
+  }
+  return z;
+}
+
+BoreMoments moments(const Bore& bore) {
+  double volume = 0.0;
+  double x_moment = 0.0;
+  double y_moment = 0.0;
+  double z_moment = 0.0;
+  for (std::size_t k = 0; k < kNodes.size(); ++k) {
+    const double r = bore.radius * std::sqrt(kNodes[k]);
+    const double weight = kWeights[k] * kPi * bore.radius * bore.radius / kSpokes;
+    for (int i = 0; i < kSpokes; ++i) {
+      const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * (i + 0.5) / kSpokes);
+      const double face = bore.rise(0.0, r * cosine, r * sine);
+      const double back = bore.rise(bore.depth, r * cosine, r * sine);
+      volume += weight * (back - face);
+      x_moment += weight * (back - face) * r * cosine;
+      y_moment += weight * (back - face) * r * sine;
+      z_moment += weight * 0.5 * (back * back - face * face);
+    }
+  }
+  return {volume, bore.centre + (1.0 / volume) *
+                                    (x_moment * bore.along + y_moment * bore.across + z_moment * bore.into)};
+}
+
+double drilled_volume(double hole_radius, double thickness, double radius) {
+  const double area = kPi * hole_radius * hole_radius;
+  if (!std::isfinite(radius)) return area * thickness;
+  // Integral of sqrt(R^2 - x^2) over the circle, R times the area times sum c_k m_k (hole / R)^2k: c_k of the root's series, m_k
+  // the mean of (x / hole)^2k over the circle.
+  // The first terms differ by the thickness.
+  const auto beyond_first = [&](double cylinder) {
+    const double square = hole_radius * hole_radius / (cylinder * cylinder);
+    double root = 1.0;
+    double mean = 1.0;
+    double power = 1.0;
+    double sum = 0.0;
+    constexpr int kTerms = 200;
+    for (int k = 1; k < kTerms; ++k) {
+      root *= (k - 1.5) / k;
+      mean *= (2.0 * k - 1.0) / (2.0 * k + 2.0);
+      power *= square;
+      const double term = root * mean * power;
+      sum += term;
+      if (std::fabs(term) < std::numeric_limits<double>::epsilon() * 1e-3) break;
+    }
+    return cylinder * sum;
+  };
+  return area * (thickness + beyond_first(radius + thickness) - beyond_first(radius));
+}
+
+Bore bore_at(const std::vector<PathPiece>& pieces, const Circle& hole, const BoreLine& line) {
+  std::size_t i = 0;
+  double reached = 0.0;
+  while (i + 1 < pieces.size() && hole.centre.x > reached + length(pieces[i])) reached += length(pieces[i++]);
+  const PathPiece& piece = pieces[i];
+  const double share = (hole.centre.x - reached) / length(piece);
+  const Vec2 at = point_on(piece, share);
+  Vec2 tangent = start_tangent(piece);
+  Bore bore;
+  const Vec2 into{-line.across.y, line.across.x};  // (to the left of the path, along z)
+  const double height = line.foot.x + hole.centre.y * line.across.x;
+  if (!piece.straight()) {
+    const CircularArc arc = arc_of(piece);
+    const auto [sine, cosine] = math::sine_cosine(arc.sweep * share);
+    tangent = {cosine * tangent.x - sine * tangent.y, sine * tangent.x + cosine * tangent.y};
+    const double outward = piece.bulge > 0.0 ? -1.0 : 1.0;  // of the left side, from the axis
+    bore.path_radius = arc.radius;
+    bore.from_axis = arc.radius + outward * height;
+    bore.grows_into = outward * into.x;
+    bore.grows_across = outward * line.across.x;
+  }
+  const Vec2 left{-tangent.y, tangent.x};
+  const auto in_space = [&](Vec2 pair) { return Vec3{pair.x * left.x, pair.x * left.y, pair.y}; };
+  bore.centre = at_height(at, 0.0) + in_space(line.foot + hole.centre.y * line.across);
+  bore.along = at_height(tangent, 0.0);
+  bore.across = in_space(line.across);
+  bore.into = in_space(into);
+  bore.radius = hole.radius;
+  bore.depth = line.thickness;
+  bore.piece = i;
+  return bore;
+}
+
+std::vector<Bore> bores_of(const SweptBody& body) {
+  std::vector<Bore> bores;
+  if (body.holes.empty()) return bores;
+  const Vec2 way = body.section.at(1) - body.section.at(0);
+  const Vec2 across = (1.0 / norm(way)) * way;
+  const Vec2 into{-across.y, across.x};
+  const BoreLine line{body.section.at(0), across, dot(into, body.section.at(2) - body.section.at(1))};
+  const std::vector<PathPiece> pieces = pieces_of(body.path);
+  for (const Circle& hole : body.holes) bores.push_back(bore_at(pieces, hole, line));
+  return bores;
+}
+
+std::vector<Bore> bores_of(const RolledSheet& sheet) {
+  std::vector<Bore> bores;
+  if (sheet.region.holes.empty()) return bores;
+  const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  for (const Circle& hole : sheet.region.holes)
+    bores.push_back(bore_at(pieces, hole, {sheet.foot, sheet.across, sheet.thickness}));
+  return bores;
+}
+
+namespace {
+
+std::vector<Bore> bores_in(const PartBody& body) {
+  if (const auto* const swept = std::get_if<SweptBody>(&body)) return bores_of(*swept);
+  if (const auto* const sheet = std::get_if<RolledSheet>(&body)) return bores_of(*sheet);
+  return {};
+}
+
+/// Where holes of parts begin or end, in space.
+std::vector<Vec3> mouths_of(const Workshop& workshop, std::string_view word, bool back) {
+  std::vector<Vec3> places;
+  for (const ShopPart& part : workshop.parts) {
+    if (part.name.find(word) == std::string::npos) continue;
+    for (const Bore& bore : bores_in(part.body)) {
+      const Vec3 own = bore.centre + (back ? bore.depth : 0.0) * bore.into;
+      for (const Frame& place : part.places) places.push_back(place.to_space(own));
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+double bolt_mismatch(const Workshop& workshop, std::string_view upper, std::string_view lower) {
+  const std::vector<Vec3> above = mouths_of(workshop, upper, true);
+  const std::vector<Vec3> below = mouths_of(workshop, lower, false);
+  if (above.size() != below.size()) return std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  std::vector<bool> taken(below.size(), false);
+  for (const Vec3 place : above) {
+    std::size_t nearest = below.size();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const double away = norm(below[i] - place);
+      if (taken[i] || !(away < least)) continue;
+      nearest = i;
+      least = away;
+    }
+    taken[nearest] = true;
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+namespace {
+
+/// A closed edge round a hole's axis, counter-clockwise about it.
+std::size_t add_mouth(Brep& brep, const Bore& bore, double depth) {
+  BrepEdge edge;
+  edge.axis = bore.into;
+  edge.reference = bore.along;
+  edge.centre = bore.centre + depth * bore.into;
+  edge.radius = bore.radius;
+  edge.kind = CurveKind::circle;
+  if (bore.from_axis != 0.0) {
+    const double aside = bore.radius * std::numbers::sqrt2 / 2.0;
+    edge.kind = CurveKind::mouth;
+    edge.rise = bore.rise(depth, bore.radius, 0.0) - depth;
+    // cos^2 sin is a quarter of the root of two where both are equal.
+    edge.skew = std::numbers::sqrt2 * (bore.rise(depth, aside, aside) - bore.rise(depth, aside, -aside));
+    if (edge.rise == 0.0 && edge.skew == 0.0) edge.kind = CurveKind::circle;
+  }
+  edge.from = add_vertex(brep, edge.centre + bore.radius * bore.along + edge.rise * bore.into);
+  edge.to = edge.from;
+  brep.edges.push_back(edge);
+  return brep.edges.size() - 1;
+}
+
+}  // namespace
+
+BoreLoops add_bore(Brep& brep, const Bore& bore) {
+  const std::size_t face = add_mouth(brep, bore, 0.0);
+  const std::size_t back = add_mouth(brep, bore, bore.depth);
+  const std::size_t seam = add_line(brep, brep.edges[face].from, brep.edges[back].from);
+  BrepFace wall;
+  wall.kind = SurfaceKind::cylinder;
+  wall.origin = bore.centre;
+  wall.axis = bore.into;
+  wall.reference = bore.along;
+  wall.radius = bore.radius;
+  wall.outward = false;
+  wall.loops = {{{face, false}, {seam, true}, {back, true}, {seam, false}}};
+  brep.faces.push_back(std::move(wall));
+  return {{face, true}, {back, false}};
+}
+
+RationalCurve rational_mouth(const BrepEdge& edge) {
+  const Vec3 across = cross(edge.axis, edge.reference);
+  const Bernstein weight{1.0, 0.5, 1.0};  // of a third of a turn
+  RationalCurve curve;
+  curve.degree = edge.skew == 0.0 ? 4 : 6;
+  for (int third = 0; third < 3; ++third) {
+    Bernstein x;
+    Bernstein y;
+    for (int k = 0; k < 3; ++k) {
+      const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * (third + 0.5 * k) / 3.0);
+      x.push_back(cosine);
+      y.push_back(sine);
+    }
+    const Bernstein lift = edge.skew == 0.0 ? weight : weight * weight;
+    const Bernstein weights = lift * weight;
+    const Bernstein xs = x * lift;
+    const Bernstein ys = y * lift;
+    Bernstein out = x * x;
+    for (double& one : out) one *= edge.rise;
+    if (edge.skew != 0.0) {
+      const Bernstein skewed = x * x * y;
+      out = out * weight;
+      for (std::size_t k = 0; k < out.size(); ++k) out[k] += edge.skew * skewed[k];
+    }
+    for (std::size_t k = third == 0 ? 0 : 1; k <= curve.degree; ++k) {
+      const double w = weights[k];
+      curve.poles.push_back(edge.centre + (edge.radius * xs[k] / w) * edge.reference +
+                            (edge.radius * ys[k] / w) * across + (out[k] / w) * edge.axis);
+      curve.weights.push_back(w);
+    }
+  }
+  return curve;
+}
+
+}  // namespace glissade::parts
