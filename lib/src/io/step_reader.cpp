@@ -238,13 +238,19 @@ Placement3 placement(const StepEntities& step, Id id) {
           step.triple(step.reference(parts[3]))};
 }
 
+/// How far places are from the nearer end of a spline.
+std::function<double(Vec3)> gap_from_ends(const StepEntities& step, const std::vector<Id>& poles) {
+  return [first = step.triple(poles.front()), last = step.triple(poles.back())](Vec3 point) {
+    return std::min(norm(first - point), norm(last - point));
+  };
+}
+
 /// How far places are from a curve of the file.
 std::function<double(Vec3)> gap_from_curve(const StepEntities& step, Id id) {
   const Entity& curve = step.at(id);
   if (curve.keyword.empty()) {
     // Several entities at once: a rational spline.
-    const std::vector<Id> poles = step.references(step.parameters_within(id, "B_SPLINE_CURVE(", 2)[1]);
-    return std::min(norm(step.triple(poles.front()) - point), norm(step.triple(poles.back()) - point));
+    return gap_from_ends(step, step.references(step.parameters_within(id, "B_SPLINE_CURVE(", 2)[1]));
   }
   const auto parts = step.parameters(id, 3);
   if (curve.keyword == "LINE") {
@@ -253,10 +259,7 @@ std::function<double(Vec3)> gap_from_curve(const StepEntities& step, Id id) {
     return [from, along](Vec3 point) { return norm(cross(along, point - from)); };
   }
   if (curve.keyword == "B_SPLINE_CURVE_WITH_KNOTS") {
-    const std::vector<Id> poles = step.references(step.parameters(id, 3)[2]);
-    return [first = step.triple(poles.front()), last = step.triple(poles.back())](Vec3 point) {
-      return std::min(norm(first - point), norm(last - point));
-    };
+    return gap_from_ends(step, step.references(step.parameters(id, 3)[2]));
   }
   const Placement3 place = placement(step, step.reference(parts[1]));
   const Vec3 across = cross(place.axis, place.reference);
