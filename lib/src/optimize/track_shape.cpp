@@ -154,14 +154,35 @@ Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t bas
 }
 
 Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y) const {
+  const auto distance_of = [&](std::size_t i) {
+    return math::hypot(shape.x[i] - target_x, shape.y[i] - target_y);
+  };
+  // A few stations tell how near the nearest at most is; the rest need only be looked at where that may be undercut:
+  // along the track no distance falls faster than the arc length grows.
+  constexpr std::size_t kStride = 24;
+  constexpr double kRounding = 1e-9;
   std::size_t nearest = 0;
   double least = HUGE_VAL;
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const double distance = math::hypot(shape.x[i] - target_x, shape.y[i] - target_y);
+  for (std::size_t i = 0; i < stations_.size(); i += kStride) {
+    const double distance = distance_of(i);
     if (distance < least) {
       least = distance;
       nearest = i;
     }
+  }
+  const double length = z[layout_.length()];
+  for (std::size_t i = 0; i < stations_.size();) {
+    const double distance = distance_of(i);
+    double ahead = stations_[i].arc_length(length);
+    if (distance < least || (distance == least && i < nearest)) {
+      least = distance;
+      nearest = i;
+    } else {
+      ahead += (1.0 - kRounding) * (distance - least);
+    }
+    do {
+      ++i;
+    } while (i < stations_.size() && stations_[i].arc_length(length) < ahead);
   }
   return foot(z, shape, target_x, target_y, nearest);
 }
