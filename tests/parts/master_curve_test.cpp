@@ -4,10 +4,12 @@
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/flying_start_brachistochrone.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/pipeline.hpp"
 
+#include "parts/offset_line.hpp"
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/random.hpp"
@@ -132,6 +134,15 @@ TEST_CASE("master curve: fastest tracks, vertical start and all, are within the 
   }
 }
 
+TEST_CASE("master curve: tracks of bodies that come in with a speed begin at the origin to the last bit") {
+  for (const double speed : {0.3, 1.0, 2.0, 4.0}) {
+    const FlyingStartBrachistochrone track({16.0, 6.0}, Friction::from_coefficient(0.06), speed);
+    const MasterCurve master = fit_arcs(track, {1e-3});
+    CHECK(master.spline->path().vertices.front().at == Vec2{});
+    CHECK(brute_deviation(*master.spline, track) < 1.05e-3);
+  }
+}
+
 TEST_CASE("master curve: lines and arcs of a drawn track stay what they are, with their tangents") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
@@ -210,6 +221,25 @@ TEST_CASE("master curve: every shipped design reaches the goal at the tolerance 
     CHECK(brute_deviation(*curve.spline, *track.centerline) <= 1.01 * tolerance + 1e-6);
     CHECK(brute_deviation(*track.centerline, *curve.spline) <= 1.01 * tolerance + 1e-6);
     check_ends(*track.centerline, *curve.spline);
+  }
+}
+
+TEST_CASE("master curve: slivers that a search leaves are no pieces, bands along them meet nowhere") {
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 5 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.06, entry_speed: 1 m/s}\ncenterline: {kind: fastest}\n"
+      "limits: {slope_angle: {highest: 35 deg, lowest: 0 deg}, smallest_radius: 4 m}\n",
+      "d.yaml");
+  const Track track = solve(design);
+  for (const double tolerance : {1e-3, 1e-4, 2e-5}) {
+    INFO(tolerance);
+    const MasterCurve master = fit_arcs(*track.centerline, {tolerance});
+    CHECK(brute_deviation(*master.spline, *track.centerline) < 1.05 * tolerance);
+    for (const double to : {1.0, 2.5, master.spline->length()}) {
+      const auto band = parts::band(*master.spline, {0.0, to}, -9e-3, 0.0);
+      REQUIRE(band);
+      CHECK(faults_of(PlaneRegion{*band, {}, {}}).empty());
+    }
   }
 }
 

@@ -504,7 +504,11 @@ bool neighbours_clash(const PathPiece& before, const PathPiece& after, double ne
 }
 
 bool meets_itself(const ArcPath& path, double nearness) {
-  const std::vector<PathPiece> pieces = pieces_of(path);
+  std::vector<PathPiece> pieces = pieces_of(path);
+  // Circles that are straight to far below the nearness have no middle to reckon with.
+  for (PathPiece& piece : pieces) {
+    if (std::fabs(piece.bulge) * norm(piece.to - piece.from) < 1e-3 * nearness) piece.bulge = 0.0;
+  }
   std::vector<PlaneBox> boxes;
   boxes.reserve(pieces.size());
   for (const PathPiece& piece : pieces) boxes.push_back(bounds_of(piece));

@@ -170,6 +170,8 @@ TrackSamples sample(const Centerline& track, std::size_t count) {
     }
   }
   add(length);
+  // Tracks begin at their origin, some of them up to rounding.
+  samples.point.front() = {};
   return samples;
 }
 

@@ -46,11 +46,13 @@ std::optional<double> constant_curvature(const Centerline& track, double from, d
     const double here = track.at(from + share * (to - from)).curvature;
     if (!same_curvature(middle, here, track.length())) return std::nullopt;
   }
-  return same_curvature(0.0, middle, track.length()) ? 0.0 : middle;
+  // What bends away by less than rounding does over its length is straight.
+  const double sagitta = 0.125 * std::fabs(middle) * (to - from) * (to - from);
+  return sagitta <= kSameLine * track.length() ? 0.0 : middle;
 }
 
-/// Stretches of constant curvature, neighbours with the same one joined.
-std::vector<Kept> kept_pieces(const Centerline& track) {
+/// Stretches of constant curvature, neighbours with the same one joined; none that is no longer than what arcs may miss.
+std::vector<Kept> kept_pieces(const Centerline& track, double tolerance) {
   std::vector<Kept> kept;
   const std::vector<double> breaks = track.breaks();
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
@@ -65,6 +67,7 @@ std::vector<Kept> kept_pieces(const Centerline& track) {
       kept.push_back({breaks[i], breaks[i + 1], *curvature});
     }
   }
+  std::erase_if(kept, [&](const Kept& piece) { return piece.to - piece.from <= tolerance; });
   return kept;
 }
 
@@ -228,7 +231,7 @@ MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options)
   require_fine(track, options.tolerance);
   const Band band = band_of(options.side, options.tolerance);
   const TrackSamples samples = close_samples(track, band.half_width());
-  const std::vector<Kept> kept = kept_pieces(track);
+  const std::vector<Kept> kept = kept_pieces(track, options.tolerance);
   MasterCurve master;
   master.tolerance = options.tolerance;
   master.kept = kept.size();
