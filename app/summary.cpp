@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 
 namespace glissade::app {
 namespace {
@@ -164,12 +165,28 @@ std::string solid_lines(const Design& design, const Build& build) {
   return text;
 }
 
+/// Files of one folder and ending as one line where they are many.
+std::string removed_lines(const std::vector<std::filesystem::path>& removed) {
+  constexpr std::size_t kMany = 4;
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> kinds;
+  for (const std::filesystem::path& file : removed)
+    kinds[{file.parent_path().string(), file.extension().string()}].push_back(file.string());
+  std::string text;
+  for (const auto& [kind, files] : kinds) {
+    if (files.size() >= kMany) {
+      text += (kind.first.empty() ? "" : kind.first + "/  ") + std::to_string(files.size()) + " " +
+              kind.second + " files removed: an earlier build wrote them, this one does not\n";
+      continue;
+    }
+    for (const std::string& file : files)
+      text += file + "  removed: an earlier build wrote it, this one does not\n";
+  }
+  return text;
+}
+
 /// What a build did to files that were there before it; empty if nothing.
 std::string earlier_file_lines(const Build& build) {
-  std::string text;
-  for (const std::filesystem::path& file : build.removed) {
-    text += file.string() + "  removed: an earlier build wrote it, this one does not\n";
-  }
+  std::string text = removed_lines(build.removed);
   for (const std::filesystem::path& file : build.set_aside) {
     text += file.string() + "  set aside: it was in the way and not as a build wrote it\n";
   }

@@ -72,6 +72,27 @@ TEST_CASE("a build with fewer files removes those that the design's last build w
                                  Contains("a.csv  removed"));
 }
 
+TEST_CASE("many files of one folder that go are told as one") {
+  const TempDir place;
+  put_bytes(place / "a.yaml", kSlab);
+  const auto run = [&](const std::string& formats) {
+    return glissade_run({"build", "a.yaml", "-o", "out", "--no-report", "--set",
+                         "fabrication={process: timber}", "--set", "export=[" + formats + "]"},
+                        {place.path(), {}, {}});
+  };
+  REQUIRE(run("dxf").exit_code == 0);
+  std::size_t patterns = 0;
+  for (const auto& entry : fs::directory_iterator(place / "out" / "a.parts")) {
+    if (entry.path().extension() == ".dxf") ++patterns;
+  }
+  REQUIRE(patterns >= 4);
+  const Outcome outcome = run("tables");
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output, Contains(std::to_string(patterns) +
+                                      " .dxf files removed: an earlier build wrote them, this one does not"));
+  CHECK_THAT(outcome.output, !Contains(".dxf  removed"));
+}
+
 TEST_CASE("two designs in one directory leave each other's files alone, reports too") {
   const Builds builds;
   for (const char* design : {"a", "b"}) {
