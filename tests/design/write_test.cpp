@@ -88,9 +88,9 @@ TEST_CASE("every key of the processes is written back") {
        std::string(
            "{process: timber, material: {name: spruce plywood, density: 460 kg/m^3}, "
            "lumber: {name: GL24h, density: 430 kg/m^3}, arc_tolerance: 2 mm, frame: beams, "
-           "bearers: {count: 3, spacing: 0.5 m, width: 100 mm, depth: 300 mm}, deck: {layers: 3, boards: "
-           "{width: 100 mm, length: 3.5 m, gap: 4 mm}}, "
-           "cross_members: {width: 60 mm, height: 80 mm, spacing: 350 mm}, "
+           "bearers: {count: 3, spacing: 0.5 m, width: 100 mm, depth: 300 mm}, deck: {layers: 3, "
+           "stave_tolerance: 5 mm, boards: {width: 100 mm, length: 3.5 m, gap: 4 mm}}, "
+           "cross_members: {width: 60 mm, height: 80 mm, spacing: 350 mm, cheek: 50 mm, reach: 200 mm}, "
            "legs: {ground: [[0 m, -1 m], [4 m, -2 m]], spacing: 1.5 m, side: 100 mm, braced_from: 2 m, "
            "brace_width: 140 mm, brace_thickness: 30 mm}, "
            "split: {sheet: [3 m, 1.5 m], longest: 9 m, heaviest: 80 kg}, fit: 3 mm, joint_step: 0.5 mm}"),

@@ -183,6 +183,34 @@ TEST_CASE(
   CHECK(head.ends_with("underside of deck,top of ribs,underside of ribs"));
 }
 
+TEST_CASE(
+    "fabrication: a half-pipe in timber gives every file of a ramp, its strips and templates among them") {
+  const TempDir place;
+  Design design = parse_design(
+      "glissade: 1\nname: Start\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 5 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.06, entry_speed: 1 m/s}\ncenterline: {kind: fastest}\n"
+      "limits: {slope_angle: {highest: 35 deg, lowest: 0 deg}, smallest_radius: 4 m}\n"
+      "cross_section: {kind: half-pipe, width: 0.9 m, wall_height: 100 mm, thickness: 18 mm}\n"
+      "fabrication: {process: timber, deck: {stave_tolerance: 8 mm}, legs: {ground: -1.5 m}}\n",
+      "start.yaml");
+  design.exports.formats = {ExportFormat::off};
+  const Build built = build(design, place / "out", {}, {.report = false});
+  REQUIRE(built.fabrication);
+  const Workshop& workshop = built.fabrication->workshop;
+  double strips = 0.0;
+  for (const ShopPart& part : workshop.parts) {
+    INFO(part.name);
+    REQUIRE(part.files.size() == 2);
+    for (const std::string& file : part.files) CHECK(std::filesystem::exists(place / "out" / file));
+    if (part.name.starts_with("stave") || part.name.starts_with("floor"))
+      strips += part.volume * static_cast<double>(part.quantity());
+  }
+  CHECK(strips == Approx(built.fabrication->proof.exact_volume).epsilon(1e-9));
+  CHECK(read_step_facts(place / "out" / "start.step").solids.size() == workshop.parts.size());
+  for (const char* ending : {".drawings.pdf", ".templates.pdf", ".cut_list.csv", ".setting_out.csv"})
+    CHECK(std::filesystem::exists(place / "out" / (std::string("start") + ending)));
+}
+
 TEST_CASE("fabrication: the same design gives the same bytes") {
   const TempDir place;
   const Design design = quick("{process: plate, floor: bent, split: {longest: 2 m}}");

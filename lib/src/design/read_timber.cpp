@@ -44,6 +44,7 @@ DeckOptions read_deck(const Value& value, Findings& findings) {
     keys.refuse_unknown_keys();
     return boards;
   });
+  set_length(map, "stave_tolerance", deck.stave_tolerance);
   deck.layers = read_count(map, "layers", findings).value_or(deck.layers);
   map.refuse_unknown_keys();
   return deck;
@@ -52,7 +53,9 @@ DeckOptions read_deck(const Value& value, Findings& findings) {
 CrossMemberOptions read_cross_members(const Value& value, Findings& findings) {
   MapReader map(value, "A set of cross members", "{width: 45 mm, height: 70 mm, spacing: 400 mm}", findings);
   CrossMemberOptions members;
-  members.width = map.quantity("width", Dimension::length).value_or(members.width);
+  members.width = map.quantity("width", Dimension::length);
+  set_length(map, "cheek", members.cheek);
+  members.reach = map.quantity("reach", Dimension::length);
   members.height = map.quantity("height", Dimension::length).value_or(members.height);
   members.spacing = map.quantity("spacing", Dimension::length).value_or(members.spacing);
   map.refuse_unknown_keys();

@@ -15,6 +15,7 @@ std::string bearers(const BearerOptions& options) {
 std::string deck(const DeckOptions& options) {
   Group group;
   group.add("layers", std::to_string(options.layers));
+  group.add("stave_tolerance", options.stave_tolerance, Dimension::length);
   if (options.boards) {
     Group boards;
     boards.add("width", options.boards->width, Dimension::length);
@@ -30,6 +31,8 @@ std::string cross_members(const CrossMemberOptions& options) {
   group.add("width", options.width, Dimension::length);
   group.add("height", options.height, Dimension::length);
   group.add("spacing", options.spacing, Dimension::length);
+  group.add("cheek", options.cheek, Dimension::length);
+  group.add("reach", options.reach, Dimension::length);
   return group.inlined();
 }
 

@@ -13,6 +13,8 @@
 #include "parts/timber_braces.hpp"
 #include "parts/timber_facts.hpp"
 #include "parts/timber_frame.hpp"
+#include "parts/timber_trough.hpp"
+#include "parts/workshop_list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,13 +39,6 @@ constexpr Colour kLegColour = {0.55, 0.42, 0.30};
 constexpr double kSeamClear = 0.1;        // of a curb's joint from the seams of the upper layer [m]
 constexpr double kThickestSheet = 50e-3;  // what is thicker is sawn, not cut from a sheet [m]
 constexpr double kFoldedVolume = 1e-6;
-
-int add(Workshop& workshop, ShopPart part, const Colour& colour) {
-  part.number = static_cast<int>(workshop.parts.size()) + 1;
-  part.colour = colour;
-  workshop.parts.push_back(std::move(part));
-  return workshop.parts.back().number;
-}
 
 /// A pattern that is the side view of the part as it stands.
 void set_own_pattern(ShopPart& part) {
@@ -92,9 +87,19 @@ double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& r
       set_number_place(pattern, bounds(pattern.region.outline));
       part.pattern = std::move(pattern);
       volume += part.volume * static_cast<double>(part.quantity());
-      add(workshop, std::move(part), kDeckColour);
+      add_part(workshop, std::move(part), kDeckColour);
     }
   }
+  return volume;
+}
+
+double add_lining(const Lining& lining, Workshop& workshop) {
+  double volume = 0.0;
+  for (ShopPart& part : lining.parts()) {
+    volume += part.volume;
+    add_part(workshop, std::move(part), kDeckColour);
+  }
+  for (std::string& note : lining.notes()) workshop.notes.push_back(std::move(note));
   return volume;
 }
 
@@ -148,7 +153,7 @@ double add_curbs(const TimberJob& job, const std::vector<DeckRow>& upper, Worksh
     part.bought_in = sawn;
     set_own_pattern(part);
     volume += part.volume * static_cast<double>(part.quantity());
-    add(workshop, std::move(part), kCurbColour);
+    add_part(workshop, std::move(part), kCurbColour);
   }
   return volume;
 }
@@ -159,11 +164,12 @@ void add_cross_members(const TimberJob& job, const std::vector<CrossMember>& mem
   part.name = "cross_member";
   part.material = job.options.lumber.name;
   part.density = job.options.lumber.density;
-  part.thickness = options.width;
-  part.body = Prism{{rectangle({}, {options.width, options.height}), {}, {}}, job.channel.overall()};
+  const double width = job.member_width();
+  part.thickness = width;
+  part.body = Prism{{rectangle({}, {width, options.height}), {}, {}}, job.channel.overall()};
   for (const CrossMember& member : members) {
     const TrackFrame at = frame_at(job.track, member.at);
-    const Vec2 corner = at.at - 0.5 * options.width * at.along + (member.top - options.height) * at.up;
+    const Vec2 corner = at.at - 0.5 * width * at.along + (member.top - options.height) * at.up;
     part.places.push_back(plane_of_track(job.placement, corner, math::atan2(at.along.y, at.along.x),
                                          -0.5 * job.channel.overall()));
   }
@@ -172,7 +178,29 @@ void add_cross_members(const TimberJob& job, const std::vector<CrossMember>& mem
   pattern.region.outline = rectangle({}, {job.channel.overall(), options.height});
   part.pattern = std::move(pattern);
   weigh(part);
-  add(workshop, std::move(part), kMemberColour);
+  add_part(workshop, std::move(part), kMemberColour);
+}
+
+/// Templates are one part: those on a crest stand lower by what the lining bends away over their thickness.
+void add_templates(const TimberJob& job, const std::vector<CrossMember>& members, Workshop& workshop) {
+  ShopPart part;
+  part.name = "template";
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = job.member_width();
+  part.body = Prism{template_region(job.channel, job.options), part.thickness};
+  for (const CrossMember& member : members) {
+    const TrackFrame at = frame_at(job.track, member.at);
+    const Vec2 foot =
+        at.at - 0.5 * part.thickness * at.along + (member.top - job.options.cross_members.height) * at.up;
+    const Vec3 to_left = across(job.placement);
+    part.places.push_back({in_space(job.placement, foot) - 0.5 * job.channel.overall() * to_left, to_left,
+                           direction_in_space(job.placement, at.up),
+                           direction_in_space(job.placement, at.along)});
+  }
+  set_own_pattern(part);
+  weigh(part);
+  add_part(workshop, std::move(part), kMemberColour);
 }
 
 void add_splices(const TimberJob& job, const std::vector<double>& joints, const std::vector<double>& across,
@@ -194,7 +222,7 @@ void add_splices(const TimberJob& job, const std::vector<double>& joints, const 
                                  width, middles, job.options.material);
     part.name = name + "_" + std::to_string(i);
     set_own_pattern(part);
-    add(workshop, std::move(part), kSpliceColour);
+    add_part(workshop, std::move(part), kSpliceColour);
   }
 }
 
@@ -209,7 +237,7 @@ void add_bearer_row(const TimberJob& job, const std::vector<double>& joints,
     part.name = name + "_" + std::to_string(i + 1);
     part.bought_in = !ribs;
     set_own_pattern(part);
-    add(workshop, std::move(part), kBearerColour);
+    add_part(workshop, std::move(part), kBearerColour);
   }
 }
 
@@ -247,7 +275,7 @@ void add_legs(const TimberJob& job, const std::vector<Leg>& legs, const BearerPl
     part.stands = true;
     part.bought_in = true;
     set_own_pattern(part);
-    add(workshop, std::move(part), kLegColour);
+    add_part(workshop, std::move(part), kLegColour);
   }
 }
 
@@ -328,32 +356,42 @@ double exact_volume(const TimberJob& job, bool& folded) {
   return volume;
 }
 
+/// Lengths of sheets against the lines they lie on.
+double deck_mismatch(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows) {
+  double most = 0.0;
+  for (std::size_t set = 0; set < rows.size(); ++set) {
+    const double depth = (static_cast<double>(set / job.sets_per_layer()) + 0.5) * job.layer();
+    for (const DeckRow& row : rows[set]) {
+      const double fibre = length(*offset_line(job.track, row.span, -depth));
+      most = std::max(most, std::fabs(fibre - row.flat_length));
+    }
+  }
+  return most;
+}
+
+/// @param lining  of a trough; else there is a deck
 PartsProof prove_timber(const TimberJob& job, double made, const std::vector<CrossMember>& members,
-                        const std::vector<std::vector<DeckRow>>& rows, const Workshop& workshop) {
+                        const std::vector<std::vector<DeckRow>>& rows, const Lining* lining,
+                        const Workshop& workshop) {
   PartsProof proof;
   proof.volume = made;
   for (const ShopPart& part : workshop.parts)
     proof.added_volume += part.volume * static_cast<double>(part.quantity());
   proof.added_volume -= made;
   bool folded = false;
-  proof.exact_volume = exact_volume(job, folded);
+  proof.exact_volume = lining ? lining->exact_volume() : exact_volume(job, folded);
   const double allowed = folded ? 1e3 * kFoldedVolume : kPartsVolumeAccuracy;
   if (!(std::fabs(proof.volume - proof.exact_volume) <= allowed * proof.exact_volume)) {
     throw InternalError({"",
-                         "deck and curbs hold " + rounded_text(proof.volume, 12) + " m^3, the section " +
+                         (lining ? "the lining holds " : "deck and curbs hold ") +
+                             rounded_text(proof.volume, 12) + " m^3, the section " +
                              rounded_text(proof.exact_volume, 12) + " m^3",
                          "", ""});
   }
   proof.smallest_gap = job.options.fit;
   for (const CrossMember& member : members)
     proof.smallest_gap = std::min(proof.smallest_gap, job.options.fit - member.sagitta);
-  for (std::size_t set = 0; set < rows.size(); ++set) {
-    const double depth = (static_cast<double>(set / job.sets_per_layer()) + 0.5) * job.layer();
-    for (const DeckRow& row : rows[set]) {
-      const double fibre = length(*offset_line(job.track, row.span, -depth));
-      proof.edge_mismatch = std::max(proof.edge_mismatch, std::fabs(fibre - row.flat_length));
-    }
-  }
+  proof.edge_mismatch = lining ? lining->edge_mismatch() : deck_mismatch(job, rows);
   if (!(proof.edge_mismatch <= 1e-9)) {
     throw InternalError({"",
                          "sheets of the deck differ by " + length_text(proof.edge_mismatch, 3) +
@@ -373,21 +411,28 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   if (!problems.empty()) throw InputError(std::move(problems));
   WorkshopBuild build;
   build.master = fit_arcs(track, fit);
-  const TimberJob job{*build.master.spline, *timber_channel_of(measures), options, placement};
+  const TimberJob job{*build.master.spline, *timber_channel_of(measures, options), options, placement};
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
-  const std::vector<std::vector<DeckRow>> rows = deck_rows(job);
+  std::optional<Lining> lining;
+  if (job.channel.trough) lining.emplace(job);
+  const std::vector<std::vector<DeckRow>> rows = lining ? lining->rows() : deck_rows(job);
   const std::vector<CrossMember> members = cross_members(job, rows);
   const BearerPlan bearers = plan_bearers(job);
   const std::vector<Leg> legs = plan_legs(job);
   Workshop& workshop = build.workshop;
   workshop.tolerance = "Cut to 1 mm; edges of the running surface broken";
-  double made = add_deck(job, rows, workshop);
-  made += add_curbs(job, rows.front(), workshop);
-  add_cross_members(job, members, workshop);
+  double made = 0.0;
+  if (lining) {
+    made = add_lining(*lining, workshop);
+    add_templates(job, members, workshop);
+  } else {
+    made = add_deck(job, rows, workshop) + add_curbs(job, rows.front(), workshop);
+    add_cross_members(job, members, workshop);
+  }
   add_bearers(job, bearers, workshop);
   add_legs(job, legs, bearers, workshop);
   if (!legs.empty()) {
-    for (ShopPart& part : brace_parts(job, legs, bearers)) add(workshop, std::move(part), kLegColour);
+    for (ShopPart& part : brace_parts(job, legs, bearers)) add_part(workshop, std::move(part), kLegColour);
   }
   workshop.setting_out = setting_out(job.track, bearers.joints, placement);
   set_out_frame(job, bearers, legs, workshop);
@@ -396,7 +441,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   build.joints.push_back(job.track.length());
   build.ride = ride_deck(job, rows.front(), smooth, body, gravity);
   measure_timber(job, rows, members, bearers, legs, workshop);
-  build.proof = prove_timber(job, made, members, rows, workshop);
+  build.proof = prove_timber(job, made, members, rows, lining ? &*lining : nullptr, workshop);
   return build;
 }
 

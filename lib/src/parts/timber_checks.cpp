@@ -3,10 +3,12 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/timber_frame.hpp"
+#include "parts/timber_trough.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace glissade {
 namespace {
@@ -41,19 +43,21 @@ void check_ground(const std::vector<Vec2>& ground, Problems& problems) {
   }
 }
 
-void check_members(const TimberOptions& options, Problems& problems) {
+void check_members(const TimberOptions& options, bool templates, Problems& problems) {
+  const double width = options.member_width(templates);
   if (options.bearers.count && *options.bearers.count < 2)
     problems.add("bearers.count", std::to_string(*options.bearers.count) + " bearers carry no deck", "",
                  "2 or more");
   problems.positive("bearers.spacing", options.bearers.spacing, "600 mm");
   problems.positive("bearers.width", options.bearer_width(), "18 mm");
   problems.positive("bearers.depth", options.bearer_depth(), "200 mm");
-  problems.positive("cross_members.width", options.cross_members.width, "45 mm");
+  problems.positive("cross_members.width", width, templates ? "30 mm" : "45 mm");
   problems.positive("cross_members.height", options.cross_members.height, "70 mm");
-  if (options.cross_members.spacing < 1.5 * options.cross_members.width) {
+  problems.not_negative("cross_members.cheek", options.cross_members.cheek, "60 mm");
+  if (options.cross_members.spacing < 1.5 * width) {
     problems.add("cross_members.spacing",
                  length_text(options.cross_members.spacing) + " is less than 1.5 widths of a cross member",
-                 "", "at least " + length_text(1.5 * options.cross_members.width));
+                 "", "at least " + length_text(1.5 * width));
   }
   problems.positive("fit", options.fit, "2 mm");
   problems.not_negative("joint_step", options.joint_step, "0 mm");
@@ -75,6 +79,7 @@ void check_stock(const TimberOptions& options, Problems& problems) {
     problems.add("deck.layers", std::to_string(options.deck.layers) + " layers",
                  "They are 1 to " + std::to_string(kMostLayers) + ".", "2");
   }
+  problems.positive("deck.stave_tolerance", options.deck.stave_tolerance, "2 mm");
   if (const auto& boards = options.deck.boards) {
     problems.positive("deck.boards.width", boards->width, "120 mm");
     problems.positive("deck.boards.length", boards->length, "4 m");
@@ -109,20 +114,39 @@ void check_room(const TimberOptions& options, double overall, Problems& problems
                "at most " + rounded_text(std::floor(outer / least) + 1.0, 9) + " of them");
 }
 
+/// Templates reach above the floor, at least past the lowest corner of the section's outside.
+void check_reach(const parts::TimberChannel& channel, const TimberOptions& options, Problems& problems) {
+  if (!options.cross_members.reach) return;
+  const double reach = *options.cross_members.reach;
+  if (reach > 0.0 && channel.trough->seat.size() > 2) return;
+  problems.add("cross_members.reach", length_text(reach) + " is no height above the floor",
+               "Templates hold the walls from both sides.",
+               "above 0 mm, and at most the rim's " + length_text(channel.trough->section.outside.front().y));
+}
+
 }  // namespace
 
 std::vector<Issue> timber_problems(const section::Measures& measures, const TimberOptions& options) {
   Problems problems;
   check_stock(options, problems);
-  check_members(options, problems);
-  const auto channel = parts::timber_channel_of(measures);
+  // Staves are counted by their tolerance, templates cut off at their reach.
+  const bool sound = problems.issues.empty();
+  const auto channel = sound ? parts::timber_channel_of(measures, options) : std::nullopt;
+  check_members(options, channel && channel->trough, problems);
+  if (!sound) return problems.issues;
   if (!channel) {
     problems.issues.push_back(
         {"cross_section.kind",
          "fabrication: this " + std::string(section::kind(measures)) + " cannot be made of timber",
-         "Timber makes a flat floor of one width with upright curbs or walls, or none.",
-         "kind: slab or u-channel with one width"});
+         "Timber makes slabs, u-channels, trapezoids, half-pipes and v-channels of one width.",
+         "one of them, with one width"});
     return problems.issues;
+  }
+  if (channel->trough) {
+    check_reach(*channel, options, problems);
+    if (!problems.issues.empty()) return problems.issues;
+    for (Issue& issue : parts::lining_problems(*channel, options))
+      problems.issues.push_back(std::move(issue));
   }
   check_room(options, channel->overall(), problems);
   if (options.bearer_width() * 2.0 > channel->overall()) {
@@ -131,7 +155,7 @@ std::vector<Issue> timber_problems(const section::Measures& measures, const Timb
                      length_text(channel->overall()),
                  "Two bearers stand side by side at least.", "narrower bearers");
   }
-  if (channel->overall() > options.split.longest) {
+  if (!channel->trough && channel->overall() > options.split.longest) {
     problems.add(
         "split.longest",
         length_text(options.split.longest) + " is less than the width of " + length_text(channel->overall()),

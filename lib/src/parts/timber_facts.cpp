@@ -28,20 +28,25 @@ void measure_members(const TimberJob& job, const std::vector<CrossMember>& membe
     if (i + 1 < members.size())
       facts.at(where, "deck_span_thicknesses", members[i + 1].at - members[i].at, job.channel.thickness);
   }
-  facts.at("cross members", "member_length_share", job.channel.overall(), job.options.split.longest);
+  const Vec2 sheet = job.options.split.sheet;
+  if (job.channel.trough)
+    facts.at("templates", "member_length_share", job.channel.overall(), std::max(sheet.x, sheet.y));
+  else
+    facts.at("cross members", "member_length_share", job.channel.overall(), job.options.split.longest);
 }
 
 void measure_seams(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows,
                    const std::vector<CrossMember>& members, ShopFacts& facts) {
+  const std::size_t above = job.sets_per_layer();
   for (std::size_t layer = 0; layer < rows.size(); ++layer) {
     for (std::size_t i = 1; i < rows[layer].size(); ++i) {
       const double at = rows[layer][i].span.from;
       double nearest = std::numeric_limits<double>::infinity();
       for (const CrossMember& member : members) nearest = std::min(nearest, std::fabs(member.at - at));
-      facts.at(at_text(at), "seam_member_share", nearest, 0.5 * job.options.cross_members.width);
-      if (layer == 0) continue;
-      for (std::size_t k = 1; k < rows[layer - 1].size(); ++k)
-        facts.at(at_text(at), "seam_stagger", std::fabs(rows[layer - 1][k].span.from - at));
+      facts.at(at_text(at), "seam_member_share", nearest, 0.5 * job.member_width());
+      if (layer < above) continue;
+      for (std::size_t k = 1; k < rows[layer - above].size(); ++k)
+        facts.at(at_text(at), "seam_stagger", std::fabs(rows[layer - above][k].span.from - at));
     }
   }
 }

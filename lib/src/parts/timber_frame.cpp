@@ -13,6 +13,7 @@
 #include "parts/plate_unit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -24,6 +25,7 @@ namespace {
 
 constexpr double kLeastRow = 0.25;  // of a sheet: a shorter remnant is shared with the sheet before it
 constexpr double kStagger = 0.3;    // least distance of seams of neighbouring layers [m]
+constexpr double kSame = 1e-9;      // [m]
 constexpr std::size_t kMostPieces = 400;
 constexpr double kLeastLeg = 50e-3;  // the structure lies on the ground below that [m]
 constexpr double kSteepest = 1.2;    // slope angle beyond which no leg stands below a bearer [rad]
@@ -50,24 +52,58 @@ double end_of_sheet(const TimberJob& job, std::size_t layer, double from, double
   return low;
 }
 
-/// Moves the last seam back so that no remnant is short and no seam of the layer above is near.
-/// @param seams  of a layer, both ends among them
-void keep_apart(std::vector<double>& seams, double sheet, const std::vector<DeckRow>& above) {
+/// Seams of the sets before one: those that it keeps away from, and those that may share a cross member with it.
+struct OtherSeams {
+  std::vector<double> beside;  ///< of the set above and of the one beside
+  std::vector<double> apart;   ///< of the others
+  double member = 0.0;         ///< least distance of two cross members
+
+  /// Distances from the seams beside that are tried one after the other, where pieces are too short for the first.
+  [[nodiscard]] std::array<double, 4> staggers() const {
+    return {kStagger, 2.0 / 3.0 * kStagger, 1.0 / 3.0 * kStagger, member};
+  }
+
+  [[nodiscard]] bool allow(double seam, double stagger) const {
+    return std::none_of(beside.begin(), beside.end(),
+                        [&](double other) { return std::fabs(other - seam) < stagger - kSame; }) &&
+           std::none_of(apart.begin(), apart.end(), [&](double other) {
+             return std::fabs(other - seam) > kSame && std::fabs(other - seam) < member - kSame;
+           });
+  }
+
+  /// The last place up to `end` that they allow; `end` where none is in its last three quarters.
+  [[nodiscard]] double last_allowed(double from, double end) const {
+    for (const double stagger : staggers()) {
+      std::vector<double> places = {end};
+      for (const double other : beside) places.push_back(other - stagger);
+      for (const double other : apart) {
+        places.push_back(other);
+        places.push_back(other - member);
+      }
+      double best = 0.0;
+      for (const double place : places) {
+        if (place <= end && place > best && allow(place, stagger)) best = place;
+      }
+      if (best > from + kLeastRow * (end - from)) return best;
+    }
+    return end;
+  }
+};
+
+/// Moves the last seam back so that no remnant is short and none of the other seams is near.
+/// @param seams  of a set, both ends among them
+void keep_apart(std::vector<double>& seams, double sheet, const OtherSeams& others) {
   const std::size_t last = seams.size() - 1;
   if (last < 2) return;
-  const auto is_good = [&](double seam) {
-    if (seams[last] - seam < kLeastRow * sheet) return false;
-    return std::none_of(above.begin(), above.end(), [&](const DeckRow& row) {
-      return row.span.from > 0.0 && std::fabs(row.span.from - seam) < kStagger;
-    });
-  };
   constexpr int kSteps = 40;
   const double room = seams[last - 1] - seams[last - 2] - kLeastRow * sheet;
-  for (int k = 0; k <= kSteps; ++k) {
-    const double seam = seams[last - 1] - room * k / kSteps;
-    if (!is_good(seam)) continue;
-    seams[last - 1] = seam;
-    return;
+  for (const double stagger : others.staggers()) {
+    for (int k = 0; k <= kSteps; ++k) {
+      const double seam = seams[last - 1] - room * k / kSteps;
+      if (seams[last] - seam < kLeastRow * sheet || !others.allow(seam, stagger)) continue;
+      seams[last - 1] = seam;
+      return;
+    }
   }
 }
 
@@ -88,7 +124,7 @@ double height_over(const ArcSpline& track, double s, double along, double height
 
 /// Seams of all layers and both ends, moved so that a member lies within the track; ascending.
 std::vector<double> supported_places(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows) {
-  const double half = 0.5 * job.options.cross_members.width;
+  const double half = 0.5 * job.member_width();
   std::vector<double> places = {half, job.track.length() - half};
   for (const std::vector<DeckRow>& layer : rows) {
     for (std::size_t i = 1; i < layer.size(); ++i) {
@@ -98,11 +134,55 @@ std::vector<double> supported_places(const TimberJob& job, const std::vector<std
   std::sort(places.begin(), places.end());
   std::vector<double> apart;
   for (const double place : places) {
-    if (apart.empty() || place - apart.back() > 1.5 * job.options.cross_members.width) apart.push_back(place);
+    if (apart.empty() || place - apart.back() > 1.5 * job.member_width()) apart.push_back(place);
   }
   // The last one keeps the end.
   apart.back() = job.track.length() - half;
   return apart;
+}
+
+/// Where a cross member or template lies: as high as it can without reaching into what it carries.
+CrossMember member_at(const TimberJob& job, double s) {
+  std::vector<double> heights = {-job.channel.thickness};
+  if (job.channel.trough) {
+    for (const Vec2 corner : job.channel.trough->seat) heights.push_back(corner.y);
+  }
+  CrossMember member{s, 0.0, 0.0};
+  double sinks = 0.0;
+  for (const double middle : heights) {
+    for (const double along : {-0.5, -0.25, 0.25, 0.5}) {
+      const double height = height_over(job.track, s, along * job.member_width(), middle);
+      sinks = std::max(sinks, middle - height);
+      member.sagitta = std::max(member.sagitta, std::fabs(height - middle));
+    }
+  }
+  member.top = -job.channel.thickness - sinks;
+  return member;
+}
+
+/// Templates stand side by side up to their tops in a hollow, down to their feet on a crest.
+void require_room(const TimberJob& job, const std::vector<CrossMember>& members) {
+  if (!job.channel.trough) return;
+  const double width = job.member_width();
+  for (std::size_t i = 0; i + 1 < members.size(); ++i) {
+    const CrossMember& member = members[i];
+    const TrackFrame here = frame_at(job.track, member.at);
+    const TrackFrame next = frame_at(job.track, members[i + 1].at);
+    const double low = member.top - job.options.cross_members.height;
+    for (const double height : {job.channel.trough->seat.front().y, low}) {
+      const double apart = dot(next.at + height * next.up - here.at - height * here.up, here.along);
+      if (apart >= 1.05 * width) continue;
+      throw InputError(
+          {"cross_members.spacing",
+           "templates stand " + length_text(std::max(0.0, apart), 3) + " apart at their " +
+               (height > 0.0 ? "tops " : "feet ") + length_text(member.at, 3) + " along the track",
+           "They are square to the track, " + length_text(width) + " thick, and " +
+               length_text(members[i + 1].at - member.at, 3) +
+               " apart on the floor; one stands below every seam.",
+           height > 0.0 ? "a limit smallest_valley_radius, cross_members.reach below the rim, or thinner ones"
+                        : "cross_members of less height, or thinner ones"});
+    }
+  }
 }
 
 bool piece_fits(const TimberJob& job, const Span& span) {
@@ -205,35 +285,40 @@ int TimberJob::strips() const {
   return std::max(1, static_cast<int>(std::ceil(channel.overall() / sheet - 1e-9)));
 }
 
-std::optional<TimberChannel> timber_channel_of(const section::Measures& measures) {
-  if (const auto* const channel = std::get_if<section::UChannel>(&measures)) {
-    if (!channel->width.is_constant()) return std::nullopt;
-    return TimberChannel{channel->width.narrowest(), channel->thickness, channel->wall_height,
-                         channel->thickness};
+std::vector<double> seams_of_set(const TimberJob& job, const std::vector<std::vector<DeckRow>>& done,
+                                 const std::function<double(double from, double share)>& end_of) {
+  const std::size_t per_layer = job.sets_per_layer();
+  const std::size_t sets = per_layer * static_cast<std::size_t>(job.options.deck.layers);
+  const double length = job.track.length();
+  // Seams of a set are a share of a sheet from those of the one before.
+  double share = 1.0 - static_cast<double>(done.size()) / static_cast<double>(sets);
+  OtherSeams others{{}, {}, 1.5 * job.member_width() + 1e-6};
+  for (std::size_t set = 0; set < done.size(); ++set) {
+    const bool beside = set + 1 == done.size() || set + per_layer == done.size();
+    for (std::size_t i = 1; i < done[set].size(); ++i)
+      (beside ? others.beside : others.apart).push_back(done[set][i].span.from);
   }
-  if (const auto* const slab = std::get_if<section::Slab>(&measures)) {
-    if (!slab->width.is_constant()) return std::nullopt;
-    return TimberChannel{slab->width.narrowest(), slab->thickness, slab->curb_height, slab->curb_width};
+  std::vector<double> seams = {0.0};
+  double longest = 0.0;
+  while (seams.back() < length) {
+    const double end = end_of(seams.back(), share);
+    longest = std::max(longest, end - seams.back());
+    seams.push_back(end < length ? others.last_allowed(seams.back(), end) : end);
+    share = 1.0;
   }
-  return std::nullopt;
+  keep_apart(seams, longest, others);
+  return seams;
 }
 
 std::vector<std::vector<DeckRow>> deck_rows(const TimberJob& job) {
   const double sheet = sheet_length(job);
-  const double length = job.track.length();
   const std::size_t per_layer = job.sets_per_layer();
   const std::size_t sets = per_layer * static_cast<std::size_t>(job.options.deck.layers);
   std::vector<std::vector<DeckRow>> all;
   for (std::size_t set = 0; set < sets; ++set) {
     const std::size_t depth = set / per_layer;
-    // Seams of a set are a share of a sheet from those of the one before.
-    double flat = sheet * (1.0 - static_cast<double>(set) / static_cast<double>(sets));
-    std::vector<double> seams = {0.0};
-    while (seams.back() < length) {
-      seams.push_back(end_of_sheet(job, depth, seams.back(), flat));
-      flat = sheet;
-    }
-    keep_apart(seams, sheet, all.empty() ? std::vector<DeckRow>() : all.back());
+    const std::vector<double> seams = seams_of_set(
+        job, all, [&](double from, double share) { return end_of_sheet(job, depth, from, share * sheet); });
     std::vector<DeckRow> rows;
     for (std::size_t i = 0; i + 1 < seams.size(); ++i) {
       rows.push_back({{seams[i], seams[i + 1]}, flat_length_of(job, depth, seams[i], seams[i + 1])});
@@ -254,27 +339,23 @@ std::vector<CrossMember> cross_members(const TimberJob& job, const std::vector<s
   }
   places.push_back(supported.back());
   std::vector<CrossMember> members;
+  const double width = job.member_width();
   for (const double s : places) {
-    const double middle = -job.channel.thickness;
-    double low = middle;
-    double high = middle;
-    for (const double along : {-0.5, -0.25, 0.25, 0.5}) {
-      const double height = height_over(job.track, s, along * options.width, middle);
-      low = std::min(low, height);
-      high = std::max(high, height);
-    }
-    const CrossMember member{s, low, std::max(high - middle, middle - low)};
+    const CrossMember member = member_at(job, s);
     if (member.sagitta > job.options.fit) {
       throw InputError({"cross_members.width",
-                        "width: cross members of " + length_text(options.width) + " leave gaps of " +
-                            length_text(member.sagitta, 3) + " at " + length_text(s) + " along the track",
+                        "width: " + std::string(job.channel.trough ? "templates" : "cross members") + " of " +
+                            length_text(width) + " leave gaps of " + length_text(member.sagitta, 3) + " at " +
+                            length_text(s) + " along the track",
                         "The track bends there with a radius of " +
                             length_text(std::fabs(1.0 / job.track.at(s).curvature), 3) + "; the fit is " +
                             length_text(job.options.fit) + ".",
-                        "narrower cross members, a larger fit, or a limit on the track's radius"});
+                        std::string(job.channel.trough ? "thinner templates" : "narrower cross members") +
+                            ", a larger fit, or a limit on the track's radius"});
     }
     members.push_back(member);
   }
+  require_room(job, members);
   return members;
 }
 

@@ -4,24 +4,34 @@
 #include "glissade/parts/timber.hpp"
 
 #include "parts/offset_line.hpp"
+#include "parts/plate_section.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
 namespace glissade::parts {
 
+/// A section whose sides stand in templates across the track.
+struct TimberTrough {
+  PlateSection section;    ///< its sides, each flat
+  std::vector<Vec2> seat;  ///< its outside from the left top of the templates round to the right one
+};
+
 /// Inside measures of what is built of timber [m].
 struct TimberChannel {
-  double width = 0.0;        ///< of the floor between the curbs
+  double width = 0.0;        ///< of the floor between the curbs; of a trough, of its templates
   double thickness = 0.0;    ///< of the floor
   double curb_height = 0.0;  ///< 0: none
   double curb_thickness = 0.0;
+  std::optional<TimberTrough> trough;
 
   [[nodiscard]] double overall() const { return width + 2.0 * (curb_height > 0.0 ? curb_thickness : 0.0); }
 };
-/// @return a slab or U-channel of one width; none of others
-[[nodiscard]] std::optional<TimberChannel> timber_channel_of(const section::Measures& measures);
+/// @return a slab, U-channel, trapezoid, half-pipe or V-channel of one width; none of others
+[[nodiscard]] std::optional<TimberChannel> timber_channel_of(const section::Measures& measures,
+                                                             const TimberOptions& options = {});
 
 /// Everything that the parts of one structure are made from.
 struct TimberJob {
@@ -38,8 +48,9 @@ struct TimberJob {
   [[nodiscard]] const StockMaterial& deck_material() const {
     return options.deck.boards ? options.lumber : options.material;
   }
-  /// Sheets of a layer have one set of seams; of boards every other one has seams of its own.
-  [[nodiscard]] std::size_t sets_per_layer() const { return options.deck.boards ? 2 : 1; }
+  /// Sheets of a layer have one set of seams; of boards, and of the strips of a trough, every other one has seams of its own.
+  [[nodiscard]] std::size_t sets_per_layer() const { return options.deck.boards || channel.trough ? 2 : 1; }
+  [[nodiscard]] double member_width() const { return options.member_width(channel.trough.has_value()); }
   /// Height of the upper edge of the bearers.
   [[nodiscard]] double bearer_top() const {
     return -(channel.thickness + options.cross_members.height + options.fit);
@@ -56,7 +67,14 @@ struct DeckRow {
 /// @return rows of each set of seams: of the upper layer first, of its even boards before its odd ones
 [[nodiscard]] std::vector<std::vector<DeckRow>> deck_rows(const TimberJob& job);
 
-/// A cross member that touches the deck.
+/// The seams of one set, apart from those of the set above and of the one beside it.
+/// @param done    sets before it
+/// @param end_of  where a row ends that begins at a place, for a share of the longest
+[[nodiscard]] std::vector<double> seams_of_set(
+    const TimberJob& job, const std::vector<std::vector<DeckRow>>& done,
+    const std::function<double(double from, double share)>& end_of);
+
+/// A cross member that touches the deck, or a template that touches the lining.
 struct CrossMember {
   double at = 0.0;       ///< arc length of its middle [m]
   double top = 0.0;      ///< height of its upper face above the floor line, square to the track there [m]

@@ -36,19 +36,23 @@ struct BoardOptions {
   friend bool operator==(const BoardOptions&, const BoardOptions&) = default;
 };
 
-/// The floor: sheets bent over the cross members, in layers whose seams are apart.
+/// The floor: sheets bent over the cross members, in layers whose seams are apart. Of a trough: its lining of strips.
 struct DeckOptions {
   int layers = 2;                      ///< as thick together as the section's floor
+  double stave_tolerance = 2e-3;       ///< greatest distance of flat strips from a round section [m]; > 0
   std::optional<BoardOptions> boards;  ///< none: sheets
 
   friend bool operator==(const DeckOptions&, const DeckOptions&) = default;
 };
 
-/// Battens on the bearers that carry the deck: one below every seam, others between.
+/// Battens on the bearers that carry the deck: one below every seam, others between. Of a trough: templates across the track,
+/// cut from sheets, whose upper edge is the section.
 struct CrossMemberOptions {
-  double width = 45e-3;   ///< along the track [m]
-  double height = 70e-3;  ///< [m]
-  double spacing = 0.4;   ///< greatest distance of their middles [m]
+  std::optional<double> width;  ///< along the track [m]; none: 45 mm of battens, 30 mm of templates
+  double height = 70e-3;        ///< below the floor [m]
+  double spacing = 0.4;         ///< greatest distance of their middles [m]
+  double cheek = 60e-3;         ///< of templates: beside the section at their top [m]
+  std::optional<double> reach;  ///< of templates: height above the floor line [m]; none: to the rim
 
   friend bool operator==(const CrossMemberOptions&, const CrossMemberOptions&) = default;
 };
@@ -92,6 +96,10 @@ struct TimberOptions {
   double joint_step =
       0.0;  ///< by which the floor may drop at a seam of the upper layer, downstream [m]; >= 0
 
+  /// @param templates  of a trough, else battens
+  [[nodiscard]] double member_width(bool templates) const {
+    return cross_members.width.value_or(templates ? 30e-3 : 45e-3);
+  }
   [[nodiscard]] double bearer_width() const {
     return bearers.width.value_or(frame == TimberFrame::ribs ? 18e-3 : 120e-3);
   }
