@@ -12,7 +12,7 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A row this close to its bound may begin to bind; by so much bounds are moved, in scales.
 constexpr double kTight = 1e-6;  // accuracy: ten times that of a limit
 constexpr double kMoved = 1e-7;  // accuracy: that of a limit
@@ -81,7 +81,7 @@ class MovedPrograms {
     }
     const QuadraticSolution solution = solve(moved, metric_, likely_);
     using Status = QuadraticSolution::Status;
-    if (solution.status == Status::contradictory) return std::copysign(kInfinite, move);
+    if (solution.status == Status::contradictory) return std::copysign(kInfinity, move);
     if (solution.status != Status::solved) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
     for (const std::size_t i : solution.active) {

@@ -24,12 +24,13 @@ struct MasterCurveOptions {
 /// The floor line of a track as lines and arcs, which every edge of every part is an offset of.
 struct MasterCurve {
   std::shared_ptr<const ArcSpline> spline;
-  std::size_t arcs = 0;         ///< pieces of the spline, straight ones among them
-  std::size_t lines = 0;        ///< straight ones
-  std::size_t kept = 0;         ///< lines and arcs of the track itself, kept whole on their lines and circles
-  std::size_t lower_bound = 0;  ///< no chain of fewer arcs, joined in whatever way, keeps both tolerance and kept pieces
-  double tolerance = 0.0;       ///< that was asked for [m]
-  double max_deviation = 0.0;   ///< greatest distance between track and spline, measured both ways [m]
+  std::size_t arcs = 0;   ///< pieces of the spline, straight ones among them
+  std::size_t lines = 0;  ///< straight ones
+  std::size_t kept = 0;   ///< lines and arcs of the track itself, kept whole on their lines and circles
+  std::size_t lower_bound =
+      0;  ///< no chain of fewer arcs, joined in whatever way, keeps both tolerance and kept pieces
+  double tolerance = 0.0;      ///< that was asked for [m]
+  double max_deviation = 0.0;  ///< greatest distance between track and spline, measured both ways [m]
 };
 
 /// Puts lines and arcs in place of a track.

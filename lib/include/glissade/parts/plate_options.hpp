@@ -80,7 +80,8 @@ struct FlangeOptions {
   int bolt = 10;            ///< nominal diameter of a metric bolt [mm]; one of bolt_sizes()
   double pitch = 150e-3;    ///< greatest distance of bolts [m]
   double gap = 0.5e-3;      ///< between channel and frame, for welding [m]
-  bool as_told = false;     ///< kept where the usual measures, these, do not fit the section; else what fits is taken
+  bool as_told =
+      false;  ///< kept where the usual measures, these, do not fit the section; else what fits is taken
 
   friend bool operator==(const FlangeOptions&, const FlangeOptions&) = default;
 };
@@ -193,7 +194,7 @@ struct PlateOptions {
   SplitOptions split;
   FlangeOptions flanges;
   RoundMake round = RoundMake::as_fits;
-  double stave_tolerance = 2e-3;    ///< greatest distance of staves from a round section [m]; > 0
+  double stave_tolerance = 2e-3;  ///< greatest distance of staves from a round section [m]; > 0
   /// Of the plates round a section that has none itself [m]; > 0. None: 4 mm, or the thickest stock that fits.
   std::optional<double> polygon_thickness;
   std::optional<RimOptions> rim;
