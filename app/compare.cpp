@@ -86,41 +86,50 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries) {
   return names;
 }
 
-/// One row a track.
+/// One row a track; of one that does not exist its name and what is wrong.
+/// @param cells  those behind the name
+template <typename Cells>
+Table table_of(std::vector<std::string> headings, const std::vector<Entry>& entries,
+               const std::vector<std::string>& names, const Cells& cells) {
+  Table table(std::move(headings));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    std::vector<std::string> row = {names[i]};
+    if (entries[i].track) {
+      for (std::string& cell : cells(entries[i].design, *entries[i].track)) row.push_back(std::move(cell));
+    } else {
+      row.push_back(entries[i].problem);
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+using Row = std::vector<std::string>;
+
+std::string excess_text(const Track& track) {
+  if (!track.motion.arrived() || !track.optimum_travel_time) return "-";
+  const double percent = 100.0 * (track.motion.travel_time() / *track.optimum_travel_time - 1.0);
+  return rounded_text(std::round(percent * 100.0) / 100.0 + 0.0, 4) + " %";
+}
+
 Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
                   const std::vector<std::string>& names) {
   const bool limited = std::any_of(entries.begin(), entries.end(),
                                    [](const Entry& entry) { return entry.design.limits.has_value(); });
-  std::vector<std::string> headings = {heading,    "travel time",  "above least", "exit speed",
-                                       "steepest", "highest load", "arc length",  "least radius"};
+  Row headings = {heading,    "travel time",  "above least", "exit speed",
+                  "steepest", "highest load", "arc length",  "least radius"};
   if (limited) headings.emplace_back("limits");
-  Table table(std::move(headings));
-  for (std::size_t index = 0; index < entries.size(); ++index) {
-    const Entry& entry = entries[index];
-    if (!entry.track) {
-      table.add({names[index], entry.problem});
-      continue;
-    }
-    const Track& track = *entry.track;
-    const Motion& motion = track.motion;
-    std::string excess = "-";
-    if (motion.arrived() && track.optimum_travel_time) {
-      const double percent = 100.0 * (motion.travel_time() / *track.optimum_travel_time - 1.0);
-      excess = rounded_text(std::round(percent * 100.0) / 100.0 + 0.0, 4) + " %";
-    }
-    std::vector<std::string> row = {
-        names[index],
-        ride_text(motion),
-        excess,
-        exit_text(motion),
-        angle_text(track.steepest_slope_angle, 3),
-        acceleration_text(motion.highest_load().normal_load),
-        length_text(track.centerline->length()),
-        std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)};
+  return table_of(std::move(headings), entries, names, [&](const Design&, const Track& track) {
+    Row row = {ride_text(track.motion),
+               excess_text(track),
+               exit_text(track.motion),
+               angle_text(track.steepest_slope_angle, 3),
+               acceleration_text(track.motion.highest_load().normal_load),
+               length_text(track.centerline->length()),
+               std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)};
     if (limited) row.push_back(limits_verdict(track));
-    table.add(std::move(row));
-  }
-  return table;
+    return row;
+  });
 }
 
 Table kinds_table(const std::vector<Entry>& entries) {
@@ -130,62 +139,58 @@ Table kinds_table(const std::vector<Entry>& entries) {
   return rides_table("Centerline", entries, kinds);
 }
 
-/// gamma and alpha of any in-run: the slopes that it begins and ends with.
-std::string slopes_text(const Centerline& track) {
-  return angle_text(Angle::from_radians(track.slope_angle(0.0)), 4) + ", " +
-         angle_text(Angle::from_radians(track.slope_angle(track.length())), 4);
-}
+/// What a planner chooses hills by.
+struct HillFacts {
+  explicit HillFacts(const Design& design, const Track& track)
+      : lettered(design.centerline.kind == CenterlineKind::in_run),
+        r1(lettered ? design.centerline.in_run.r1 : track.min_radius),
+        gamma(Angle::from_radians(track.centerline->slope_angle(0.0))),
+        alpha(Angle::from_radians(track.centerline->slope_angle(track.centerline->length()))) {
+    const std::vector<Judgement> judgements = judge_rules(design, track);
+    const auto count = [&](RuleVerdict verdict) {
+      return std::count_if(judgements.begin(), judgements.end(),
+                           [&](const Judgement& one) { return one.verdict == verdict; });
+    };
+    fail = count(RuleVerdict::fail);
+    warn = count(RuleVerdict::warn);
+    if (!track.gates) return;
+    const std::vector<GateRide>& rides = track.gates->conditions.front().rides;
+    const auto speed = [](const GateRide& ride) {
+      return ride.arrived ? fixed_text(ride.speed_at_measuring_place, 2) : std::string("-");
+    };
+    gates = std::to_string(rides.size());
+    lowest_gate = speed(rides.front());
+    highest_gate = speed(rides.back());
+  }
 
-/// "22.71 to 26.84 m/s" from the lowest and the highest gate
-std::string gate_speeds_text(const std::optional<GateTable>& gates) {
-  if (!gates) return "-";
-  const std::vector<GateRide>& rides = gates->conditions.front().rides;
-  const auto speed = [](const GateRide& ride) {
-    return ride.arrived ? fixed_text(ride.speed_at_measuring_place, 2) : std::string("-");
-  };
-  return speed(rides.front()) + " to " + speed(rides.back()) + " m/s";
-}
-
-struct VerdictCount {
+  bool lettered;  ///< it has letters of its own
+  double r1;
+  Angle gamma;  ///< of any in-run: the slopes that it begins and ends with
+  Angle alpha;
   std::ptrdiff_t fail = 0;
   std::ptrdiff_t warn = 0;
+  std::string gates = "-";
+  std::string lowest_gate = "-";  ///< speed from there [m/s]
+  std::string highest_gate = "-";
 };
 
-VerdictCount verdict_count(const std::vector<Judgement>& judgements) {
-  const auto count = [&](RuleVerdict verdict) {
-    return std::count_if(judgements.begin(), judgements.end(),
-                         [&](const Judgement& one) { return one.verdict == verdict; });
-  };
-  return {count(RuleVerdict::fail), count(RuleVerdict::warn)};
-}
-
-std::string rules_text(const Design& design, const Track& track) {
-  const VerdictCount count = verdict_count(judge_rules(design, track));
-  return std::to_string(count.fail) + " fail, " + std::to_string(count.warn) + " warn";
-}
-
-/// Hills by what a planner chooses them by.
 Table hills_table(const std::vector<Entry>& entries) {
-  Table table({"Hill", "HS", "gamma, alpha", "r1", "t", "drop", "length", "gates", "speed by gates",
-               "highest load", "rules"});
-  const std::vector<std::string> names = names_of(entries);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Design& design = entries[i].design;
-    if (!entries[i].track) {
-      table.add({names[i], entries[i].problem});
-      continue;
-    }
-    const Track& track = *entries[i].track;
-    const InRunDesign& in_run = design.centerline.in_run;
-    const bool lettered = design.centerline.kind == CenterlineKind::in_run;
-    table.add({names[i], design.hill.size ? length_text(*design.hill.size, 4) : "-",
-               slopes_text(*track.centerline), length_text(lettered ? in_run.r1 : track.min_radius, 4),
-               lettered ? length_text(in_run.t, 4) : "-", length_text(track.endpoints.drop, 4),
-               length_text(track.centerline->length(), 5),
-               track.gates ? std::to_string(track.gates->gates.size()) : "-", gate_speeds_text(track.gates),
-               acceleration_text(track.motion.highest_load().normal_load), rules_text(design, track)});
-  }
-  return table;
+  Row headings = {"Hill",   "HS",    "gamma, alpha",   "r1",           "t",    "drop",
+                  "length", "gates", "speed by gates", "highest load", "rules"};
+  return table_of(std::move(headings), entries, names_of(entries),
+                  [](const Design& design, const Track& track) {
+                    const HillFacts hill(design, track);
+                    return Row{design.hill.size ? length_text(*design.hill.size, 4) : "-",
+                               angle_text(hill.gamma, 4) + ", " + angle_text(hill.alpha, 4),
+                               length_text(hill.r1, 4),
+                               hill.lettered ? length_text(design.centerline.in_run.t, 4) : "-",
+                               length_text(track.endpoints.drop, 4),
+                               length_text(track.centerline->length(), 5),
+                               hill.gates,
+                               track.gates ? hill.lowest_gate + " to " + hill.highest_gate + " m/s" : "-",
+                               acceleration_text(track.motion.highest_load().normal_load),
+                               std::to_string(hill.fail) + " fail, " + std::to_string(hill.warn) + " warn"};
+                  });
 }
 
 Table designs_table(const std::vector<Entry>& entries) {
@@ -195,92 +200,87 @@ Table designs_table(const std::vector<Entry>& entries) {
 
 /// Hills as a page sorts them: bare numbers, units in the headings.
 Table hills_page_table(const std::vector<Entry>& entries) {
-  Table table({"Hill", "HS [m]", "K [m]", "gamma [deg]", "alpha [deg]", "r1 [m]", "t [m]", "e1 [m]",
-               "drop [m]", "length [m]", "gates", "lowest gate [m/s]", "highest gate [m/s]", "edge [m/s]",
-               "load [g]", "rules failed", "warned"});
-  const std::vector<std::string> names = names_of(entries);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Design& design = entries[i].design;
-    if (!entries[i].track) {
-      table.add({names[i], entries[i].problem});
-      continue;
-    }
-    const Track& track = *entries[i].track;
-    const Centerline& centerline = *track.centerline;
-    const InRunDesign& in_run = design.centerline.in_run;
-    const bool lettered = design.centerline.kind == CenterlineKind::in_run;
-    const auto given = [](const std::optional<double>& value) {
-      return value ? rounded_text(*value, 6) : "-";
-    };
-    const auto degrees = [&](double s) {
-      return rounded_text(Angle::from_radians(centerline.slope_angle(s)).degrees(), 5);
-    };
-    const auto speed = [](const GateRide& ride) {
-      return ride.arrived ? fixed_text(ride.speed_at_measuring_place, 2) : std::string("-");
-    };
-    const auto* const rides = track.gates ? &track.gates->conditions.front().rides : nullptr;
-    const VerdictCount count = verdict_count(judge_rules(design, track));
-    table.add({names[i], given(design.hill.size), given(design.hill.construction_point), degrees(0.0),
-               degrees(centerline.length()), rounded_text(lettered ? in_run.r1 : track.min_radius, 5),
-               lettered ? rounded_text(in_run.t, 5) : "-", lettered ? rounded_text(in_run.longest(), 6) : "-",
-               fixed_text(track.endpoints.drop, 2), fixed_text(centerline.length(), 2),
-               rides != nullptr ? std::to_string(rides->size()) : "-",
-               rides != nullptr ? speed(rides->front()) : "-", rides != nullptr ? speed(rides->back()) : "-",
-               track.motion.arrived() ? fixed_text(track.motion.exit_speed(), 2) : "-",
-               fixed_text(track.motion.highest_load().normal_load / kStandardGravity, 3),
-               std::to_string(count.fail), std::to_string(count.warn)});
-  }
-  return table;
+  Row headings = {"Hill",
+                  "HS [m]",
+                  "K [m]",
+                  "gamma [deg]",
+                  "alpha [deg]",
+                  "r1 [m]",
+                  "t [m]",
+                  "e1 [m]",
+                  "drop [m]",
+                  "length [m]",
+                  "gates",
+                  "lowest gate [m/s]",
+                  "highest gate [m/s]",
+                  "edge [m/s]",
+                  "load [g]",
+                  "rules failed",
+                  "warned"};
+  return table_of(std::move(headings), entries, names_of(entries),
+                  [](const Design& design, const Track& track) {
+                    const HillFacts hill(design, track);
+                    const InRunDesign& letters = design.centerline.in_run;
+                    const auto given = [](const std::optional<double>& value) {
+                      return value ? rounded_text(*value, 6) : "-";
+                    };
+                    return Row{given(design.hill.size),
+                               given(design.hill.construction_point),
+                               rounded_text(hill.gamma.degrees(), 5),
+                               rounded_text(hill.alpha.degrees(), 5),
+                               rounded_text(hill.r1, 5),
+                               hill.lettered ? rounded_text(letters.t, 5) : "-",
+                               hill.lettered ? rounded_text(letters.longest(), 6) : "-",
+                               fixed_text(track.endpoints.drop, 2),
+                               fixed_text(track.centerline->length(), 2),
+                               hill.gates,
+                               hill.lowest_gate,
+                               hill.highest_gate,
+                               track.motion.arrived() ? fixed_text(track.motion.exit_speed(), 2) : "-",
+                               fixed_text(track.motion.highest_load().normal_load / kStandardGravity, 3),
+                               std::to_string(hill.fail),
+                               std::to_string(hill.warn)};
+                  });
 }
 
 /// Other designs the same way.
 Table designs_page_table(const std::vector<Entry>& entries) {
   if (are_hills(entries)) return hills_page_table(entries);
-  Table table({"Design", "travel time [s]", "exit speed [m/s]", "steepest [deg]", "highest load [g]",
-               "run [m]", "drop [m]", "arc length [m]", "least radius [m]", "limits broken"});
-  const std::vector<std::string> names = names_of(entries);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (!entries[i].track) {
-      table.add({names[i], entries[i].problem});
-      continue;
-    }
-    const Track& track = *entries[i].track;
+  Row headings = {"Design",  "travel time [s]", "exit speed [m/s]", "steepest [deg]",   "highest load [g]",
+                  "run [m]", "drop [m]",        "arc length [m]",   "least radius [m]", "limits broken"};
+  return table_of(std::move(headings), entries, names_of(entries), [](const Design&, const Track& track) {
     const Motion& motion = track.motion;
     const auto broken = std::count_if(track.limit_checks.begin(), track.limit_checks.end(),
                                       [](const LimitCheck& check) { return !check.kept(); });
-    const auto number = [](bool there, double value) {
-      return there ? rounded_text(value, 5) : std::string("-");
-    };
-    const bool arrived = motion.arrived();
-    table.add({names[i], number(arrived, arrived ? motion.travel_time() : 0.0),
-               number(arrived, arrived ? motion.exit_speed() : 0.0),
+    return Row{motion.arrived() ? rounded_text(motion.travel_time(), 5) : "-",
+               motion.arrived() ? rounded_text(motion.exit_speed(), 5) : "-",
                rounded_text(track.steepest_slope_angle.degrees(), 4),
                rounded_text(motion.highest_load().normal_load / kStandardGravity, 4),
-               rounded_text(track.endpoints.run, 5), rounded_text(track.endpoints.drop, 5),
+               rounded_text(track.endpoints.run, 5),
+               rounded_text(track.endpoints.drop, 5),
                rounded_text(track.centerline->length(), 5),
-               number(std::isfinite(track.min_radius), track.min_radius), std::to_string(broken)});
-  }
-  return table;
+               std::isfinite(track.min_radius) ? rounded_text(track.min_radius, 5) : "-",
+               std::to_string(broken)};
+  });
 }
 
 Table sweep_table(const std::vector<Entry>& entries) {
-  Table table({"Friction angle", "P", "slope at start", "at finish", "arc length", "at constant speed",
-               "from rest", "fastest track", "straight line"});
-  for (const Entry& entry : entries) {
-    const std::string angle = angle_text(entry.design.body.friction.angle());
-    if (!entry.track) {
-      table.add({angle, entry.problem});
-      continue;
-    }
-    const Track& track = *entry.track;
+  std::vector<std::string> angles;
+  angles.reserve(entries.size());
+  for (const Entry& entry : entries) angles.push_back(angle_text(entry.design.body.friction.angle()));
+  Row headings = {"Friction angle",    "P",         "slope at start", "at finish",    "arc length",
+                  "at constant speed", "from rest", "fastest track",  "straight line"};
+  return table_of(std::move(headings), entries, angles, [](const Design&, const Track& track) {
     const auto& curve = dynamic_cast<const ConstantSpeedCurve&>(*track.centerline);
-    table.add({angle, rounded_text(curve.p(), 4) + " m^2/s^2", angle_text(curve.entry_slope_angle()),
-               angle_text(curve.exit_slope_angle()), length_text(curve.length()),
-               time_text(curve.travel_time_at_constant_speed()), ride_text(track.motion),
+    return Row{rounded_text(curve.p(), 4) + " m^2/s^2",
+               angle_text(curve.entry_slope_angle()),
+               angle_text(curve.exit_slope_angle()),
+               length_text(curve.length()),
+               time_text(curve.travel_time_at_constant_speed()),
+               ride_text(track.motion),
                track.optimum_travel_time ? time_text(*track.optimum_travel_time) : "none arrives",
-               track.straight ? ride_text(*track.straight) : "stalls"});
-  }
-  return table;
+               track.straight ? ride_text(*track.straight) : "stalls"};
+  });
 }
 
 /// Every curve as points, for a plotting program.

@@ -40,8 +40,10 @@ std::string places_text(const std::vector<Stretch>& where) {
   std::string text;
   for (std::size_t index = 0; index < std::min(where.size(), kMost); ++index) {
     if (index != 0) text += ", ";
-    text += length_text(where[index].from, kDigits);
-    if (where[index].to > where[index].from) text += " to " + length_text(where[index].to, kDigits);
+    // A stretch too short to be seen in so many digits is a place.
+    const std::string from = length_text(where[index].from, kDigits);
+    const std::string to = length_text(where[index].to, kDigits);
+    text += to == from ? from : from + " to " + to;
   }
   if (where.size() > kMost) text += ", ...";
   return text;

@@ -68,6 +68,9 @@ ExitCode solve_track(const Options& options) {
   } catch (const LimitsConflict& conflict) {
     if (options.json) print(conflict_json(design, conflict.report()));
     throw;
+  } catch (const NoTrackFound& none) {
+    if (options.json) print(conflict_json(design, none.report()));
+    throw;
   }
   return ExitCode::done;
 }

@@ -12,8 +12,8 @@ namespace glissade::app {
 void TimeBudget::add_to(CLI::App& command) {
   command
       .add_option("--time-budget", text_,
-                  "Longest search within limits, e.g. 10s; then the best track so far is taken, marked so, "
-                  "and the exit code is 4 [default: " +
+                  "Longest search within limits, in processor time, e.g. 10s; then the best track so far is "
+                  "taken, marked so, and the exit code is 4 [default: " +
                       rounded_text(OptimizeOptions{}.time_budget, 3) + " s]")
       ->type_name("TIME")
       ->group("Options");

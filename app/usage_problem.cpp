@@ -5,7 +5,10 @@
 #include "glissade/core/words.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -45,7 +48,22 @@ std::string nearest_of(const std::string& word, const std::vector<std::string>& 
   return std::string(nearest_word(word, candidates));
 }
 
+/// Whether a word that begins with a dash is rather the name of a file.
+bool may_be_file(const std::string& argument) {
+  std::error_code ignored;
+  if (std::filesystem::exists(argument, ignored)) return true;
+  if (argument.starts_with("--")) return false;
+  const std::string extension = std::filesystem::path(argument).extension().string();
+  constexpr std::string_view kRead[] = {".yaml", ".yml", ".csv", ".stl", ".off"};
+  return std::find(std::begin(kRead), std::end(kRead), extension) != std::end(kRead);
+}
+
 Issue unknown_option(const CLI::App& program, const std::string& argument) {
+  if (may_be_file(argument)) {
+    return {"", with_visible_characters(argument) + " is taken for an option",
+            "What begins with - is one, unless -- stands before it.",
+            "./" + with_visible_characters(argument) + ", or -- before it"};
+  }
   const std::string word = argument.substr(0, argument.find('='));
   const std::string help = full_name(program) + " --help";
   Issue issue{"", full_name(program) + " has no option " + with_visible_characters(word), "", help};

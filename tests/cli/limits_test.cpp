@@ -106,6 +106,20 @@ TEST_CASE("the price of a limit in the report is what a re-solve with one unit m
   FAIL("slope_angle.highest is not active");
 }
 
+TEST_CASE("a track is called after what was searched for") {
+  const std::string text =
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2}\n"
+      "limits: {slope_angle: {lowest: 15 deg}, smallest_radius: 1 m, objective: ";
+  const Outcome fastest = solve(DesignFile(text + "travel_time}\n"));
+  CHECK_THAT(fastest.output, Contains("fastest within the limits") && !Contains(" 0 rounds"));
+  const Outcome swift = solve(DesignFile(text + "exit_speed}\n"));
+  CHECK_THAT(swift.output, Contains("of the highest exit speed within the limits") &&
+                               Contains("no neighbouring track has a higher exit speed") &&
+                               !Contains("fastest within") && !Contains("is faster"));
+}
+
 TEST_CASE(
     "where two limits bind at one place, relief and tightening have prices of their own, in every output") {
   const DesignFile file(R"(
@@ -290,6 +304,15 @@ TEST_CASE("a search that runs out of time says so, with exit code 4") {
   CHECK(outcome.exit_code == 4);
   CHECK_THAT(outcome.errors, Contains("design.yaml:5:1: ended early, before any track kept every limit") &&
                                  Contains("--time-budget"));
+  // For programs: all keys of a track, as where the limits contradict each other.
+  const Outcome told = solve(file, {"--time-budget", "0.01ms", "--json"});
+  CHECK(told.exit_code == 4);
+  const json none = json::parse(told.output);
+  CHECK(none["status"] == "no track found");
+  CHECK(none["travel_time_s"].is_null());
+  CHECK(none["search"]["status"] == "no track found");
+  const json track = solved(file);
+  for (const auto& [key, value] : track.items()) CHECK(none.contains(key));
   CHECK(solve(file, {"--time-budget", "-1s"}).exit_code == 2);
   const Outcome unit = solve(file, {"--time-budget", "10deg"});
   CHECK(unit.exit_code == 2);

@@ -98,6 +98,9 @@ TEST_CASE("a slip in a command or an option is answered with the one that was me
       {{"--hlep"}, "glissade has no option --hlep\n      Try: glissade --help"},
       {{"solve", "--jsno"},
        "glissade solve has no option --jsno\n      Try: --json, or glissade solve --help"},
+      {{"solve", "-dash.yaml"},
+       "-dash.yaml is taken for an option\n      What begins with - is one, unless -- stands before it.\n"
+       "      Try: ./-dash.yaml, or -- before it"},
       {{"build", "--jsno"}, "glissade build has no option --jsno"},
       {{"solve", "--firction-angle=11deg"}, "has no option --firction-angle\n      Try: --friction-angle"},
       {{"solve", "\u2014json"}, "\u2014json: it begins with a dash (U+2014), not with -"},
@@ -105,6 +108,7 @@ TEST_CASE("a slip in a command or an option is answered with the one that was me
       {{"solve", "a.yaml", "b.yaml"}, "glissade solve does not know what to do with b.yaml"},
       {{"swim"}, "Try: glissade --help"},
   };
+  CHECK(glissade_run({"solve", "--", "-dash.yaml"}).exit_code == 5);
   for (const Slip& slip : cases) {
     const Outcome outcome = glissade_run(slip.arguments);
     INFO(outcome.errors);

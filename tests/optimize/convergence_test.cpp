@@ -7,9 +7,11 @@
 #include "optimize/hand_optima.hpp"
 #include "support/catch.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <thread>
 #include <vector>
 
 using namespace glissade;
@@ -87,4 +89,30 @@ TEST_CASE("the excess within limits that switch on or off falls below 1e-7") {
       CHECK(found <= (count < 24 ? 1e-4 : 1e-7));
     }
   }
+}
+
+TEST_CASE("a time budget counts what the search takes itself: a busy machine ends none early") {
+  Problem problem;
+  problem.endpoints = {10.0, 6.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.slope_angle.highest = 0.8;
+  const Optimum alone = optimize(problem);
+  REQUIRE(alone.report.status == OptimizeStatus::optimal);
+  // Somebody else has the processor for as long as the budget, and longer.
+  OptimizeOptions options;
+  options.time_budget = 0.5;
+  bool waited = false;
+  const Optimum kept_waiting = optimize(problem, options, {}, [&](std::string_view, std::optional<double>) {
+    if (!waited) std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    waited = true;
+  });
+  CHECK(waited);
+  CHECK(kept_waiting.report.seconds > 0.5);
+  CHECK(kept_waiting.report.status == OptimizeStatus::optimal);
+  CHECK_FALSE(kept_waiting.report.ended_early);
+  CHECK(kept_waiting.report.travel_time == alone.report.travel_time);
+
+  // What it takes itself does count.
+  options.time_budget = 1e-4;
+  CHECK(optimize(problem, options).report.ended_early);
 }

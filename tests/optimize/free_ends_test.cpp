@@ -5,6 +5,7 @@
 #include "glissade/optimize/optimize.hpp"
 
 #include "optimize/bound_bracket.hpp"
+#include "optimize/solved.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/thorough.hpp"
@@ -18,6 +19,8 @@
 
 using namespace glissade;
 using namespace glissade::optimizer;
+using testing_problems::drop_of;
+using testing_problems::solved;
 
 namespace {
 
@@ -46,22 +49,6 @@ Problem in_run(ObjectiveKind objective) {
   limits.lead_out = 6.9;
   limits.concave = true;
   return problem;
-}
-
-Optimum solved(const Problem& problem) {
-  Optimum optimum = optimize(problem);
-  INFO(optimum.report.brief());
-  CHECK(optimum.report.status == OptimizeStatus::optimal);
-  REQUIRE(optimum.centerline);
-  for (const LimitCheck& check : optimum.report.checks) {
-    INFO(check.limit.key() << " reached " << check.reached << " of " << check.value);
-    CHECK(check.kept());
-  }
-  return optimum;
-}
-
-double drop_of(const Optimum& optimum) {
-  return optimum.centerline->endpoints().drop;
 }
 
 double rate_of(const Centerline& track) {

@@ -3,12 +3,14 @@
 #include "glissade/core/error.hpp"
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/solved.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
 #include <numbers>
 
 using namespace glissade;
+using testing_problems::solved;
 
 namespace {
 
@@ -19,17 +21,6 @@ Problem slide(double run, double drop, double mu) {
   problem.endpoints = {run, drop};
   problem.body.friction = Friction::from_coefficient(mu);
   return problem;
-}
-
-Optimum solved(const Problem& problem) {
-  Optimum optimum = optimize(problem);
-  INFO(optimum.report.brief());
-  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
-  for (const LimitCheck& check : optimum.report.checks) {
-    CAPTURE(check.limit.key(), check.value, check.reached, check.where);
-    CHECK(check.violation <= 1e-6 * check.scale);
-  }
-  return optimum;
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "glissade/optimize/optimize.hpp"
 #include "glissade/trades/chute/wear.hpp"
 
+#include "optimize/ore.hpp"
+#include "optimize/solved.hpp"
 #include "support/catch.hpp"
 #include "support/thorough.hpp"
 
@@ -18,23 +20,16 @@
 #include <vector>
 
 using namespace glissade;
+using testing_problems::solved;
 
 namespace {
 
-/// 650 t/h of crushed ore in a chute of 800 mm.
-Problem ore(double run, double drop, double entry_speed) {
-  StreamShape shape;
-  shape.mass_flow = 650.0 / 3.6;
-  shape.bulk_density = 1600.0;
-  shape.width = 0.8;
-  shape.wall_height = 0.5;
-  Problem problem;
-  problem.endpoints = {run, drop};
+/// Ore over a range of its friction, worn the least where it wears most.
+Problem wearing(double run, double drop, double entry_speed) {
+  Problem problem = testing_problems::ore(run, drop, entry_speed);
   problem.body.friction = Friction::from_angle(Angle::from_degrees(27.0));
   problem.low_friction = Friction::from_angle(Angle::from_degrees(24.0));
   problem.high_friction = Friction::from_angle(Angle::from_degrees(31.0));
-  problem.body.entry_speed = entry_speed;
-  problem.body.law = std::make_shared<const BulkStream>(shape);
   problem.objective.kind = ObjectiveKind::least_peak_wear;
   return problem;
 }
@@ -55,17 +50,9 @@ std::optional<double> peak_of(const Problem& problem, const CenterlinePtr& track
   return wear_of(rides).floor.value;
 }
 
-Optimum best(const Problem& problem) {
-  Optimum optimum = optimize(problem);
-  INFO(optimum.report.brief());
-  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
-  REQUIRE(optimum.centerline);
-  return optimum;
-}
-
 /// At one friction, which is quicker, where the range is not what a test is about.
 Problem with_bends(double run, double drop, double entry_speed) {
-  Problem problem = ore(run, drop, entry_speed);
+  Problem problem = wearing(run, drop, entry_speed);
   problem.low_friction.reset();
   problem.high_friction.reset();
   problem.limits.entry_slope_angle = {1.05, 1.2};  // the feed comes down steeply
@@ -78,9 +65,9 @@ Problem with_bends(double run, double drop, double entry_speed) {
 
 TEST_CASE("peak wear: without crests no chute wears less at its peak than the straight one, in closed form") {
   for (const auto& [run, drop, speed] : {std::tuple{4.3, 5.9, 2.5}, {4.3, 3.4, 1.5}}) {
-    Problem problem = ore(run, drop, speed);
+    Problem problem = wearing(run, drop, speed);
     problem.limits.concave = true;
-    const Optimum found = best(problem);
+    const Optimum found = solved(problem);
     // Q K_c mu g cos(alpha)/B at the highest friction: somewhere a track is no steeper than its chord.
     const auto& stream = dynamic_cast<const BulkStream&>(*problem.body.law);
     const double straight = stream.shape().mass_flow * stream.shape().slip_ratio *
@@ -95,7 +82,7 @@ TEST_CASE("peak wear: without crests no chute wears less at its peak than the st
 
 TEST_CASE("peak wear: the bound that the search keeps below is the least for which there is a track") {
   const Problem problem = with_bends(4.3, 5.9, 2.5);
-  const Optimum found = best(problem);
+  const Optimum found = solved(problem);
   const double peak = *peak_of(problem, found.centerline);
   Problem bounded = problem;
   bounded.objective.kind = ObjectiveKind::travel_time;
@@ -109,30 +96,30 @@ TEST_CASE("peak wear: the bound that the search keeps below is the least for whi
   }
   // The fastest track within the same limits wears more where it wears most, and is never slower.
   bounded.limits.highest_floor_wear.reset();
-  const Optimum fastest = best(bounded);
+  const Optimum fastest = solved(bounded);
   CHECK(*peak_of(problem, fastest.centerline) > 1.01 * peak);
   CHECK(fastest.report.travel_time <= found.report.travel_time * (1.0 + 1e-9));
 }
 
 TEST_CASE("peak wear: relaxed it is never more, and mirrored the same") {
   Problem problem = with_bends(4.3, 5.9, 2.5);
-  const double peak = *peak_of(problem, best(problem).centerline);
+  const double peak = *peak_of(problem, solved(problem).centerline);
   if (testing::thorough()) {
     Problem mirrored = problem;
     mirrored.endpoints.run = -problem.endpoints.run;
-    CHECK(*peak_of(mirrored, best(mirrored).centerline) == Approx(peak).epsilon(1e-4));
+    CHECK(*peak_of(mirrored, solved(mirrored).centerline) == Approx(peak).epsilon(1e-4));
     Problem over_range = problem;
     over_range.high_friction = Friction::from_angle(Angle::from_degrees(31.0));
-    CHECK(*peak_of(over_range, best(over_range).centerline) >= peak * (1.0 - 1e-4));
+    CHECK(*peak_of(over_range, solved(over_range).centerline) >= peak * (1.0 - 1e-4));
   }
   problem.limits.exit_slope_angle = Range{0.6, 0.64};
   problem.limits.entry_slope_angle.lowest = 1.0;
-  CHECK(*peak_of(problem, best(problem).centerline) <= peak * (1.0 + 1e-4));
+  CHECK(*peak_of(problem, solved(problem).centerline) <= peak * (1.0 + 1e-4));
 }
 
 TEST_CASE("peak wear: prices are what a little less of a limit wins") {
   Problem problem = with_bends(4.3, 5.9, 2.5);
-  const Optimum found = best(problem);
+  const Optimum found = solved(problem);
   const double peak = *peak_of(problem, found.centerline);
   REQUIRE(!found.report.active.empty());
   bool seen = false;
@@ -141,9 +128,9 @@ TEST_CASE("peak wear: prices are what a little less of a limit wins") {
     seen = true;
     constexpr double kStep = 2e-3;
     problem.limits.exit_slope_angle = Range::fixed(0.62 + kStep);
-    const double steeper = *peak_of(problem, best(problem).centerline);
+    const double steeper = *peak_of(problem, solved(problem).centerline);
     problem.limits.exit_slope_angle = Range::fixed(0.62 - kStep);
-    const double flatter = *peak_of(problem, best(problem).centerline);
+    const double flatter = *peak_of(problem, solved(problem).centerline);
     CHECK(std::fabs(steeper - flatter) / (2.0 * kStep) == Approx(active.price).epsilon(0.03));
     CHECK(std::min(steeper, flatter) < peak);
   }
@@ -152,7 +139,7 @@ TEST_CASE("peak wear: prices are what a little less of a limit wins") {
 
 TEST_CASE("peak wear: no neighbour that keeps the limits wears less at its peak") {
   const Problem problem = with_bends(4.3, 5.9, 2.5);
-  const Optimum found = best(problem);
+  const Optimum found = solved(problem);
   const double peak = *peak_of(problem, found.centerline);
   const double entry = found.centerline->slope_angle(0.0);
   std::mt19937 random(7);

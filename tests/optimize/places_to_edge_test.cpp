@@ -4,6 +4,7 @@
 #include "glissade/optimize/optimize.hpp"
 
 #include "optimize/places.hpp"
+#include "optimize/solved.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -11,6 +12,8 @@
 #include <string>
 
 using namespace glissade;
+using testing_problems::drop_of;
+using testing_problems::solved;
 
 namespace {
 
@@ -32,22 +35,6 @@ Problem lowest_in_run() {
   limits.highest_curvature_rate = 6e-4;
   limits.lead_out = 6.9;
   return problem;
-}
-
-Optimum solved(const Problem& problem) {
-  Optimum optimum = optimize(problem);
-  INFO(optimum.report.brief());
-  CHECK(optimum.report.status == OptimizeStatus::optimal);
-  REQUIRE(optimum.centerline);
-  for (const LimitCheck& check : optimum.report.checks) {
-    INFO(check.limit.key() << " reached " << check.reached << " of " << check.value);
-    CHECK(check.kept());
-  }
-  return optimum;
-}
-
-double drop_of(const Optimum& optimum) {
-  return optimum.centerline->endpoints().drop;
 }
 
 /// A place above a track, counted from its edge.

@@ -4,6 +4,8 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/ore.hpp"
+#include "optimize/solved.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -11,33 +13,13 @@
 #include <optional>
 
 using namespace glissade;
+using testing_problems::ore;
+using testing_problems::solved;
 
 namespace {
 
-/// 650 t/h of crushed ore in a chute of 800 mm.
-Problem ore(double run, double drop, double entry_speed) {
-  StreamShape shape;
-  shape.mass_flow = 650.0 / 3.6;
-  shape.bulk_density = 1600.0;
-  shape.width = 0.8;
-  shape.wall_height = 0.5;
-  Problem problem;
-  problem.endpoints = {run, drop};
-  problem.body.friction = Friction::from_coefficient(0.5);
-  problem.body.entry_speed = entry_speed;
-  problem.body.law = std::make_shared<const BulkStream>(shape);
-  return problem;
-}
-
 const BulkStream& stream_of(const Problem& problem) {
   return dynamic_cast<const BulkStream&>(*problem.body.law);
-}
-
-Optimum best(const Problem& problem) {
-  Optimum optimum = optimize(problem);
-  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
-  REQUIRE(optimum.centerline);
-  return optimum;
 }
 
 const LimitCheck& check_of(const Optimum& optimum, LimitId id) {
@@ -53,13 +35,13 @@ const LimitCheck& check_of(const Optimum& optimum, LimitId id) {
 TEST_CASE("streams: a highest burden depth is the lowest speed that it stands for") {
   Problem by_depth = ore(4.3, 3.2, 2.0);
   by_depth.limits.exit_slope_angle = Range::fixed(0.1);
-  const double free_time = best(by_depth).report.travel_time;
+  const double free_time = solved(by_depth).report.travel_time;
   // Deepest at the finish of the unlimited track, where the flat end slows it down.
   Problem by_speed = by_depth;
   by_depth.limits.highest_burden_depth = 0.0722;
   by_speed.limits.speed.lowest = stream_of(by_depth).depth(0.0, 1.0) / 0.0722;
-  const Optimum a = best(by_depth);
-  const Optimum b = best(by_speed);
+  const Optimum a = solved(by_depth);
+  const Optimum b = solved(by_speed);
   CHECK(a.report.travel_time == Approx(b.report.travel_time).epsilon(1e-9));
   CHECK(a.report.travel_time >= free_time * (1.0 - 1e-9));
   const LimitCheck& check = check_of(a, LimitId::highest_burden_depth);
@@ -70,15 +52,15 @@ TEST_CASE("streams: a highest burden depth is the lowest speed that it stands fo
 TEST_CASE("streams: the wear of the floor is a load at one friction, and each friction's own over a range") {
   Problem by_wear = ore(4.3, 5.9, 2.5);
   const double per_load = stream_of(by_wear).floor_wear(0.0, by_wear.body.friction, 1.0);
-  const double free_time = best(by_wear).report.travel_time;
+  const double free_time = solved(by_wear).report.travel_time;
   double before = std::numeric_limits<double>::infinity();
   for (const double load : {8.0, 10.0, 12.0}) {
     Problem by_load = by_wear;
     by_load.limits.highest_floor_wear.reset();
     by_load.limits.highest_normal_load = load;
     by_wear.limits.highest_floor_wear = per_load * load;
-    const Optimum a = best(by_wear);
-    const Optimum b = best(by_load);
+    const Optimum a = solved(by_wear);
+    const Optimum b = solved(by_load);
     CHECK(a.report.travel_time == Approx(b.report.travel_time).epsilon(1e-5));
     CHECK(check_of(a, LimitId::highest_floor_wear).reached <= per_load * load * (1.0 + 1e-6));
     // Relaxed it is never slower, and never faster than without.
@@ -90,7 +72,7 @@ TEST_CASE("streams: the wear of the floor is a load at one friction, and each fr
   }
   by_wear.low_friction = Friction::from_coefficient(0.4);
   by_wear.high_friction = Friction::from_coefficient(0.6);
-  const Optimum over_range = best(by_wear);
+  const Optimum over_range = solved(by_wear);
   for (const double mu : {0.4, 0.5, 0.6}) {
     Body body = by_wear.body;
     body.friction = Friction::from_coefficient(mu);
@@ -106,15 +88,15 @@ TEST_CASE("streams: a slope margin is a lowest slope angle above the highest fri
   Problem by_slope = by_margin;
   by_margin.limits.lowest_slope_margin = 0.08;
   by_slope.limits.slope_angle.lowest = std::atan(0.6) + 0.08;
-  const Optimum a = best(by_margin);
-  CHECK(a.report.travel_time == Approx(best(by_slope).report.travel_time).epsilon(1e-9));
+  const Optimum a = solved(by_margin);
+  CHECK(a.report.travel_time == Approx(solved(by_slope).report.travel_time).epsilon(1e-9));
   CHECK(check_of(a, LimitId::lowest_slope_margin).reached >= 0.08 - 1e-6);
 }
 
 TEST_CASE("streams: the most even speed is the constant-speed curve where there is one") {
   Problem problem = ore(4.3, 3.0, 4.0);
   problem.objective.kind = ObjectiveKind::even_speed;
-  const Optimum even = best(problem);
+  const Optimum even = solved(problem);
   const Motion motion(even.centerline, problem.body);
   REQUIRE(motion.arrived());
   for (int i = 0; i <= 20; ++i) {
@@ -130,11 +112,11 @@ TEST_CASE("streams: the least wear is what arrives with the most, and rubs less 
   Problem problem = ore(4.3, 5.9, 2.5);
   problem.limits.slope_angle.lowest = 0.6;
   problem.limits.concave = true;
-  const Motion fastest(best(problem).centerline, problem.body);
+  const Motion fastest(solved(problem).centerline, problem.body);
   problem.objective.kind = ObjectiveKind::least_wear;
-  const Motion gentle(best(problem).centerline, problem.body);
+  const Motion gentle(solved(problem).centerline, problem.body);
   problem.objective.kind = ObjectiveKind::exit_speed;
-  const Motion swift(best(problem).centerline, problem.body);
+  const Motion swift(solved(problem).centerline, problem.body);
   const auto rubbed = [](const Motion& motion) { return motion.at(motion.distance()).friction_loss; };
   CHECK(rubbed(gentle) <= rubbed(fastest));
   CHECK(rubbed(gentle) == Approx(rubbed(swift)).epsilon(1e-9));

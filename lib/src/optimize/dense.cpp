@@ -56,31 +56,46 @@ namespace {
 
 constexpr std::size_t kAtOnce = 4;  // budget: of the sixteen wide registers
 
-GLISSADE_WIDE_VARIANT void four_dots(const double* const* rows, const double* b, std::size_t n, double* out) {
-  const double* const r0 = rows[0];
-  const double* const r1 = rows[1];
-  const double* const r2 = rows[2];
-  const double* const r3 = rows[3];
+/// As many rows as are worked on at once.
+struct FourRows {
+  explicit FourRows(const double* const* rows) : r0(rows[0]), r1(rows[1]), r2(rows[2]), r3(rows[3]) {}
+  const double* r0;
+  const double* r1;
+  const double* r2;
+  const double* r3;
+};
+
+/// Four numbers of each of them.
+struct Tile {
+  Tile(const FourRows& rows, std::size_t i) {
+    load(a0, rows.r0 + i);
+    load(a1, rows.r1 + i);
+    load(a2, rows.r2 + i);
+    load(a3, rows.r3 + i);
+  }
+  Four a0, a1, a2, a3;
+};
+
+GLISSADE_WIDE_VARIANT void four_dots(const double* const* given, const double* b, std::size_t n,
+                                     double* out) {
+  const FourRows rows(given);
   Four s0 = {}, s1 = {}, s2 = {}, s3 = {};
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4) {
-    Four right, a0, a1, a2, a3;
+    const Tile tile(rows, i);
+    Four right;
     load(right, b + i);
-    load(a0, r0 + i);
-    load(a1, r1 + i);
-    load(a2, r2 + i);
-    load(a3, r3 + i);
-    s0 += a0 * right;
-    s1 += a1 * right;
-    s2 += a2 * right;
-    s3 += a3 * right;
+    s0 += tile.a0 * right;
+    s1 += tile.a1 * right;
+    s2 += tile.a2 * right;
+    s3 += tile.a3 * right;
   }
   double f0 = s0[0], f1 = s1[0], f2 = s2[0], f3 = s3[0];
   for (int left = 0; left < 3 && i < n; ++left, ++i) {
-    f0 += r0[i] * b[i];
-    f1 += r1[i] * b[i];
-    f2 += r2[i] * b[i];
-    f3 += r3[i] * b[i];
+    f0 += rows.r0[i] * b[i];
+    f1 += rows.r1[i] * b[i];
+    f2 += rows.r2[i] * b[i];
+    f3 += rows.r3[i] * b[i];
   }
   out[0] = (f0 + s0[1]) + (s0[2] + s0[3]);
   out[1] = (f1 + s1[1]) + (s1[2] + s1[3]);
@@ -88,29 +103,23 @@ GLISSADE_WIDE_VARIANT void four_dots(const double* const* rows, const double* b,
   out[3] = (f3 + s3[1]) + (s3[2] + s3[3]);
 }
 
-GLISSADE_WIDE_VARIANT void add_four_scaled(double* y, const double* k, const double* const* rows,
+GLISSADE_WIDE_VARIANT void add_four_scaled(double* y, const double* k, const double* const* given,
                                            std::size_t n) {
-  const double* const r0 = rows[0];
-  const double* const r1 = rows[1];
-  const double* const r2 = rows[2];
-  const double* const r3 = rows[3];
+  const FourRows rows(given);
   const double k0 = k[0], k1 = k[1], k2 = k[2], k3 = k[3];
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4) {
-    Four sum, a0, a1, a2, a3;
+    const Tile tile(rows, i);
+    Four sum;
     load(sum, y + i);
-    load(a0, r0 + i);
-    load(a1, r1 + i);
-    load(a2, r2 + i);
-    load(a3, r3 + i);
-    sum += k0 * a0;
-    sum += k1 * a1;
-    sum += k2 * a2;
-    sum += k3 * a3;
+    sum += k0 * tile.a0;
+    sum += k1 * tile.a1;
+    sum += k2 * tile.a2;
+    sum += k3 * tile.a3;
     std::memcpy(y + i, &sum, sizeof sum);
   }
   for (int left = 0; left < 3 && i < n; ++left, ++i)
-    y[i] = (((y[i] + k0 * r0[i]) + k1 * r1[i]) + k2 * r2[i]) + k3 * r3[i];
+    y[i] = (((y[i] + k0 * rows.r0[i]) + k1 * rows.r1[i]) + k2 * rows.r2[i]) + k3 * rows.r3[i];
 }
 
 }  // namespace

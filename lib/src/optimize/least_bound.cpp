@@ -6,9 +6,10 @@
 #include "glissade/referee/referee.hpp"
 
 #include "optimize/bound_bracket.hpp"
+#include "optimize/most_reached.hpp"
+#include "optimize/patience.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -16,8 +17,6 @@
 
 namespace glissade::optimizer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kMostSearches = 48;        // budget
 constexpr double kSpeedAccuracy = 1e-9;  // of the speed wanted; accuracy
@@ -32,7 +31,7 @@ class LeastBound {
         options_(options),
         stop_(stop),
         progress_(progress),
-        begin_(Clock::now()),
+        outlay_(options, stop),
         tried_(problem),
         wanted_(*problem.limits.exit_speed.lowest) {
     const bool load = problem.objective.kind == ObjectiveKind::least_load;
@@ -48,35 +47,27 @@ class LeastBound {
     if (!loose.centerline || slow) {
       // A search that asks for the speed says why it is out of reach, or finds that it is not.
       Optimum other = asking_for_speed(asked_.limits.*member_);
-      if (!other.centerline) return told(slow ? std::move(other) : std::move(loose));
+      if (!other.centerline)
+        return outlay_.told(slow ? std::move(other) : std::move(loose), asked_.objective);
       loose = std::move(other);
     }
     take(std::move(loose));
     bracket_.loose = reached_by(best_.centerline);
     bracket_.learn(least_at_finish(), Verdict::kept_by_none);
     close(std::min(0.95 * bracket_.loose, of_a_short_bend(best_.centerline)));
-    for (int round = 0; round < kMostNeighbours && settled_ && !out_of_time(); ++round) {
+    for (int round = 0; round < kMostNeighbours && settled_ && !outlay_.ends(); ++round) {
       if (!does_below()) break;
     }
     return priced();
   }
 
  private:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
-  [[nodiscard]] bool out_of_time() const {
-    return stop_.stop_requested() || seconds() >= options_.time_budget;
-  }
-
   Optimum searched(const Problem& problem) {
     OptimizeOptions options = options_;
-    constexpr double kLeast = 1e-3;  // [s]; taste
-    options.time_budget = std::max(options.time_budget - seconds(), kLeast);
+    options.time_budget = outlay_.left();
     Optimum optimum = optimize(problem, options, stop_, progress_);
     ++searches_;
-    iterations_ += optimum.report.iterations;
-    evaluations_ += optimum.report.evaluations;
+    outlay_.add(optimum.report);
     return optimum;
   }
   Optimum within(const std::optional<double>& bound) {
@@ -117,7 +108,7 @@ class LeastBound {
       }
       return Verdict::kept_by_none;
     }
-    if (out_of_time()) return Verdict::untold;
+    if (outlay_.ends()) return Verdict::untold;
     Optimum other = asking_for_speed(bound);
     if (!other.centerline)
       return other.report.status == OptimizeStatus::infeasible ? Verdict::too_slow : Verdict::untold;
@@ -130,7 +121,7 @@ class LeastBound {
   void close(double bound) {
     settled_ = false;
     int untold = 0;
-    while (searches_ < kMostSearches && untold < kMostUntold && !out_of_time()) {
+    while (searches_ < kMostSearches && untold < kMostUntold && !outlay_.ends()) {
       if (bracket_.is_closed()) {
         settled_ = bracket_.untold.empty();
         return;
@@ -182,15 +173,8 @@ class LeastBound {
 
   /// The most of what is bounded, as the referee finds it.
   [[nodiscard]] double reached_by(const CenterlinePtr& track) const {
-    Problem problem = tried_;
-    constexpr double kTight = 1e-9;  // accuracy: a hundredth of that of a limit
-    problem.limits = {};
-    problem.limits.*member_ = kTight;
-    for (const LimitCheck& check : check_limits(problem, track)) {
-      if (check.limit == name_ && std::isfinite(check.reached)) return check.reached;
-    }
     // A jump of the curvature: any bound is tighter.
-    return of_a_short_bend(track);
+    return most_reached(tried_, member_, name_, track).value_or(of_a_short_bend(track));
   }
   /// A rate of curvature that is as good as a jump: it turns the track within a hundredth of its length. The bend that
   /// the mesh puts in a jump's place may be sharper by orders of magnitude. A load knows no such bound.
@@ -217,19 +201,9 @@ class LeastBound {
     return 0.0;
   }
 
-  Optimum told(Optimum optimum) const {
-    OptimizeReport& report = optimum.report;
-    report.objective = asked_.objective;
-    report.iterations = iterations_;
-    report.evaluations = evaluations_;
-    report.seconds = seconds();
-    report.ended_early = report.ended_early || (optimum.centerline && out_of_time());
-    return optimum;
-  }
-
   /// In units of the bound, which the speed wanted has a price in, too.
   Optimum priced() {
-    if (!best_by_speed_ && !out_of_time()) {
+    if (!best_by_speed_ && !outlay_.ends()) {
       Optimum again = within(bracket_.loose);
       if (again.centerline && again.report.exit_speed >= wanted_ * (1.0 - kSpeedAccuracy))
         take(std::move(again));
@@ -258,7 +232,7 @@ class LeastBound {
                            ? "every limit holds, and no track keeps a tighter bound"
                            : "every limit holds, and a tighter bound keeps the exit speed from being reached";
     }
-    return told(std::move(best_));
+    return outlay_.told(std::move(best_), asked_.objective);
   }
 
   /// What is left open: "of bounds between 14.2 m/s^2, which is too tight, and 14.9 m/s^2 searches did not tell"
@@ -275,7 +249,7 @@ class LeastBound {
   const OptimizeOptions& options_;
   const std::stop_token& stop_;
   const Progress& progress_;
-  Clock::time_point begin_;
+  Outlay outlay_;
   Problem tried_;
   double wanted_;
   std::optional<double> Limits::*member_ = nullptr;
@@ -290,8 +264,6 @@ class LeastBound {
   double price_ = 0.0;          ///< of that bound, in speed
   double would_do_ = 0.0;       ///< a looser one that was found instead; 0 where none was
   int searches_ = 0;
-  int iterations_ = 0;
-  int evaluations_ = 0;
 };
 
 }  // namespace

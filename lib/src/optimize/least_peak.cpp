@@ -1,16 +1,15 @@
 #include "optimize/least_peak.hpp"
 
-#include "glissade/referee/referee.hpp"
-
 #include "optimize/least_violation.hpp"
+#include "optimize/most_reached.hpp"
 #include "optimize/passages.hpp"
+#include "optimize/patience.hpp"
 #include "optimize/prices.hpp"
 #include "optimize/refined_knots.hpp"
 #include "optimize/searcher.hpp"
 #include "optimize/starts.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -19,8 +18,6 @@
 
 namespace glissade::optimizer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kPieces = 24;       // taste
 constexpr std::size_t kFinerPieces = 32;  // taste
@@ -68,18 +65,17 @@ class LeastPeak {
         options_(options),
         stop_(stop),
         progress_(progress),
-        begin_(Clock::now()),
+        outlay_(options, stop),
         tried_(problem),
         ways_(all_passages(problem.limits)) {
     tried_.objective.kind = ObjectiveKind::travel_time;
     control_.limit_tolerance = 0.1 * options.limit_tolerance;
-    control_.stop = [this] { return out_of_time(); };
+    control_.stop = [this] { return outlay_.ends(); };
   }
 
   [[nodiscard]] Optimum found() {
     Optimum fastest = optimize(tried_, options_, stop_, progress_);
-    iterations_ = fastest.report.iterations;
-    evaluations_ = fastest.report.evaluations;
+    outlay_.add(fastest.report);
     if (!fastest.centerline) return told(std::move(fastest));
     hardly_any_ = kAllButNone * peak_of(fastest.centerline);
     std::optional<End> least = from_starts(0.5 * peak_of(fastest.centerline));
@@ -90,7 +86,7 @@ class LeastPeak {
       best = std::move(built);
       const Found& found = *best->candidate.found;
       least = descended(best->end.way, found.track->mesh(), found.z, best->end.bound);
-      if (!least || out_of_time()) break;
+      if (!least || outlay_.ends()) break;
       // Where the search on the finer mesh, begun at what stands, finds hardly less, that is the least.
       best->settled = best->peak <= least->peak * (1.0 + kSame);
       if (best->settled) break;
@@ -108,22 +104,8 @@ class LeastPeak {
     bool settled = false;  ///< a search from it on its own, finer mesh finds hardly less
   };
 
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
-  [[nodiscard]] bool out_of_time() const {
-    return stop_.stop_requested() || seconds() >= options_.time_budget;
-  }
-
   [[nodiscard]] double peak_of(const CenterlinePtr& track) const {
-    Problem problem = tried_;
-    constexpr double kTight = 1e-9;  // accuracy: a hundredth of that of a limit
-    problem.limits = {};
-    problem.limits.highest_floor_wear = kTight;
-    for (const LimitCheck& check : check_limits(problem, track)) {
-      if (check.limit == wear_limit()) return check.reached;
-    }
-    return 0.0;
+    return most_reached(tried_, &Limits::highest_floor_wear, wear_limit(), track).value_or(0.0);
   }
 
   [[nodiscard]] Problem within(double bound) const {
@@ -153,7 +135,7 @@ class LeastPeak {
     for (std::size_t way = 0; way < ways_.size(); ++way) {
       const ScaledProblem problem = scaled(within(bound), ways_[way]);
       for (const GuessCurve& start : starts(problem)) {
-        if (out_of_time()) break;
+        if (outlay_.ends()) break;
         if (progress_) progress_("least peak", {});
         const Mesh mesh = mesh_of(problem, graded_knots(start, kPieces, 1.0), start.length);
         auto end = descended(way, mesh, fit(start, Transcription(mesh)), bound);
@@ -168,7 +150,7 @@ class LeastPeak {
   }
 
   void follow(End& end) {
-    if (out_of_time()) return;
+    if (outlay_.ends()) return;
     const Found& found = end.relaxed.found;
     const Mesh mesh = mesh_of(
         *end.problem, refined_knots(*found.track, found.z, switches_of(*end.problem, found), kFinerPieces),
@@ -180,7 +162,7 @@ class LeastPeak {
 
   [[nodiscard]] std::unique_ptr<Built> built_near(const End& end) {
     for (const double above : kAbove) {
-      if (out_of_time()) break;
+      if (outlay_.ends()) break;
       const Problem problem = within(end.peak * (1.0 + above));
       Searcher searcher(problem, options_, control_, progress_);
       Candidate candidate = searcher.search_from(ways_[end.way], end.mesh, end.relaxed.found.z);
@@ -191,24 +173,19 @@ class LeastPeak {
     return nullptr;
   }
 
-  Optimum told(Optimum optimum) const {
-    OptimizeReport& report = optimum.report;
-    report.objective = asked_.objective;
-    report.iterations = iterations_ + control_.rounds;
-    report.evaluations = evaluations_ + control_.evaluations;
-    report.seconds = seconds();
-    report.ended_early = report.ended_early || (optimum.centerline && out_of_time());
-    return optimum;
+  Optimum told(Optimum optimum) {
+    outlay_.add(control_);
+    return outlay_.told(std::move(optimum), asked_.objective);
   }
 
-  Optimum unsettled(Optimum optimum) const {
+  Optimum unsettled(Optimum optimum) {
     optimum.report.status = OptimizeStatus::feasible_not_converged;
     optimum.report.message = "every limit holds, but no track of less peak wear was found than the fastest";
     optimum.report.active.clear();
     return told(std::move(optimum));
   }
 
-  Optimum described(const Built& best, OptimizeReport report) const {
+  Optimum described(const Built& best, OptimizeReport report) {
     const Candidate& candidate = best.candidate;
     report.travel_time = candidate.judgement.travel_time;
     report.exit_speed = candidate.judgement.exit_speed;
@@ -219,7 +196,7 @@ class LeastPeak {
     report.active = flies ? std::vector<ActiveLimit>{} : prices(best.end);
     const bool settled = flies || best.settled;
     report.status =
-        settled && !out_of_time() ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
+        settled && !outlay_.ends() ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
     report.message = !settled ? "every limit holds, but the least peak was not found to its accuracy"
                      : flies  ? "every limit holds, and the stream all but flies: the floor hardly wears"
                               : "every limit holds, and no neighbouring track wears less at its peak";
@@ -240,13 +217,11 @@ class LeastPeak {
   const OptimizeOptions& options_;
   const std::stop_token& stop_;
   const Progress& progress_;
-  Clock::time_point begin_;
+  Outlay outlay_;
   Problem tried_;
   std::vector<Passages> ways_;
   SearchControl control_;
   double hardly_any_ = 0.0;  ///< a peak that is as good as none [W/m^2]
-  int iterations_ = 0;
-  int evaluations_ = 0;
 };
 
 }  // namespace

@@ -11,13 +11,13 @@
 #include "optimize/least_bound.hpp"
 #include "optimize/least_peak.hpp"
 #include "optimize/passages.hpp"
+#include "optimize/patience.hpp"
 #include "optimize/prices.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/searcher.hpp"
 #include "optimize/smoother_ground.hpp"
 #include "optimize/starts.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -26,8 +26,6 @@
 namespace glissade {
 namespace optimizer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 std::string none_found_text(const Conflict& nearest) {
   std::string text = "no track was found that keeps every limit, and no conflict between them is certain";
@@ -42,15 +40,23 @@ std::string none_found_text(const Conflict& nearest) {
   return text;
 }
 
-/// "faster", as an adjective of what is searched for.
+/// What no neighbouring track does.
 const char* better_text(const Objective& objective) {
   switch (objective.kind) {
+    case ObjectiveKind::exit_speed:
+      return "has a higher exit speed";
+    case ObjectiveKind::least_wear:
+      return "wears less";
+    case ObjectiveKind::even_speed:
+      return "has a more even speed";
     case ObjectiveKind::least_drop:
-      return "lower";
+      return "is lower";
     case ObjectiveKind::least_length:
-      return "shorter";
+      return "is shorter";
+    case ObjectiveKind::blend:
+      return "is better";
     default:
-      return "faster";
+      return "is faster";
   }
 }
 
@@ -162,31 +168,9 @@ Resolve resolve_with(const OptimizeOptions& options, SearchControl& control) {
   return {anew, from};
 }
 
-/// The clock and the caller's wish to stop, as a search asks for them.
-class Patience {
- public:
-  Patience(double time_budget, const std::stop_token& stop) : time_budget_(time_budget), stop_(stop) {}
-
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
-  [[nodiscard]] bool ends() {
-    if (stop_.stop_requested()) return true;
-    out_of_time_ = seconds() > time_budget_;
-    return out_of_time_;
-  }
-  [[nodiscard]] bool out_of_time() const { return out_of_time_; }
-
- private:
-  double time_budget_;
-  const std::stop_token& stop_;
-  Clock::time_point begin_ = Clock::now();
-  bool out_of_time_ = false;
-};
-
 std::string ended_text(const Objective& objective, OptimizeStatus status, bool stopped, bool out_of_time) {
   if (status == OptimizeStatus::optimal) {
-    return std::string("every limit holds and no neighbouring track is ") + better_text(objective);
+    return std::string("every limit holds and no neighbouring track ") + better_text(objective);
   }
   if (!stopped) return "every limit holds, but the first-order residual stayed above its tolerance";
   return out_of_time ? "the time budget ran out: the best track so far" : "stopped: the best track so far";

@@ -16,9 +16,10 @@ std::string places_text(const std::vector<Stretch>& where) {
   std::string text;
   for (const Stretch& stretch : where) {
     if (!text.empty()) text += ", ";
-    text += stretch.to > stretch.from
-                ? "from " + length_text(stretch.from, 4) + " to " + length_text(stretch.to, 4)
-                : "at " + length_text(stretch.from, 4);
+    // A stretch too short to be seen in so many digits is a place.
+    const std::string from = length_text(stretch.from, 4);
+    const std::string to = length_text(stretch.to, 4);
+    text += to == from ? "at " + from : "from " + from + " to " + to;
   }
   return text;
 }

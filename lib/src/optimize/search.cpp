@@ -65,6 +65,7 @@ class Minimiser {
     double least = HUGE_VAL;
     int idle = 0;
     for (int round = 0;; ++round) {
+      ++control_.rounds;
       approach();
       judge(found);
       if (found.residual <= control_.tolerance && found.violation <= control_.limit_tolerance) break;
@@ -72,7 +73,6 @@ class Minimiser {
       least = std::min(least, found.residual + found.violation);
       idle = pays ? 0 : idle + 1;
       if (round >= control_.most_rounds || idle >= kMostIdle || stopped_ || !may_descend()) break;
-      ++control_.rounds;
       const Vector before = point_.state.z;
       descend_once();
       // The same again would end where it ended before.

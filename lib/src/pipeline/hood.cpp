@@ -9,13 +9,13 @@
 #include "glissade/referee/referee.hpp"
 #include "glissade/trades/chute/wear.hpp"
 
+#include "core/processor_time.hpp"
 #include "optimize/box_search.hpp"
 #include "pipeline/friction_range.hpp"
 #include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -272,7 +272,8 @@ Design pipeline::settled(const Design& design, const RunContext& context) {
   // A rough track tells hoods apart: by some 1e-5 of its time it is slower than the one that is made below the best.
   constexpr int kRoughPieces = 12;  // taste
   const Choices choices(*design.hood);
-  const auto began = std::chrono::steady_clock::now();
+  const double before = processor_seconds();
+  const auto spent = [&] { return processor_seconds() - before; };
   std::exception_ptr failure;
   int tried = 0;
   const auto cost = [&](const std::vector<double>& place) {
@@ -280,8 +281,7 @@ Design pipeline::settled(const Design& design, const RunContext& context) {
     one.hood = choices.at(place);
     RunContext inner = context;
     inner.progress = {};
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-    inner.time_budget = std::max(1e-3, context.time_budget - spent.count());
+    inner.time_budget = std::max(1e-3, context.time_budget - spent());
     if (context.progress) context.progress("choosing the hood, try " + std::to_string(++tried), {});
     try {
       if (auto problem = hood_problem(one)) throw InfeasibleError(*problem);
@@ -297,10 +297,7 @@ Design pipeline::settled(const Design& design, const RunContext& context) {
       return std::numeric_limits<double>::infinity();
     }
   };
-  const auto out_of_time = [&] {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-    return context.stop.stop_requested() || spent.count() > context.time_budget;
-  };
+  const auto out_of_time = [&] { return context.stop.stop_requested() || spent() > context.time_budget; };
   const auto best = optimizer::least_in_box(choices.size(), cost, out_of_time);
   if (!best) {
     if (failure) std::rethrow_exception(failure);

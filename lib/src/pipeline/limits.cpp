@@ -159,21 +159,25 @@ std::string relaxation_text(const Design& design, const Relaxation& relaxation) 
   return relaxation.limit.key() + ": " + quantity_text(relaxation.needed, relaxation.limit.dimension());
 }
 
+/// What would do, each bound alone; empty where nothing is known to.
+std::string would_do_text(const Design& design, const Conflict& conflict) {
+  std::string text;
+  for (std::size_t index = 0; index < conflict.relaxations.size(); ++index) {
+    if (index != 0) text += index + 1 == conflict.relaxations.size() ? " or " : ", ";
+    text += relaxation_text(design, conflict.relaxations[index]);
+  }
+  if (conflict.relaxations.size() > 1) text += " (each alone would do)";
+  return text;
+}
+
 Issue conflict_issue(const Design& design, const OptimizeReport& report) {
   const Conflict& conflict = report.conflict;
   const std::string place =
       conflict.limits.empty() ? design.where("limits") : place_of(design, conflict.limits.front().limit);
-  std::string hint;
-  for (std::size_t index = 0; index < conflict.relaxations.size(); ++index) {
-    const Relaxation& relaxation = conflict.relaxations[index];
-    if (index != 0) hint += index + 1 == conflict.relaxations.size() ? " or " : ", ";
-    hint += relaxation_text(design, relaxation);
-  }
-  if (conflict.relaxations.size() > 1) hint += " (each alone would do)";
   std::string why = "Even the track that breaks them least still breaks them.";
   if (!conflict.why.empty()) why = conflict.why;
   if (const auto leads = long_leads(design)) why = *leads;
-  return {place, conflict.text, std::move(why), std::move(hint)};
+  return {place, conflict.text, std::move(why), would_do_text(design, conflict)};
 }
 
 void rename_finish(const Design& design, OptimizeReport& report) {
@@ -273,11 +277,14 @@ Optimum pipeline::search_within_limits(const Design& design, const RunContext& c
     throw Interrupted({place, "interrupted before any track kept every limit", "", ""});
   }
   if (optimum.report.ended_early) {
-    throw ConvergenceError({place, optimum.report.message, "", "a larger --time-budget, or wider limits"});
+    throw NoTrackFound({place, optimum.report.message, "", "a larger --time-budget, or wider limits"},
+                       optimum.report);
   }
-  throw ConvergenceError({place, optimum.report.message,
-                          "The search is local: there may be a track that none of its starts leads to.",
-                          "wider limits"});
+  const std::string would_do = would_do_text(design, optimum.report.conflict);
+  throw NoTrackFound({place, optimum.report.message,
+                      "The search is local: there may be a track that none of its starts leads to.",
+                      would_do.empty() ? "wider limits" : would_do},
+                     optimum.report);
 }
 
 std::vector<LimitCheck> pipeline::checked_limits(const Design& design, const Endpoints& endpoints,

@@ -352,22 +352,40 @@ Track solve(const Design& given, const RunContext& context) {
   return solve_settled(design, context);
 }
 
-std::string searched_name(const Design& design) {
-  if (!design.limits) return "fastest, searched for";
-  switch (design.objective.kind) {
-    case ObjectiveKind::least_drop:
-      return "lowest within the limits";
-    case ObjectiveKind::least_length:
-      return "shortest within the limits";
+namespace {
+
+/// What a track is the most of, as an adjective of it.
+const char* best_text(ObjectiveKind kind) {
+  switch (kind) {
+    case ObjectiveKind::exit_speed:
+      return "of the highest exit speed";
+    case ObjectiveKind::least_wear:
+      return "of the least wear";
     case ObjectiveKind::least_peak_wear:
-      return "of the least peak wear within the limits";
+      return "of the least peak wear";
+    case ObjectiveKind::even_speed:
+      return "of the most even speed";
+    case ObjectiveKind::least_drop:
+      return "lowest";
+    case ObjectiveKind::least_length:
+      return "shortest";
     case ObjectiveKind::least_load:
-      return "of the least load within the limits";
+      return "of the least load";
     case ObjectiveKind::least_curvature_rate:
-      return "of the most gradual bends within the limits";
-    default:
-      return "fastest within the limits";
+      return "of the most gradual bends";
+    case ObjectiveKind::blend:
+      return "of the best blend of travel time and exit speed";
+    case ObjectiveKind::travel_time:
+      break;
   }
+  return "fastest";
+}
+
+}  // namespace
+
+std::string searched_name(const Design& design) {
+  return std::string(best_text(design.objective.kind)) +
+         (design.limits ? " within the limits" : ", searched for");
 }
 
 namespace {

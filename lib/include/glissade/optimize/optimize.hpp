@@ -19,7 +19,8 @@ struct OptimizeOptions {
   int pieces = 32;          ///< clothoids between the places where limits change over; 8 <= pieces <= 200
   double tolerance = 1e-6;  ///< of the first-order residual; 1e-12 <= tolerance <= 1e-3
   double limit_tolerance = 1e-7;  ///< greatest violation of a limit, of its scale; 1e-10 <= value <= 1e-4
-  double time_budget = 60.0;      ///< [s]; > 0; ends with the best track so far
+  double time_budget =
+      60.0;  ///< of the calling thread's processor time [s]; > 0; ends with the best track so far
 };
 
 enum class OptimizeStatus {
@@ -110,7 +111,7 @@ struct OptimizeReport {
   Conflict conflict;
 
   bool ended_early = false;  ///< asked to, or the time budget ran out
-  int iterations = 0;        ///< outer rounds: meshes, working sets, restarts
+  int iterations = 0;        ///< rounds of Newton steps, at least one a mesh
   int evaluations = 0;       ///< of objective and limits with gradients
   double seconds = 0.0;      ///< wall clock; the only field that differs between two runs
 
@@ -132,7 +133,7 @@ struct Optimum {
 ///   and length are the unknowns; gradients are exact; sequential quadratic programs minimise on a coarse mesh and
 ///   carry its optimum to finer ones, and NLopt's SLSQP goes on where they do not arrive. All of it in units of chord
 ///   and sqrt(chord/gravity), so that tracks of any size take the same path. Needs no guess, is deterministic
-///   but for the time budget.
+///   but for the time budget, which counts processor time: other work on the machine changes no answer.
 /// Accuracy: without limits kOptimizeAccuracy relative in travel time at the default pieces, never below the
 ///   exact optimum by more than kOptimizeUndershoot. Within limits docs/optimization.md.
 /// Identity: every number in the report comes from Motion on the centerline returned.

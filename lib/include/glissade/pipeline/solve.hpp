@@ -104,12 +104,12 @@ struct LinerLoss {
 /// body that is not a sliding point; on other kinds
 /// they are checked. A body that stalls or leaves the track is a result, not an error, and so is a broken
 /// limit, or a search that ends early with a track (Track::search).
-/// @throws InputError with everything that check() finds; LimitsConflict if no track keeps the limits;
-///         ConvergenceError or Interrupted if the search ended before it found a track that does; else as
+/// @throws InputError with everything that check() finds; LimitsConflict if no track keeps the limits; NoTrackFound
+///         if none was found, or not in time; Interrupted if the search was stopped before it found one; else as
 ///         make_centerline()
 [[nodiscard]] Track solve(const Design& design, const RunContext& context = {});
 
-/// @return what to call a track that was searched for: "fastest within the limits", or "fastest, searched for"
+/// @return what to call a track that was searched for: "fastest within the limits", "of the highest exit speed within the limits", "fastest, searched for"
 ///         where the search had another reason (drag, a free finish)
 [[nodiscard]] std::string searched_name(const Design& design);
 

@@ -91,12 +91,24 @@ struct Track {
   [[nodiscard]] std::optional<double> straight_travel_time() const;
 };
 
-/// No track keeps the limits of a design, or none was found. Its issue names those that contradict each other
-/// and the smallest relaxations that would do.
+/// No track keeps the limits of a design. Its issue names those that contradict each other and the smallest relaxations
+/// that would do.
 class LimitsConflict : public InfeasibleError {
  public:
   LimitsConflict(Issue issue, OptimizeReport report)
       : InfeasibleError(std::move(issue)), report_(std::move(report)) {}
+  [[nodiscard]] const OptimizeReport& report() const noexcept { return report_; }
+
+ private:
+  OptimizeReport report_;
+};
+
+/// No track was found that keeps the limits, and no conflict between them is certain. Its issue names those that the
+/// closest track breaks, and what would do where that was found.
+class NoTrackFound : public ConvergenceError {
+ public:
+  NoTrackFound(Issue issue, OptimizeReport report)
+      : ConvergenceError(std::move(issue)), report_(std::move(report)) {}
   [[nodiscard]] const OptimizeReport& report() const noexcept { return report_; }
 
  private:

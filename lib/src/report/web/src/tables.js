@@ -149,7 +149,7 @@ function reachedText(limit, units) {
 
 function placeText(limit, units) {
   const length = (value) => units.text("length", value, 3);
-  const places = (limit.where ?? []).map(({ from_m: from, to_m: to }) => (to > from ? `${length(from)} to ${length(to)}` : length(from)));
+  const places = (limit.where ?? []).map(({ from_m: from, to_m: to }) => (length(to) === length(from) ? length(from) : `${length(from)} to ${length(to)}`));
   const text = places.length === 0 ? length(limit.at_m) : places.slice(0, 3).join(", ") + (places.length > 3 ? ", \u2026" : "");
   return `s = ${text}${limit.friction ? `, at ${limit.friction} friction` : ""}`;
 }

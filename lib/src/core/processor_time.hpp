@@ -1,0 +1,9 @@
+#pragma once
+
+namespace glissade {
+
+/// @return processor time that the calling thread has taken [s]; where the system does not count it, time on a clock that
+///         never goes back
+[[nodiscard]] double processor_seconds();
+
+}  // namespace glissade
