@@ -1,7 +1,7 @@
 // Liners by wear, with what they lose and the spares that they take, and rides of a fed stream as it is built.
 
-#include "glissade/centerline/coulomb_brachistochrone.hpp"
-#include "glissade/core/error.hpp"
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/parts/plates.hpp"
 
 #include "parts/chute_plates.hpp"
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -113,4 +114,37 @@ TEST_CASE("as built: a body that falls on its floor meets an impact once, not at
   REQUIRE(build.joints.size() > 4);
   CHECK(build.ride.exit_speed == Approx(build.ride.design_exit_speed).epsilon(1e-3));
   CHECK(build.ride.travel_time == Approx(build.ride.design_travel_time).epsilon(1e-3));
+}
+
+TEST_CASE("as built: what changes along the track changes where it does, whatever units there are") {
+  const ClothoidSpline track(Angle::from_degrees(55.0), {{2.0, 0.0, 0.0}, {3.0, 0.1, 0.1}, {2.5, 0.0, 0.0}});
+  PlateOptions options;
+  options.split.longest = 1.3;
+  // Of a stream the width, which makes it deep; of a body the friction, twice within the first units.
+  StreamShape shape;
+  shape.mass_flow = 60.0;
+  shape.bulk_density = 750.0;
+  shape.width = WidthLaw({{1.0, 0.5}, {3.0, 0.25}, {4.0, 0.25}, {6.0, 0.5}});
+  Body stream{.friction = kFriction, .entry_speed = 2.0};
+  stream.law = std::make_shared<const BulkStream>(shape);
+  Body body{.friction = kFriction};
+  body.friction_changes = {{0.4, Friction::from_coefficient(0.2)},
+                           {0.9, Friction::from_coefficient(0.35)},
+                           {5.0, Friction::from_coefficient(0.25)}};
+  for (const Body& one : {stream, body}) {
+    const WorkshopBuild build =
+        make_plates(track, section::UChannel{shape.width, 0.25, 4e-3}, {1e-4}, options, Placement(), one);
+    REQUIRE(build.joints.size() > 5);
+    REQUIRE(build.ride.arrives);
+    CHECK(build.ride.exit_speed == Approx(build.ride.design_exit_speed).epsilon(1e-4));
+    CHECK(build.ride.travel_time == Approx(build.ride.design_travel_time).epsilon(1e-4));
+  }
+  // The rest of a law is the law.
+  const BulkStream law(shape);
+  const LawPtr rest = law.from(3.4);
+  REQUIRE(rest);
+  for (const double s : {0.0, 0.3, 0.7, 2.0, 4.0})
+    CHECK(rest->resistance(s, 9.0).factor == Approx(law.resistance(3.4 + s, 9.0).factor).epsilon(1e-12));
+  shape.width = WidthLaw(0.4);
+  CHECK(BulkStream(shape).from(1.0) == nullptr);
 }

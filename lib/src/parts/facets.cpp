@@ -211,7 +211,7 @@ class Rider {
         body.landing.reset();
         body.approach = nullptr;
       }
-      for (FrictionChange& change : body.friction_changes) change.from = std::max(0.0, change.from - passed_);
+      if (passed_ > 0.0) go_on_from(passed_, body);
       const Motion motion(piece, body, gravity_);
       const auto lifted = motion.lift_off();
       if (motion.arrived() || lifted) {
@@ -251,6 +251,16 @@ class Rider {
 
  private:
   [[nodiscard]] double friction() const { return body_.friction.coefficient(); }
+
+  /// What changes along the track, as it is on the rest of it.
+  static void go_on_from(double s, Body& body) {
+    if (body.law) {
+      if (LawPtr rest = body.law->from(s)) body.law = std::move(rest);
+    }
+    std::vector<FrictionChange>& changes = body.friction_changes;
+    while (changes.size() > 1 && changes[1].from <= s) changes.erase(changes.begin());
+    for (FrictionChange& change : changes) change.from = std::max(0.0, change.from - s);
+  }
 
   /// Flies from a place of a line until it meets it again, and loses there what it carries into the floor.
   /// @return what is left of the line; none where it does not come down on it

@@ -107,6 +107,11 @@ class Law {
   /// @return the quantity that is at its bound where v is least_v()
   [[nodiscard]] virtual std::size_t ending_quantity() const { return 0; }
 
+  /// The same law on a track that is the rest of this one.
+  /// @param s  where that begins [m]
+  /// @return none: the law is the same everywhere
+  [[nodiscard]] virtual LawPtr from(double s) const;
+
   /// The same law measured in other units, for a search without dimensions.
   /// @param length  the new unit of length [m]; > 0
   /// @param speed   the new unit of speed [m/s]; > 0

@@ -88,6 +88,18 @@ double BulkStream::least_v(double s) const {
   return speed * speed;
 }
 
+LawPtr BulkStream::from(double s) const {
+  if (shape_.width.is_constant()) return nullptr;
+  StreamShape rest = shape_;
+  // What lies behind is one knot at the start of the rest.
+  std::vector<WidthAt> widths = {{0.0, shape_.width.at(s)}};
+  for (const WidthAt& width : shape_.width.knots()) {
+    if (width.at > s) widths.push_back({width.at - s, width.width});
+  }
+  rest.width = WidthLaw(std::move(widths));
+  return std::make_shared<const BulkStream>(rest);
+}
+
 LawPtr BulkStream::in_units(double length, double speed) const {
   StreamShape scaled = shape_;
   // Depth is all that counts: Q/rho in units of length^2 speed.

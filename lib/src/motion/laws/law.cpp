@@ -15,6 +15,10 @@ double Law::quantity(std::size_t index, const LawState& /*state*/) const {
       {"", "the law " + std::string(kind()) + " has no quantity " + std::to_string(index), "", ""});
 }
 
+LawPtr Law::from(double /*s*/) const {
+  return nullptr;
+}
+
 double Law::least_v(double /*s*/) const {
   return 0.0;
 }

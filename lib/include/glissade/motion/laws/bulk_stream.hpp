@@ -63,6 +63,7 @@ class BulkStream final : public Law {
   [[nodiscard]] std::vector<LawQuantity> quantities() const override;
   [[nodiscard]] double quantity(std::size_t index, const LawState& state) const override;
   [[nodiscard]] double least_v(double s) const override;
+  [[nodiscard]] LawPtr from(double s) const override;
   [[nodiscard]] LawPtr in_units(double length, double speed) const override;
 
  private:
