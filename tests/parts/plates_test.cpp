@@ -334,3 +334,34 @@ TEST_CASE("clearance holes are those of ISO 273") {
   CHECK(clearance_hole(16, HoleFit::coarse) == 18.5e-3);
   CHECK_THROWS_AS(clearance_hole(11, HoleFit::medium), InputError);
 }
+
+TEST_CASE(
+    "plates: a frame so thick that the channel bends out of its gap is refused with the gap that would do") {
+  const ClothoidSpline crest(Angle::from_degrees(20.0), {{3.0, -0.25, -0.25}});
+  PlateOptions options;
+  options.flanges.thickness = 0.1;
+  const std::string text = refusal_of([&] { return plates(crest, options); });
+  CHECK(
+      text.find("flanges.gap|gap: 0.5 mm is closed where the track bends, at 0 m along it|Within a frame of "
+                "100 mm the section departs by 1.25") == 0);
+  CHECK(text.find("|gap: 1.4 mm, or a thinner frame") != std::string::npos);
+  options.flanges.gap = 1.4e-3;
+  CHECK(plates(crest, options).proof.smallest_gap > 0.0);
+  const ClothoidSpline hollow(Angle::from_degrees(60.0), {{3.0, 0.25, 0.25}});
+  options.flanges.gap = 0.5e-3;
+  CHECK(plates(hollow, options).proof.pairs > 0);
+  const section::Polygon beam{{{-0.2, -0.2}, {0.2, -0.2}, {0.2, 0.0}, {0.0, 0.0}, {-0.2, 0.0}}};
+  CHECK(refusal_of([&] { return plates_of(hollow, beam, options); }).find("flanges.gap|") == 0);
+}
+
+TEST_CASE("plates: walls that fold over are refused with a height that does not") {
+  const ClothoidSpline hollow(Angle::from_degrees(80.0), {{0.2, 0.0, 0.0}, {0.6, 2.5, 2.5}});
+  ChannelMeasures channel{0.4, 2.0, 4e-3};
+  const std::string text = refusal_of([&] { return plates(hollow, {}, channel); });
+  const std::size_t at = text.find("|wall_height: ");
+  REQUIRE(at != std::string::npos);
+  const std::string tail = text.substr(at + 14);
+  channel.wall_height = std::stod(tail) * (tail.find(" mm") != std::string::npos ? 1e-3 : 1.0);
+  CHECK(channel.wall_height < 2.0);
+  CHECK(plates(hollow, {}, channel).proof.pairs > 0);
+}

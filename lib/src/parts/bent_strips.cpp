@@ -19,7 +19,7 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kPressFlat = 4.0;    // thicknesses: as facets_of() has it
+constexpr double kSteep = 0.05;       // half the tangent of usual bends
 constexpr double kRoomAtFold = 1.02;  // length of a flat over what its bends take at the plate's height
 constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
 constexpr double kElastic = 1000.0;   // thicknesses of radius: half of that is where structural steel yields
@@ -67,7 +67,10 @@ double neutral(const StripJob& job) {
 }  // namespace
 
 Facets bent_flats(const StripJob& job, const Span& span, double largest_kink) {
-  return facets_by_rule(job.track, span, job.options.bend, largest_kink, kPressFlat * job.section.thickness);
+  // Within the frames at its ends a unit is straight, down to its lowest corner beside bends of some degrees.
+  const double below = kSteep * std::max(job.section.highest, -job.section.lowest);
+  const double least = least_flat(job.section.thickness, job.options.flanges, below);
+  return facets_by_rule(job.track, span, job.options.bend, largest_kink, least);
 }
 
 BentStrips::BentStrips(const StripJob& job, double largest_kink, const std::vector<double>& joints)

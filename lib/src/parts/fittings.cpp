@@ -582,7 +582,9 @@ void object_to_openings(const ChannelMeasures& channel, const PlateOptions& opti
                  "height: " + length_text(opening.height) + " leaves too little of the wall, " +
                      length_text(channel.wall_height),
                  "Its lid laps over by " + length_text(kLap) + " all round.",
-                 "height: " + length_text(std::max(most, 0.0), 3));
+                 most > 0.0 ? "height: " + length_text(most, 3)
+                            : "no inspection, or a wall_height of at least " +
+                                  length_text(channel.wall_height - most + opening.height, 3));
   }
 }
 

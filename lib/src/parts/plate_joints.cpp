@@ -20,11 +20,14 @@ constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where 
 constexpr double kPressFlat =
     4.0;  // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
 
-std::string fold_text(const Job& job) {
-  double height = job.channel.wall_height;
-  const Span whole{0.0, job.track.length()};
-  for (int k = 0; k < 60 && !offset_line(job.track, whole, height); ++k) height *= 0.95;
-  return "wall_height of at most " + length_text(height, 3);
+/// @param face  of the unit's floor
+std::string fold_text(const Job& job, const Span& span, const FloorFace& face) {
+  ChannelMeasures lower = job.channel;
+  do {
+    lower.wall_height *= 0.95;
+  } while (lower.wall_height > 1e-3 &&
+           !wall_region({job.track, lower, job.options, job.placement}, span, face, {}));
+  return "wall_height: " + length_text(lower.wall_height, 2);
 }
 
 Unit make_unit(const Job& job, const Span& span, std::size_t number, double largest_kink) {
@@ -44,7 +47,7 @@ Unit make_unit(const Job& job, const Span& span, std::size_t number, double larg
                     "walls of " + length_text(job.channel.wall_height) + " fold over between " +
                         length_text(span.from) + " and " + length_text(span.to) + " along the track",
                     "Their tops are nearer to each other than the radius of the track there.",
-                    fold_text(job)});
+                    fold_text(job, span, unit.face)});
 }
 
 std::vector<Unit> units_between(const Job& job, const std::vector<double>& joints, double largest_kink) {
@@ -72,8 +75,41 @@ Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOption
   return facets_by_angle(track, span, largest_kink, least);
 }
 
+void require_frame_room(const ArcSpline& track, const std::vector<double>& joints, const FlangeOptions& frame,
+                        double lowest, std::optional<double> highest) {
+  if (!frame.wanted) return;
+  double most = 0.0;
+  double where = 0.0;
+  for (const TrackArc& arc : track.arcs()) {
+    const double height = arc.curvature < 0.0 ? lowest : highest.value_or(0.0);
+    if (arc.curvature == 0.0 || (arc.curvature > 0.0 && !highest)) continue;
+    const bool beside = std::any_of(joints.begin(), joints.end(), [&](double s) {
+      return arc.start < s + frame.thickness && arc.start + arc.length > s - frame.thickness;
+    });
+    if (!beside) continue;
+    const double radius = std::fabs(1.0 / arc.curvature - height);
+    const double out = radius - std::sqrt(std::max(0.0, radius * radius - frame.thickness * frame.thickness));
+    if (out > most) where = arc.start;
+    most = std::max(most, out);
+  }
+  if (most <= frame.gap + 5e-6) return;
+  throw InputError({"flanges.gap",
+                    "gap: " + length_text(frame.gap) + " is closed where the track bends, at " +
+                        length_text(where, 3) + " along it",
+                    "Within a frame of " + length_text(frame.thickness) + " the section departs by " +
+                        length_text(most, 3) + " from the straight.",
+                    "gap: " + length_text(1e-4 * std::ceil(1.05e4 * most)) + ", or a thinner frame"});
+}
+
+double least_flat(double thickness, const FlangeOptions& frame, double more) {
+  constexpr double kBeyondFrame = 1e-3;
+  const double pressed = kPressFlat * thickness;
+  return frame.wanted ? std::max(pressed, frame.thickness + kBeyondFrame + more) : pressed;
+}
+
 Facets facets_of(const Job& job, const Span& span, double largest_kink) {
-  return facets_by_rule(job.track, span, job.options.bend, largest_kink, kPressFlat * job.channel.thickness);
+  return facets_by_rule(job.track, span, job.options.bend, largest_kink,
+                        least_flat(job.channel.thickness, job.options.flanges, 0.0));
 }
 
 double kink_for_speed(const ArcSpline& track, const BendOptions& bend,

@@ -54,6 +54,18 @@ struct Unit {
 [[nodiscard]] Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOptions& bend,
                                     double largest_kink, double least);
 
+/// @return the least length of flats: what a press holds, and those at the ends of a unit no shorter than its frame is thick
+/// @param more  for plates that lie off the floor line [m]
+[[nodiscard]] double least_flat(double thickness, const FlangeOptions& frame, double more);
+
+/// Refuses frames that are so thick that the channel bends out of their gap within them: below on a crest, above in a hollow.
+/// @param joints   arc lengths of the units' ends
+/// @param lowest   of the section's outside
+/// @param highest  of that of a closed one
+/// @throws InputError naming the place and the gap that would do
+void require_frame_room(const ArcSpline& track, const std::vector<double>& joints, const FlangeOptions& frame,
+                        double lowest, std::optional<double> highest);
+
 /// Places of joints of about even distance, where the track bends least nearby.
 [[nodiscard]] std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split,
                                             std::size_t count);

@@ -154,6 +154,9 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   drill_floors(job, units);
   build.joints.push_back(0.0);
   for (const Unit& unit : units) build.joints.push_back(unit.span.to);
+  if (options.floor == FloorMake::rolled)
+    require_frame_room(job.track, build.joints, options.flanges, -floor_depth(job) - channel.thickness,
+                       std::nullopt);
   Workshop& workshop = build.workshop;
   add_units(workshop, units);
   add_frames(job, workshop, build.joints);

@@ -564,6 +564,10 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
     }
     return std::nullopt;
   });
+  if (!bent && section.convex) {
+    require_frame_room(track, build.joints, options.flanges, section.lowest,
+                       section.closed ? std::optional(section.highest) : std::nullopt);
+  }
   Workshop& workshop = build.workshop;
   list_strips(strips, workshop);
   add_frames(job, bent, build.joints, workshop);
