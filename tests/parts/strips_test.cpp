@@ -282,5 +282,7 @@ TEST_CASE("strips: what cannot be made is refused with place, value and bound") 
   CHECK(fold.find("the radius there 300 mm") != std::string::npos);
   CHECK(fold.find("a section of at most 294 mm") != std::string::npos);
   const section::Polygon thin{{{-0.2, -6e-3}, {0.2, -6e-3}, {0.2, 0.0}, {0.0, 0.0}, {-0.2, 0.0}}};
-  CHECK(refusal(thin, {}, chute()).find("thickness|thickness: ") == 0);
+  PlateOptions thick;
+  thick.polygon_thickness = 4e-3;
+  CHECK(refusal(thin, thick, chute()).find("thickness|thickness: ") == 0);
 }

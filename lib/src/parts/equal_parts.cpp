@@ -263,7 +263,10 @@ BodyPlace place_of(const SweptBody& body, const SweptBody& other, bool end_for_e
   const std::size_t stations = body.shifts.size();
   if (corners != other.section.size() || stations != other.shifts.size()) return std::nullopt;
   // Of drilled ones, only the same as it is.
-  if (body.holes != other.holes || (end_for_end && !body.holes.empty())) return std::nullopt;
+  const bool drilled_alike = all_found(body.holes, other.holes, [](const Circle& hole, const Circle& there) {
+    return near(hole.centre, there.centre) && near(hole.radius, there.radius);
+  });
+  if (!drilled_alike || (end_for_end && !body.holes.empty())) return std::nullopt;
   const auto path = path_motion(body.path, other.path, end_for_end, [&](const PlaneMotion& motion) {
     return near(motion((end_for_end ? body.path.vertices.back() : body.path.vertices.front()).at),
                 other.path.vertices.front().at);
