@@ -269,11 +269,19 @@ class Rider {
     if (!line) return nullptr;
     const TrackFrame start = frame_at(*line, from);
     const Vec2 way = speed_ * start.along;
-    if (!(way.x > 0.0)) return nullptr;
-    const auto flown = [&](double s) { return (frame_at(*line, s).at.x - start.at.x) / way.x; };
+    // Off a floor that is all but upright, as where a vertical start leans over by a hair, it is met by height, not by place.
+    constexpr double kUpright = 0.1;  // of the way, level
+    const bool upright = start.along.x < kUpright && start.along.y < 0.0;
+    if (!upright && !(way.x > 0.0)) return nullptr;
+    const auto flown = [&](double s) {
+      const Vec2 there = frame_at(*line, s).at - start.at;
+      if (!upright) return there.x / way.x;
+      return (way.y + std::sqrt(std::max(0.0, way.y * way.y - 2.0 * gravity_ * there.y))) / gravity_;
+    };
     const auto above = [&](double s) {
       const double t = flown(s);
-      return start.at.y + t * (way.y - 0.5 * gravity_ * t) - frame_at(*line, s).at.y;
+      const Vec2 there = frame_at(*line, s).at - start.at;
+      return upright ? t * way.x - there.x : t * (way.y - 0.5 * gravity_ * t) - there.y;
     };
     constexpr double kStep = 2e-3;  // [m]
     constexpr double kOff = 1e-5;   // from where it takes off: rounding apart, it has risen
