@@ -294,7 +294,7 @@ class LeastViolation {
                  SearchControl& control)
       : leads_(leads), control_(control) {
     for (const Passages& way : passages)
-      ways_.push_back(std::make_shared<ScaledProblem>(scaled(problem, way)));
+      ways_.push_back(std::make_shared<ScaledProblem>(roughly_scaled(problem, way)));
   }
 
   /// @return whether a track was found that keeps all limits
@@ -501,7 +501,8 @@ class Enough {
     if (!least) return std::nullopt;
     const double needed = as_told(*least, limit.bound_si, limit.name.dimension());
     const auto changed = with_bound(problem_, limit.name, needed);
-    if (!changed) return std::nullopt;
+    // What is told can be put in.
+    if (!changed || !limit_faults(changed->limits).empty()) return std::nullopt;
     // Where tracks wind, most fail from the one that has the limit give way least; all have to be found anew.
     if (winding_ && !resolve_.from(*changed, way.foothold)) return std::nullopt;
     return resolve_.anew(*changed, allowance) ? std::optional(needed) : std::nullopt;

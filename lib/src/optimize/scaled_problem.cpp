@@ -438,52 +438,60 @@ void set_objective(const Objective& objective, double entry_speed, ScaledProblem
   }
 }
 
-/// To 40 bits of the unit: a place, in chords.
-void round_place(double& value) {
-  constexpr double kSteps = 0x1p40;  // accuracy: as round_number()
-  value = std::round(value * kSteps) / kSteps;
-}
-void round_place(Vec2& point) {
-  round_place(point.x);
-  round_place(point.y);
-}
-/// To 40 bits of its own.
-void round_number(double& value) {
-  constexpr int kBits = 40;  // accuracy: 1e-12 of a number, far below what a limit is kept to
-  int exponent = 0;
-  const double mantissa = std::frexp(value, &exponent);
-  value = std::ldexp(std::round(std::ldexp(mantissa, kBits)), exponent - kBits);
-}
+/// How many bits of a number are kept.
+class Rounding {
+ public:
+  explicit Rounding(int bits) : bits_(bits) {}
+
+  /// A place, in chords: so many bits of the unit.
+  void place(double& value) const {
+    const double steps = std::ldexp(1.0, bits_);
+    value = std::round(value * steps) / steps;
+  }
+  void place(Vec2& point) const {
+    place(point.x);
+    place(point.y);
+  }
+  /// So many bits of its own.
+  void number(double& value) const {
+    int exponent = 0;
+    const double mantissa = std::frexp(value, &exponent);
+    value = std::ldexp(std::round(std::ldexp(mantissa, bits_)), exponent - bits_);
+  }
+
+ private:
+  int bits_;
+};
 
 /// The same problem of another size or at another height differs by the rounding of its numbers, and a search may end in
-/// another valley for it. Here such problems become the same, nearly always. What a number may lose, 5e-13, is below all
-/// that is promised. Angles and friction do not scale and keep all their digits.
-void round_off(ScaledProblem& out) {
+/// another valley for it. Here such problems become the same, nearly always. Angles and friction do not scale and keep all
+/// their digits.
+void round_off(const Rounding& rounding, ScaledProblem& out) {
   for (double* place : {&out.run, &out.drop, &out.lead_in, &out.lead_out, &out.lowest_speed_from,
                         &out.envelope_low, &out.envelope_high}) {
-    round_place(*place);
+    rounding.place(*place);
   }
   for (Obstacle& obstacle : out.obstacles) {
     for (std::vector<Vec2>* line : {&obstacle.corners, &obstacle.outline, &obstacle.other_corners}) {
-      for (Vec2& corner : *line) round_place(corner);
+      for (Vec2& corner : *line) rounding.place(corner);
     }
     for (auto& [from, to] : obstacle.other_sides) {
-      round_place(from);
-      round_place(to);
+      rounding.place(from);
+      rounding.place(to);
     }
   }
-  for (Vec2& waypoint : out.waypoints) round_place(waypoint);
-  for (double& change : out.changes) round_place(change);
+  for (Vec2& waypoint : out.waypoints) rounding.place(waypoint);
+  for (double& change : out.changes) rounding.place(change);
   for (LimitSpec& limit : out.limits) {
     if (limit.built_in || limit.name.dimension() == Dimension::angle) continue;
-    round_number(limit.bound);
-    round_number(limit.scale);
+    rounding.number(limit.bound);
+    rounding.number(limit.scale);
   }
-  round_number(out.entry_speed2);
-  round_number(out.drag);
+  rounding.number(out.entry_speed2);
+  rounding.number(out.drag);
   for (Ride& ride : out.rides) {
     for (double* number : {&ride.entry_speed2, &ride.drag, &ride.head_wind, &ride.even_speed}) {
-      round_number(*number);
+      rounding.number(*number);
     }
   }
 }
@@ -491,6 +499,7 @@ void round_off(ScaledProblem& out) {
 }  // namespace
 
 ScaledProblem scaled(const Problem& problem, const Passages& passages) {
+  constexpr int kBits = 40;  // accuracy: what a number may lose, 5e-13, is below all that is promised
   const Limits& limits = problem.limits;
   ScaledProblem out;
   out.finish = problem.finish.kind;
@@ -524,7 +533,15 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   out.envelope_low = -limits.envelope.below / out.chord;
   out.envelope_high = limits.envelope.top() / out.chord;
   add_limits(problem, passages, out);
-  round_off(out);
+  round_off(Rounding(kBits), out);
+  return out;
+}
+
+ScaledProblem roughly_scaled(const Problem& problem, const Passages& passages) {
+  constexpr int kBits = 26;  // accuracy: 1e-8, of a limit's own
+  ScaledProblem out = scaled(problem, passages);
+  // Meshes are laid by the places where friction changes, to the last digit.
+  if (out.changes.empty()) round_off(Rounding(kBits), out);
   return out;
 }
 

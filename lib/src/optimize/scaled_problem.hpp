@@ -87,6 +87,10 @@ using Passages = std::vector<Passage>;
 
 /// @param passages  above or below, one for each keep-out
 [[nodiscard]] ScaledProblem scaled(const Problem& problem, const Passages& passages);
+/// The same with places and bounds to about 1e-8: what a search may begin with. The same problem far from its origin is
+/// the same here, nearly always, and which valley a search ends in is decided by its beginning. Where friction changes
+/// along the track it is scaled() itself.
+[[nodiscard]] ScaledProblem roughly_scaled(const Problem& problem, const Passages& passages);
 
 /// Knots are added where friction changes.
 /// @param knots        of the core, by its length: 0 to 1

@@ -178,15 +178,15 @@ Candidate Searcher::search(const Passages& passages) {
   // Clipped slopes are often the unclipped ones: what did not do is not tried twice, unless limits were tightened on
   // the way.
   std::vector<std::pair<GuessCurve, Vector>> tried;
-  for (const GuessCurve& start : starts(scaled_problem)) {
+  for (const GuessCurve& start : starts(*candidate.rough)) {
     const std::pair<GuessCurve, Vector> trial(start, margins_);
     if (std::find(tried.begin(), tried.end(), trial) != tried.end()) continue;
     tried.push_back(trial);
     std::optional<Found> found =
-        unlimited ? from_exact(scaled_problem, start) : coarse(scaled_problem, start);
+        unlimited ? from_exact(scaled_problem, start) : coarse(*candidate.rough, start);
     if (control_.stop()) candidate.stopped = true;
     if (!found) continue;
-    refine(candidate, *found, unlimited);
+    refine(candidate, *found, unlimited && scaled_problem.drag == 0.0);
     // A track that keeps the limits, but is no optimum, may have lost its way: the next start is tried too.
     const bool converged = candidate.kept && candidate.found->residual <= options_.tolerance;
     if (converged || candidate.stopped) break;
@@ -197,7 +197,7 @@ Candidate Searcher::search(const Passages& passages) {
 Candidate Searcher::search_from(const Passages& passages, const Mesh& mesh, const Vector& z) {
   Candidate candidate = begun(passages);
   aim_at(kCoarseTolerance, 12);
-  const Found found = minimise(*candidate.problem, mesh, z, margins_, control_);
+  const Found found = minimise(*candidate.rough, mesh, z, margins_, control_);
   refine(candidate, found, false);
   return candidate;
 }
@@ -205,6 +205,7 @@ Candidate Searcher::search_from(const Passages& passages, const Mesh& mesh, cons
 Candidate Searcher::begun(const Passages& passages) {
   Candidate candidate;
   candidate.problem = std::make_shared<ScaledProblem>(scaled(problem_, passages));
+  candidate.rough = std::make_shared<ScaledProblem>(roughly_scaled(problem_, passages));
   const std::vector<LimitSpec>& limits = candidate.problem->limits;
   margins_.assign(limits.size(), 0.0);
   for (std::size_t i = 0; i < margins_.size(); ++i) {
@@ -264,7 +265,7 @@ void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
   finer_mesh_wins_.reset();
   multipliers_ahead_.clear();
   if (!unlimited) {
-    found = laid_anew(problem, on_finer_meshes(problem, std::move(found)));
+    found = laid_anew(problem, on_finer_meshes(problem, *candidate.rough, std::move(found)));
     if (!found.stopped) found = followed(problem, std::move(found));
     if (!found.stopped) found = laid_anew(problem, halved(problem, std::move(found)));
   }
@@ -281,7 +282,7 @@ Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Ve
   return other ? std::move(*other) : next;
 }
 
-Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
+Found Searcher::on_finer_meshes(const ScaledProblem& problem, const ScaledProblem& rough, Found found) {
   // A track that only a finer mesh could find is not taken back to a coarser one.
   const std::size_t begun = found.track->mesh().knots.size();
   const std::size_t pieces = std::max(static_cast<std::size_t>(options_.pieces), begun - 1);
@@ -291,6 +292,7 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
   levels.insert(levels.end(), 1 + kMovedLevels, pieces);
   double done = 0.2;
   int hopeless = 0;
+  bool is_rough = true;
   for (std::size_t level = 0; level < levels.size() && !found.stopped; ++level) {
     const std::vector<Switch> switches = switches_of(problem, found);
     const bool last_ones = level + kMovedLevels >= levels.size();
@@ -301,7 +303,8 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
     aim_at(finest ? options_.tolerance : kCoarseTolerance, finest ? 3 : 5);
     const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
                                 core_length_of(found));
-    Found next = on_mesh(problem, mesh, fit(curve_of(*found.track, found.z), Transcription(mesh)), found);
+    Found next = on_mesh(finest ? problem : rough, mesh,
+                         fit(curve_of(*found.track, found.z), Transcription(mesh)), found);
     if (!next.feasible(kNearlyFeasible) && (next.stopped || found.feasible(kNearlyFeasible))) {
       // A mesh on which the search gets lost is no reason to give a track away.
       found.stopped = next.stopped;
@@ -318,9 +321,12 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, Found found) {
     // Where the places at which limits change over move without effect they need not be followed.
     const bool still = last_ones && is_optimum(found) && pays && std::fabs(dearer) <= kWithoutEffect * size;
     found = std::move(next);
+    is_rough = !finest;
     if (still || hopeless > 1) break;
   }
-  return found;
+  if (!is_rough) return found;
+  aim_at(options_.tolerance, 3);
+  return minimise(problem, found.track->mesh(), found.z, margins_, control_, &found);
 }
 
 Found Searcher::followed(const ScaledProblem& problem, Found found) {
@@ -347,6 +353,8 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
   constexpr double kLostAtMost = 5e-7;      // accuracy: half that of a time
   constexpr std::size_t kMostPieces = 120;  // budget
   constexpr double kKept = 0.1;             // taste
+  constexpr int kMostIdle = 1;  // budget: halves that win nothing by themselves may let the next ones
+  int idle = 0;
   for (int round = 0; round < kMostRounds; ++round) {
     const Remainder left = remainder_of(problem, found, control_);
     finer_mesh_wins_ = left.objective / std::fabs(found.objective);
@@ -363,8 +371,10 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
     next = followed(problem, std::move(next));
     const double won = found.objective - next.objective;
     found = std::move(next);
-    // What is promised but not won is not there; prices may gain from it all the same.
-    if (!smooth && won < kKept * left_at_most * std::fabs(found.objective)) break;
+    // What is promised again and again but not won is not there; prices may gain from it all the same.
+    const bool pays = won >= kKept * left_at_most * std::fabs(found.objective);
+    idle = pays ? 0 : idle + 1;
+    if (!smooth && idle > kMostIdle) break;
   }
   return found;
 }

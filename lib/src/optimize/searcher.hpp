@@ -19,7 +19,8 @@ namespace glissade::optimizer {
 /// One way past the keep-outs, searched to its end.
 struct Candidate {
   std::shared_ptr<ScaledProblem> problem;
-  std::optional<Found> found;  ///< none where no start came close to keeping the limits
+  std::shared_ptr<ScaledProblem> rough;  ///< what the search began with, as of roughly_scaled()
+  std::optional<Found> found;            ///< none where no start came close to keeping the limits
   CenterlinePtr track;
   referee::Judgement judgement;
   bool kept = false;  ///< the referee finds every limit kept
@@ -54,7 +55,8 @@ class Searcher {
   void refine(Candidate& candidate, Found found, bool unlimited);
   /// Meshes of more and more pieces, the last of them only while the places at which limits change over move, and it
   /// pays.
-  [[nodiscard]] Found on_finer_meshes(const ScaledProblem& problem, Found found);
+  /// @param rough  of the meshes before those of all pieces
+  [[nodiscard]] Found on_finer_meshes(const ScaledProblem& problem, const ScaledProblem& rough, Found found);
   /// The search on a mesh laid for a track, once more by way of any track that keeps the limits if it gets lost.
   [[nodiscard]] Found on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
                               const Found& known);
