@@ -9,7 +9,6 @@
 #include <functional>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace glissade::testing_problems {
@@ -94,9 +93,13 @@ inline Problem resized(Problem problem, double size) {
     scale(range->lowest, root);
     scale(range->highest, root);
   }
-  scale(limits.arc_length.highest, size);
+  for (Range* range : {&limits.arc_length, &problem.finish.free_range, &problem.finish.free_drop}) {
+    scale(range->lowest, size);
+    scale(range->highest, size);
+  }
   limits.lead_in *= size;
   limits.lead_out *= size;
+  limits.lowest_speed_from *= size;
   for (HalfPlane& plane : limits.half_planes) {
     plane.clearance *= size;
     plane.point = size * plane.point;
@@ -111,6 +114,7 @@ inline Problem resized(Problem problem, double size) {
       for (Vec2& point : profile.line) point = size * point;
     }
   }
+  for (Vec2& point : limits.waypoints) point = size * point;
   const Envelope& envelope = limits.envelope;
   limits.envelope = {size * envelope.below, size * envelope.above, size * envelope.headroom};
   return problem;
@@ -130,60 +134,6 @@ inline Problem lifted(Problem problem, double height) {
     }
   }
   return problem;
-}
-
-struct Variant {
-  std::string name;
-  Problem problem;
-};
-
-/// Each limit left out, and given way a little, all others kept.
-inline std::vector<Variant> relaxed(const Problem& problem) {
-  std::vector<Variant> variants;
-  const Limits& limits = problem.limits;
-  const double chord = std::hypot(problem.endpoints.run, problem.endpoints.drop);
-  const auto add = [&](const std::string& name, const std::function<void(Limits&)>& change) {
-    variants.push_back({name, problem});
-    change(variants.back().problem.limits);
-  };
-  const auto add_range = [&](const std::string& name, Range Limits::*range, double way) {
-    const Range& bounds = limits.*range;
-    if (!bounds.limited()) return;
-    add("without " + name, [&](Limits& changed) { changed.*range = Range{}; });
-    add("wider " + name, [&](Limits& changed) {
-      if (bounds.lowest) (changed.*range).lowest = *bounds.lowest - way;
-      if (bounds.highest) (changed.*range).highest = *bounds.highest + way;
-    });
-  };
-  const auto add_bound = [&](const std::string& name, std::optional<double> Limits::*bound, double factor) {
-    if (!(limits.*bound)) return;
-    add("without " + name, [&](Limits& changed) { (changed.*bound).reset(); });
-    add("wider " + name, [&](Limits& changed) { *(changed.*bound) *= factor; });
-  };
-  add_range("entry_slope_angle", &Limits::entry_slope_angle, 0.05);
-  add_range("exit_slope_angle", &Limits::exit_slope_angle, 0.05);
-  add_range("slope_angle", &Limits::slope_angle, 0.05);
-  add_range("speed", &Limits::speed, 0.05 * std::sqrt(chord * problem.gravity));
-  add_range("arc_length", &Limits::arc_length, 0.02 * chord);
-  add_bound("smallest_valley_radius", &Limits::smallest_valley_radius, 0.9);
-  add_bound("smallest_crest_radius", &Limits::smallest_crest_radius, 0.9);
-  add_bound("highest_curvature_rate", &Limits::highest_curvature_rate, 1.1);
-  add_bound("highest_normal_load", &Limits::highest_normal_load, 1.1);
-  if (*limits.lowest_normal_load > 0.0) {
-    add("without lowest_normal_load", [](Limits& changed) { changed.lowest_normal_load = 0.0; });
-    add("wider lowest_normal_load", [](Limits& changed) { *changed.lowest_normal_load *= 0.8; });
-  }
-  if (limits.lead_in > 0.0) add("without lead_in", [](Limits& changed) { changed.lead_in = 0.0; });
-  if (limits.lead_out > 0.0) add("without lead_out", [](Limits& changed) { changed.lead_out = 0.0; });
-  if (!limits.half_planes.empty()) {
-    add("without half_planes", [](Limits& changed) { changed.half_planes.clear(); });
-    add("wider half_planes", [&](Limits& changed) { changed.half_planes[0].point.y += 0.02 * chord; });
-  }
-  if (!limits.stay_above.empty()) {
-    add("without stay_above", [](Limits& changed) { changed.stay_above.clear(); });
-    add("a gully in stay_above", [&](Limits& changed) { changed.stay_above[0].line[1].y += chord; });
-  }
-  return variants;
 }
 
 }  // namespace glissade::testing_problems

@@ -5,6 +5,7 @@
 #include "optimize/changed_bound.hpp"
 #include "optimize/drawn_problems.hpp"
 #include "optimize/random_limits.hpp"
+#include "optimize/variations.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -21,20 +22,15 @@ namespace {
 constexpr double kSame = 1e-5;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-double objective_of(const Problem& problem, const OptimizeReport& report) {
-  return problem.objective.kind == ObjectiveKind::exit_speed ? -report.exit_speed : report.travel_time;
-}
-
 /// Holds the answer to a changed problem against that to the problem it came from.
-/// @param unit  of the objective in the changed problem, over that of the other
-void compare(const std::string& change, const Problem& changed, double objective, double unit, bool same) {
-  const Optimum optimum = optimize(changed);
-  CAPTURE(change, optimum.report.brief());
-  REQUIRE(optimum.centerline);
-  const double excess = objective_of(changed, optimum.report) / unit - objective;
-  CAPTURE(excess / std::fabs(objective));
-  CHECK(excess <= kSame * std::fabs(objective));
-  if (same) CHECK(excess >= -kSame * std::fabs(objective));
+void compare(const testing_problems::Variation& variation, const OptimizeReport& known) {
+  const Optimum changed = optimize(variation.problem);
+  CAPTURE(variation.name(), changed.report.brief());
+  REQUIRE(changed.centerline);
+  const double slower = testing_problems::slower_by(variation, known, changed.report);
+  CAPTURE(slower);
+  CHECK(slower <= kSame);
+  if (variation.order == testing_problems::Order::same) CHECK(slower >= -kSame);
 }
 
 /// A tenth of the problems of other tests: each of these is solved some ten times.
@@ -55,21 +51,14 @@ TEST_CASE("a limit that gives way never makes a problem infeasible, nor its trac
     if (!optimum.centerline) continue;
     ++solved;
     CAPTURE(i, optimum.report.brief());
-    const double objective = objective_of(problem, optimum.report);
-    for (const testing_problems::Variant& variant : testing_problems::relaxed(problem)) {
-      compare(variant.name, variant.problem, objective, 1.0, false);
-    }
-    if (problem.low_friction) {
-      Problem narrow = problem;
-      narrow.low_friction.reset();
-      narrow.high_friction.reset();
-      compare("without a friction range", narrow, objective, 1.0, false);
+    for (const testing_problems::Variation& variation : testing_problems::relaxations_of(problem)) {
+      compare(variation, optimum.report);
     }
   }
   CHECK(solved > problems / 2);
 }
 
-TEST_CASE("mirrored, of another size and at another height a problem has the same answer") {
+TEST_CASE("mirrored, of another size and elsewhere a problem has the same answer") {
   testing::Random random = testing::seeded_random(20250218);
   INFO("GLISSADE_SEED=" << random.seed());
   const int problems = problem_count();
@@ -78,19 +67,13 @@ TEST_CASE("mirrored, of another size and at another height a problem has the sam
     const Optimum optimum = optimize(problem);
     if (!optimum.centerline) continue;
     CAPTURE(i, optimum.report.brief());
-    const double objective = objective_of(problem, optimum.report);
-    Problem mirrored = problem;
-    mirrored.endpoints.run = -mirrored.endpoints.run;
-    compare("mirrored", mirrored, objective, 1.0, true);
-    compare("lifted", testing_problems::lifted(problem, 4000.0), objective, 1.0, true);
-    for (const double size : {1e-2, 1e3}) {
-      compare("resized", testing_problems::resized(problem, size), objective, std::sqrt(size), true);
+    for (const testing_problems::Variation& variation : testing_problems::same_again(problem)) {
+      compare(variation, optimum.report);
     }
   }
 }
 
-TEST_CASE(
-    "mirrored, of another size and at another height clearances of a whole solid have the same answer") {
+TEST_CASE("mirrored, of another size and elsewhere clearances of a whole solid have the same answer") {
   testing::Random random = testing::seeded_random(20250304);
   INFO("GLISSADE_SEED=" << random.seed());
   int solved = 0;
@@ -100,14 +83,8 @@ TEST_CASE(
     if (!optimum.centerline) continue;
     ++solved;
     CAPTURE(i, made.words, optimum.report.brief());
-    const double objective = objective_of(made.problem, optimum.report);
-    Problem mirrored = made.problem;
-    mirrored.endpoints.run = -mirrored.endpoints.run;
-    compare("mirrored", mirrored, objective, 1.0, true);
-    compare("lifted", testing_problems::lifted(made.problem, 4000.0), objective, 1.0, true);
-    for (const double size : {1e-2, 1e3}) {
-      const Problem resized = testing_problems::resized(made.problem, size);
-      compare("resized", resized, objective, std::sqrt(size), true);
+    for (const testing_problems::Variation& variation : testing_problems::same_again(made.problem)) {
+      compare(variation, optimum.report);
     }
   }
   CHECK(solved > 0);
@@ -191,8 +168,9 @@ TEST_CASE("each kind of limit, made to bind and then given way, leaves the track
     const std::vector<ActiveLimit>& active = optimum.report.active;
     const bool is_length = one.limit.id == LimitId::lead_in || one.limit.id == LimitId::lead_out;
     CHECK((is_length || std::any_of(active.begin(), active.end(), names_it)));
-    const double time = optimum.report.travel_time;
-    compare("looser", optimizer::with_bound(one.problem, one.limit, one.looser).value(), time, 1.0, false);
+    compare({"looser", one.limit.key(), testing_problems::Order::no_worse,
+             optimizer::with_bound(one.problem, one.limit, one.looser).value()},
+            optimum.report);
   }
 }
 
