@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace glissade::parts {
@@ -22,6 +23,8 @@ struct Strip {
   std::vector<BendStep> steps;
   double edge_from = 0.0;  ///< at the side of `face_from` [m]
   double edge_to = 0.0;
+  std::optional<double> edge_mismatch =
+      std::nullopt;  ///< of one whose edges are not those of the section [m]
 };
 
 /// @return flats of a stretch by the rule of the job

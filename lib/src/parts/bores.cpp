@@ -109,6 +109,33 @@ double drilled_volume(double hole_radius, double thickness, double radius) {
   return area * (thickness + beyond_first(radius + thickness) - beyond_first(radius));
 }
 
+double drilled_by_layers(const Bore& bore) {
+  double volume = 0.0;
+  for (std::size_t layer = 0; layer < kNodes.size(); ++layer) {
+    const double depth = kNodes[layer] * bore.depth;
+    for (std::size_t k = 0; k < kNodes.size(); ++k) {
+      const double r = bore.radius * std::sqrt(kNodes[k]);
+      const double weight =
+          kWeights[layer] * bore.depth * kWeights[k] * kPi * bore.radius * bore.radius / kSpokes;
+      for (int i = 0; i < kSpokes; ++i) {
+        const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * (i + 0.5) / kSpokes);
+        const double x = r * cosine;
+        const double y = r * sine;
+        double slant =
+            0.0;  // of the surface, as 1 minus the cosine of its angle to the plate at the hole's axis
+        if (bore.from_axis != 0.0) {
+          const double level =
+              bore.from_axis + y * bore.grows_across + bore.rise(depth, x, y) * bore.grows_into;
+          const double away = math::hypot(level, x);
+          slant = bore.grows_into * bore.grows_into * (x * x / (away * (away + level)));
+        }
+        volume += weight / (1.0 - slant);
+      }
+    }
+  }
+  return volume;
+}
+
 Bore bore_at(const std::vector<PathPiece>& pieces, const Circle& hole, const BoreLine& line) {
   std::size_t i = 0;
   double reached = 0.0;
@@ -172,10 +199,11 @@ std::vector<Bore> bores_in(const PartBody& body) {
 }
 
 /// Where holes of parts begin or end, in space.
-std::vector<Vec3> mouths_of(const Workshop& workshop, std::string_view word, bool back) {
+std::vector<Vec3> mouths_of(const Workshop& workshop, const std::function<bool(const std::string&)>& wanted,
+                            bool back) {
   std::vector<Vec3> places;
   for (const ShopPart& part : workshop.parts) {
-    if (part.name.find(word) == std::string::npos) continue;
+    if (!wanted(part.name)) continue;
     for (const Bore& bore : bores_in(part.body)) {
       const Vec3 own = bore.centre + (back ? bore.depth : 0.0) * bore.into;
       for (const Frame& place : part.places) places.push_back(place.to_space(own));
@@ -186,8 +214,10 @@ std::vector<Vec3> mouths_of(const Workshop& workshop, std::string_view word, boo
 
 }  // namespace
 
-double bolt_mismatch(const Workshop& workshop, std::string_view upper, std::string_view lower) {
-  const std::vector<Vec3> above = mouths_of(workshop, upper, true);
+double bolt_mismatch(const Workshop& workshop, std::string_view upper,
+                     const std::function<bool(const std::string&)>& lower) {
+  const std::vector<Vec3> above = mouths_of(
+      workshop, [&](const std::string& name) { return name.find(upper) != std::string::npos; }, true);
   const std::vector<Vec3> below = mouths_of(workshop, lower, false);
   if (above.size() != below.size()) return std::numeric_limits<double>::infinity();
   double most = 0.0;

@@ -7,6 +7,8 @@
 #include "parts/brep.hpp"
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -46,6 +48,9 @@ struct BoreMoments {
 /// @param radius  of the smaller cylinder; more than that of the hole
 [[nodiscard]] double drilled_volume(double hole_radius, double thickness, double radius);
 
+/// @return the same of any hole, by the areas that it cuts from the surfaces between the plate's faces
+[[nodiscard]] double drilled_by_layers(const Bore& bore);
+
 /// The line of a section that a hole begins on. Pairs are (to the left of the path, along z).
 struct BoreLine {
   Vec2 foot;    ///< where y = 0 stands
@@ -61,9 +66,11 @@ struct BoreLine {
 [[nodiscard]] std::vector<Bore> bores_of(const RolledSheet& sheet);
 
 /// Holds holes of plates that lie on others against those of the others, all of which they share.
-/// @param upper,lower  words in the names of the parts
+/// @param upper  a word in the names of the parts that lie on others
+/// @param lower  whether a name is of those others
 /// @return greatest distance between the ends of two holes that meet; infinity if their counts differ [m]
-[[nodiscard]] double bolt_mismatch(const Workshop& workshop, std::string_view upper, std::string_view lower);
+[[nodiscard]] double bolt_mismatch(const Workshop& workshop, std::string_view upper,
+                                   const std::function<bool(const std::string&)>& lower);
 
 /// Adds the wall of a hole to a solid, in the solid's unit.
 /// @return its edges in the face where it begins and in the other one, as those faces use them

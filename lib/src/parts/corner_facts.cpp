@@ -28,6 +28,14 @@ double least_web(const PlaneRegion& region) {
 
 }  // namespace
 
+void measure_slots(Workshop& workshop) {
+  ShopFacts facts(workshop);
+  for (const ShopPart& part : workshop.parts) {
+    if (!part.pattern || part.pattern->region.cutouts.empty()) continue;
+    facts.of(part, "web_thicknesses", least_web(part.pattern->region), part.thickness);
+  }
+}
+
 void measure_corners(const Job& job, const std::vector<Unit>& units, Workshop& workshop) {
   if (!has_tabs(job)) return;
   const bool beside = job.options.walls == WallSeat::beside_floor;
@@ -43,10 +51,7 @@ void measure_corners(const Job& job, const std::vector<Unit>& units, Workshop& w
       if (i > 0) facts.at(where, "tab_gap", unit.tabs[i].from - unit.tabs[i - 1].to);
     }
   }
-  for (const ShopPart& part : workshop.parts) {
-    if (!part.pattern || part.pattern->region.cutouts.empty()) continue;
-    facts.of(part, "web_thicknesses", least_web(part.pattern->region), part.thickness);
-  }
+  measure_slots(workshop);
   facts.at("every slot", "slot_clearance", job.options.corners.clearance);
 }
 

@@ -12,8 +12,6 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kAside = 5e-3;       // of laps from the frames that they end before [m]
-constexpr double kOffJoint = 1e-3;    // of slots and steps from joints of the arcs [m]
 constexpr double kOffFrame = 10e-3;   // of tabs from the ends of laps [m]
 constexpr double kLeastTab = 3.2e-3;  // narrower ones burn away [m]
 
@@ -128,7 +126,7 @@ Span floor_base(const Job& job) {
 }
 
 Span lapped(const Job& job, double length) {
-  const double end = job.options.flanges.wanted ? job.options.flanges.thickness + kAside : 0.0;
+  const double end = job.options.flanges.wanted ? job.options.flanges.thickness + kLapAside : 0.0;
   return {end, length - end};
 }
 

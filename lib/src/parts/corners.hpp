@@ -10,6 +10,12 @@ namespace glissade::parts {
 /// Corners between floor and walls. Of two plates one passes: the walls beside a floor, or the floor below them. Where
 /// corners lap, that one reaches beyond the other's far face; it does not where frames stand. With tabs, it has slots.
 
+inline constexpr double kLapAside = 5e-3;  ///< of laps from the frames that they end before [m]
+inline constexpr double kOffJoint = 1e-3;  ///< of slots and steps from joints of the arcs [m]
+
+/// Measures the webs beside the slots of all parts, for rules of the shop.
+void measure_slots(Workshop& workshop);
+
 /// @return how far the passing plate reaches; 0 of corners that butt, and without walls [m]
 [[nodiscard]] double overlap(const Job& job);
 [[nodiscard]] bool has_tabs(const Job& job);

@@ -18,7 +18,6 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kAside = 1e-3;        // between a rim and the frame that it ends before [m]
 constexpr double kLap = 30e-3;         // of a lid beyond its opening, all round [m]
 constexpr double kLeastWeb = 20e-3;    // of a wall above and below an opening [m]
 constexpr double kLeastRound = 20e-3;  // of a stiffener, beyond a corner that laps [m]
@@ -31,28 +30,13 @@ double outside(const Job& job) {
   return 0.5 * job.channel.width + job.channel.wall();
 }
 
-/// The place nearest to an end of a unit whose whole plane, up to a height, is clear of the frame there.
-/// @param sense  +1 from the upstream end, -1 from the downstream one
-double beyond_frame(const Job& job, double end, double sense, double high) {
-  const double taken = job.options.flanges.thickness + kAside;
-  const TrackFrame frame = frame_at(job.track, end);
-  constexpr double kStep = 0.5e-3;
-  double s = end + sense * taken;
-  for (int k = 0; k < 400; ++k, s += sense * kStep) {
-    const TrackFrame here = frame_at(job.track, s);
-    const double floor = sense * dot(here.at - frame.at, frame.along);
-    const double top = sense * dot(here.at + high * here.up - frame.at, frame.along);
-    // Where the wall folds its top is cut off at the frame's plane, whatever s is.
-    if (std::min(floor, top) >= taken - 1e-9) break;
-  }
-  return s;
-}
-
 /// What frames leave of a unit.
 Span between_frames(const Job& job, const Span& unit) {
   if (!job.options.flanges.wanted) return unit;
   const double high = job.channel.wall_height + (job.options.cover ? job.options.cover->thickness : 0.0);
-  return {beyond_frame(job, unit.from, 1.0, high), beyond_frame(job, unit.to, -1.0, high)};
+  const double taken = job.options.flanges.thickness + kAsideOfFrame;
+  return {beyond_frame(job.track, taken, unit.from, 1.0, high),
+          beyond_frame(job.track, taken, unit.to, -1.0, high)};
 }
 
 std::string suffix(const Fitting& fitting, std::size_t unit) {
@@ -150,6 +134,20 @@ std::optional<double> TakenUp::free_place(double about, double half, const Span&
     }
   }
   return std::nullopt;
+}
+
+double beyond_frame(const ArcSpline& track, double taken, double end, double sense, double high) {
+  const TrackFrame frame = frame_at(track, end);
+  constexpr double kStep = 0.5e-3;
+  double s = end + sense * taken;
+  for (int k = 0; k < 400; ++k, s += sense * kStep) {
+    const TrackFrame here = frame_at(track, s);
+    const double floor = sense * dot(here.at - frame.at, frame.along);
+    const double top = sense * dot(here.at + high * here.up - frame.at, frame.along);
+    // Where the wall folds its top is cut off at the frame's plane, whatever s is.
+    if (std::min(floor, top) >= taken - 1e-9) break;
+  }
+  return s;
 }
 
 void drill_plate(const Job& job, const Span& span, double upper, double width,
@@ -570,6 +568,17 @@ void object_to_rim(const ChannelMeasures& channel, const PlateOptions& options, 
   }
 }
 
+void object_to_cover(const PlateOptions& options, Refusals& refusals) {
+  refusals.positive(options.cover->thickness, "cover.thickness", "thickness");
+  if (!(options.cover->pitch >= 40e-3)) {
+    refusals.add("cover.pitch", "pitch: " + length_text(options.cover->pitch) + " is too close",
+                 "Bolts of covers are at least 40 mm apart.", "pitch: 300 mm");
+  }
+  refusals.bolt(options.cover->bolt, "cover.bolt", "bolt");
+  if (!options.rim)
+    refusals.add("cover", "cover: it is bolted to a rim, and there is none", "", "rim: {width: 40 mm}");
+}
+
 void object_to_openings(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
   const double rim = options.rim ? options.rim->thickness + 2e-3 : 0.0;
   for (const InspectionOptions& opening : options.inspection) {
@@ -623,16 +632,7 @@ std::vector<Issue> fitting_problems(const ChannelMeasures& channel, const PlateO
     return false;
   };
   if (options.rim && need_walls(true, "rim")) object_to_rim(channel, options, refusals);
-  if (options.cover && need_walls(true, "cover")) {
-    refusals.positive(options.cover->thickness, "cover.thickness", "thickness");
-    if (!(options.cover->pitch >= 40e-3)) {
-      refusals.add("cover.pitch", "pitch: " + length_text(options.cover->pitch) + " is too close",
-                   "Bolts of covers are at least 40 mm apart.", "pitch: 300 mm");
-    }
-    refusals.bolt(options.cover->bolt, "cover.bolt", "bolt");
-    if (!options.rim)
-      refusals.add("cover", "cover: it is bolted to a rim, and there is none", "", "rim: {width: 40 mm}");
-  }
+  if (options.cover && need_walls(true, "cover")) object_to_cover(options, refusals);
   if (!options.inspection.empty() && need_walls(true, "inspection"))
     object_to_openings(channel, options, refusals);
   if (options.lifting && need_walls(true, "lifting")) {
@@ -663,6 +663,18 @@ std::vector<Issue> fitting_problems(const ChannelMeasures& channel, const PlateO
   }
   if (options.liner) object_to_liner(channel, options, refusals);
   if (options.supports) object_to_supports(options, refusals);
+  return std::move(refusals).all();
+}
+
+std::vector<Issue> liner_problems(const ChannelMeasures& lane, const PlateOptions& options) {
+  Refusals refusals;
+  if (options.liner) object_to_liner(lane, options, refusals);
+  return std::move(refusals).all();
+}
+
+std::vector<Issue> cover_problems(const PlateOptions& options) {
+  Refusals refusals;
+  if (options.cover) object_to_cover(options, refusals);
   return std::move(refusals).all();
 }
 

@@ -26,6 +26,19 @@ struct Fitting {
   TakenUp& below;  ///< by frames, bolts and stiffeners
 };
 
+/// @return the place nearest to an end of a unit whose whole plane, up to a height, is clear of what stands there
+/// @param taken  by that, along the track [m]
+/// @param sense  +1 from the upstream end, -1 from the downstream one
+[[nodiscard]] double beyond_frame(const ArcSpline& track, double taken, double end, double sense,
+                                  double high);
+inline constexpr double kAsideOfFrame = 1e-3;  ///< between a rim and the frame that it ends before [m]
+
+/// What no shop can make of tiles on a lane.
+/// @param lane  its width as `width`
+[[nodiscard]] std::vector<Issue> liner_problems(const ChannelMeasures& lane, const PlateOptions& options);
+/// Of a cover and the rims that it lies on, but for their places.
+[[nodiscard]] std::vector<Issue> cover_problems(const PlateOptions& options);
+
 /// Holes through a plate of one width that follows the track: its body becomes a sheet. Its pattern gets none.
 /// @param part   as upright_plate() makes it of a band
 /// @param upper  height of its upper face above the track, at which it folds nowhere

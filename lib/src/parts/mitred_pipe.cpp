@@ -7,6 +7,7 @@
 #include "parts/as_built.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
+#include "parts/fittings.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
@@ -410,6 +411,54 @@ void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop&
   add_joint_bolts(workshop, job.options.flanges, holes, units.size() - 1);
 }
 
+/// Flat bars along the outsides of the troughs' tops, cut at the planes of their ends.
+void add_trough_rims(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
+  if (!job.side || !job.options.rim) return;
+  const RimOptions& rim = *job.options.rim;
+  const double taken = job.options.flanges.wanted ? job.options.flanges.thickness + kAsideOfFrame : 0.0;
+  const double outer = job.radius() + job.pipe.thickness;
+  const double high = *job.side;
+  const double low = high - rim.thickness;
+  int count = 0;
+  for (const GoreUnit& unit : units) {
+    for (const Gore& gore : unit.gores) {
+      const double from = &gore == &unit.gores.front() ? taken : 0.0;
+      const double to = gore.body.length - (&gore == &unit.gores.back() ? taken : 0.0);
+      const auto at = [](double place, Angle tilt, double x) {
+        return place + x * math::tan(tilt.radians());
+      };
+      // In the plane of the axis and the way up; the bar's width is its depth.
+      ArcPath outline{{{{at(from, gore.body.start_tilt, low), low}, 0.0},
+                       {{at(to, gore.body.end_tilt, low), low}, 0.0},
+                       {{at(to, gore.body.end_tilt, high), high}, 0.0},
+                       {{at(from, gore.body.start_tilt, high), high}, 0.0}},
+                      true};
+      ShopPart part;
+      part.name = "rim_" + std::to_string(++count);
+      part.material = job.options.material.name;
+      part.density = job.options.material.density;
+      part.thickness = rim.thickness;
+      part.body = Prism{{outline, {}, {}}, rim.width};
+      const Vec3 left = across(job.placement);
+      const Vec3 along = direction_in_space(job.placement, gore.along);
+      const Vec3 up = direction_in_space(job.placement, up_of(gore.along));
+      const Vec3 axis = in_space(job.placement, gore.from);
+      part.places = {{axis + (-outer) * left, along, up, -1.0 * left},
+                     {axis + (outer + rim.width) * left, along, up, -1.0 * left}};
+      // Cut square from the bar through its upper edge, then to the planes.
+      const PlaneBox box = bounds(outline);
+      FlatPattern pattern;
+      pattern.region.outline = rectangle({}, {box.width(), rim.width});
+      set_number_place(pattern, bounds(pattern.region.outline));
+      part.pattern = std::move(pattern);
+      weigh(part);
+      add_part(workshop, std::move(part), kFittingColour);
+    }
+  }
+  workshop.notes.emplace_back(
+      "Bars of the rim are cut to the planes between troughs; their lengths are the greatest.");
+}
+
 // --- proof
 
 /// Area of the section, and its first moment about the floor line, by its figures.
@@ -537,6 +586,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   Workshop& workshop = build.workshop;
   list_tubes(job, units, workshop);
   add_rings(job, units, workshop);
+  add_trough_rims(job, units, workshop);
   build.joints = on_track(facets, joints, track.length());
   workshop.setting_out = setting_out(track, build.joints, placement);
   for (SettingOutPoint& row : mitres(job, facets)) workshop.setting_out.push_back(std::move(row));
@@ -552,6 +602,33 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
                  " and welded along their seams, which lie 20 deg from the crown, to either side in turn."};
   build.proof = prove(job, units, workshop);
   return build;
+}
+
+std::vector<Issue> mitred_problems(std::optional<double> side, const PlateOptions& options) {
+  std::vector<Issue> issues;
+  const auto add = [&](const char* where, std::string what, std::string why, std::string hint) {
+    issues.push_back({where, std::move(what), std::move(why), std::move(hint)});
+  };
+  const std::string word = side ? "troughs" : "tubes";
+  if (options.liner)
+    add("liner", "liner: tiles are flat, mitred " + word + " are round inside",
+        "They would touch along two lines.", "round: staves");
+  if (options.corners.kind != CornerJoint::butt)
+    add("corners", "corners: mitred " + word + " have no corners along the track", "", "round: staves");
+  if (options.rim && !side)
+    add("rim", "rim: a closed section has no tops that it could lie along", "", "no rim");
+  if (options.cover)
+    add("cover", "cover: it would be bolted across the mitres of " + word,
+        "Its rims are bars between planes that are not square to them.",
+        side ? "round: staves, or no cover" : "no cover");
+  if (!options.rim || !side) return issues;
+  if (!(options.rim->width > 0.0))
+    add("rim.width", "width: " + length_text(options.rim->width) + " is not positive", "",
+        "a positive length");
+  if (!(options.rim->thickness > 0.0))
+    add("rim.thickness", "thickness: " + length_text(options.rim->thickness) + " is not positive", "",
+        "a positive length");
+  return issues;
 }
 
 }  // namespace glissade::parts

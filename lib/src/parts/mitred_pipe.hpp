@@ -4,6 +4,7 @@
 #include "glissade/section/measures.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace glissade::parts {
 
@@ -19,6 +20,9 @@ namespace glissade::parts {
                                              std::optional<double> side, const PlateOptions& options,
                                              const Placement& placement, const Body& body, double gravity,
                                              const Motion& design);
+
+/// What no shop can make of mitred tubes or troughs, whatever the track is.
+[[nodiscard]] std::vector<Issue> mitred_problems(std::optional<double> side, const PlateOptions& options);
 
 /// Greatest distance of the cut edge of a developed tube from its sine line [m].
 inline constexpr double kSineTolerance = 0.02e-3;

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -269,17 +270,25 @@ double largest_edge_mismatch(const Job& job, const std::vector<Unit>& units) {
 void require_bolts_meet(const Workshop& workshop) {
   // Pieces that get one number differ by what no machine cuts.
   constexpr double kSame = 4.0 * kSamePart;
-  for (const auto& [upper, lower] : {std::pair("tile", "floor"), std::pair("cover", "rim")}) {
-    const bool there = std::any_of(workshop.parts.begin(), workshop.parts.end(), [&](const ShopPart& part) {
-      return part.name.find(upper) != std::string::npos;
-    });
+  const auto has = [](const std::string& name, const char* word) {
+    return name.find(word) != std::string::npos;
+  };
+  const auto is_rim = [&](const std::string& name) { return has(name, "rim"); };
+  const auto is_lined = [&](const std::string& name) {
+    return !has(name, "tile") && !has(name, "cover") && !has(name, "rim");
+  };
+  const auto hold = [&](const char* upper, const std::function<bool(const std::string&)>& lower) {
+    const bool there = std::any_of(workshop.parts.begin(), workshop.parts.end(),
+                                   [&](const ShopPart& part) { return has(part.name, upper); });
     const double mismatch = there ? bolt_mismatch(workshop, upper, lower) : 0.0;
-    if (mismatch <= kSame) continue;
+    if (mismatch <= kSame) return;
     throw InternalError({"",
-                         "holes of parts named " + std::string(upper) + " and " + lower +
-                             " do not meet: " + length_text(mismatch, 3),
+                         "holes of each " + std::string(upper) +
+                             " and what is below do not meet: " + length_text(mismatch, 3),
                          "", ""});
-  }
+  };
+  hold("tile", is_lined);
+  hold("cover", is_rim);
 }
 
 PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {

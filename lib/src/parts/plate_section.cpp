@@ -129,12 +129,35 @@ std::optional<WidthLaw> changing(const WidthLaw& width) {
   return width.is_constant() ? std::nullopt : std::optional(width);
 }
 
-std::optional<PlateSection> section_of(const section::Trapezoid& channel, const PlateOptions&) {
+/// The thickness of a liner.
+double lining_of(const PlateOptions& options) {
+  return options.liner ? options.liner->thickness : 0.0;
+}
+
+/// Moves all plates of a chain outwards by a liner that covers them.
+PlateSection lined(const std::vector<Vec2>& chain, PlateSection section, const PlateOptions& options) {
+  if (!options.liner) return section;
+  PlateSection moved =
+      of_chain(moved_to_left(chain, section.closed, lining_of(options)), section.thickness, section.closed);
+  for (std::size_t i = 0; i < section.plates.size(); ++i) {
+    moved.plates[i].name = section.plates[i].name;
+    moved.lined.push_back({i, section.plates[i].face_from, section.plates[i].face_to});
+  }
+  moved.departure = section.departure;
+  return moved;
+}
+
+std::optional<PlateSection> section_of(const section::Trapezoid& channel, const PlateOptions& options) {
   const double half = 0.5 * channel.width.narrowest();
-  const double top = half + channel.wall_height * math::tan(channel.wall_angle.radians());
+  const double lean = math::tan(channel.wall_angle.radians());
+  const double top = half + channel.wall_height * lean;
+  // Below a liner the floor is narrower by as much as the walls lean.
+  const double low = lining_of(options);
+  const double foot = half - low * lean;
   PlateSection section =
-      of_chain({{top, channel.wall_height}, {half, 0.0}, {-half, 0.0}, {-top, channel.wall_height}},
+      of_chain({{top, channel.wall_height}, {foot, -low}, {-foot, -low}, {-top, channel.wall_height}},
                channel.thickness, false);
+  if (options.liner) section.lined = {{1, {half, 0.0}, {-half, 0.0}}};
   section.plates[0].name = "left_wall";
   section.plates[1].name = "floor";
   section.plates[2].name = "right_wall";
@@ -172,7 +195,7 @@ std::optional<PlateSection> section_of(const section::HalfPipe& trough, const Pl
   PlateSection section = of_chain(chain, trough.thickness, false);
   section.departure = miss_of(radius, kPi / turns);
   name_by_place(section, "stave");
-  return section;
+  return lined(chain, std::move(section), options);
 }
 
 std::optional<PlateSection> section_of(const section::Pipe& pipe, const PlateOptions& options) {
@@ -181,11 +204,12 @@ std::optional<PlateSection> section_of(const section::Pipe& pipe, const PlateOpt
   while (count < 360 && miss_of(radius, 2.0 * kPi / count) > options.stave_tolerance) ++count;
   std::vector<double> touches;
   for (int k = 0; k <= count; ++k) touches.push_back(-2.0 * kPi * k / count);
-  PlateSection section = of_chain(round_corners(radius, touches), pipe.thickness, true);
+  const std::vector<Vec2> chain = round_corners(radius, touches);
+  PlateSection section = of_chain(chain, pipe.thickness, true);
   section.departure = miss_of(radius, 2.0 * kPi / count);
   // Corners begin to the right of the lowest line: the last plate is the floor.
   name_by_place(section, "stave");
-  return section;
+  return lined(chain, std::move(section), options);
 }
 
 std::optional<PlateSection> section_of(const section::VChannel& channel, const PlateOptions& options) {
@@ -204,7 +228,25 @@ std::optional<PlateSection> section_of(const section::VChannel& channel, const P
   name_by_place(section, "stave");
   section.plates.front().name = "left_wall";
   section.plates.back().name = "right_wall";
-  return section;
+  return lined(chain, std::move(section), options);
+}
+
+/// Where two lines meet.
+Vec2 crossing(Vec2 a, Vec2 along_a, Vec2 b, Vec2 along_b) {
+  return a + (cross(b - a, along_b) / cross(along_a, along_b)) * along_a;
+}
+
+/// Moves one side of a closed chain to its left, the sides beside it going on to it.
+std::vector<Vec2> with_side_moved(std::vector<Vec2> chain, std::size_t side, double by) {
+  const std::size_t count = chain.size();
+  const Vec2 from = chain[side];
+  const Vec2 to = chain[(side + 1) % count];
+  const Vec2 moved = from + by * left_of(to - from);
+  const Vec2 before = from - chain[(side + count - 1) % count];
+  const Vec2 after = chain[(side + 2) % count] - to;
+  chain[side] = crossing(moved, to - from, from, before);
+  chain[(side + 1) % count] = crossing(moved, to - from, to, after);
+  return chain;
 }
 
 /// Plates inside the outline of a solid, one a side.
@@ -228,6 +270,16 @@ std::optional<PlateSection> round_outline(const section::Measures& measures, con
   section.outside = kept;
   section.outside_on_left = false;
   name_by_place(section, "side");
+  for (std::size_t i = 0; options.liner && i < section.plates.size(); ++i) {
+    if (section.plates[i].name != "floor") continue;
+    // Below the liner's tiles, which lie inside the outline.
+    PlateSection below = of_chain(with_side_moved(kept, i, lining_of(options)), section.thickness, true);
+    for (std::size_t k = 0; k < below.plates.size(); ++k) below.plates[k].name = section.plates[k].name;
+    below.lined = {{i, section.plates[i].face_from, section.plates[i].face_to}};
+    below.outside = with_side_moved(kept, i, lining_of(options));
+    below.outside_on_left = false;
+    return below;
+  }
   return section;
 }
 

@@ -4,6 +4,7 @@
 #include "glissade/parts/plate_options.hpp"
 #include "glissade/section/measures.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,13 @@ struct SectionPlate {
   [[nodiscard]] Vec2 middle_to() const { return 0.5 * (face_to + back_to); }
 };
 
+/// What tiles of a liner lie on, their faces where the section has its own.
+struct LinedFace {
+  std::size_t plate = 0;  ///< below them
+  Vec2 from;              ///< of the section's own face, as `face_from` and `face_to`
+  Vec2 to;
+};
+
 /// A section as flat plates that meet in mitres: from the left rim round to the right one.
 struct PlateSection {
   std::vector<SectionPlate> plates;
@@ -31,10 +39,11 @@ struct PlateSection {
   bool convex = false;  ///< a frame fits round it
   double lowest = 0.0;
   double highest = 0.0;
-  double departure = 0.0;       ///< of the plates from a round section [m]
-  std::vector<Vec2> outside;    ///< corners that a frame goes round
-  bool outside_on_left = true;  ///< seen along `outside`, the frame lies to its left
-  bool mitred = true;           ///< else walls stand beside a floor, or on it, edge against face
+  double departure = 0.0;             ///< of the plates from a round section [m]
+  std::vector<Vec2> outside;          ///< corners that a frame goes round
+  bool outside_on_left = true;        ///< seen along `outside`, the frame lies to its left
+  bool mitred = true;                 ///< else walls stand beside a floor, or on it, edge against face
+  std::vector<LinedFace> lined = {};  ///< of a section that is to be lined: its plates lie farther out for it
   /// Of a floor that widens: all of the above are of its narrowest place, and corners beside the middle move out with half of it.
   std::optional<WidthLaw> widths = std::nullopt;
 };

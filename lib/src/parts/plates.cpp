@@ -16,7 +16,9 @@
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_proof.hpp"
+#include "parts/section_corners.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/strip_fittings.hpp"
 #include "parts/strips.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -194,6 +196,10 @@ struct MitredRound {
 
 std::optional<MitredRound> mitred_round(const section::Measures& measures, const PlateOptions& options) {
   if (options.round == RoundMake::staves) return std::nullopt;
+  // What staves alone can have.
+  const bool staves = options.liner || options.cover || options.corners.kind != CornerJoint::butt ||
+                      (options.rim && std::holds_alternative<section::Pipe>(measures));
+  if (staves && options.round == RoundMake::as_fits) return std::nullopt;
   if (const auto* const pipe = std::get_if<section::Pipe>(&measures)) return MitredRound{*pipe, std::nullopt};
   if (const auto* const half = std::get_if<section::HalfPipe>(&measures))
     return MitredRound{{half->width, half->thickness}, half->wall_height};
@@ -284,10 +290,13 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
     return issues;
   }
   std::vector<Issue> issues = common_problems(options);
-  if (!issues.empty() || mitred_round(measures, options)) return issues;
+  if (!issues.empty()) return issues;
+  if (const auto round = mitred_round(measures, options)) return mitred_problems(round->side, options);
   const auto section = plate_section(measures, options);
-  for (Issue& issue : section ? strip_problems(*section, options) : width_changes())
-    issues.push_back(std::move(issue));
+  if (!section) return width_changes();
+  for (const auto& problems : {strip_problems, section_corner_problems, section_fitting_problems}) {
+    for (Issue& issue : problems(*section, options)) issues.push_back(std::move(issue));
+  }
   return issues;
 }
 

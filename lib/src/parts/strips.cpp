@@ -9,14 +9,21 @@
 #include "parts/bent_strips.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
+#include "parts/bores.hpp"
+#include "parts/corners.hpp"
 #include "parts/equal_parts.hpp"
 #include "parts/offset_line.hpp"
 #include "parts/plate_checks.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
+#include "parts/plate_proof.hpp"
 #include "parts/plate_unit.hpp"
+#include "parts/section_corners.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/shop_facts.hpp"
+#include "parts/strip_fittings.hpp"
 #include "parts/strip_shape.hpp"
+#include "parts/strip_sheet.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -75,6 +82,112 @@ std::vector<double> rolled_radii(const StripJob& job, const SectionPlate& plate,
   return {};
 }
 
+constexpr double kOffFrame = 10e-3;  // of tabs from the ends of laps [m]
+
+/// What is cut from the plates of a unit besides their edges.
+struct UnitWork {
+  Span laps;               ///< where edges that pass reach out
+  std::vector<Span> tabs;  ///< along the track
+  std::vector<TilePlace> tiles;
+  std::vector<std::vector<Circle>> holes;  ///< a list a plate: (place along the track, y along its face)
+};
+
+double slack_of(const StripJob& job) {
+  return 0.5 * job.options.corners.clearance;
+}
+
+bool has_tabs(const StripJob& job) {
+  return job.options.corners.kind == CornerJoint::tab_and_slot;
+}
+
+/// The stretch of track on which every plate stands unfolded.
+Span all_unfolded(const StripJob& job) {
+  Span span{0.0, job.track.length()};
+  for (const SectionPlate& plate : job.section.plates) {
+    const Span one = unfolded(job, plate);
+    span = {std::max(span.from, one.from), std::min(span.to, one.to)};
+  }
+  return span;
+}
+
+/// What frames leave of a unit to laps: their ends off the joints of arcs.
+Span laps_of(const StripJob& job, const Span& unit) {
+  const Span all = all_unfolded(job);
+  Span laps{std::max(unit.from, all.from), std::min(unit.to, all.to)};
+  if (!job.options.flanges.wanted || !job.section.convex) return laps;
+  const double end = job.options.flanges.thickness + kLapAside;
+  const auto off_joints = [&](double place, double sense) {
+    for (const TrackArc& arc : job.track.arcs()) {
+      if (std::fabs(place - arc.start) < kOffJoint) return arc.start + sense * kOffJoint;
+    }
+    return place;
+  };
+  return {off_joints(std::max(laps.from, unit.from + end), 1.0),
+          off_joints(std::min(laps.to, unit.to - end), -1.0)};
+}
+
+/// Tabs of a unit, evenly as far as arcs let them stand on one of them each.
+std::vector<Span> tabs_of(const StripJob& job, const Span& laps, std::size_t number) {
+  const CornerOptions& corners = job.options.corners;
+  const double half = 0.5 * corners.tab;
+  const Span within{laps.from + kOffFrame + half, laps.to - kOffFrame - half};
+  const OnOneArc arcs(job.track, half + slack_of(job), {0.0, 0.0});
+  const double count = std::max(1.0, std::ceil((within.to - within.from) / corners.spacing - 1e-9));
+  const double step = (within.to - within.from) / count;
+  std::vector<Span> tabs;
+  for (double k = 0.0; k <= count; k += 1.0) {
+    const auto middle = arcs.nearest(within.from + k * step, within);
+    if (middle && (tabs.empty() || *middle - half - tabs.back().to > corners.tab))
+      tabs.push_back({*middle - half, *middle + half});
+  }
+  if (!tabs.empty()) return tabs;
+  double longest = 0.0;
+  for (const TrackArc& arc : job.track.arcs()) {
+    longest = std::max(longest, std::min(laps.to, arc.start + arc.length) - std::max(laps.from, arc.start));
+  }
+  throw InputError(
+      {"corners.tab",
+       "tab: " + length_text(corners.tab) + " finds no place along unit " + std::to_string(number),
+       "Its longest arc is " + length_text(longest, 3) + ", and frames take the ends.",
+       "tab: " + length_text(0.3 * longest, 2) + ", or corners: lap"});
+}
+
+/// @param row  courses of tiles before the unit; counts on
+UnitWork work_of(const StripJob& job, const Span& unit, std::size_t number, int& row) {
+  UnitWork work;
+  work.holes.resize(job.section.plates.size());
+  if (job.options.corners.kind != CornerJoint::butt) {
+    work.laps = laps_of(job, unit);
+    if (has_tabs(job)) work.tabs = tabs_of(job, work.laps, number);
+  }
+  if (!job.options.liner) return work;
+  std::vector<double> breaks;
+  for (const Span& tab : work.tabs)
+    breaks.insert(breaks.end(), {tab.from - slack_of(job), tab.to + slack_of(job)});
+  work.tiles = strip_tiles(job, unit, breaks, row);
+  work.holes = holes_below(job, work.tiles);
+  return work;
+}
+
+/// A strip with laps, tabs, slots or holes.
+Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, const CorneredPlate& edges,
+                   const UnitWork& work) {
+  const SectionPlate& plate = job.section.plates[index];
+  Strip strip;
+  strip.plate = index;
+  strip.span = span;
+  SheetCut cut = plain_cut(plate, job.section.thickness, span, job.options.material);
+  cut.edges = edges;
+  cut.laps = {std::max(work.laps.from, span.from), std::min(work.laps.to, span.to)};
+  cut.tabs = work.tabs;
+  cut.slack = slack_of(job);
+  cut.holes = work.holes[index];
+  double mismatch = 0.0;
+  strip.part = sheet_part(job, cut, rolled_radii(job, plate, span, strip.steps), mismatch);
+  strip.edge_mismatch = mismatch;
+  return strip;
+}
+
 Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   const SectionPlate& plate = job.section.plates[index];
   const Development flat = developed(job, plate, span);
@@ -105,14 +218,27 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   return strip;
 }
 
-std::vector<Strip> strips_between(const StripJob& job, const std::vector<double>& joints) {
+std::vector<UnitWork> works_between(const StripJob& job, const std::vector<double>& joints) {
+  std::vector<UnitWork> works;
+  int row = 0;
+  for (std::size_t j = 0; j + 1 < joints.size(); ++j)
+    works.push_back(work_of(job, {joints[j], joints[j + 1]}, j + 1, row));
+  return works;
+}
+
+std::vector<Strip> strips_between(const StripJob& job, const std::vector<double>& joints,
+                                  const std::vector<UnitWork>& works) {
   std::vector<Strip> strips;
+  const std::vector<CorneredPlate> edges = cornered(job.section, job.options);
   for (std::size_t p = 0; p < job.section.plates.size(); ++p) {
     const Span whole = unfolded(job, job.section.plates[p]);
     for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
       const Span span{std::max(joints[j], whole.from), std::min(joints[j + 1], whole.to)};
       if (!(span.to - span.from > 1e-6)) continue;
-      strips.push_back(strip_of(job, p, span));
+      const bool meets = edges[p].from.meeting != CornerEdge::Meeting::mitre ||
+                         edges[p].to.meeting != CornerEdge::Meeting::mitre;
+      const bool worked = meets || !works[j].holes[p].empty();
+      strips.push_back(worked ? worked_strip(job, p, span, edges[p], works[j]) : strip_of(job, p, span));
       if (joints.size() > 2) strips.back().part.name += "_" + std::to_string(j + 1);
     }
   }
@@ -310,6 +436,10 @@ Wanted wanted_of(const StripJob& job, const std::vector<Strip>& strips) {
   Wanted wanted{volume_along(job, job.section, {0.0, job.track.length()}, true), 0.0};
   for (const SectionPlate& plate : job.section.plates) wanted.volume -= missing_volume(job, plate, true);
   for (const Strip& strip : strips) {
+    if (strip.edge_mismatch) {
+      wanted.edge_mismatch = std::max(wanted.edge_mismatch, *strip.edge_mismatch);
+      continue;
+    }
     const SectionPlate& plate = job.section.plates[strip.plate];
     double from = 0.0;
     double to = 0.0;
@@ -355,16 +485,67 @@ double exact_volume(const StripJob& job, const std::optional<BentStrips>& bent,
   return volume;
 }
 
+/// Of a stretch of a plate's section along a stretch of track.
+double volume_along(const StripJob& job, Vec2 section, const Span& span) {
+  double volume = 0.0;
+  for (const StripArc& one : job.arcs_in(span))
+    volume += one.arc.length * (section.x - one.arc.curvature * section.y);
+  return volume;
+}
+
+/// What laps, tabs, slots and holes make more or less than mitred plates are, in closed form but for holes in leaning ones.
+std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::vector<Strip>& strips,
+                                              const std::vector<double>& joints,
+                                              const std::vector<UnitWork>& works) {
+  VolumeDifference laps{"laps", 0.0};
+  VolumeDifference tabs{"tabs", 0.0};
+  VolumeDifference slots{"slots", 0.0};
+  VolumeDifference holes{"holes of the liner", 0.0};
+  const std::vector<CorneredPlate> edges = cornered(job.section, job.options);
+  const double t = job.section.thickness;
+  for (const Strip& strip : strips) {
+    const auto unit = static_cast<std::size_t>(
+        std::upper_bound(joints.begin(), joints.end() - 1, strip.span.from) - joints.begin() - 1);
+    const UnitWork& work = works[unit];
+    const SectionPlate& plate = job.section.plates[strip.plate];
+    const Span out{std::max(work.laps.from, strip.span.from), std::min(work.laps.to, strip.span.to)};
+    for (const CornerEdge* const edge : {&edges[strip.plate].from, &edges[strip.plate].to}) {
+      const bool passes = edge->meeting == CornerEdge::Meeting::passes;
+      if (passes) laps.volume += volume_along(job, stretch_moments(plate, t, edge->plain, edge->out), out);
+      if (edge->meeting == CornerEdge::Meeting::mitre) continue;
+      for (const Span& tab : work.tabs) {
+        const Span slot{tab.from - slack_of(job), tab.to + slack_of(job)};
+        if (passes)
+          slots.volume -= volume_along(job, stretch_moments(plate, t, edge->slot_near, edge->slot_far), slot);
+        else
+          tabs.volume += volume_along(job, stretch_moments(plate, t, edge->plain, edge->out), tab);
+      }
+    }
+    if (const auto* const sheet = std::get_if<RolledSheet>(&strip.part.body)) {
+      for (const Bore& bore : bores_of(*sheet)) holes.volume -= drilled_by_layers(bore);
+    }
+  }
+  std::vector<VolumeDifference> all;
+  for (const VolumeDifference& one : {laps, tabs, slots, holes}) {
+    if (one.volume != 0.0) all.push_back(one);
+  }
+  return all;
+}
+
 PartsProof prove(const StripJob& job, const std::optional<BentStrips>& bent, const std::vector<Strip>& strips,
-                 const Workshop& workshop) {
+                 const std::vector<VolumeDifference>& cut, const Workshop& workshop) {
   PartsProof proof;
   proof.exact_volume = exact_volume(job, bent, strips);
-  const Wanted wanted = bent ? wanted_of(*bent, strips) : wanted_of(job, strips);
+  Wanted wanted = bent ? wanted_of(*bent, strips) : wanted_of(job, strips);
   if (bent) {
     proof.differences = {{job.widens() ? "flats for arcs, lean of the walls" : "flats for arcs",
                           wanted.volume - proof.exact_volume}};
   } else if (job.widens()) {
     proof.differences = {{"lean of the walls", wanted.volume - proof.exact_volume}};
+  }
+  for (const VolumeDifference& difference : cut) {
+    proof.differences.push_back(difference);
+    wanted.volume += difference.volume;
   }
   for (const Strip& strip : strips) proof.volume += strip.part.volume;
   proof.edge_mismatch = wanted.edge_mismatch;
@@ -381,7 +562,12 @@ PartsProof prove(const StripJob& job, const std::optional<BentStrips>& bent, con
     throw InternalError({"", "edges differ by " + length_text(proof.edge_mismatch, 3), "", ""});
   }
   proof.pairs = require_no_clash(workshop);
+  require_bolts_meet(workshop);
   if (job.options.flanges.wanted) proof.smallest_gap = job.options.flanges.gap;
+  if (has_tabs(job)) {
+    const double slack = slack_of(job);
+    proof.smallest_gap = proof.smallest_gap > 0.0 ? std::min(proof.smallest_gap, slack) : slack;
+  }
   return proof;
 }
 
@@ -408,6 +594,41 @@ void measure_strips(const std::vector<Strip>& strips, Workshop& workshop) {
           workshop);
     }
   }
+}
+
+/// What rules of the shop may bound of tabs and slots.
+void measure_tabs(const StripJob& job, const std::vector<double>& joints, const std::vector<UnitWork>& works,
+                  Workshop& workshop) {
+  if (!has_tabs(job)) return;
+  ShopFacts facts(workshop);
+  for (std::size_t j = 0; j < works.size(); ++j) {
+    const std::string where = "tabs at " + length_text(joints[j], 3) + " along the track";
+    const std::vector<Span>& tabs = works[j].tabs;
+    for (std::size_t i = 0; i < tabs.size(); ++i) {
+      const double width = tabs[i].to - tabs[i].from;
+      facts.at(where, "tab_width", width);
+      facts.at(where, "tab_thicknesses", width, job.section.thickness);
+      if (i > 0) facts.at(where, "tab_gap", tabs[i].from - tabs[i - 1].to);
+    }
+  }
+  measure_slots(workshop);
+  facts.at("every slot", "slot_clearance", job.options.corners.clearance);
+}
+
+/// How corners meet that are no mitres.
+void note_corners(const StripJob& job, Workshop& workshop) {
+  const CornerOptions& corners = job.options.corners;
+  if (corners.kind == CornerJoint::butt) return;
+  std::string note = job.options.walls == WallSeat::beside_floor ? "Plates farther from the floor reach "
+                                                                 : "Plates nearer to the floor reach ";
+  note += length_text(corners.overlap) +
+          " beyond those that they pass, frames excepted; corners of less than " +
+          angle_text(Angle::from_degrees(kLeastTurn), 2) + " and those that turn inwards are mitres";
+  if (has_tabs(job)) {
+    note += "; tabs, " + length_text(corners.tab) + " wide along the track, stand in slots that are " +
+            length_text(corners.clearance) + " larger both ways";
+  }
+  workshop.notes.push_back(note + ".");
 }
 
 /// Which parts are cut alike and formed the other way.
@@ -462,6 +683,7 @@ void add_notes(const StripJob& job, const std::optional<BentStrips>& bent, const
     workshop.notes.push_back("Parts " + pairs +
                              " are mirror images: blanks alike, turned over, and formed the other way.");
   }
+  note_corners(job, workshop);
   if (job.section.mitred) {
     workshop.notes.emplace_back(
         "Strips meet in mitres: patterns are of the middle of the thickness, edges are bevelled to the "
@@ -539,6 +761,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
                           const Motion& design) {
   const StripJob job(track, section, options, placement);
   std::vector<Strip> strips;
+  std::vector<UnitWork> works;
   std::optional<BentStrips> bent;
   WorkshopBuild build;
   const double kink = options.floor == FloorMake::bent
@@ -555,7 +778,8 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
       bent.emplace(job, kink, build.joints);
       strips = bent->strips();
     } else {
-      strips = strips_between(job, build.joints);
+      works = works_between(job, build.joints);
+      strips = strips_between(job, build.joints, works);
     }
     for (const Strip& strip : strips) {
       std::optional<Excess> found = excess(options.split, strip.part);
@@ -571,6 +795,13 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   Workshop& workshop = build.workshop;
   list_strips(strips, workshop);
   add_frames(job, bent, build.joints, workshop);
+  add_strip_rims(job, build.joints, workshop);
+  add_strip_covers(job, build.joints, workshop);
+  if (options.liner) {
+    std::vector<TilePlace> tiles;
+    for (const UnitWork& work : works) tiles.insert(tiles.end(), work.tiles.begin(), work.tiles.end());
+    add_strip_liner(job, tiles, workshop);
+  }
   workshop.setting_out = setting_out(track, build.joints, placement);
   build.ride = bent ? as_told(ride_facets(bent->facets(), body, gravity, options.joint_step), design,
                               bent->bends(), build.joints.size() - 2)
@@ -580,8 +811,12 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
     measure_bends(strips, options, workshop);
   else
     measure_strips(strips, workshop);
-  build.proof = prove(job, bent, strips, workshop);
+  measure_tabs(job, build.joints, works, workshop);
+  const std::vector<VolumeDifference> cut =
+      bent ? std::vector<VolumeDifference>() : cut_differences(job, strips, build.joints, works);
+  build.proof = prove(job, bent, strips, cut, workshop);
   add_notes(job, bent, build.proof, strips, workshop);
+  if (!cut.empty()) note_differences(build.proof, "mitred plates", workshop);
   return build;
 }
 

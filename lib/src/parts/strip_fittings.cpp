@@ -1,0 +1,392 @@
+#include "parts/strip_fittings.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/bolts.hpp"
+#include "parts/fittings.hpp"
+#include "parts/offset_line.hpp"
+#include "parts/plate_unit.hpp"
+#include "parts/workshop_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+/// The top of an outer side, and the way down along its outside.
+struct OuterSide {
+  Vec2 top;
+  Vec2 down;  ///< per height
+};
+
+constexpr double kSteepEnough = 0.2;  // height per length of a side that a rim lies against
+
+std::optional<OuterSide> side_from(Vec2 top, Vec2 low) {
+  const Vec2 way = low - top;
+  if (!(norm(way) > 0.0) || !(-way.y > kSteepEnough * norm(way))) return std::nullopt;
+  return OuterSide{top, (1.0 / -way.y) * way};
+}
+
+/// @param sign  +1 on the left, -1 on the right
+std::optional<OuterSide> outer_side(const PlateSection& section, double sign) {
+  if (!section.closed) {
+    const SectionPlate& plate = sign > 0.0 ? section.plates.front() : section.plates.back();
+    return sign > 0.0 ? side_from(plate.back_from, plate.back_to) : side_from(plate.back_to, plate.back_from);
+  }
+  // Plates inside an outline: from its highest corner, the outermost of them, down outside. Those round a closed section have no tops.
+  if (section.outside_on_left) return std::nullopt;
+  const std::vector<Vec2>& outline = section.outside;
+  std::size_t best = 0;
+  constexpr double kLevel = 1e-9;  // [m]
+  for (std::size_t i = 1; i < outline.size(); ++i) {
+    const double higher = outline[i].y - outline[best].y;
+    if (higher > kLevel || (higher > -kLevel && sign * (outline[i].x - outline[best].x) > 0.0)) best = i;
+  }
+  // It runs counter-clockwise, across being to the left: up on the left, down on the right.
+  const std::size_t count = outline.size();
+  return side_from(outline[best], outline[sign > 0.0 ? (best + count - 1) % count : (best + 1) % count]);
+}
+
+/// A level bar against the outside of a side, its upper face level with the top.
+SectionPlate rim_against(const OuterSide& side, double sign, const RimOptions& rim) {
+  const double top = side.top.y;
+  const double low = top - rim.thickness;
+  const double inner = side.top.x;
+  const double under = inner + rim.thickness * side.down.x;
+  const double outer = inner + sign * rim.width;
+  // From left to right, so that its lower face is the far one.
+  if (sign > 0.0) return {"left_rim", {outer, top}, {inner, top}, {outer, low}, {under, low}};
+  return {"right_rim", {inner, top}, {outer, top}, {under, low}, {outer, low}};
+}
+
+std::vector<SectionPlate> rims_of(const StripJob& job) {
+  std::vector<SectionPlate> rims;
+  for (const double sign : {1.0, -1.0}) {
+    if (const auto side = outer_side(job.section, sign))
+      rims.push_back(rim_against(*side, sign, *job.options.rim));
+  }
+  return rims;
+}
+
+SectionPlate cover_on(const std::vector<SectionPlate>& rims, double thickness) {
+  const double left = rims.front().face_from.x;
+  const double right = rims.back().face_to.x;
+  const double low = rims.front().face_from.y;
+  return {"cover", {left, low + thickness}, {right, low + thickness}, {left, low}, {right, low}};
+}
+
+/// What frames and folds leave of a unit to a plate.
+Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate) {
+  Span room = unit;
+  const double high = std::max(plate.face_from.y, plate.back_from.y);
+  if (job.options.flanges.wanted && job.section.convex) {
+    const double taken = job.options.flanges.thickness + kAsideOfFrame;
+    room = {beyond_frame(job.track, taken, unit.from, 1.0, high),
+            beyond_frame(job.track, taken, unit.to, -1.0, high)};
+  }
+  const Span whole = unfolded(job, plate);
+  return {std::max(room.from, whole.from), std::min(room.to, whole.to)};
+}
+
+std::string suffix(const std::vector<double>& joints, std::size_t unit) {
+  return joints.size() > 2 ? "_" + std::to_string(unit + 1) : "";
+}
+
+/// Places along a unit at which covers are bolted to rims, on one arc each.
+std::vector<double> cover_bolts(const StripJob& job, const Span& span, const SectionPlate& cover) {
+  const CoverOptions& options = *job.options.cover;
+  constexpr double kFromEnds = 40e-3;
+  const OnOneArc arcs(job.track, 0.5 * clearance_hole(options.bolt, HoleFit::coarse),
+                      {cover.back_from.y - job.options.rim->thickness, cover.face_from.y});
+  std::vector<double> places;
+  for (const Vec2 at : evenly({span.from + kFromEnds, 0.0}, {span.to - kFromEnds, 0.0}, options.pitch)) {
+    const auto place = arcs.nearest(at.x, {span.from + 0.5 * kFromEnds, span.to - 0.5 * kFromEnds});
+    if (place && (places.empty() || *place - places.back() > kFromEnds)) places.push_back(*place);
+  }
+  return places;
+}
+
+/// Where rims and cover of a unit lie, and are bolted.
+struct Covered {
+  Span span;
+  std::vector<double> bolts;
+};
+
+Covered covered(const StripJob& job, const Span& unit, const std::vector<SectionPlate>& rims) {
+  if (!job.options.cover) return {room_of(job, unit, rims.front()), {}};
+  const SectionPlate cover = cover_on(rims, job.options.cover->thickness);
+  const Span span = room_of(job, unit, cover);
+  return {span, cover_bolts(job, span, cover)};
+}
+
+}  // namespace
+
+ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickness, const Span& span,
+                   const StockMaterial& material, const std::vector<Circle>& holes) {
+  SheetCut cut = plain_cut(plate, thickness, span, material);
+  cut.holes = holes;
+  if (!job.widens()) {
+    double mismatch = 0.0;
+    ShopPart part = sheet_part(job, cut, {}, mismatch);
+    constexpr double kSameEdge = 1e-9;  // [m]
+    if (mismatch <= kSameEdge) return part;
+    throw InternalError(
+        {"", "edges of the " + plate.name + " differ by " + length_text(mismatch, 3), "", ""});
+  }
+  ShopPart part;
+  part.name = plate.name;
+  part.material = material.name;
+  part.density = material.density;
+  part.thickness = cut.thickness;
+  Vec2 origin;
+  part.body = strip_body(job, plate, span, origin);
+  part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
+  part.pattern = pattern_of(developed(job, plate, span), {});
+  weigh(part);
+  return part;
+}
+
+void add_strip_rims(const StripJob& job, const std::vector<double>& joints, Workshop& workshop) {
+  if (!job.options.rim) return;
+  const std::vector<SectionPlate> rims = rims_of(job);
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const Covered unit = covered(job, {joints[i], joints[i + 1]}, rims);
+    for (const SectionPlate& rim : rims) {
+      std::vector<Circle> holes;
+      const double width = rim.face_from.x - rim.face_to.x;
+      const double middle = 0.5 * job.options.rim->width;
+      for (const double s : unit.bolts) {
+        holes.push_back({{s, rim.face_from.x > 0.0 ? middle : width - middle},
+                         0.5 * clearance_hole(job.options.cover->bolt, HoleFit::medium)});
+      }
+      ShopPart part = set_plate(job, rim, job.options.rim->thickness, unit.span, job.options.material, holes);
+      part.name += suffix(joints, i);
+      add_part(workshop, std::move(part), kFittingColour);
+    }
+  }
+}
+
+void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Workshop& workshop) {
+  if (!job.options.cover) return;
+  const CoverOptions& options = *job.options.cover;
+  const std::vector<SectionPlate> rims = rims_of(job);
+  const SectionPlate cover = cover_on(rims, options.thickness);
+  const double width = cover.face_from.x - cover.face_to.x;
+  const double middle = 0.5 * job.options.rim->width;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const Covered unit = covered(job, {joints[i], joints[i + 1]}, rims);
+    std::vector<Circle> holes;
+    for (const double s : unit.bolts) {
+      for (const double y : {middle, width - middle})
+        holes.push_back({{s, y}, 0.5 * clearance_hole(options.bolt, HoleFit::coarse)});
+    }
+    ShopPart part = set_plate(job, cover, options.thickness, unit.span, job.options.material, holes);
+    part.name += suffix(joints, i);
+    add_part(workshop, std::move(part), kFittingColour);
+    add_bolts(workshop, options.bolt, job.options.rim->thickness + options.thickness, holes.size(),
+              "covers to rims");
+  }
+}
+
+// --- liner
+
+namespace {
+
+/// What of a lined face holds tiles: from `low` along it.
+struct Lane {
+  double low = 0.0;
+  double width = 0.0;
+};
+
+Vec2 way_of(const LinedFace& face) {
+  return (1.0 / norm(face.to - face.from)) * (face.to - face.from);
+}
+
+/// Between the corners of the section and of the plate below, whichever are nearer to the middle: tiles are cut square.
+Lane lane_of(const PlateSection& section, const LinedFace& face) {
+  const SectionPlate& plate = section.plates[face.plate];
+  const Vec2 way = way_of(face);
+  const double low = std::max(0.0, dot(plate.face_from - face.from, way));
+  const double high = std::min(norm(face.to - face.from), dot(plate.face_to - face.from, way));
+  return {low, high - low};
+}
+
+std::vector<double> widths_of(const PlateSection& section) {
+  std::vector<double> widths;
+  for (const LinedFace& face : section.lined) widths.push_back(lane_of(section, face).width);
+  return widths;
+}
+
+/// A tile as a plate of the section.
+SectionPlate tile_plate(const PlateSection& section, const TilePlace& tile, double thickness) {
+  const LinedFace& face = section.lined[tile.lane];
+  const Vec2 way = way_of(face);
+  const Vec2 back = thickness * Vec2{-way.y, way.x};
+  const Vec2 from = face.from + (lane_of(section, face).low + tile.edge) * way;
+  const Vec2 to = from + tile.width * way;
+  return {"tile", from, to, from + back, to + back};
+}
+
+}  // namespace
+
+std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, const std::vector<double>& breaks,
+                                   int& row) {
+  const LinerOptions& liner = *job.options.liner;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  Span room = unit;
+  for (const LinedFace& face : job.section.lined) {
+    const SectionPlate& plate = job.section.plates[face.plate];
+    for (const Vec2 corner : {face.from, face.to, plate.back_from, plate.back_to}) {
+      low = std::min(low, corner.y);
+      high = std::max(high, corner.y);
+    }
+    const Span whole = unfolded(job, plate);
+    room = {std::max(room.from, whole.from), std::min(room.to, whole.to)};
+  }
+  const OnOneArc arcs(job.track, 0.5 * clearance_hole(liner.bolt, HoleFit::coarse), {low, high}, breaks);
+  return tile_places(job.options, widths_of(job.section), room, arcs, row);
+}
+
+std::vector<std::vector<Circle>> holes_below(const StripJob& job, const std::vector<TilePlace>& tiles) {
+  std::vector<std::vector<Circle>> holes(job.section.plates.size());
+  const double radius = 0.5 * clearance_hole(job.options.liner->bolt, HoleFit::coarse);
+  for (const TilePlace& tile : tiles) {
+    const LinedFace& face = job.section.lined[tile.lane];
+    const SectionPlate& plate = job.section.plates[face.plate];
+    const double from = lane_of(job.section, face).low - dot(plate.face_from - face.from, way_of(face));
+    for (const double s : tile.along) {
+      for (const double y : tile.across) holes[face.plate].push_back({{s, from + tile.edge + y}, radius});
+    }
+  }
+  return holes;
+}
+
+void add_strip_liner(const StripJob& job, const std::vector<TilePlace>& tiles, Workshop& workshop) {
+  const LinerOptions& liner = *job.options.liner;
+  std::vector<std::string> names;
+  for (const LinedFace& face : job.section.lined)
+    names.push_back(job.section.lined.size() > 1 ? "_" + job.section.plates[face.plate].name : "");
+  lay_tiles(
+      job.options, names, tiles,
+      [&](const TilePlace& tile, const StockMaterial& material) {
+        std::vector<Circle> holes;
+        for (const double s : tile.along) {
+          for (const double y : tile.across)
+            holes.push_back({{s, y}, 0.5 * clearance_hole(liner.bolt, HoleFit::medium)});
+        }
+        return set_plate(job, tile_plate(job.section, tile, liner.thickness), liner.thickness, tile.span,
+                         material, holes);
+      },
+      job.section.thickness, workshop);
+}
+
+namespace {
+
+class Issues {
+ public:
+  void add(const char* where, std::string what, std::string why, std::string hint) {
+    all.push_back({where, std::move(what), std::move(why), std::move(hint)});
+  }
+  void add(std::vector<Issue> more) {
+    for (Issue& issue : more) all.push_back(std::move(issue));
+  }
+  std::vector<Issue> all;
+};
+
+void object_to_rims(const PlateSection& section, const RimOptions& rim, Issues& issues) {
+  for (const auto& [value, where, key] : {std::tuple(rim.width, "rim.width", "width"),
+                                          std::tuple(rim.thickness, "rim.thickness", "thickness")}) {
+    if (!(value > 0.0))
+      issues.add(where, std::string(key) + ": " + length_text(value) + " is not positive", "",
+                 "a positive length");
+  }
+  for (const double sign : {1.0, -1.0}) {
+    const auto side = outer_side(section, sign);
+    if (!side) {
+      const bool round = section.closed && section.outside_on_left;
+      issues.add("rim",
+                 round ? "rim: a closed section has no tops that it could lie along"
+                       : "rim: this section has no side that it could lie against",
+                 round ? "" : "It lies along the outside of a side that goes down from the section's top.",
+                 "no rim, or a cross_section with walls");
+      return;
+    }
+    const double high = side->top.y - section.lowest;
+    if (rim.thickness > 0.5 * high) {
+      issues.add("rim.thickness",
+                 "thickness: " + length_text(rim.thickness) + " is more than half the section, " +
+                     length_text(high, 3),
+                 "The rim lies against its sides.", "thickness: 5 mm");
+      return;
+    }
+  }
+}
+
+void object_to_tiles(const PlateSection& section, const PlateOptions& options, Issues& issues) {
+  const LinerOptions& liner = *options.liner;
+  if (section.lined.empty()) {
+    issues.add("liner",
+               section.widths ? "liner: tiles of one width leave gaps beside a width that changes"
+                              : "liner: this section has no floor that tiles could lie on",
+               section.widths ? "Their courses are cut alike." : "Tiles are flat.",
+               "no liner, or a cross_section of kind: u-channel or trapezoid, of one width");
+    return;
+  }
+  const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), liner.bolt) != bolt_sizes().end();
+  for (const LinedFace& face : section.lined) {
+    const double width = lane_of(section, face).width;
+    const double least =
+        known ? kLeastTile * clearance_hole(liner.bolt, HoleFit::medium) + 2.0 * liner.gap : 0.0;
+    if (width >= least && width > 2.0 * liner.gap) continue;
+    issues.add("liner.bolt",
+               "bolt: tiles on the " + section.plates[face.plate].name + " have " +
+                   length_text(std::max(width, 0.0), 3) + " of room",
+               "Holes for M" + std::to_string(liner.bolt) + " take " + length_text(least, 3) +
+                   " with their edges and gaps.",
+               section.departure > 0.0 ? "a smaller bolt, a larger stave_tolerance, or a larger radius"
+                                       : "a smaller bolt, or a wider floor");
+    return;
+  }
+  if (liner.tile_width > 0.0 && !(liner.gap < 0.0)) {
+    // Its own measures are those of a channel's; half tiles are left out where they would be too narrow.
+    PlateOptions wide = options;
+    double widest = 0.0;
+    for (const double width : widths_of(section)) widest = std::max(widest, width);
+    if (section.lined.size() > 1) wide.liner->tile_width = 4.0 * widest;
+    issues.add(liner_problems({std::max(widest, 1.0), 1.0, section.thickness}, wide));
+    return;
+  }
+  issues.add(liner_problems({1.0, 1.0, section.thickness}, options));
+}
+
+}  // namespace
+
+std::vector<Issue> section_fitting_problems(const PlateSection& section, const PlateOptions& options) {
+  Issues issues;
+  const bool bent = options.floor == FloorMake::bent;
+  const auto on_bends = [&](bool wanted, const char* key) {
+    if (!wanted || !bent) return false;
+    issues.add(key, std::string(key) + ": it would follow the bends of plates that are bent",
+               "It is rolled along arcs of the track.", "floor: rolled");
+    return true;
+  };
+  if (options.rim && !on_bends(true, "rim")) object_to_rims(section, *options.rim, issues);
+  if (options.cover) {
+    issues.add(cover_problems(options));
+    if (section.widths)
+      issues.add("cover", "cover: its bolts and those of the rim do not meet beside a width that changes", "",
+                 "no cover, or one width");
+  }
+  if (options.liner && !on_bends(true, "liner")) object_to_tiles(section, options, issues);
+  return std::move(issues.all);
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "glissade/core/error.hpp"
+#include "glissade/parts/shop_part.hpp"
+
+#include "parts/liner_tiles.hpp"
+#include "parts/strip_shape.hpp"
+#include "parts/strip_sheet.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace glissade::parts {
+
+/// What is set on sections whose plates are strips: rims along the tops of their outer sides, covers on them, tiles on the
+/// floor or, where there is none that is flat, on every plate.
+
+/// The part of a plate that is not of the section itself, between two places.
+/// @param holes  (place along the track, y along its face); none where the width changes
+[[nodiscard]] ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickness,
+                                 const Span& span, const StockMaterial& material,
+                                 const std::vector<Circle>& holes);
+
+void add_strip_rims(const StripJob& job, const std::vector<double>& joints, Workshop& workshop);
+void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Workshop& workshop);
+
+/// The tiles of a unit.
+/// @param breaks  places that no hole lies across
+/// @param row     courses before it; counts on
+[[nodiscard]] std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit,
+                                                 const std::vector<double>& breaks, int& row);
+/// @return the holes of tiles in the plates below them, one list a plate
+[[nodiscard]] std::vector<std::vector<Circle>> holes_below(const StripJob& job,
+                                                           const std::vector<TilePlace>& tiles);
+void add_strip_liner(const StripJob& job, const std::vector<TilePlace>& tiles, Workshop& workshop);
+
+/// What no shop can set on a section, whatever the track is.
+[[nodiscard]] std::vector<Issue> section_fitting_problems(const PlateSection& section,
+                                                          const PlateOptions& options);
+
+}  // namespace glissade::parts
