@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# slurm.sh PROGRAM DESIGN: a sweep as an array of 16 tasks under a real Slurm on the loopback interface, held byte for byte
-# against the same sweep in one process. 77 (skipped) where Slurm is not installed or cannot run here.
+# slurm.sh PROGRAM DESIGN: a sweep as an array of 16 tasks, all at once, under a real Slurm on the loopback interface, held byte
+# for byte against the same sweep in one process. 77 (skipped) where Slurm is not installed or cannot run here.
 set -u
 program=$1 design=$2
 skip() { echo "skipped: $1"; exit 77; }
@@ -48,7 +48,8 @@ SchedulerParameters=batch_sched_delay=0,sched_interval=1
 SwitchType=switch/none
 MpiDefault=none
 ReturnToService=2
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+SlurmdParameters=config_overrides
+NodeName=$host NodeAddr=127.0.0.1 CPUs=16 State=UNKNOWN
 PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
 grep -q 'cred_none' <<<"$(ls "$plugins")" || sed -i '/^CredType/d' "$place/slurm.conf"
@@ -70,7 +71,11 @@ vary=(--set centerline.kind=straight --vary body.friction_angle=10deg:25deg:1001
 "$program" sweep "$design" "${vary[@]}" -o one --quiet || exit 1
 "$program" sweep --merge one -o one.csv --quiet || exit 1
 "$program" sweep "$design" "${vary[@]}" -o many --slurm --quiet || exit 1
-GLISSADE=$program sbatch --export=ALL --wait many/sweep.sbatch || { cat many/slurm-*.log; exit 1; }
+# What sbatch --wait asks less and less often, up to every half minute.
+job=$(GLISSADE=$program sbatch --export=ALL --parsable many/sweep.sbatch) || exit 1
+while squeue --noheader --jobs "$job" 2>/dev/null | grep -q .; do sleep 0.2; done
+scontrol --oneliner show job "$job" >jobs || exit 1
+[ "$(grep -c 'JobState=COMPLETED' jobs)" -eq 16 ] || { cat jobs many/slurm-*.log; exit 1; }
 "$program" sweep --merge many -o many.csv --quiet || exit 1
 cmp one.csv many.csv || { echo "the rows differ"; exit 1; }
 [ "$(ls many/slurm-*.log | wc -l)" -eq 16 ] || { echo "not 16 tasks"; exit 1; }

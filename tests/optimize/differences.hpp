@@ -54,24 +54,26 @@ double gradient_error(const Function& function, const Vector& z, const Vector& g
 inline double hessian_error(const Vector& at, const Rows& rows, const Vector& equality,
                             const std::vector<Row>& active, const Vector& inequality) {
   const Matrix hessian = rows.hessian(rows.state(at, true), equality, active, inequality, 1.0);
+  const auto slopes = [&](const Vector& z) {
+    const State state = rows.state(z, true);
+    Vector value;
+    Matrix jacobian;
+    rows.equalities(state, value, jacobian);
+    Vector sums = rows.objective_gradient(state);
+    Vector gradient(z.size());
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      rows.gradient(state, active[i], gradient.data());
+      for (std::size_t j = 0; j < z.size(); ++j) sums[j] += inequality[i] * gradient[j];
+    }
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      for (std::size_t j = 0; j < z.size(); ++j) sums[j] += equality[i] * jacobian(i, j);
+    }
+    return sums;
+  };
+  std::vector<Vector> seconds;
+  for (std::size_t j = 0; j < at.size(); ++j) seconds.emplace_back(hessian.row(j), hessian.row(j) + at.size());
   double worst = 0.0;
-  for (std::size_t j = 0; j < at.size(); ++j) {
-    const auto slope = [&](const Vector& z) {
-      const State state = rows.state(z, true);
-      Vector value;
-      Matrix jacobian;
-      rows.equalities(state, value, jacobian);
-      double sum = rows.objective_gradient(state)[j];
-      for (std::size_t i = 0; i < value.size(); ++i) sum += equality[i] * jacobian(i, j);
-      Vector gradient(z.size());
-      for (std::size_t i = 0; i < active.size(); ++i) {
-        rows.gradient(state, active[i], gradient.data());
-        sum += inequality[i] * gradient[j];
-      }
-      return sum;
-    };
-    worst = std::max(worst, gradient_error(slope, at, Vector(hessian.row(j), hessian.row(j) + at.size())));
-  }
+  for (const double error : gradient_errors(slopes, at, seconds)) worst = std::max(worst, error);
   return worst;
 }
 
