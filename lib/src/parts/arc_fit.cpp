@@ -305,7 +305,12 @@ class Fitter {
       moved.front() = std::clamp(old.front() + step_of(0, x, move), start_, start_ + stretch_.before->reach);
     if (moves(cells()))
       moved.back() = std::clamp(old.back() + step_of(cells(), x, move), end_ - stretch_.after->reach, end_);
-    if (!stretch_.before) state_.heading += 2.0 * x[1] / width(0);
+    if (!stretch_.before) {
+      // An upright start does not lean over.
+      const double own = samples_.heading[stretch_.first];
+      const double steepest = std::min(own, -0.5 * std::numbers::pi);
+      state_.heading = std::max(state_.heading + 2.0 * x[1] / width(0), steepest);
+    }
     state_.knots = std::move(moved);
     state_.offsets = std::move(offsets);
   }

@@ -127,7 +127,7 @@ class Search {
 
   void add_gate(double s, double piece, bool joint) {
     const CenterlinePoint at = track_.at(std::min(s, track_.length()));
-    const Vec2 point{at.x, -at.drop};
+    const Vec2 point = s > 0.0 ? Vec2{at.x, -at.drop} : Vec2{};
     const Vec2 along = direction_of(-at.slope_angle);
     gates_.push_back({s, point, along, point + band_.left * left_of(along),
                       point - band_.right * left_of(along), band_.half_width() / piece, joint});
@@ -195,6 +195,7 @@ class Search {
     for (std::size_t i = 0; i < kFreeHeadings; ++i) {
       const double share = 2.0 * static_cast<double>(i) / static_cast<double>(kFreeHeadings - 1) - 1.0;
       const Vec2 along = first.along + share * kSteepest * first.heading * left_of(first.along);
+      if (along.x < 0.0 && share != 0.0) continue;  // an upright start does not lean over
       push({first.point, (1.0 / norm(along)) * along, 0, -1});
     }
   }

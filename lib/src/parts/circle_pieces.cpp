@@ -114,7 +114,8 @@ void exchange(Reference& at, const Piece& piece, const Circle4& circle, std::siz
 void add_sample(TrackSamples& samples, const Centerline& track, double s) {
   const CenterlinePoint point = track.at(s);
   samples.s.push_back(s);
-  samples.point.push_back({point.x, -point.drop});
+  // Tracks begin at their origin, some of them up to rounding.
+  samples.point.push_back(s > 0.0 ? Vec2{point.x, -point.drop} : Vec2{});
   samples.heading.push_back(-point.slope_angle);
 }
 
@@ -170,8 +171,6 @@ TrackSamples sample(const Centerline& track, std::size_t count) {
     }
   }
   add(length);
-  // Tracks begin at their origin, some of them up to rounding.
-  samples.point.front() = {};
   return samples;
 }
 
