@@ -71,7 +71,8 @@ inline double hessian_error(const Vector& at, const Rows& rows, const Vector& eq
     return sums;
   };
   std::vector<Vector> seconds;
-  for (std::size_t j = 0; j < at.size(); ++j) seconds.emplace_back(hessian.row(j), hessian.row(j) + at.size());
+  for (std::size_t j = 0; j < at.size(); ++j)
+    seconds.emplace_back(hessian.row(j), hessian.row(j) + at.size());
   double worst = 0.0;
   for (const double error : gradient_errors(slopes, at, seconds)) worst = std::max(worst, error);
   return worst;

@@ -231,7 +231,8 @@ TEST_CASE("widths: what cannot be made is refused with place, value and bound") 
         std::string::npos);
   PlateOptions lap;
   lap.corners.kind = CornerJoint::lap;
-  CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, lap).find("corners|corners: plates beside a width that changes") == 0);
+  CHECK(refusal(section::UChannel{kWidening, 0.25, 4e-3}, lap)
+            .find("corners|corners: plates beside a width that changes") == 0);
   CHECK(
       refusal(section::Slab{kWidening, 6e-3, 0.05, 0.02}, {})
           .find("cross_section.width|fabrication: plates of curbs or a groove beside a width that changes") ==
