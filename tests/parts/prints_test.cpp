@@ -337,6 +337,80 @@ TEST_CASE(
   CHECK(butt.proof.added_volume == Approx(0.0).margin(1e-15));
 }
 
+TEST_CASE(
+    "prints: tongues of pieces that stand on a joint face taper by what overhangs, and stand on none of "
+    "them") {
+  const CrossSection channel = CrossSection::u_channel(30e-3, 15e-3, 8e-3);
+  for (const PrintPose pose : {PrintPose::automatic, PrintPose::end, PrintPose::flat}) {
+    PrintOptions options;
+    options.joint = PrintJoint::tongue;
+    options.pose = pose;
+    options.number_depth = 0.0;
+    options.ease = 0.0;
+    options.tongue.chamfer = 0.0;
+    const WorkshopBuild build = prints(run(), channel, options);
+    const auto joints = static_cast<double>(build.joints.size() - 2);
+    REQUIRE(joints >= 1.0);
+    // Half of the floor's 8 mm at the root, 1 mm at the head, flanks of 45 deg: 1.5 mm deep; 30 and two times 8 mm wide.
+    const double tongue = 46e-3 * 1.5e-3 * 2.5e-3;
+    // The notch begins 0.2 mm wider both ways and goes 0.2 mm deeper.
+    const double notch = 46e-3 * 1.7e-3 * (4.4e-3 - 1.7e-3);
+    CHECK(build.proof.added_volume == Approx(joints * (tongue - notch)).epsilon(1e-6));
+    CHECK(build.proof.smallest_gap == Approx(0.2e-3 / std::sqrt(2.0)).epsilon(1e-9));
+    for (const PrintPiece& piece : build.prints) CHECK(measure(piece.mesh).valid());
+    if (pose == PrintPose::flat) continue;
+    // A face of the whole section on the bed, less the notch; never a tongue's head.
+    for (const PrintPiece& piece : build.prints) {
+      double area = 0.0;
+      for (const auto& triangle : piece.mesh.triangles) {
+        const Vec3 a = piece.mesh.vertices[triangle[0]];
+        const Vec3 b = piece.mesh.vertices[triangle[1]];
+        const Vec3 c = piece.mesh.vertices[triangle[2]];
+        if (std::max({a.z, b.z, c.z}) < 1e-7) area += 0.5 * norm(cross(b - a, c - a));
+      }
+      CHECK(area > 0.6 * channel.area());
+    }
+  }
+}
+
+TEST_CASE("prints: numbers go into any flat outside that holds them, and leave a wall behind") {
+  const auto deepest_y = [](const WorkshopBuild& build, double side) {
+    // Vertices that lie the depth of a number within a side.
+    std::size_t count = 0;
+    for (const ShopPart& part : build.workshop.parts) {
+      if (!part.name.starts_with("segment")) continue;
+      for (const Vec3& vertex : std::get<MeshBody>(part.body).mesh.vertices) {
+        if (std::fabs(vertex.y - side) < 1e-9) ++count;
+      }
+    }
+    return count;
+  };
+  // Walls of a U-channel: full from side to side nowhere but in its floor.
+  const CrossSection channel = CrossSection::u_channel(20e-3, 12e-3, 4e-3);
+  CHECK(deepest_y(prints(run(), channel), 14e-3 - 0.4e-3) > 0);
+  PrintOptions none;
+  none.number_depth = 0.0;
+  CHECK(deepest_y(prints(run(), channel, none), 14e-3 - 0.4e-3) == 0);
+  // A wall of 1.2 mm has no room for 0.4 mm and a wall of 0.9 mm.
+  CHECK(deepest_y(prints(run(), CrossSection::u_channel(20e-3, 12e-3, 1.2e-3)), 11.2e-3 - 0.4e-3) == 0);
+  PrintOptions deep;
+  deep.number_depth = 3e-3;
+  CHECK(refusal(deep, channel).starts_with("number_depth|number_depth: 3 mm is more than 2 mm|"));
+  PrintOptions eased;
+  eased.ease = 0.8e-3;
+  CHECK(refusal(eased, channel).starts_with("ease|ease: 0.8 mm is more than 0.5 mm|"));
+}
+
+TEST_CASE("prints: pieces that are asked to be shorter or lighter than any are refused by that key") {
+  PrintOptions options;
+  options.split.longest = 0.1e-3;
+  CHECK(refusal(options, groove())
+            .starts_with("split.longest|longest: pieces of 0.1 mm are shorter than any|"));
+  options = {};
+  options.split.heaviest = 1e-4;
+  CHECK(refusal(options, groove()).starts_with("split.heaviest|heaviest: 0.0001 kg is a piece of "));
+}
+
 TEST_CASE("prints: tongues are refused where a section has no place for them, with what would do") {
   PrintOptions options;
   options.joint = PrintJoint::dovetail;
@@ -348,6 +422,7 @@ TEST_CASE("prints: tongues are refused where a section has no place for them, wi
             .starts_with("joint|joint: this section has no place for a dovetail"));
   options.pose = PrintPose::end;
   CHECK(refusal(options, groove()).starts_with("pose|pose: a dovetail would overhang"));
+  CHECK(refusal(options, groove()).ends_with("|pose: side, or joint: tongue, which tapers then\n"));
   options.pose = PrintPose::automatic;
   options.dowels.fit = 0.3e-3;
   CHECK(refusal(options, groove()).starts_with("dowels|dowels: the joints have tongues"));
@@ -359,9 +434,9 @@ TEST_CASE("prints: tongues are refused where a section has no place for them, wi
   CHECK(refusal(options, groove()).starts_with("tongue.depth|depth: a dovetail of 90 mm leaves a wall of "));
   // A U-channel with a thick floor has the place; on its side it overhangs.
   options.tongue.depth.reset();
-  CHECK(refusal(options, CrossSection::u_channel(30e-3, 15e-3, 6e-3))
-            .starts_with("joint|joint: tongues and dovetails go with pieces on their side, where this "
-                         "section overhangs"));
+  CHECK(
+      refusal(options, CrossSection::u_channel(30e-3, 15e-3, 6e-3))
+          .starts_with("joint|joint: dovetails go with pieces on their side, where this section overhangs"));
   PrintOptions pinned;
   pinned.tongue.fit = 0.3e-3;
   CHECK(refusal(pinned, groove()).starts_with("tongue|tongue: the joints have pins"));

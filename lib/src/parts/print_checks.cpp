@@ -119,6 +119,21 @@ std::vector<Issue> print_problems(const CrossSection& section, const PrintOption
                                    length_text(thin) + " or more",
                                "The edge would have no floor left.", "0.2 mm, or 0 mm for none"});
   }
+  constexpr double kMostEase = 0.5e-3;  // numbers and mouths of holes keep that far from edges [m]
+  if (options.ease > kMostEase && options.ease < 0.5 * thin) {
+    problems.issues.push_back(
+        {"ease", "ease: " + length_text(options.ease) + " is more than " + length_text(kMostEase),
+         "Numbers and holes for pins keep no farther from the edges of a joint face.",
+         "0.2 mm, or 0 mm for none"});
+  }
+  constexpr double kDeepestNumber = 2e-3;  // [m]
+  if (options.number_depth > kDeepestNumber) {
+    problems.issues.push_back({"number_depth",
+                               "number_depth: " + length_text(options.number_depth) + " is more than " +
+                                   length_text(kDeepestNumber),
+                               "Numbers are read, not cut through: deeper ones would meet holes of pins.",
+                               "0.4 mm"});
+  }
   for (Issue& issue : parts::tongue_problems(section, options)) problems.issues.push_back(std::move(issue));
   if (section.varies()) {
     problems.issues.push_back({"cross_section.width",

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "parts/calm_joints.hpp"
 #include "parts/nearest_place.hpp"
@@ -25,6 +26,13 @@ std::string bed_text(const PrintBed& bed) {
   return length_text(bed.x) + " x " + length_text(bed.y) + " x " + length_text(bed.z);
 }
 
+/// Nothing stands on its tongue, which is at the downstream end.
+bool stands_well(const PrintJob& job, const Pose& pose, const Span& span) {
+  if (pose.kind != PrintPose::end || job.options.joint == PrintJoint::dowels) return true;
+  const Vec2 along = frame_at(job.track, span.from).along;
+  return pose.up.x * along.x + pose.up.z * along.y > 0.0;
+}
+
 bool fits(const PrintJob& job, PrintPose kind, const Span& span) {
   const PrintSplit& split = job.options.split;
   const double length = span.to - span.from;
@@ -33,11 +41,13 @@ bool fits(const PrintJob& job, PrintPose kind, const Span& span) {
   if (split.heaviest && mass > *split.heaviest) return false;
   PrintBed bed = split.bed;
   // Points of the outline stand for the piece, and its tongue lies beyond them.
-  bed.gap += 1e-4 + 0.5 * tongue_reach(job.section, job.options);
+  const double reach = tongue_reach(job, kind);
+  bed.gap += 1e-4 + (kind == PrintPose::end ? 0.0 : 0.5 * reach);
+  if (kind == PrintPose::end) bed.z -= reach;
   const std::vector<Vec3> points = outline_points(job.track, span, job.face);
   for (const Pose& pose : poses_of(kind, job.track, span, job.face, job.options.layer)) {
     const bool hangs = kind == PrintPose::end && pose.overhang > job.options.overhang.radians();
-    if (!hangs && turned_to_fit(pose, points, bed)) return true;
+    if (!hangs && stands_well(job, pose, span) && turned_to_fit(pose, points, bed)) return true;
   }
   return false;
 }
@@ -84,15 +94,39 @@ std::optional<std::vector<double>> joints_for(const PrintJob& job, PrintPose kin
   return all_fit(job, kind, shared) ? shared : greedy;
 }
 
+/// Whether the bed is not what keeps pieces from being made: the longest or heaviest one would be shorter than any.
+std::optional<InputError> too_short(const PrintJob& job) {
+  const PrintSplit& split = job.options.split;
+  const double least = std::min(kLeastPiece, 0.5 * job.track.length());
+  if (split.longest && *split.longest < least) {
+    return InputError(
+        {"split.longest", "longest: pieces of " + length_text(*split.longest) + " are shorter than any",
+         "Pieces are at least " + length_text(least) + " long, so that their joints have a place.",
+         "longest: " + length_text(10.0 * least) + ", or more"});
+  }
+  const double per_metre = job.section.area() * job.options.material.density;
+  if (split.heaviest && *split.heaviest < per_metre * least) {
+    return InputError(
+        {"split.heaviest",
+         "heaviest: " + quantity_text(*split.heaviest, Dimension::mass) + " is a piece of " +
+             length_text(*split.heaviest / per_metre, 3) + " along the track",
+         "Pieces are at least " + length_text(least) + " long, so that their joints have a place.",
+         "a larger mass, or a thinner section"});
+  }
+  return std::nullopt;
+}
+
 /// What to say where no pose fits.
 InputError no_bed(const PrintJob& job, bool on_side) {
+  if (const auto shorter = too_short(job)) return *shorter;
   const PrintSplit& split = job.options.split;
   const double width = job.face.high().x - job.face.low().x;
   const double height = job.face.high().y - job.face.low().y;
   const double margin = 2.0 * split.bed.gap + 1e-3;
-  constexpr double kShort = 50e-3;  // a piece that is worth printing on its end [m]
+  constexpr double kShort = 50e-3;  // a piece that is worth printing [m]
   const std::string bed =
-      on_side ? bed_text({height + margin, height + margin, width, 0.0}) + " for pieces on their side"
+      on_side ? bed_text({std::max(height, kShort) + margin, height + margin, width, 0.0}) +
+                    " for pieces on their side"
               : bed_text({width + margin, height + margin, kShort, 0.0}) + " for pieces on a joint face";
   return InputError({"split.bed",
                      "bed: " + bed_text(split.bed) + " is too small for the section of " +
@@ -147,7 +181,7 @@ std::optional<Dowels> holes_of(const PrintJob& job, const std::vector<double>& j
                                const std::vector<Vec2>& places) {
   const DowelOptions& asked = job.options.dowels;
   Dowels dowels{diameter, diameter + asked.fit, 0.0, 0.0, places};
-  const double mouth = 0.5 * dowels.hole + asked.chamfer + 0.2e-3;
+  const double mouth = 0.5 * dowels.hole + asked.chamfer + std::max(0.2e-3, job.options.ease);
   for (const Vec2 place : places) {
     if (job.face.clearance(place) < mouth) return std::nullopt;
   }
@@ -175,28 +209,30 @@ InputError thin_wall(const PrintJob& job, const std::vector<double>& joints, Dow
                      "a smaller " + key + ", a thicker section, or dowels: none"});
 }
 
-/// Pieces with tongues lie on their side.
-PrintPose side_for_tongues(const PrintJob& job, double overhang) {
-  if (overhang <= job.options.overhang.radians() + 1e-9) return PrintPose::side;
+/// Pieces with tongues lie on their side where that has no overhang; else those that taper stand on their upstream face.
+std::vector<PrintPose> kinds_for_tongues(const PrintJob& job, double overhang) {
+  if (overhang <= job.options.overhang.radians() + 1e-9) return {PrintPose::side};
+  if (job.options.joint == PrintJoint::tongue) return {PrintPose::end, PrintPose::flat};
   throw InputError(
       {"joint",
-       "joint: tongues and dovetails go with pieces on their side, where this section overhangs by " +
+       "joint: dovetails go with pieces on their side, where this section overhangs by " +
            angle_text(Angle::from_radians(overhang), 3),
        "No more than " + angle_text(job.options.overhang) + " from upright prints without supports.",
-       "joint: dowels, another section, or pose: side, with supports"});
+       "joint: tongue, joint: dowels, or pose: side, with supports"});
 }
 
 }  // namespace
 
-Hold hold_joints(const PrintJob& job, const std::vector<double>& joints) {
-  if (job.options.joint == PrintJoint::dowels) return {place_dowels(job, joints), nullptr};
-  const std::optional<Tongue> tongue = place_tongue(job, joints);
+Hold hold_joints(const PrintJob& job, const PrintPlan& plan) {
+  if (job.options.joint == PrintJoint::dowels) return {place_dowels(job, plan.joints), nullptr};
+  const std::optional<Tongue> tongue = place_tongue(job, plan);
   return {std::nullopt, tongue ? std::make_shared<const Tongue>(*tongue) : nullptr};
 }
 
 std::optional<Pose> pose_on_bed(const PrintJob& job, PrintPose kind, const Span& span,
                                 const std::vector<Vec3>& points) {
   for (const Pose& pose : poses_of(kind, job.track, span, job.face, job.options.layer)) {
+    if (!stands_well(job, pose, span)) continue;
     if (auto turned = turned_to_fit(pose, points, job.options.split.bed)) return turned;
   }
   return std::nullopt;
@@ -211,7 +247,7 @@ PrintPlan plan_prints(const PrintJob& job) {
         poses_of(PrintPose::side, job.track, whole, job.face, job.options.layer).front().overhang;
     // A side with an overhang comes after the poses that need no support.
     if (on_side > job.options.overhang.radians() + 1e-9) kinds = {PrintPose::end, PrintPose::flat};
-    if (job.options.joint != PrintJoint::dowels) kinds = {side_for_tongues(job, on_side)};
+    if (job.options.joint != PrintJoint::dowels) kinds = kinds_for_tongues(job, on_side);
   }
   for (const PrintPose kind : kinds) {
     auto joints = joints_for(job, kind);
@@ -220,7 +256,7 @@ PrintPlan plan_prints(const PrintJob& job) {
       throw InputError({"split.allowed",
                         "the track takes " + std::to_string(joints->size() - 1) + " pieces on a bed of " +
                             bed_text(job.options.split.bed),
-                        "Splits are not allowed.", "a larger bed, or allowed: yes"});
+                        "Splits are not allowed.", "a larger bed, or allowed: true"});
     }
     return {kind, std::move(*joints)};
   }

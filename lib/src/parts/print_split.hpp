@@ -53,7 +53,7 @@ struct Hold {
   std::shared_ptr<const Tongue> tongue;
 };
 /// @throws InputError as place_dowels() and place_tongue()
-[[nodiscard]] Hold hold_joints(const PrintJob& job, const std::vector<double>& joints);
+[[nodiscard]] Hold hold_joints(const PrintJob& job, const PrintPlan& plan);
 
 /// @return none where none are wanted, or none fit and no diameter was asked for
 /// @throws InputError if the diameter or depth of the design leaves too thin a wall: names the joint

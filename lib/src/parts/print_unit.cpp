@@ -23,6 +23,7 @@
 namespace glissade::parts {
 namespace {
 
+constexpr double kOnFace = 1e-9;               // [m]
 constexpr std::size_t kShapeTriangles = 4000;  // well shaped facets are none of a slicer's business
 
 Vec3 upright(Vec2 direction) {
@@ -154,30 +155,82 @@ void work_tongued(const PrintJob& job, const Tongue& tongue, const std::string& 
   sink_all(unit, plane, digits_in(job, left, number, {}, 0.0, false, unit.digit_height));
 }
 
-/// The piece's number in its left side, where that is flat: joint faces are hidden once it is put together.
-void number_side(const PrintJob& job, const std::string& number, PrintUnit& unit) {
-  if (!level_band(job.face) || job.options.number_depth <= 0.0) return;
-  const LevelBand band = *level_band(job.face);
+/// A flat face along the piece that its number may go into: a side that is upright, or the underside of a straight piece.
+struct OuterFace {
+  FacePlane plane;  ///< at the middle of the piece's length and of the face's breadth
+  Vec2 low;         ///< what numbers take of the section: their depth, and a wall behind it
+  Vec2 high;
+};
+
+/// The longest stroke of a section's outline that lies on one side of it, as (lower end, upper end); none where none does.
+std::optional<std::array<Vec2, 2>> outer_stroke(const FaceOutline& face, bool upright, double at) {
+  std::optional<std::array<Vec2, 2>> longest;
+  const auto off = [&](Vec2 point) { return std::fabs((upright ? point.x : point.y) - at); };
+  for (const auto& loop : face.loops()) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 a = loop[i];
+      const Vec2 b = loop[(i + 1) % loop.size()];
+      if (off(a) > kOnFace || off(b) > kOnFace) continue;
+      if (longest && norm(b - a) <= norm((*longest)[1] - (*longest)[0])) continue;
+      longest = {a.x + a.y < b.x + b.y ? a : b, a.x + a.y < b.x + b.y ? b : a};
+    }
+  }
+  return longest;
+}
+
+/// Faces for a number: the left side, which is seen from where the run begins at the left, the right one, the underside.
+std::vector<OuterFace> outer_faces(const PrintJob& job, const PrintUnit& unit) {
   const TrackFrame middle = frame_at(unit.line, 0.5 * unit.line.length());
   const Vec3 along = upright(middle.along);
+  const double depth = job.options.number_depth + job.options.wall;
+  std::vector<OuterFace> faces;
+  const auto add = [&](const std::array<Vec2, 2>& stroke, Vec2 inward, Vec3 right, Vec3 up) {
+    const Vec2 centre = 0.5 * (stroke[0] + stroke[1]);
+    const Vec2 point = middle.at + centre.y * middle.up;
+    const Vec2 back = depth * inward;
+    const Vec2 edge = 1e-6 * inward;
+    const Vec2 in = 1e-6 * (1.0 / norm(stroke[1] - stroke[0])) * (stroke[1] - stroke[0]);
+    const Vec2 a = stroke[0] + in + edge;
+    const Vec2 b = stroke[1] - in + back;
+    faces.push_back({{{point.x, centre.x, point.y}, right, up},
+                     {std::min(a.x, b.x), std::min(a.y, b.y)},
+                     {std::max(a.x, b.x), std::max(a.y, b.y)}});
+  };
   // Seen from the left, downstream lies to the left.
-  const Vec2 centre = middle.at + 0.5 * (band.low + band.high) * middle.up;
-  const FacePlane side{{centre.x, job.face.high().x, centre.y}, -1.0 * along, upright(middle.up)};
-  std::vector<std::vector<Vec2>> loops;
-  TriangleMesh copy = unit.mesh;
-  for (const std::vector<std::uint32_t>& edge : take_flat_face(copy, side)) {
-    std::vector<Vec2> loop;
-    for (const std::uint32_t vertex : edge) loop.push_back(side.see(unit.mesh.vertices[vertex]));
-    loops.push_back(std::move(loop));
-  }
-  const FaceOutline face(std::move(loops));
+  if (const auto left = outer_stroke(job.face, true, job.face.high().x))
+    add(*left, {-1.0, 0.0}, -1.0 * along, upright(middle.up));
+  if (const auto right = outer_stroke(job.face, true, job.face.low().x))
+    add(*right, {1.0, 0.0}, along, upright(middle.up));
+  const std::vector<TrackArc>& arcs = unit.line.arcs();
+  const bool straight =
+      std::all_of(arcs.begin(), arcs.end(), [](const TrackArc& arc) { return arc.curvature == 0.0; });
+  if (const auto under = outer_stroke(job.face, false, job.face.low().y); under && straight)
+    add(*under, {0.0, 1.0}, {0.0, 1.0, 0.0}, along);
+  return faces;
+}
+
+/// The piece's number in a flat face along it: joint faces are hidden once it is put together.
+void number_outside(const PrintJob& job, const std::string& number, PrintUnit& unit) {
+  if (job.options.number_depth <= 0.0) return;
   constexpr std::array<double, 7> kHeights = {8e-3, 7e-3, 6e-3, 5e-3, 4e-3, 3e-3, 2e-3};
   constexpr double kMargin = 0.6e-3;
-  for (const double height : kHeights) {
-    const Vec2 half{0.5 * width_of_digits(number.size()) * height, 0.5 * height};
-    if (!face.holds(-1.0 * half, half, kMargin)) continue;
-    sink_all(unit, side, sunk_digits(number, -1.0 * half, height, job.options.number_depth));
-    return;
+  for (const OuterFace& outer : outer_faces(job, unit)) {
+    if (!job.face.holds(outer.low, outer.high, 0.0)) continue;
+    std::vector<std::vector<Vec2>> loops;
+    TriangleMesh copy = unit.mesh;
+    for (const std::vector<std::uint32_t>& edge : take_flat_face(copy, outer.plane)) {
+      std::vector<Vec2> loop;
+      for (const std::uint32_t vertex : edge) loop.push_back(outer.plane.see(unit.mesh.vertices[vertex]));
+      loops.push_back(std::move(loop));
+    }
+    if (loops.empty()) continue;
+    const FaceOutline face(std::move(loops));
+    for (const double height : kHeights) {
+      const Vec2 half{0.5 * width_of_digits(number.size()) * height, 0.5 * height};
+      if (!face.holds(-1.0 * half, half, kMargin)) continue;
+      sink_all(unit, outer.plane, sunk_digits(number, -1.0 * half, height, job.options.number_depth));
+      return;
+    }
   }
 }
 
@@ -241,7 +294,7 @@ PrintUnit make_unit(const PrintJob& job, const PrintPlan& plan, const Hold& hold
   };
   if (joined_before) work(before, false);
   if (joined_after) work(after, true);
-  if (joined_before || joined_after) number_side(job, number, unit);
+  if (joined_before || joined_after) number_outside(job, number, unit);
   drop_unused_vertices(unit.mesh);
   const double left = mesh_moments(unit.mesh).volume;
   if (!(std::fabs(left + unit.sunk_volume - eased) <= 1e-9 * swept)) {

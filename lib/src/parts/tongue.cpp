@@ -39,7 +39,22 @@ bool full_at(const FaceOutline& face, double height) {
   return left - face.low().x < kOnSide && face.high().x - right < kOnSide;
 }
 
-double spread_of(const PrintOptions& options, double depth) {
+/// What a layer of a notch's roof may bridge without support [m].
+constexpr double kBridge = 1e-3;
+
+bool tapers(const PrintOptions& options, PrintPose kind) {
+  return options.joint == PrintJoint::tongue && kind != PrintPose::side;
+}
+
+/// Slope of the flanks of a strip that tapers: no steeper than hangs over by itself, and none that hides the strip.
+double taper_of(const PrintOptions& options) {
+  constexpr double kLeast = 0.2;
+  constexpr double kMost = 1.0;
+  return std::clamp(math::tan(std::min(options.overhang.radians(), 1.0)), kLeast, kMost);
+}
+
+double spread_of(const PrintOptions& options, PrintPose kind, double depth) {
+  if (tapers(options, kind)) return -depth * taper_of(options);
   return options.joint == PrintJoint::dovetail ? depth * math::tan(options.tongue.flare.radians()) : 0.0;
 }
 
@@ -53,12 +68,14 @@ double head_height(const PrintOptions& options, const LevelBand& band) {
   return options.tongue.height.value_or(std::min(kShareOfBand * height, height - beside(options)));
 }
 
-Tongue tongue_of(const PrintOptions& options, const LevelBand& band, double depth) {
+/// The greatest height of a tongue: of its head, of one that tapers of its root.
+Tongue tongue_of(const PrintOptions& options, PrintPose kind, const LevelBand& band, double depth) {
   Tongue tongue;
-  const double head = head_height(options, band);
+  const double spread = spread_of(options, kind, depth);
+  const double head = head_height(options, band) + 2.0 * std::min(0.0, spread);
   const double middle = 0.5 * (band.low + band.high - options.ease);
   tongue.band = band;
-  tongue.spread = spread_of(options, depth);
+  tongue.spread = spread;
   tongue.low = middle - 0.5 * head + tongue.spread;
   tongue.high = middle + 0.5 * head - tongue.spread;
   tongue.depth = depth;
@@ -206,10 +223,11 @@ std::vector<Vec2> Tongue::notch() const {
 std::vector<Issue> tongue_problems(const CrossSection& section, const PrintOptions& options) {
   if (options.joint == PrintJoint::dowels) return {};
   const std::string word = word_of(options.joint);
-  if (options.pose == PrintPose::end || options.pose == PrintPose::flat) {
-    return {{"pose", "pose: a " + word + " would overhang",
-             "It goes from side to side, and is printed in pieces on their side.",
-             "pose: side, or joint: dowels"}};
+  if (options.joint == PrintJoint::dovetail &&
+      (options.pose == PrintPose::end || options.pose == PrintPose::flat)) {
+    return {{"pose", "pose: a dovetail would overhang",
+             "It goes from side to side, wider at its head, and is printed in pieces on their side.",
+             "pose: side, or joint: tongue, which tapers then"}};
   }
   const auto band = level_band(FaceOutline(section));
   if (!band) {
@@ -231,24 +249,31 @@ std::vector<Issue> tongue_problems(const CrossSection& section, const PrintOptio
   return {};
 }
 
-double tongue_reach(const CrossSection& section, const PrintOptions& options) {
+double tongue_reach(const PrintJob& job, PrintPose kind) {
+  const PrintOptions& options = job.options;
   if (options.joint == PrintJoint::dowels) return 0.0;
-  const auto band = level_band(FaceOutline(section));
-  return band ? options.tongue.depth.value_or(kDepthOfHead * head_height(options, *band)) : 0.0;
+  const auto band = level_band(job.face);
+  if (!band) return 0.0;
+  const double height = head_height(options, *band);
+  if (!tapers(options, kind)) return options.tongue.depth.value_or(kDepthOfHead * height);
+  // As deep as leaves a head that the roof of the notch bridges.
+  const double deepest = 0.5 * (height - kBridge) / taper_of(options);
+  return std::min(options.tongue.depth.value_or(deepest), std::max(deepest, 0.5 * kBridge));
 }
 
-std::optional<Tongue> place_tongue(const PrintJob& job, const std::vector<double>& joints) {
+std::optional<Tongue> place_tongue(const PrintJob& job, const PrintPlan& plan) {
   const PrintOptions& options = job.options;
+  const std::vector<double>& joints = plan.joints;
   if (options.joint == PrintJoint::dowels || joints.size() < 3) return std::nullopt;
   const LevelBand band = *level_band(job.face);
-  const double wanted = tongue_reach(job.section, options);
+  const double wanted = tongue_reach(job, plan.kind);
   double shortest = job.track.length();
   for (std::size_t i = 0; i + 1 < joints.size(); ++i)
     shortest = std::min(shortest, joints[i + 1] - joints[i]);
   double thinnest = 0.0;
   double where = joints[1];
   for (const double share : {1.0, 0.8, 0.6, 0.5}) {
-    Tongue tongue = tongue_of(options, band, share * wanted);
+    Tongue tongue = tongue_of(options, plan.kind, band, share * wanted);
     tongue.wall = band.high - band.low;
     for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
       const double wall = wall_at(job, joints[i], tongue);

@@ -21,12 +21,13 @@ struct LevelBand {
 [[nodiscard]] std::optional<LevelBand> level_band(const FaceOutline& face);
 
 /// A strip from side to side that the upstream piece has beyond the joint, and the notch for it in the downstream piece. Both
-/// lie in the plane of the track: printed on their side, no layer overhangs the one below.
+/// lie in the plane of the track: printed on their side, no layer overhangs the one below. Of pieces that stand on their upstream
+/// face, or lie as they are used, strips taper towards the head by what overhangs without support.
 struct Tongue {
   LevelBand band;
   double low = 0.0;      ///< lower edge of the root, in the frame of the section [m]
   double high = 0.0;     ///< upper edge of the root [m]
-  double spread = 0.0;   ///< by which the head is wider than the root, below and above; 0: no dovetail [m]
+  double spread = 0.0;   ///< by which the head is wider than the root, below and above; < 0: narrower [m]
   double depth = 0.0;    ///< [m]
   double chamfer = 0.0;  ///< of the head's edges [m]
   double fit = 0.0;      ///< by which the notch is wider below and above, and deeper [m]
@@ -44,9 +45,9 @@ struct Tongue {
 /// The tongue of every joint; its depth is that of the design, or the greatest up to three quarters of its height that leaves
 /// the walls.
 /// @throws InputError if the track bends so much, or the pieces are so short, that none does: names the joint
-[[nodiscard]] std::optional<Tongue> place_tongue(const PrintJob& job, const std::vector<double>& joints);
+[[nodiscard]] std::optional<Tongue> place_tongue(const PrintJob& job, const PrintPlan& plan);
 /// @return its depth before the joints are known; 0 where none are wanted
-[[nodiscard]] double tongue_reach(const CrossSection& section, const PrintOptions& options);
+[[nodiscard]] double tongue_reach(const PrintJob& job, PrintPose kind);
 
 /// Adds a tongue to an end face, or cuts a notch into it.
 /// @param end      the face; it goes from side to side over the heights of the profile

@@ -91,8 +91,9 @@ struct PrintOptions {
   double layer = 0.2e-3;  ///< height of a layer [m]
   double wall = 0.9e-3;   ///< least wall that the printer makes: two lines of a 0.4 mm nozzle [m]
   Angle overhang = Angle::from_degrees(45.0);  ///< steepest lean from upright that needs no support
-  double number_depth = 0.4e-3;  ///< of the numbers in joint faces and in a flat side [m]; 0: none
-  double ease = 0.2e-3;  ///< by which the run surface of the downstream piece is eased at a joint [m]; 0: not
+  double number_depth = 0.4e-3;  ///< of the numbers in joint faces and in a flat side [m]; 0: none; <= 2 mm
+  double ease =
+      0.2e-3;  ///< by which the run surface of the downstream piece is eased at a joint [m]; 0: not; <= 0.5 mm
 
   friend bool operator==(const PrintOptions&, const PrintOptions&) = default;
 };
