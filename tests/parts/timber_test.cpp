@@ -318,6 +318,21 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("timber: curbs are cut from the sheet, however high and bent, or refused with its key") {
+  const section::Measures high = section::Slab{WidthLaw(1.5), 24e-3, 1.0, 24e-3};
+  const WorkshopBuild build = timber(bend(4.0), {}, high);
+  for (const ShopPart* part : named(build, "curb_")) {
+    const PlaneBox box = bounds(part->pattern->region.outline);
+    CHECK(std::max(box.width(), box.height()) <= 2.49 + 1e-9);
+    CHECK(std::min(box.width(), box.height()) <= 1.24 + 1e-9);
+  }
+  CHECK(refusal({}, bend(4.0), section::Slab{WidthLaw(1.5), 24e-3, 2.6, 24e-3}) ==
+        "split.sheet|sheet: curbs of 2.6 m fit no sheet of 2.5 m x 1.25 m|Each takes its height and what its "
+        "curve "
+        "rises, 5 mm from the edges.|a larger sheet, lower curbs, or ones of more than 50 mm, which are "
+        "sawn\n");
+}
+
 TEST_CASE("timber: sheets and curbs get shorter until none is heavier than allowed; bearers keep apart") {
   TimberOptions options;
   options.split.heaviest = 12.0;

@@ -103,6 +103,20 @@ double add_lining(const Lining& lining, Workshop& workshop) {
   return volume;
 }
 
+/// Whether curbs between joints are cut from the sheet; of those that fold over another check tells.
+bool curbs_fit(const TimberJob& job, const std::vector<double>& joints) {
+  const Vec2 sheet = job.options.split.sheet;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const Span span{joints[i], joints[i + 1]};
+    const auto outline = band(job.track, span, 0.0, job.channel.curb_height);
+    if (!outline) continue;
+    const PlaneBox box = bounds(moved(*outline, PlaneMotion::turn(-chord_angle(job, span))));
+    if (std::max(box.width(), box.height()) > std::max(sheet.x, sheet.y) - 2.0 * kSheetMargin) return false;
+    if (std::min(box.width(), box.height()) > std::min(sheet.x, sheet.y) - 2.0 * kSheetMargin) return false;
+  }
+  return true;
+}
+
 /// Joints of the curbs, apart from the seams of the upper layer.
 std::vector<double> curb_joints(const TimberJob& job, const std::vector<DeckRow>& upper) {
   const TimberSplit& split = job.options.split;
@@ -119,15 +133,25 @@ std::vector<double> curb_joints(const TimberJob& job, const std::vector<DeckRow>
                       "Its joints keep " + length_text(kSeamClear) + " from the seams of the deck.",
                       "a larger mass, or lower curbs"});
   }
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(job.track.length() / longest)));
-  std::vector<double> joints = calm_joints(job.track, count, 0.0);
-  for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
-    for (std::size_t k = 1; k < upper.size(); ++k) {
-      const double seam = upper[k].span.from;
-      if (std::fabs(joints[i] - seam) < kSeamClear) joints[i] = seam + kSeamClear;
+  const auto least = static_cast<std::size_t>(std::max(1.0, std::ceil(job.track.length() / longest)));
+  constexpr std::size_t kMostMore = 100;  // pieces than straight ones would take
+  for (std::size_t count = least; count <= least + kMostMore; ++count) {
+    std::vector<double> joints = calm_joints(job.track, count, 0.0);
+    for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+      for (std::size_t k = 1; k < upper.size(); ++k) {
+        const double seam = upper[k].span.from;
+        if (std::fabs(joints[i] - seam) < kSeamClear) joints[i] = seam + kSeamClear;
+      }
     }
+    if (sawn || curbs_fit(job, joints)) return joints;
   }
-  return joints;
+  throw InputError(
+      {"split.sheet",
+       "sheet: curbs of " + length_text(job.channel.curb_height) + " fit no sheet of " +
+           length_text(split.sheet.x) + " x " + length_text(split.sheet.y),
+       "Each takes its height and what its curve rises, " + length_text(kSheetMargin) + " from the edges.",
+       "a larger sheet, lower curbs, or ones of more than " + length_text(kThickestSheet) +
+           ", which are sawn"});
 }
 
 double add_curbs(const TimberJob& job, const std::vector<DeckRow>& upper, Workshop& workshop) {

@@ -160,13 +160,14 @@ std::optional<TimberChannel> timber_channel_of(const section::Measures& measures
   }
   if (const auto* const slab = std::get_if<section::Slab>(&measures))
     return TimberChannel{slab->width.narrowest(), slab->thickness, slab->curb_height, slab->curb_width, {}};
-  const bool stands_in_templates = std::holds_alternative<section::Trapezoid>(measures) ||
-                                   std::holds_alternative<section::HalfPipe>(measures) ||
-                                   std::holds_alternative<section::VChannel>(measures);
-  if (!stands_in_templates) return std::nullopt;
   PlateOptions plates;
   plates.stave_tolerance = options.deck.stave_tolerance;
-  TimberTrough trough{*plate_section(measures, plates), {}};
+  std::optional<PlateSection> section = plate_section(measures, plates);
+  // Sides that meet in mitres from rim to rim, open above: templates hold them from below.
+  const bool stands_in_templates =
+      section && section->mitred && !section->closed && section->plates.size() > 2;
+  if (!stands_in_templates) return std::nullopt;
+  TimberTrough trough{std::move(*section), {}};
   const double rim = trough.section.outside.front().y;
   trough.seat = below(trough.section.outside, std::min(rim, options.cross_members.reach.value_or(rim)));
   double outer = 0.0;
