@@ -7,6 +7,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
+#include "parts/body_geometry.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/facets.hpp"
 #include "parts/offset_line.hpp"
@@ -364,4 +365,33 @@ TEST_CASE("plates: walls that fold over are refused with a height that does not"
   channel.wall_height = std::stod(tail) * (tail.find(" mm") != std::string::npos ? 1e-3 : 1.0);
   CHECK(channel.wall_height < 2.0);
   CHECK(plates(hollow, {}, channel).proof.pairs > 0);
+}
+
+TEST_CASE("plates: a bar that goes through a plate between all of its corners is a clash") {
+  const auto part = [](const char* name, const Prism& body, const Frame& place) {
+    ShopPart made;
+    made.name = name;
+    made.thickness = 4e-3;
+    made.body = body;
+    made.places = {place};
+    return made;
+  };
+  const Frame across{{0.3, 0.2, -0.37}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  const Frame lying{{-0.37, 0.2, 0.02}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}, {-1.0, 0.0, 0.0}};
+  Workshop workshop;
+  workshop.parts = {part("plate", {{rectangle({}, {0.6, 0.4}), {}, {}}, 4e-3}, {})};
+  // A square bar of 1 m, upright through the middle; the same drawn as a strip cut along.
+  for (const Prism& bar : {Prism{{rectangle({}, {0.02, 0.02}), {}, {}}, 1.0},
+                           Prism{{rectangle({}, {0.02, 0.02}), {}, {}}, 0.93}}) {
+    workshop.parts.resize(1);
+    workshop.parts.push_back(part("bar", bar, across));
+    try {
+      (void)parts::require_no_clash(workshop);
+      FAIL("no clash found");
+    } catch (const InternalError& error) {
+      CHECK(std::string(error.what()).find("parts clash: bar reaches ") != std::string::npos);
+    }
+    workshop.parts[1].places = {lying};
+    CHECK(parts::require_no_clash(workshop) == 1);
+  }
 }

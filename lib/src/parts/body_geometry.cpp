@@ -609,6 +609,49 @@ double depth_in(const TubeGore& gore, Vec3 point) {
   return std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end});
 }
 
+/// A straight edge, just inside its body.
+struct EdgeLine {
+  Vec3 from;
+  Vec3 to;
+};
+
+/// Beside every corner of an outline, across the depth, and along its straight pieces: long ones may go through another part
+/// between any points that are looked for.
+std::vector<EdgeLine> lines_of(const Prism& prism, double inset) {
+  std::vector<EdgeLine> lines;
+  const auto along_path = [&](const ArcPath& path, bool outline) {
+    const double side = (signed_area(path) > 0.0) == outline ? inset : -inset;  // to the material's
+    const std::vector<PathPiece> pieces = pieces_of(path);
+    std::vector<Vec2> inside;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Vec2 before = tangent_at(pieces[(i + pieces.size() - 1) % pieces.size()], 1.0);
+      const Vec2 after = tangent_at(pieces[i], 0.0);
+      const Vec2 both = Vec2{-before.y, before.x} + Vec2{-after.y, after.x};
+      // Off both sides; of a corner that turns back, off the second one.
+      const double sharp = dot(both, both);
+      inside.push_back(pieces[i].from +
+                       (sharp > 0.1 ? (2.0 * side / sharp) * both : side * Vec2{-after.y, after.x}));
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Vec2 from = inside[i];
+      const Vec2 to = inside[(i + 1) % pieces.size()];
+      lines.push_back({{from.x, from.y, inset}, {from.x, from.y, prism.depth - inset}});
+      if (!pieces[i].straight()) continue;
+      for (const double z : {inset, prism.depth - inset})
+        lines.push_back({{from.x, from.y, z}, {to.x, to.y, z}});
+    }
+  };
+  along_path(prism.region.outline, true);
+  for (const ArcPath& cutout : prism.region.cutouts) along_path(cutout, false);
+  return lines;
+}
+
+/// Of others the points are as close as they are thick, or prisms' edges find them.
+template <typename Body>
+std::vector<EdgeLine> lines_of(const Body& /*body*/, double /*inset*/) {
+  return {};
+}
+
 /// One piece in space, for looking into.
 struct Box {
   Vec3 low{kFar, kFar, kFar};
@@ -625,12 +668,15 @@ struct Box {
   }
 };
 
+constexpr double kMargin = 1e-3;  // of boxes round points that lie just inside
+
 struct Piece {
   const ShopPart* part = nullptr;
   Frame place;
   std::vector<Vec3> points;
   Box box;
   Box own;  ///< in its own frame, where a thin plate that leans is thin
+  std::vector<EdgeLine> lines = {};
 };
 
 std::vector<Piece> pieces_in_space(const Workshop& workshop) {
@@ -639,8 +685,12 @@ std::vector<Piece> pieces_in_space(const Workshop& workshop) {
     const std::vector<Vec3> own = edge_points(part.body, kInset);
     Box box;
     for (const Vec3 local : own) box.widen(local);
+    const std::vector<EdgeLine> lines =
+        std::visit([](const auto& body) { return lines_of(body, kInset); }, part.body);
     for (const Frame& place : part.places) {
       Piece piece{&part, place, {}, {}, box};
+      for (const EdgeLine& line : lines)
+        piece.lines.push_back({place.to_space(line.from), place.to_space(line.to)});
       for (const Vec3 local : own) {
         piece.points.push_back(place.to_space(local));
         piece.box.widen(piece.points.back());
@@ -651,10 +701,37 @@ std::vector<Piece> pieces_in_space(const Workshop& workshop) {
   return pieces;
 }
 
-constexpr double kMargin = 1e-3;  // of boxes round points that lie just inside
+[[noreturn]] void tell_clash(const Piece& a, const Piece& b, double depth) {
+  throw InternalError(
+      {"", "parts clash: " + a.part->name + " reaches " + length_text(depth, 3) + " into " + b.part->name, "",
+       "another design, and a report of this one"});
+}
 
-/// Points of one piece inside another.
+/// Along an edge, in steps that the distance from the other part allows: nothing thicker than half a plate is stepped over.
+void require_apart(const Piece& a, const EdgeLine& line, const Piece& b) {
+  const auto in_own = [&](Vec3 point) {
+    const Vec3 away = point - b.place.origin;
+    return Vec3{dot(away, b.place.x), dot(away, b.place.y), dot(away, b.place.z)};
+  };
+  const Vec3 from = in_own(line.from);
+  const Vec3 way = in_own(line.to) - from;
+  const double whole = norm(way);
+  Box box;
+  box.widen(from);
+  box.widen(from + way);
+  if (!(whole > 0.0) || !b.own.meets(box, kMargin)) return;
+  constexpr double kLeastStep = 0.5e-3;
+  const double step = std::max(kLeastStep, 0.5 * b.part->thickness);
+  for (double at = 0.0; at < whole;) {
+    const double depth = depth_inside(b.part->body, from + (at / whole) * way);
+    if (depth > kInset + kDeep) tell_clash(a, b, depth);
+    at += std::max(step, -depth);
+  }
+}
+
+/// Points and edges of one piece inside another.
 void require_apart(const Piece& a, const Piece& b) {
+  for (const EdgeLine& line : a.lines) require_apart(a, line, b);
   for (const Vec3 point : a.points) {
     if (!b.box.meets({point, point}, kMargin)) continue;
     const Vec3 away = point - b.place.origin;
@@ -662,9 +739,7 @@ void require_apart(const Piece& a, const Piece& b) {
     if (!b.own.meets({own, own}, kMargin)) continue;
     const double depth = depth_inside(b.part->body, own);
     if (depth <= kInset + kDeep) continue;
-    throw InternalError(
-        {"", "parts clash: " + a.part->name + " reaches " + length_text(depth, 3) + " into " + b.part->name,
-         "", "another design, and a report of this one"});
+    tell_clash(a, b, depth);
   }
 }
 
