@@ -496,3 +496,13 @@ TEST_CASE(
   CHECK(refusal(options, groove()).find("too high|A stand is at least 4 mm high.|a lower ground") !=
         std::string::npos);
 }
+
+TEST_CASE("prints: in a section that is higher than each of its halves is wide, the two holes keep apart") {
+  const CrossSection bar = CrossSection::polygon(
+      {{-5.9e-3, -7.5e-3}, {5.9e-3, -7.5e-3}, {5.9e-3, 0.0}, {0.0, 0.0}, {-5.9e-3, 0.0}});
+  const WorkshopBuild build = prints(run(), bar);  // threw: holes cut into each other
+  CHECK(build.proof.pairs > 0);
+  bool pins = false;
+  for (const ShopPart& part : build.workshop.parts) pins = pins || part.name.find("pin") != std::string::npos;
+  CHECK(pins);
+}

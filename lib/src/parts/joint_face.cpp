@@ -121,6 +121,10 @@ double FaceOutline::clearance(Vec2 at) const {
   return inside ? nearest : -nearest;
 }
 
+double FaceOutline::room(Vec2 at) const {
+  return std::min(clearance(at), std::fabs(at.x));
+}
+
 bool FaceOutline::holds(Vec2 low, Vec2 high, double margin) const {
   if (!(clearance(low) >= margin)) return false;
   const std::vector<Vec2> box = rectangle_of(low, high);
@@ -151,7 +155,7 @@ Vec2 FaceOutline::roomiest(bool left) const {
   for (int i = 1; i < kSteps; ++i) {
     for (int k = 1; k < kSteps; ++k) {
       const Vec2 at{side * reach * i / kSteps, low_.y + (high_.y - low_.y) * k / kSteps};
-      candidates.push_back({at, clearance(at)});
+      candidates.push_back({at, room(at)});
       most = std::max(most, candidates.back().clearance);
     }
   }

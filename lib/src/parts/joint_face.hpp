@@ -27,7 +27,9 @@ class FaceOutline {
   [[nodiscard]] Vec2 high() const { return high_; }
   [[nodiscard]] const std::vector<std::vector<Vec2>>& loops() const { return loops_; }
 
-  /// The place of most clearance on one side of the middle; of places nearly as good, the farthest out.
+  /// @return the clearance on a point's own side of the middle: two holes that mirror each other share what lies between them
+  [[nodiscard]] double room(Vec2 at) const;
+  /// The place of most room on one side of the middle; of places nearly as good, the farthest out.
   /// @param left  across > 0, else across < 0
   [[nodiscard]] Vec2 roomiest(bool left) const;
 

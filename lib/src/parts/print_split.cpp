@@ -139,14 +139,14 @@ InputError no_bed(const PrintJob& job, bool on_side) {
 /// The least wall beside a hole, along its depth: the track bends away from it.
 double wall_along(const PrintJob& job, double s, double sense, Vec2 place, double radius, double depth) {
   const TrackFrame joint = frame_at(job.track, s);
-  double least = job.face.clearance(place) - radius;
+  double least = job.face.room(place) - radius;
   const Span beside{std::max(0.0, s - 2.0 * depth), std::min(job.track.length(), s + 2.0 * depth)};
   constexpr int kPlaces = 8;
   for (int k = 1; k <= kPlaces; ++k) {
     const Vec2 point = joint.at + place.y * joint.up + (sense * depth * k / kPlaces) * joint.along;
     const TrackFrame at = frame_at(job.track, nearest_place(job.track, beside, point).s);
     const double height = dot(point - at.at, at.up);
-    least = std::min(least, job.face.clearance({place.x, height}) - radius);
+    least = std::min(least, job.face.room({place.x, height}) - radius);
   }
   return least;
 }
@@ -183,7 +183,7 @@ std::optional<Dowels> holes_of(const PrintJob& job, const std::vector<double>& j
   Dowels dowels{diameter, diameter + asked.fit, 0.0, 0.0, places};
   const double mouth = 0.5 * dowels.hole + asked.chamfer + std::max(0.2e-3, job.options.ease);
   for (const Vec2 place : places) {
-    if (job.face.clearance(place) < mouth) return std::nullopt;
+    if (job.face.room(place) < mouth) return std::nullopt;
   }
   for (const double share : {2.5, 2.25, 2.0, 1.75, 1.5, 1.25, 1.0}) {
     dowels.depth = asked.depth.value_or(share * diameter);
