@@ -281,6 +281,14 @@ TEST_CASE("a start, finish or waypoint that breaks a clearance is told") {
              Contains("waypoints[0] lies in keep_outs[0]"));
 }
 
+TEST_CASE("waypoints out of their order are told each at its place, all at once") {
+  const std::string waypoints = "waypoints: [[3 m, 3 m], [1 m, 4 m], [500 mm, 5 m]]";
+  const std::string problems = problems_of_limits(waypoints);
+  CHECK_THAT(problems, Contains("waypoints[1] lies 2 m along the run before waypoints[0]") &&
+                           Contains("waypoints[2] lies 500 mm along the run before waypoints[1]"));
+  CHECK(problems_of_limits("waypoints: [[1 m, 4 m], [1 m, 3.9 m], [3 m, 3 m]]").empty());
+}
+
 TEST_CASE("shapes of clearances are sound") {
   CHECK_THAT(problems_of_limits("keep_outs: [{outline: [[1 m, 2 m], [3 m, 2 m]]}]"),
              Contains("outline: 2 corners"));

@@ -231,6 +231,26 @@ void check_waypoints_to_edge(const Design& design, Collected& findings) {
   }
 }
 
+/// A track that is searched for passes its waypoints in their order.
+void check_waypoint_order(const Design& design, Collected& findings) {
+  if (design.centerline.kind != CenterlineKind::fastest) return;
+  const std::vector<Vec2>& waypoints = design.limits->waypoints;
+  const auto run = [&](Vec2 point) {
+    return design.track.free_start ? in_edge_plane(design.track, point).x
+                                   : in_track_plane(design.track, point).x;
+  };
+  for (std::size_t index = 1; index < waypoints.size(); ++index) {
+    const double back = run(waypoints[index - 1]) - run(waypoints[index]);
+    if (!(back > 0.0)) continue;
+    report(findings, {path("waypoints." + std::to_string(index))},
+           {"",
+            "waypoints[" + std::to_string(index) + "] lies " + length_text(back) +
+                " along the run before waypoints[" + std::to_string(index - 1) + "]",
+            "A track passes its waypoints in their order, and none that keeps within the vertical runs back.",
+            "the waypoints in the order of their runs"});
+  }
+}
+
 void report_breach(const NamedPoint& point, const std::string& key, const std::string& what,
                    Collected& findings) {
   report(findings, {path(key), point.key_path, "track"},
@@ -321,6 +341,7 @@ void check_clearances(const Design& design, Collected& findings) {
   if (findings.size() != before || !design.track.finish_given) return;
   for (const NamedPoint& point : fixed_points(design)) check_fixed_point(*design.limits, point, findings);
   check_waypoints_to_edge(design, findings);
+  check_waypoint_order(design, findings);
 }
 
 /// Limits and objectives that only a stream can have.
