@@ -3,7 +3,7 @@
 #include <chrono>
 #include <ctime>
 
-namespace glissade {
+namespace glissade::core {
 
 double processor_seconds() {
 #ifdef CLOCK_THREAD_CPUTIME_ID
@@ -14,4 +14,4 @@ double processor_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-}  // namespace glissade
+}  // namespace glissade::core

@@ -21,20 +21,20 @@ class Patience {
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
-  [[nodiscard]] bool out_of_time() const { return processor_seconds() - taken_before_ > time_budget_; }
+  [[nodiscard]] bool out_of_time() const { return core::processor_seconds() - taken_before_ > time_budget_; }
   [[nodiscard]] bool ends() const { return stop_.stop_requested() || out_of_time(); }
 
   /// @return what is left of the budget, for a search that is part of this one [s]; > 0
   [[nodiscard]] double left() const {
     constexpr double kLeast = 1e-3;  // taste
-    return std::max(time_budget_ - (processor_seconds() - taken_before_), kLeast);
+    return std::max(time_budget_ - (core::processor_seconds() - taken_before_), kLeast);
   }
 
  private:
   double time_budget_;
   const std::stop_token& stop_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  double taken_before_ = processor_seconds();
+  double taken_before_ = core::processor_seconds();
 };
 
 /// A search that is made of searches: its patience, and what all of them took together.

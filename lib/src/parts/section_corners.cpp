@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -49,7 +48,7 @@ std::optional<Turn> turn_between(const SectionPlate& before, const SectionPlate&
   // The far faces lie to the left: a corner that leaves room for laps there turns to the right.
   const double sine = -cross(a, b);
   const double cosine = dot(a, b);
-  const double angle = math::atan2(sine, cosine) * 180.0 / std::numbers::pi;
+  const double angle = Angle::from_radians(math::atan2(sine, cosine)).degrees();
   if (angle < kLeastTurn || angle > 180.0 - kLeastTurn) return std::nullopt;
   return Turn{thickness / sine, thickness * cosine / sine, thickness * (1.0 - cosine) / sine, sine};
 }

@@ -272,8 +272,8 @@ Design pipeline::settled(const Design& design, const RunContext& context) {
   // A rough track tells hoods apart: by some 1e-5 of its time it is slower than the one that is made below the best.
   constexpr int kRoughPieces = 12;  // taste
   const Choices choices(*design.hood);
-  const double before = processor_seconds();
-  const auto spent = [&] { return processor_seconds() - before; };
+  const double before = core::processor_seconds();
+  const auto spent = [&] { return core::processor_seconds() - before; };
   std::exception_ptr failure;
   int tried = 0;
   const auto cost = [&](const std::vector<double>& place) {
