@@ -308,7 +308,7 @@ export: [stl]
     assert.match(slope[5], /^0\.\d+ s per deg looser, no track tighter$/);
     assert.equal(price.tightening_price, null);
     const load = rows.find(([name]) => name.endsWith("highest_curvature_load"));
-    assert.match(load[5], /^0\.\d+ s per m\/s\u00b2$/);
+    assert.match(load[5], /^0\.\d+ s per g$/);
     assert.match(await page.locator("#summary .tally").textContent(), /^(\d+) of \1 checks hold/);
     // Curvature is bounded here: its plot shows all of it. That of the radius ends where the track is straight to the eye.
     const scales = await page.evaluate(() => Object.fromEntries(window.glissadeReport.charts.map(({ chart, plot }) =>
