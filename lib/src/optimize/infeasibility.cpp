@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -212,24 +213,32 @@ class Winding {
  public:
   Winding(const std::vector<std::shared_ptr<ScaledProblem>>& ways, const LimitName& limit,
           SearchControl& control)
-      : limit_(limit), control_(control) {
-    for (std::size_t way = 0; way < ways.size(); ++way) {
-      for (const Curves curves : {&starts, &constant_speed_starts, &winding_starts, &stepped_starts}) {
-        for (const GuessCurve& curve : curves(*ways[way])) descend(way, ways[way], curve);
-      }
+      : ways_(ways), limit_(limit), control_(control) {}
+
+  /// From all curves.
+  void descend_all() {
+    for (std::size_t way = 0; way < ways_.size(); ++way) {
+      const std::vector<GuessCurve> curves = curves_on(way);
+      for (std::size_t curve = 0; curve < curves.size(); ++curve) descend({way, curve}, curves[curve]);
     }
-    const auto gives_less = [](const End& a, const End& b) {
-      return a.attempt.relaxed.t < b.attempt.relaxed.t;
-    };
-    std::stable_sort(ends_.begin(), ends_.end(), gives_less);
+    sort();
     constexpr std::size_t kFollowed = 2;  // budget
     for (std::size_t i = 0; i < std::min(kFollowed, ends_.size()); ++i) follow(ends_[i]);
-    std::stable_sort(ends_.begin(), ends_.end(), gives_less);
+    sort();
+  }
+
+  /// From one of them. @return whether the limit need not give way at all there
+  [[nodiscard]] bool descend_from(const Beginning& beginning) {
+    if (beginning.passages >= ways_.size()) return false;
+    const std::vector<GuessCurve> curves = curves_on(beginning.passages);
+    if (beginning.curve >= curves.size()) return false;
+    descend(beginning, curves[beginning.curve]);
+    if (!ends_.empty() && ends_.front().attempt.relaxed.t > kContradiction) follow(ends_.front());
+    return !ends_.empty() && ends_.front().attempt.relaxed.t <= kContradiction;
   }
 
   /// Those that need it not give way at all, the best first.
   [[nodiscard]] std::vector<Foothold> footholds() const {
-    constexpr std::size_t kMost = 3;  // budget
     std::vector<const End*> keeping;
     for (const End& end : ends_) {
       if (end.attempt.relaxed.t <= kContradiction) keeping.push_back(&end);
@@ -238,15 +247,21 @@ class Winding {
       return a->attempt.relaxed.found.objective < b->attempt.relaxed.found.objective;
     });
     std::vector<Foothold> result;
-    for (const End* end : keeping) {
-      if (result.size() < kMost)
-        result.push_back({end->way, end->attempt.mesh, end->attempt.relaxed.found.z});
-    }
+    for (const End* end : keeping)
+      result.push_back({end->beginning.passages, end->attempt.mesh, end->attempt.relaxed.found.z});
     return result;
   }
 
+  /// Whose curves have it give way least.
+  [[nodiscard]] std::vector<Beginning> best_beginnings() const {
+    constexpr std::size_t kMost = 4;  // budget
+    std::vector<Beginning> best;
+    for (std::size_t i = 0; i < std::min(kMost, ends_.size()); ++i) best.push_back(ends_[i].beginning);
+    return best;
+  }
+
   struct End {
-    std::size_t way = 0;
+    Beginning beginning;
     Attempt attempt;
   };
   /// The one that has it give way least.
@@ -255,6 +270,19 @@ class Winding {
  private:
   static constexpr double kKept = 1e-6;  // accuracy: ten times that of a limit
 
+  [[nodiscard]] std::vector<GuessCurve> curves_on(std::size_t way) const {
+    std::vector<GuessCurve> all;
+    for (const Curves curves : {&starts, &constant_speed_starts, &winding_starts, &stepped_starts}) {
+      for (GuessCurve& curve : curves(*ways_[way])) all.push_back(std::move(curve));
+    }
+    return all;
+  }
+
+  void sort() {
+    std::stable_sort(ends_.begin(), ends_.end(),
+                     [](const End& a, const End& b) { return a.attempt.relaxed.t < b.attempt.relaxed.t; });
+  }
+
   [[nodiscard]] Relaxed relaxed(const ScaledProblem& problem, const Mesh& mesh,
                                 const GuessCurve& curve) const {
     const Vector margins(problem.limits.size(), 0.0);
@@ -262,9 +290,10 @@ class Winding {
                            margins, control_);
   }
 
-  void descend(std::size_t way, const std::shared_ptr<ScaledProblem>& problem, const GuessCurve& curve) {
+  void descend(const Beginning& beginning, const GuessCurve& curve) {
     if (control_.stop()) return;
-    End end{way, {problem, mesh_of(*problem, graded_knots(curve, kPieces, 1.0), curve.length), {}}};
+    const std::shared_ptr<ScaledProblem>& problem = ways_[beginning.passages];
+    End end{beginning, {problem, mesh_of(*problem, graded_knots(curve, kPieces, 1.0), curve.length), {}}};
     end.attempt.relaxed = relaxed(*problem, end.attempt.mesh, curve);
     if (end.attempt.relaxed.found.violation <= kKept) ends_.push_back(std::move(end));
   }
@@ -281,6 +310,7 @@ class Winding {
     end.attempt.relaxed = std::move(finer);
   }
 
+  const std::vector<std::shared_ptr<ScaledProblem>>& ways_;
   LimitName limit_;
   SearchControl& control_;
   std::vector<End> ends_;
@@ -351,7 +381,7 @@ class LeastViolation {
   /// @return as above
   bool ends_at(std::size_t way, Attempt attempt) {
     if (attempt.relaxed.t <= kContradiction && !found_) {
-      found_ = leads_({way, attempt.mesh, attempt.relaxed.found.z});
+      found_ = leads_({Foothold{way, attempt.mesh, attempt.relaxed.found.z}});
     }
     if (!best_ || attempt.relaxed.t < best_->relaxed.t) {
       best_ = std::move(attempt);
@@ -465,13 +495,93 @@ Opposition opposition_at(LeastViolation& search, const std::optional<GivingWay>&
   return opposition;
 }
 
+/// Whether no track can be as slow as a limit asks, however it winds.
+std::optional<std::string> too_fast(const Problem& problem) {
+  const std::optional<double> left = least_speed_left(problem);
+  if (!left) return std::nullopt;
+  const Limits& limits = problem.limits;
+  for (const std::optional<double>& highest : {limits.speed.highest, limits.exit_speed.highest}) {
+    if (!highest || *left <= *highest) continue;
+    return "However a track winds within these slopes, " + rounded_text(*left, 4) +
+           " m/s or more are left at the finish: so the energy equation says.";
+  }
+  return std::nullopt;
+}
+
+/// The search for what keeps all limits, and what it ends with where there is nothing.
+class Footing {
+ public:
+  Footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+          SearchControl& control, const std::vector<Beginning>& likely = {})
+      : search_(problem, passages, leads, control), likely_(likely) {
+    found_ = search_.from(&starts) || (!control.stop() && search_.closely()) ||
+             search_.from(&constant_speed_starts);
+    if (!found_ && !control.stop()) wind(leads, control);
+  }
+
+  [[nodiscard]] bool found() const { return found_ || search_.found(); }
+  [[nodiscard]] bool asks_for_bends() const { return asks_for_bends_; }
+  [[nodiscard]] const std::optional<GivingWay>& winding() const { return winding_; }
+  [[nodiscard]] const std::vector<Beginning>& likely() const { return likely_; }
+  [[nodiscard]] LeastViolation& search() { return search_; }
+
+ private:
+  void wind(const Leads& leads, SearchControl& control) {
+    const std::optional<std::size_t> asking = asking_for_bends(search_.best());
+    if (!asking) return;
+    asks_for_bends_ = true;
+    const LimitName name = search_.best().problem->limits[*asking].name;
+    if (!likely_.empty()) {
+      for (const Beginning& beginning : likely_) {
+        Winding one(search_.ways(), name, control);
+        found_ = one.descend_from(beginning) && leads(one.footholds());
+        if (found_ || control.stop()) return;
+      }
+      return;
+    }
+    Winding winding(search_.ways(), name, control);
+    winding.descend_all();
+    // Of several the best one counts; where none of the best leads somewhere, any other.
+    constexpr std::size_t kBest = 3;  // budget
+    std::vector<Foothold> footholds = winding.footholds();
+    const auto others = footholds.begin() + static_cast<std::ptrdiff_t>(std::min(kBest, footholds.size()));
+    const std::vector<Foothold> worse(others, footholds.end());
+    footholds.erase(others, footholds.end());
+    found_ = !footholds.empty() && leads(footholds);
+    if (!found_ && !worse.empty()) {
+      const bool any = std::exchange(control.any_track, true);
+      found_ = leads(worse);
+      control.any_track = any;
+    }
+    const Winding::End* const least = winding.least();
+    if (found_ || least == nullptr) return;
+    const Transcription& track = *least->attempt.relaxed.found.track;
+    const Beginning& beginning = least->beginning;
+    likely_ = winding.best_beginnings();
+    winding_ = GivingWay{*asking,
+                         least->attempt.relaxed,
+                         {beginning.passages, Mesh(track.mesh()), least->attempt.relaxed.found.z}};
+    (void)search_.from(beginning.passages, track.mesh(), curve_of(track, least->attempt.relaxed.found.z));
+  }
+
+  LeastViolation search_;
+  std::vector<Beginning> likely_;  ///< the best ones, once all have been tried
+  bool found_ = false;
+  bool asks_for_bends_ = false;
+  std::optional<GivingWay> winding_;
+};
+
 /// Finds the bounds that do, each alone.
 class Enough {
  public:
-  /// @param winding  whether tracks wind where a limit gives way
-  Enough(const Problem& problem, const std::vector<LimitSpec>& limits, bool winding, const Resolve& resolve,
-         SearchControl& control)
-      : problem_(problem), limits_(limits), winding_(winding), resolve_(resolve), control_(control) {}
+  Enough(const Problem& problem, const std::vector<LimitSpec>& limits, const Footing& footing,
+         const Resolve& resolve, SearchControl& control)
+      : problem_(problem),
+        limits_(limits),
+        winding_(footing.asks_for_bends()),
+        likely_(footing.likely()),
+        resolve_(resolve),
+        control_(control) {}
 
   /// The least bound for which a track is found again, as far as that takes no longer than for a looser one: tracks
   /// that have a bound hardly give way are found at ten times the cost of others, if at all.
@@ -479,7 +589,7 @@ class Enough {
     constexpr double kBeyond[] = {1e-2, 5e-2};               // taste: tried in turn
     constexpr double kBeyondWinding[] = {1e-3, 1e-2, 5e-2};  // taste: tried in turn
     constexpr double kClosely = 1e-4;                        // taste
-    constexpr int kAllowance = 2;                            // budget: as often as the looser one took
+    constexpr int kAllowance = 20;                           // budget: as often as the looser one took
     const std::span<const double> beyonds = winding_ ? std::span<const double>(kBeyondWinding) : kBeyond;
     std::optional<double> found;
     const int before = control_.evaluations;
@@ -505,66 +615,15 @@ class Enough {
     if (!changed || !limit_faults(changed->limits).empty()) return std::nullopt;
     // Where tracks wind, most fail from the one that has the limit give way least; all have to be found anew.
     if (winding_ && !resolve_.from(*changed, way.foothold)) return std::nullopt;
-    return resolve_.anew(*changed, allowance) ? std::optional(needed) : std::nullopt;
+    return resolve_.anew(*changed, allowance, likely_) ? std::optional(needed) : std::nullopt;
   }
 
   const Problem& problem_;
   const std::vector<LimitSpec>& limits_;
-  bool winding_;
+  bool winding_;  ///< tracks wind where a limit gives way
+  std::vector<Beginning> likely_;
   const Resolve& resolve_;
   SearchControl& control_;
-};
-
-/// Whether no track can be as slow as a limit asks, however it winds.
-std::optional<std::string> too_fast(const Problem& problem) {
-  const std::optional<double> left = least_speed_left(problem);
-  if (!left) return std::nullopt;
-  const Limits& limits = problem.limits;
-  for (const std::optional<double>& highest : {limits.speed.highest, limits.exit_speed.highest}) {
-    if (!highest || *left <= *highest) continue;
-    return "However a track winds within these slopes, " + rounded_text(*left, 4) +
-           " m/s or more are left at the finish: so the energy equation says.";
-  }
-  return std::nullopt;
-}
-
-/// The search for what keeps all limits, and what it ends with where there is nothing.
-class Footing {
- public:
-  Footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
-          SearchControl& control)
-      : search_(problem, passages, leads, control) {
-    found_ = search_.from(&starts) || (!control.stop() && search_.closely()) ||
-             search_.from(&constant_speed_starts);
-    if (!found_ && !control.stop()) wind(leads, control);
-  }
-
-  [[nodiscard]] bool found() const { return found_ || search_.found(); }
-  [[nodiscard]] bool asks_for_bends() const { return asks_for_bends_; }
-  [[nodiscard]] const std::optional<GivingWay>& winding() const { return winding_; }
-  [[nodiscard]] LeastViolation& search() { return search_; }
-
- private:
-  void wind(const Leads& leads, SearchControl& control) {
-    const std::optional<std::size_t> asking = asking_for_bends(search_.best());
-    if (!asking) return;
-    asks_for_bends_ = true;
-    const LimitName name = search_.best().problem->limits[*asking].name;
-    const Winding winding(search_.ways(), name, control);
-    // Of several the best one counts.
-    for (const Foothold& foothold : winding.footholds()) found_ = leads(foothold) || found_;
-    const Winding::End* const least = winding.least();
-    if (found_ || least == nullptr) return;
-    const Transcription& track = *least->attempt.relaxed.found.track;
-    winding_ = GivingWay{
-        *asking, least->attempt.relaxed, {least->way, Mesh(track.mesh()), least->attempt.relaxed.found.z}};
-    (void)search_.from(least->way, track.mesh(), curve_of(track, least->attempt.relaxed.found.z));
-  }
-
-  LeastViolation search_;
-  bool found_ = false;
-  bool asks_for_bends_ = false;
-  std::optional<GivingWay> winding_;
 };
 
 /// What stands against each other where no track was found, from the best end of all searches for one.
@@ -585,8 +644,8 @@ Opposition opposition_of(Footing& footing, SearchControl& control) {
 }  // namespace
 
 bool has_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
-                 SearchControl& control) {
-  return Footing(problem, passages, leads, control).found();
+                 SearchControl& control, const std::vector<Beginning>& likely) {
+  return Footing(problem, passages, leads, control, likely).found();
 }
 
 Explanation explain(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
@@ -606,7 +665,7 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   const bool settled = search.confirmed() && !search.found();
   Conflict& conflict = explanation.conflict;
   conflict.limits = std::move(opposition.limits);
-  const Enough enough(problem, search.best().problem->limits, footing.asks_for_bends(), resolve, control);
+  const Enough enough(problem, search.best().problem->limits, footing, resolve, control);
   for (const GivingWay& way : opposition.giving) {
     if (const auto relaxation = enough.of(way)) conflict.relaxations.push_back(*relaxation);
   }

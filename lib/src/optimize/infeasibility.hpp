@@ -22,16 +22,23 @@ struct Foothold {
   Vector z;
 };
 
+/// With which curve, of all that bends are looked for from, a search began.
+struct Beginning {
+  std::size_t passages = 0;
+  std::size_t curve = 0;
+};
+
 /// How a problem with another bound is solved: what is said to be enough has to be.
 struct Resolve {
-  /// From the search's own starts. It ends after so many evaluations more, whatever is found by then.
-  std::function<bool(const Problem&, int most_evaluations)> anew;
+  /// From the search's own starts; where bends are looked for, from the likely ones alone if there are any. It ends
+  /// after so many evaluations more, whatever is found by then.
+  std::function<bool(const Problem&, int most_evaluations, const std::vector<Beginning>& likely)> anew;
   std::function<bool(const Problem&, const Foothold&)> from;
 };
 
-/// Searches on from a track that keeps all limits at the stations of its mesh. @return whether to look no further: a
-/// track was found that keeps them everywhere, or the search was asked to end
-using Leads = std::function<bool(const Foothold&)>;
+/// Searches on from tracks that keep all limits at the stations of their meshes; of several the best one counts.
+/// @return whether to look no further: a track was found that keeps them everywhere, or the search was asked to end
+using Leads = std::function<bool(const std::vector<Foothold>&)>;
 
 /// What stands against all limits together, where nothing was found that keeps them.
 struct Explanation {
@@ -40,9 +47,11 @@ struct Explanation {
   bool certain = false;
 };
 
-/// Looks for tracks that keep all limits, from starts of every kind. @return whether one led somewhere
+/// Looks for tracks that keep all limits, from starts of every kind.
+/// @param likely  where bends are looked for: what to begin with, instead of every curve if there are any
+/// @return whether one led somewhere
 bool has_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
-                 SearchControl& control);
+                 SearchControl& control, const std::vector<Beginning>& likely);
 
 /// The same, and from starts of no kind; where none leads somewhere, what stands in the way.
 [[nodiscard]] Explanation explain(const Problem& problem, const std::vector<Passages>& passages,

@@ -18,10 +18,12 @@
 #include "optimize/smoother_ground.hpp"
 #include "optimize/starts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace glissade {
 namespace optimizer {
@@ -80,7 +82,7 @@ class Course {
 
   void from_starts() {
     for (const Passages& way : ways_) {
-      if (stopped_) return;
+      if (stopped_ || (control_.any_track && kept())) return;
       take(searcher_.search(way));
     }
   }
@@ -103,10 +105,36 @@ class Course {
     if (!stopped_) take(searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
   }
 
+  /// From several, of which the best one counts. On their way there they tell which can be that.
+  void from(const std::vector<Foothold>& footholds) {
+    if (control_.any_track) {
+      for (const Foothold& foothold : footholds) {
+        if (!kept()) from(foothold);
+      }
+      return;
+    }
+    std::vector<Searcher::Stage> stages;
+    double best = HUGE_VAL;
+    for (const Foothold& foothold : footholds) {
+      stages.push_back(searcher_.carried_on(ways_[foothold.passages], foothold.mesh, foothold.z));
+      if (is_on_limits(stages.back())) best = std::min(best, stages.back().found.objective);
+    }
+    const auto may_win = [&](const Searcher::Stage& stage) {
+      constexpr double kBehind = 0.01;  // taste: of the objective; what follows wins less
+      return is_on_limits(stage) && stage.found.objective <= best + kBehind * std::fabs(best);
+    };
+    for (const bool first : {true, false}) {
+      for (Searcher::Stage& stage : stages) {
+        if (stopped_ || (!first && kept())) return;
+        if (may_win(stage) == first) take(searcher_.ended(std::move(stage)));
+      }
+    }
+  }
+
   /// Where the limits lead none of the starts to a track that keeps them: tracks that do, if there are any.
-  void from_footholds() {
+  void from_footholds(const std::vector<Beginning>& likely) {
     control_.most_rounds = kFarRounds;
-    (void)has_footing(problem_, ways_, leads(), control_);
+    (void)has_footing(problem_, ways_, leads(), control_, likely);
   }
 
   /// @return what stands in the way, if no track keeps all limits
@@ -125,10 +153,15 @@ class Course {
  private:
   static constexpr int kFarRounds = 10;  // budget
 
+  [[nodiscard]] static bool is_on_limits(const Searcher::Stage& stage) {
+    constexpr double kNearly = 1e-5;  // accuracy: a hundred times that of a limit
+    return stage.found.feasible(kNearly);
+  }
+
   [[nodiscard]] Leads leads() {
-    return [this](const Foothold& foothold) {
-      from(foothold);
-      return best_->kept || stopped_;
+    return [this](const std::vector<Foothold>& footholds) {
+      from(footholds);
+      return kept() || stopped_;
     };
   }
 
@@ -147,22 +180,26 @@ class Course {
   bool stopped_ = false;
 };
 
-/// How a problem with another bound is solved.
+/// How a problem with another bound is solved: any track that keeps the limits tells that the bound does.
 Resolve resolve_with(const OptimizeOptions& options, SearchControl& control) {
   static const Progress quiet;
-  const auto anew = [&](const Problem& problem, int most_evaluations) {
+  const auto anew = [&](const Problem& problem, int most_evaluations, const std::vector<Beginning>& likely) {
     const std::function<bool()> stop = control.stop;
     const int before = control.evaluations;
     control.stop = [&, stop] { return control.evaluations - before > most_evaluations || stop(); };
+    control.any_track = true;
     Course course(problem, options, control, quiet);
     course.from_starts();
-    if (!course.kept() && !course.stopped()) course.from_footholds();
+    if (!course.kept() && !course.stopped()) course.from_footholds(likely);
+    control.any_track = false;
     control.stop = stop;
     return course.kept();
   };
   const auto from = [&](const Problem& problem, const Foothold& foothold) {
+    control.any_track = true;
     Course course(problem, options, control, quiet);
     course.from(foothold);
+    control.any_track = false;
     return course.kept();
   };
   return {anew, from};
@@ -228,8 +265,8 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
     const Resolve resolve = resolve_with(options, control);
     at_once = too_close_at_an_end(problem, [&](const LimitName& limit, double value) {
       const auto changed = with_bound(problem, limit, value);
-      return !changed ||
-             (!too_close_at_an_end(*changed, {}) && resolve.anew(*changed, std::numeric_limits<int>::max()));
+      return !changed || (!too_close_at_an_end(*changed, {}) &&
+                          resolve.anew(*changed, std::numeric_limits<int>::max(), {}));
     });
   }
   if (at_once) {

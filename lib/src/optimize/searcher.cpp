@@ -142,6 +142,20 @@ bool is_highest_load(const LimitSpec& limit) {
   return load && limit.side > 0;
 }
 
+/// The same track with two pieces for each on which a body lifts off.
+Found halved_at(const std::vector<LiftOff>& lifts, Found found) {
+  const Mesh& mesh = found.track->mesh();
+  std::vector<bool> halved(mesh.knots.size() - 1, false);
+  for (const LiftOff& lift : lifts) {
+    const auto above = std::upper_bound(mesh.knots.begin() + 1, mesh.knots.end() - 1, lift.sigma);
+    halved[static_cast<std::size_t>(above - mesh.knots.begin()) - 1] = true;
+  }
+  MeshTrack finer = with_halved_pieces(*found.track, found.z, halved);
+  found.track = std::make_shared<const Transcription>(finer.mesh);
+  found.z = std::move(finer.z);
+  return found;
+}
+
 /// Places at which limits are held beside the stations, of the core's length.
 class HeldPlaces {
  public:
@@ -175,6 +189,7 @@ Candidate Searcher::search(const Passages& passages) {
   Candidate candidate = begun(passages);
   const ScaledProblem& scaled_problem = *candidate.problem;
   const bool unlimited = is_unlimited();
+  std::vector<Found> others;  // that came to nothing
   // Clipped slopes are often the unclipped ones: what did not do is not tried twice, unless limits were tightened on
   // the way.
   std::vector<std::pair<GuessCurve, Vector>> tried;
@@ -186,32 +201,95 @@ Candidate Searcher::search(const Passages& passages) {
         unlimited ? from_exact(scaled_problem, start) : coarse(*candidate.rough, start);
     if (control_.stop()) candidate.stopped = true;
     if (!found) continue;
+    if (control_.any_track) {
+      const Vector margins = margins_;
+      mend_any(candidate, found->track->mesh(), found->z);
+      margins_ = margins;
+      if (candidate.kept || candidate.stopped) break;
+      continue;
+    }
     refine(candidate, *found, unlimited && scaled_problem.drag == 0.0);
+    if (!candidate.kept && !candidate.stopped) others.push_back(std::move(*found));
     // A track that keeps the limits, but is no optimum, may have lost its way: the next start is tried too.
     const bool converged = candidate.kept && candidate.found->residual <= options_.tolerance;
     if (converged || candidate.stopped) break;
+  }
+  // Slower ones, better than none.
+  for (const Found& other : others) {
+    if (candidate.kept || candidate.stopped) break;
+    mend_any(candidate, other.track->mesh(), other.z);
   }
   return candidate;
 }
 
 Candidate Searcher::search_from(const Passages& passages, const Mesh& mesh, const Vector& z) {
-  Candidate candidate = begun(passages);
+  return control_.any_track ? mended(passages, mesh, z) : ended(carried_on(passages, mesh, z));
+}
+
+Searcher::Stage Searcher::carried_on(const Passages& passages, const Mesh& mesh, const Vector& z) {
+  Stage stage{begun(passages), {}, mesh, z};
+  const ScaledProblem& problem = *stage.candidate.problem;
   aim_at(kCoarseTolerance, 12);
-  const Found found = minimise(*candidate.rough, mesh, z, margins_, control_);
-  refine(candidate, found, false);
+  Found found = minimise(*stage.candidate.rough, mesh, z, margins_, control_);
+  stage.found = laid_anew(problem, on_finer_meshes(problem, *stage.candidate.rough, std::move(found)));
+  return stage;
+}
+
+Candidate Searcher::ended(Stage stage) {
+  begin_margins(*stage.candidate.problem);
+  settle(stage.candidate, std::move(stage.found));
+  if (!stage.candidate.kept && !stage.candidate.stopped) mend_any(stage.candidate, stage.mesh, stage.z);
+  return std::move(stage.candidate);
+}
+
+Candidate Searcher::mended(const Passages& passages, const Mesh& mesh, const Vector& z) {
+  Candidate candidate = begun(passages);
+  mend_any(candidate, mesh, z);
   return candidate;
+}
+
+void Searcher::mend_any(Candidate& candidate, const Mesh& mesh, const Vector& z) {
+  const ScaledProblem& problem = *candidate.problem;
+  const bool any = std::exchange(control_.any_track, true);
+  begin_margins(problem);
+  finer_mesh_wins_.reset();
+  multipliers_ahead_.clear();
+  Found found = kept_on(problem, mesh, z);
+  // What is left over there may be the mesh's fault.
+  constexpr std::size_t kFiner[] = {32, 48};  // taste
+  for (const std::size_t pieces : kFiner) {
+    if (found.feasible(control_.limit_tolerance) || !found.feasible(kNearlyFeasible) || control_.stop())
+      break;
+    const Mesh finer =
+        mesh_with(problem, refined_knots(*found.track, found.z, {}, pieces), core_length_of(found));
+    found = kept_on(problem, finer, fit(curve_of(*found.track, found.z), Transcription(finer)));
+  }
+  mend(candidate, laid_anew(problem, std::move(found)));
+  control_.any_track = any;
+}
+
+Found Searcher::kept_on(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning) {
+  Relaxed relaxed =
+      least_violation(problem, mesh, beginning, Elastic::all(problem.limits.size()), margins_, control_);
+  relaxed.found.violation = relaxed.t;
+  relaxed.found.residual = HUGE_VAL;
+  return std::move(relaxed.found);
 }
 
 Candidate Searcher::begun(const Passages& passages) {
   Candidate candidate;
   candidate.problem = std::make_shared<ScaledProblem>(scaled(problem_, passages));
   candidate.rough = std::make_shared<ScaledProblem>(roughly_scaled(problem_, passages));
-  const std::vector<LimitSpec>& limits = candidate.problem->limits;
+  begin_margins(*candidate.problem);
+  return candidate;
+}
+
+void Searcher::begin_margins(const ScaledProblem& problem) {
+  const std::vector<LimitSpec>& limits = problem.limits;
   margins_.assign(limits.size(), 0.0);
   for (std::size_t i = 0; i < margins_.size(); ++i) {
     if (limits[i].measure == Measure::normal_load && limits[i].side < 0) margins_[i] = kContactMargin;
   }
-  return candidate;
 }
 
 bool Searcher::is_unlimited() const {
@@ -261,21 +339,28 @@ std::optional<Found> Searcher::rescued(const ScaledProblem& problem, const Mesh&
 }
 
 void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
+  finer_mesh_wins_.reset();
+  multipliers_ahead_.clear();
+  if (unlimited) {
+    mend(candidate, std::move(found));
+    return;
+  }
+  const ScaledProblem& problem = *candidate.problem;
+  settle(candidate, laid_anew(problem, on_finer_meshes(problem, *candidate.rough, std::move(found))));
+}
+
+void Searcher::settle(Candidate& candidate, Found found) {
   const ScaledProblem& problem = *candidate.problem;
   finer_mesh_wins_.reset();
   multipliers_ahead_.clear();
-  if (!unlimited) {
-    found = laid_anew(problem, on_finer_meshes(problem, *candidate.rough, std::move(found)));
-    if (!found.stopped) found = followed(problem, std::move(found));
-    if (!found.stopped) found = laid_anew(problem, halved(problem, std::move(found)));
-  }
-  candidate.stopped = candidate.stopped || found.stopped;
-  tell("referee", 0.9);
+  if (!found.stopped) found = followed(problem, std::move(found));
+  if (!found.stopped) found = laid_anew(problem, halved(problem, std::move(found)));
   mend(candidate, std::move(found));
 }
 
 Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
                         const Found& known) {
+  if (control_.any_track) return kept_on(problem, mesh, beginning);
   Found next = minimise(problem, mesh, beginning, margins_, control_, &known);
   if (next.stopped || next.feasible(kNearlyFeasible) || !known.feasible(kNearlyFeasible)) return next;
   std::optional<Found> other = rescued(problem, mesh, beginning);
@@ -441,6 +526,8 @@ MeshTrack Searcher::relaid(const ScaledProblem& problem, const Found& found) con
 void Searcher::mend(Candidate& candidate, Found found) {
   const ScaledProblem& problem = *candidate.problem;
   const std::function<bool()> stop = control_.stop;
+  candidate.stopped = candidate.stopped || found.stopped;
+  tell("referee", 0.9);
   HeldPlaces held;
   for (int round = 0; round < kTighteningRounds; ++round) {
     const CenterlinePtr track = track_of(problem, found);
@@ -468,7 +555,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
     if (judgement.lift_off) {
       lifts = lift_offs_of(problem, found);
       lifts.push_back({share_of(*judgement.lift_off), 0.0});
-      if (round < kFollowingRounds && !found.stopped) {
+      if (round < kFollowingRounds && !found.stopped && !control_.any_track) {
         if (std::optional<Found> next = following_closely(problem, found, lifts)) {
           found = std::move(*next);
           continue;
@@ -476,6 +563,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
       }
     }
     tighten(problem, judgement, lifts, round);
+    if (control_.any_track && !lifts.empty()) found = halved_at(lifts, found);
     Mesh mesh = mesh_again(found);
     mesh.extra_breaks = breaks_of(problem, core_length_of(found));
     for (const double place : places_to_hold(problem, judgement, round))

@@ -38,11 +38,25 @@ class Searcher {
 
   /// From the product's own starts.
   [[nodiscard]] Candidate search(const Passages& passages);
-  /// From a track that keeps the limits.
+  /// From a track that keeps the limits: the two below, or the third where any track will do.
   [[nodiscard]] Candidate search_from(const Passages& passages, const Mesh& mesh, const Vector& z);
+  /// A search from a track that keeps the limits, on its way: carried to the finer meshes, which tell how good it can be.
+  struct Stage {
+    Candidate candidate;
+    Found found;
+    Mesh mesh;  ///< of the track that it begins with
+    Vector z;
+  };
+  [[nodiscard]] Stage carried_on(const Passages& passages, const Mesh& mesh, const Vector& z);
+  /// The same to its end. Where it comes to nothing, the track that it begins with, mended.
+  [[nodiscard]] Candidate ended(Stage stage);
+  /// A track that keeps the limits on its mesh, mended so that it keeps them everywhere, however slow it is.
+  [[nodiscard]] Candidate mended(const Passages& passages, const Mesh& mesh, const Vector& z);
 
  private:
   [[nodiscard]] Candidate begun(const Passages& passages);
+  /// Limits that nothing has tightened yet.
+  void begin_margins(const ScaledProblem& problem);
   /// Only what every track obeys: the mesh can then be laid by the exact solution.
   [[nodiscard]] bool is_unlimited() const;
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const;
@@ -53,6 +67,8 @@ class Searcher {
                                              const Vector& beginning);
   /// Finer meshes, then tightening until the referee is content.
   void refine(Candidate& candidate, Found found, bool unlimited);
+  /// What follows on the finest mesh of pieces.
+  void settle(Candidate& candidate, Found found);
   /// Meshes of more and more pieces, the last of them only while the places at which limits change over move, and it
   /// pays.
   /// @param rough  of the meshes before those of all pieces
@@ -72,6 +88,10 @@ class Searcher {
   /// The mesh for that, and the track on it.
   [[nodiscard]] MeshTrack relaid(const ScaledProblem& problem, const Found& found) const;
 
+  /// The end of it, in a candidate that keeps nothing yet.
+  void mend_any(Candidate& candidate, const Mesh& mesh, const Vector& z);
+  /// A track that keeps the limits on a mesh, however slow it is.
+  [[nodiscard]] Found kept_on(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning);
   /// Lets the referee judge and mends what it finds, round by round.
   void mend(Candidate& candidate, Found found);
   /// A curvature that follows the load more closely where a body lifts off.
