@@ -3,7 +3,9 @@
 #include "design/read_process.hpp"
 #include "design/read_rules.hpp"
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -12,6 +14,32 @@ namespace glissade::design_file {
 namespace {
 
 enum class Process { plate, print, timber };
+
+/// The least that rules ask of a quantity; 0 where none does. What depends on the thickness of a part is judged in the build.
+double least_asked(const std::vector<Rule>& rules, std::string_view quantity, double density, bool advice) {
+  double least = 0.0;
+  for (const Rule& rule : rules) {
+    if (rule.quantity != quantity || !rule.bound.lowest || (rule.advice && !advice)) continue;
+    const bool holds = std::all_of(rule.when.begin(), rule.when.end(), [&](const RuleCondition& when) {
+      return when.quantity == "part_density" && density >= when.range.lowest.value_or(density) &&
+             density <= when.range.highest.value_or(density);
+    });
+    if (holds) least = std::max(least, *rule.bound.lowest);
+  }
+  return least;
+}
+
+/// What is refused as too little, and what bent floors keep to: as rules of the shop have it.
+ShopLeast least_of(const std::vector<Rule>& rules, double density) {
+  const auto least = [&](std::string_view quantity, bool advice) {
+    return least_asked(rules, quantity, density, advice);
+  };
+  return {.hole_edge_diameters = least("hole_edge_diameters", false),
+          .hole_pitch_diameters = least("hole_pitch_diameters", false),
+          .bend_radius_thicknesses = least("bend_radius_thicknesses", false),
+          .flat_thicknesses = least("flat_thicknesses", true),
+          .flat = least("flat", true)};
+}
 
 }  // namespace
 
@@ -72,6 +100,8 @@ std::optional<FabricationDesign> read_fabrication(MapReader& top, const std::fil
   const std::vector<std::string> suggested = {"shop-" + std::string(process_word(design))};
   design.rules = rules ? read_rule_group(*rules, suggested, RuleSubject::workshop, folder, findings)
                        : suggested_rules(suggested);
+  if (auto* const plate = std::get_if<PlateOptions>(&design.process))
+    plate->shop = least_of(design.rules.in_force, plate->material.density);
   map.refuse_unknown_keys();
   return design;
 }

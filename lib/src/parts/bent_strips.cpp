@@ -69,7 +69,7 @@ double neutral(const StripJob& job) {
 Facets bent_flats(const StripJob& job, const Span& span, double largest_kink) {
   // Within the frames at its ends a unit is straight, down to its lowest corner beside bends of some degrees.
   const double below = kSteep * std::max(job.section.highest, -job.section.lowest);
-  const double least = least_flat(job.section.thickness, job.options.flanges, below);
+  const double least = least_flat(job.section.thickness, job.options, below);
   return facets_by_rule(job.track, span, job.options.bend, largest_kink, least);
 }
 
@@ -433,9 +433,11 @@ void measure_bends(const std::vector<Strip>& strips, const PlateOptions& options
       if (before != nullptr) {
         const double taken = (step.radius + thickness) * (tan_half(std::fabs(step.angle.radians())) +
                                                           tan_half(std::fabs(before->angle.radians())));
-        facts.at(strip.part.name + " at " + length_text(strip.span.from + before->distance, 3) +
-                     " along the track",
-                 "flat_thicknesses", step.distance - before->distance - taken, thickness);
+        const std::string where = strip.part.name + " at " +
+                                  length_text(strip.span.from + before->distance, 3) + " along the track";
+        const double flat = step.distance - before->distance - taken;
+        facts.at(where, "flat", flat);
+        facts.at(where, "flat_thicknesses", flat, thickness);
       }
       before = &step;
     }

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -21,9 +22,7 @@ namespace glissade {
 namespace parts {
 namespace {
 
-constexpr double kLeastEdge = 1.2;   // hole diameters from its centre to an edge
-constexpr double kLeastPitch = 2.4;  // hole diameters between centres, across the force
-constexpr double kEdgeAtTop = 1.5;   // hole diameters below the top of a frame, as frame_plate() has it
+constexpr double kEdgeAtTop = 1.5;  // hole diameters below the top of a frame, as frame_plate() has it
 
 /// Collects what is wrong with the measures, all of it.
 class Objections {
@@ -42,8 +41,15 @@ class Objections {
   std::vector<Issue> issues_;
 };
 
+/// Whose bound it is.
+std::string asked_by(double bound, double usual) {
+  return bound == usual ? " (EN 1993-1-8)." : " (the rules of this shop).";
+}
+
 /// Of frames round any section.
-void object_to_bolts(const FlangeOptions& flange, Objections& objections) {
+void object_to_bolts(const PlateOptions& options, Objections& objections) {
+  const FlangeOptions& flange = options.flanges;
+  const ShopLeast& shop = options.shop;
   if (!flange.wanted) return;
   objections.positive(flange.width, "flanges.width");
   objections.positive(flange.thickness, "flanges.thickness");
@@ -55,23 +61,27 @@ void object_to_bolts(const FlangeOptions& flange, Objections& objections) {
   }
   const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
   const std::string bolt = "M" + std::to_string(flange.bolt);
-  if (flange.pitch < kLeastPitch * hole) {
+  const double pitch = shop.hole_pitch_diameters * hole;
+  const double edge = shop.hole_edge_diameters * hole;
+  if (flange.pitch < pitch) {
     objections.add("flanges.pitch", "pitch: " + length_text(flange.pitch) + " is too close for " + bolt,
-                   "Holes of " + length_text(hole) + " are at least " + length_text(kLeastPitch * hole) +
-                       " apart (EN 1993-1-8).",
+                   "Holes of " + length_text(hole) + " are at least " + length_text(pitch) + " apart" +
+                       asked_by(shop.hole_pitch_diameters, ShopLeast{}.hole_pitch_diameters),
                    "a pitch of 150 mm, or a smaller bolt");
   }
-  if (0.5 * flange.width < kLeastEdge * hole) {
+  if (0.5 * flange.width < edge) {
     objections.add("flanges.width",
                    "width: " + length_text(flange.width) + " puts holes for " + bolt + " " +
                        length_text(0.5 * flange.width) + " from the edge",
-                   "Their centres are at least " + length_text(kLeastEdge * hole) + " from it (EN 1993-1-8).",
-                   "a width of at least " + length_text(2.0 * kLeastEdge * hole) + ", or a smaller bolt");
+                   "Their centres are at least " + length_text(edge) + " from it" +
+                       asked_by(shop.hole_edge_diameters, ShopLeast{}.hole_edge_diameters),
+                   "a width of at least " + length_text(2.0 * edge) + ", or a smaller bolt");
   }
 }
 
-void object_to_flanges(const ChannelMeasures& channel, const FlangeOptions& flange, Objections& objections) {
-  object_to_bolts(flange, objections);
+void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& options, Objections& objections) {
+  const FlangeOptions& flange = options.flanges;
+  object_to_bolts(options, objections);
   const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), flange.bolt) != bolt_sizes().end();
   if (!flange.wanted || !known) return;
   const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
@@ -86,7 +96,7 @@ void object_to_flanges(const ChannelMeasures& channel, const FlangeOptions& flan
   }
   const double column =
       channel.wall_height - kEdgeAtTop * hole + channel.thickness + flange.gap + 0.5 * flange.width;
-  if (column < kLeastPitch * hole) {
+  if (column < options.shop.hole_pitch_diameters * hole) {
     objections.add("flanges.bolt",
                    "bolt: " + bolt + " finds no place beside walls of " + length_text(channel.wall_height),
                    "Two holes of " + length_text(hole) + " are " + length_text(column) + " apart there.",
@@ -113,16 +123,25 @@ void object_to_step(double step, Objections& objections) {
 
 }  // namespace
 
-Issue too_tight_a_bend(double radius, double thickness) {
-  return {"bend.inner_radius", "inner_radius: " + length_text(radius) + " is less than the plate's thickness",
-          "Mild steel cracks below " + length_text(thickness) + " (1 thickness).",
-          "inner_radius: " + length_text(thickness)};
+std::optional<Issue> too_tight_a_bend(double thickness, const PlateOptions& options) {
+  const double radius = options.bend.inner_radius.value_or(thickness);
+  const double asked = options.shop.bend_radius_thicknesses;
+  const double least = asked * thickness;
+  if (!(radius < (1.0 - 1e-9) * least)) return std::nullopt;
+  const bool usual = asked == ShopLeast{}.bend_radius_thicknesses;
+  return Issue{"bend.inner_radius",
+               usual ? "inner_radius: " + length_text(radius) + " is less than the plate's thickness"
+                     : "inner_radius: " + length_text(radius) + " is less than the shop bends",
+               usual ? "Mild steel cracks below " + length_text(thickness) + " (1 thickness)."
+                     : "Its rules ask for " + length_text(least) + " (" + rounded_text(asked, 4) +
+                           " thicknesses) or more.",
+               "inner_radius: " + length_text(least)};
 }
 
 std::vector<Issue> common_problems(const PlateOptions& options) {
   Objections objections;
   object_to_split(options.split, objections);
-  object_to_bolts(options.flanges, objections);
+  object_to_bolts(options, objections);
   object_to_step(options.joint_step, objections);
   const auto only_on_channels = [&](bool wanted, const char* key) {
     if (!wanted) return;
@@ -147,11 +166,9 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
   objections.positive(channel.width, "width");
   objections.positive(channel.thickness, "thickness");
   object_to_split(options.split, objections);
-  object_to_flanges(channel, options.flanges, objections);
+  object_to_flanges(channel, options, objections);
   if (options.floor == FloorMake::bent) {
-    const double radius = options.bend.inner_radius.value_or(channel.thickness);
-    if (radius < (1.0 - 1e-9) * channel.thickness)
-      objections.add(too_tight_a_bend(radius, channel.thickness));
+    if (auto issue = too_tight_a_bend(channel.thickness, options)) objections.add(std::move(*issue));
     if (options.walls == WallSeat::on_floor) {
       objections.add("walls", "walls: on-floor does not go with a bent floor",
                      "Between the bends the floor departs from the walls' lower edges.",

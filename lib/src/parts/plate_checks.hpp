@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/parts/plate_options.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace glissade::parts {
@@ -11,6 +12,7 @@ namespace glissade::parts {
 [[nodiscard]] std::vector<Issue> common_problems(const PlateOptions& options);
 
 /// Of a punch that is sharper than the material stands.
-[[nodiscard]] Issue too_tight_a_bend(double radius, double thickness);
+/// @return none of one that is not
+[[nodiscard]] std::optional<Issue> too_tight_a_bend(double thickness, const PlateOptions& options);
 
 }  // namespace glissade::parts

@@ -59,7 +59,10 @@ void measure_arcs(const Unit& unit, double thickness, ShopFacts& facts, Workshop
     const std::string where = on_floor(unit, arc.start);
     if (!bent && arc.curvature != 0.0)
       measure_rolling(1.0 / std::fabs(arc.curvature), unit.floor, where, workshop);
-    if (bent && arc.curvature == 0.0) facts.at(where, "flat_thicknesses", arc.length, thickness);
+    if (bent && arc.curvature == 0.0) {
+      facts.at(where, "flat", arc.length);
+      facts.at(where, "flat_thicknesses", arc.length, thickness);
+    }
   }
 }
 

@@ -17,8 +17,7 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where the track bends less
-constexpr double kPressFlat =
-    4.0;  // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
+4.0;                           // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
 
 /// @param face  of the unit's floor
 std::string fold_text(const Job& job, const Span& span, const FloorFace& face) {
@@ -101,15 +100,16 @@ void require_frame_room(const ArcSpline& track, const std::vector<double>& joint
                     "gap: " + length_text(1e-4 * std::ceil(1.05e4 * most)) + ", or a thinner frame"});
 }
 
-double least_flat(double thickness, const FlangeOptions& frame, double more) {
+double least_flat(double thickness, const PlateOptions& options, double more) {
   constexpr double kBeyondFrame = 1e-3;
-  const double pressed = kPressFlat * thickness;
+  const FlangeOptions& frame = options.flanges;
+  const double pressed = std::max(options.shop.flat_thicknesses * thickness, options.shop.flat);
   return frame.wanted ? std::max(pressed, frame.thickness + kBeyondFrame + more) : pressed;
 }
 
 Facets facets_of(const Job& job, const Span& span, double largest_kink) {
   return facets_by_rule(job.track, span, job.options.bend, largest_kink,
-                        least_flat(job.channel.thickness, job.options.flanges, 0.0));
+                        least_flat(job.channel.thickness, job.options, 0.0));
 }
 
 double kink_for_speed(const ArcSpline& track, const BendOptions& bend,

@@ -54,9 +54,9 @@ struct Unit {
 [[nodiscard]] Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOptions& bend,
                                     double largest_kink, double least);
 
-/// @return the least length of flats: what a press holds, and those at the ends of a unit no shorter than its frame is thick
+/// @return the least length of flats: what the shop's press holds, and those at the ends of a unit no shorter than its frame is thick
 /// @param more  for plates that lie off the floor line [m]
-[[nodiscard]] double least_flat(double thickness, const FlangeOptions& frame, double more);
+[[nodiscard]] double least_flat(double thickness, const PlateOptions& options, double more);
 
 /// Refuses frames that are so thick that the channel bends out of their gap within them: below on a crest, above in a hollow.
 /// @param joints   arc lengths of the units' ends

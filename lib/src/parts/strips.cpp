@@ -720,9 +720,9 @@ AsBuiltRide ride_rolled(const StripJob& job, const std::vector<double>& joints, 
 
 std::vector<Issue> strip_problems(const PlateSection& section, const PlateOptions& options) {
   std::vector<Issue> issues;
-  const double radius = options.bend.inner_radius.value_or(section.thickness);
-  if (options.floor == FloorMake::bent && radius < (1.0 - 1e-9) * section.thickness)
-    issues.push_back(too_tight_a_bend(radius, section.thickness));
+  if (options.floor == FloorMake::bent) {
+    if (auto issue = too_tight_a_bend(section.thickness, options)) issues.push_back(std::move(*issue));
+  }
   for (const SectionPlate& plate : section.plates) {
     if (dot(plate.back_to - plate.back_from, plate.face_to - plate.face_from) > 0.0) continue;
     issues.push_back({section.outside_on_left ? "cross_section.thickness" : "thickness",

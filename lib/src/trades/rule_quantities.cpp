@@ -103,6 +103,7 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"bolt_pitch", length, "distance of neighbouring bolts of a frame"},
     {"rolling_radius_thicknesses", number, "radius of a rolled plate over its thickness"},
     {"bend_radius_thicknesses", number, "inner radius of a bend over the thickness of its plate"},
+    {"flat", length, "flat between bends, or beside the last"},
     {"flat_thicknesses", number, "flat between bends, or beside the last, over the thickness of its plate"},
     // prints
     {"bed_share", number, "size of a segment over that of the bed"},

@@ -181,6 +181,17 @@ struct SupportOptions {
   friend bool operator==(const SupportOptions&, const SupportOptions&) = default;
 };
 
+/// The least that the rules of a shop ask for: what is less is refused, and bent floors keep to it.
+struct ShopLeast {
+  double hole_edge_diameters = 1.2;      ///< from a hole's middle to an edge (EN 1993-1-8)
+  double hole_pitch_diameters = 2.4;     ///< between holes' middles, across the force (EN 1993-1-8)
+  double bend_radius_thicknesses = 1.0;  ///< inside a bend, mild steel
+  double flat_thicknesses = 4.0;         ///< between bends: half the opening of a usual die
+  double flat = 0.0;                     ///< the same, whatever the thickness [m]
+
+  friend bool operator==(const ShopLeast&, const ShopLeast&) = default;
+};
+
 /// How a channel is made of plates.
 struct PlateOptions {
   static constexpr std::string_view kProcess = "plate";
@@ -208,6 +219,7 @@ struct PlateOptions {
   /// stream fills it in, and the liner's `life` from its `tonnage`.
   std::vector<FloorWear> floor_wear;
   double joint_step = 0.0;  ///< by which the floor may drop at a joint, downstream [m]; >= 0
+  ShopLeast shop;           ///< no option: whoever knows the shop's rules fills it in
 
   friend bool operator==(const PlateOptions&, const PlateOptions&) = default;
 };
