@@ -29,8 +29,9 @@ constexpr const char* kDescription =
     "List the rules that tracks can be held against, or hold a design against its rules.\n"
     "\n"
     "Each rule has its bound, its source, and how sure the bound is: those that nobody read in the document\n"
-    "itself are marked, and to be checked before anyone relies on them. Given a design, the exit code is 1\n"
-    "if a rule fails; advice that is not followed is a warning.";
+    "itself are marked, and to be checked before anyone relies on them. Given a design, its track is held\n"
+    "against its rules and, where it has a fabrication, its parts against those of the shop; the exit code\n"
+    "is 1 if a rule fails; advice that is not followed is a warning.";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -93,26 +94,48 @@ ExitCode list_rules(const Options& options) {
   return ExitCode::done;
 }
 
+/// What rules say of a design: of its track, and of what a workshop makes of it.
+struct Verdicts {
+  std::vector<Judgement> track;
+  std::shared_ptr<const WorkshopBuild> made;  ///< none of a design without a fabrication
+
+  [[nodiscard]] bool fail() const {
+    if (worst(track) == RuleVerdict::fail) return true;
+    return made != nullptr &&
+           std::any_of(made->workshop.checks.begin(), made->workshop.checks.end(),
+                       [](const ShopCheck& check) { return check.verdict == ShopVerdict::fail; });
+  }
+};
+
+Verdicts judged(const Design& design, const Options& options) {
+  const Interrupt interrupt;
+  ProgressLine progress(options.verbosity);
+  const RunContext context = interrupt.context(progress.callback(), options.time_budget.seconds());
+  const Track track = solve(design, context);
+  Verdicts verdicts;
+  verdicts.track = judge_rules(design, track);
+  if (design.fabrication) verdicts.made = assemble(design, track, context).fabrication;
+  return verdicts;
+}
+
 ExitCode judge_design(const Options& options) {
   const Design design = read_design(options.what, options.overrides.values());
-  if (design.rules.in_force.empty()) {
+  if (design.rules.in_force.empty() && !design.fabrication) {
     throw InputError({design.where("rules"), "the design has no rules to be held against", "",
                       "rules: {sets: [...]} in it; 'glissade rules' lists the sets"});
   }
-  const std::vector<Judgement> judgements = [&] {
-    const Interrupt interrupt;
-    ProgressLine progress(options.verbosity);
-    return judge_rules(design,
-                       solve(design, interrupt.context(progress.callback(), options.time_budget.seconds())));
-  }();
-  if (!options.csv.empty()) write_verdicts_csv(options.csv, judgements);
+  const Verdicts verdicts = judged(design, options);
+  if (!options.csv.empty()) write_verdicts_csv(options.csv, verdicts.track);
   if (options.json) {
-    print(verdicts_json(design, judgements));
+    print(verdicts_json(design, verdicts.track, verdicts.made ? &verdicts.made->workshop.checks : nullptr));
   } else {
     const std::string heading = design.name.empty() ? std::string("Track") : design.name;
-    print(emphasised(heading, Emphasis::heading) + "\n\n" + verdicts_table(judgements));
+    std::string text = emphasised(heading, Emphasis::heading) + "\n";
+    if (!verdicts.track.empty()) text += "\n" + verdicts_table(verdicts.track);
+    if (verdicts.made) text += "\n" + shop_table(verdicts.made->workshop.checks);
+    print(text);
   }
-  return worst(judgements) == RuleVerdict::fail ? ExitCode::faulty : ExitCode::done;
+  return verdicts.fail() ? ExitCode::faulty : ExitCode::done;
 }
 
 ExitCode run_rules(const Options& options) {

@@ -91,6 +91,15 @@ std::string verdicts_table(const std::vector<Judgement>& judgements) {
   return text + (text.ends_with('\n') ? "" : "\n");
 }
 
+std::string shop_table(const std::vector<ShopCheck>& checks) {
+  Table table({"rule of the shop", "verdict", "value", "bound", "certainty", ""});
+  for (const ShopCheck& check : checks) {
+    table.add({check.rule, std::string(to_text(check.verdict)), check.value, check.bound, check.certainty,
+               check.where});
+  }
+  return table.text();
+}
+
 std::string rule_text(const Rule& rule) {
   std::string text = rule.sentence + "\n" + std::string(rule_quantity(rule.quantity)->label) + " " +
                      bound_text(rule) + (rule.advice ? ", advice" : "");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/parts/shop_part.hpp"
 #include "glissade/trades/rules.hpp"
 
 #include <string>
@@ -12,6 +13,9 @@ namespace glissade::app {
 
 /// Every rule with its verdict, value and place.
 [[nodiscard]] std::string verdicts_table(const std::vector<Judgement>& judgements);
+
+/// Every rule of the shop with its verdict, value and place.
+[[nodiscard]] std::string shop_table(const std::vector<ShopCheck>& checks);
 
 /// A rule as it stands in its file: bound, sentence, source and how sure that is.
 [[nodiscard]] std::string rule_text(const Rule& rule);

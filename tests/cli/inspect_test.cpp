@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -87,4 +88,26 @@ TEST_CASE("inspect of a file that is not there ends with 5") {
   const Outcome outcome = glissade_run({"inspect", "no-such-file.stl"});
   CHECK(outcome.exit_code == 5);
   CHECK_THAT(outcome.errors, Contains("no-such-file.stl") && Contains("No such file"));
+}
+
+TEST_CASE(
+    "rules of a design with a fabrication are those of the shop, too; one that a part breaks is the exit "
+    "code") {
+  const std::string design = shipped("grain_chute_fabricated.yaml");
+  const Outcome kept = glissade_run({"rules", design, "-q"});
+  CHECK(kept.exit_code == 0);
+  CHECK_THAT(kept.output,
+             Contains("rule of the shop") && Contains("plate.hole-edge") && Contains("plate.clear"));
+  const Outcome broken =
+      glissade_run({"rules", design, "-q", "--json", "--set",
+                    "fabrication.rules={own: [{id: our.crane, sentence: Our crane lifts 5 kg., "
+                    "quantity: part_mass, highest: 5 kg, source: its plate}]}"});
+  CHECK(broken.exit_code == 1);
+  const json verdicts = json::parse(broken.output);
+  CHECK(verdicts["rules"].empty());
+  const auto found = std::find_if(verdicts["shop_checks"].begin(), verdicts["shop_checks"].end(),
+                                  [](const json& check) { return check["rule"] == "our.crane"; });
+  REQUIRE(found != verdicts["shop_checks"].end());
+  CHECK((*found)["verdict"] == "fail");
+  CHECK((*found)["bound"] == "at most 5 kg");
 }

@@ -287,6 +287,47 @@ TEST_CASE(
   CHECK(refusal("{process: plate, supports: {}}").find("ground") != std::string::npos);
 }
 
+TEST_CASE("fabrication: what a shop makes by its own rules is not refused, and what it does not make is") {
+  const auto with_rule = [](const std::string& options, const std::string& rule) {
+    return refusal("{process: plate, " + options + ", rules: {own: [{id: " + rule +
+                   ", sentence: So does our shop., source: our shop}]}}");
+  };
+  const std::string close = "flanges: {pitch: 28 mm}";
+  CHECK(refusal("{process: plate, " + close + "}")
+            .find("Holes of 12 mm are at least 28.8 mm apart (EN 1993-1-8).") != std::string::npos);
+  CHECK(with_rule(close, "plate.hole-pitch, quantity: hole_pitch_diameters, lowest: 2.2").empty());
+  CHECK(with_rule(close, "plate.hole-pitch, quantity: hole_pitch_diameters, lowest: 2.5")
+            .find("Holes of 12 mm are at least 30 mm apart (the rules of this shop).") != std::string::npos);
+  CHECK(refusal("{process: plate, " + close + ", rules: {leave_out: [plate.hole-pitch]}}").empty());
+  const std::string sharp = "floor: bent, bend: {bends: 10, inner_radius: 3 mm}";
+  CHECK(refusal("{process: plate, " + sharp + "}").find("Mild steel cracks below 4 mm (1 thickness).") !=
+        std::string::npos);
+  CHECK(with_rule(sharp, "plate.bend-radius, quantity: bend_radius_thicknesses, lowest: 0.5").empty());
+  CHECK(with_rule("floor: bent, bend: {bends: 10}",
+                  "plate.bend-radius, quantity: bend_radius_thicknesses, lowest: 2")
+            .find("Its rules ask for 8 mm (2 thicknesses) or more.") != std::string::npos);
+}
+
+TEST_CASE("fabrication: bent floors keep to the least flat of the shop") {
+  const auto shortest = [](const std::string& rules) {
+    const Design design = quick("{process: plate, floor: bent, bend: {bends: 400}" + rules + "}");
+    const auto build = assemble(design, solve(design)).fabrication;
+    double least = 1e300;
+    for (const ShopMeasurement& measured : build->workshop.measured) {
+      if (measured.quantity == "flat") least = std::min(least, measured.value);
+    }
+    return least;
+  };
+  const auto own = [](const std::string& bound) {
+    return ", rules: {own: [{id: plate.flat, sentence: So does our press., quantity: flat, lowest: " + bound +
+           ", source: our press}]}";
+  };
+  const double usual = shortest("");
+  CHECK(usual < 30e-3);
+  CHECK(shortest(own("8 mm")) < usual);
+  CHECK(shortest(own("60 mm")) > 50e-3);
+}
+
 TEST_CASE("fabrication: what cannot be made is refused at its place in the file") {
   CHECK(refusal("{process: plate, flanges: {pitch: 20 mm}}")
             .find("chute.yaml:5:48: pitch: 20 mm is too close for M10") != std::string::npos);

@@ -17,7 +17,6 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where the track bends less
-4.0;                           // thicknesses: half the opening of a usual die, 8 t, the least pitch of hits
 
 /// @param face  of the unit's floor
 std::string fold_text(const Job& job, const Span& span, const FloorFace& face) {

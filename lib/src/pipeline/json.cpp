@@ -349,11 +349,13 @@ std::string rules_json(const std::vector<RuleSet>& sets) {
   return document_text({{"glissade", version()}, {"sets", std::move(list)}});
 }
 
-std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements) {
+std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements,
+                          const std::vector<ShopCheck>* shop) {
   Json json{{"glissade", version()}};
   if (!design.name.empty()) json["name"] = design.name;
   json["verdict"] = to_text(worst(judgements));
   json["rules"] = report::rules_json(judgements);
+  json["shop_checks"] = shop == nullptr ? Json(nullptr) : report::shop_checks_json(*shop);
   return document_text(json);
 }
 

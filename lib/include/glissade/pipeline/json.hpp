@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/parts/shop_part.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/redesign.hpp"
 #include "glissade/pipeline/speeds.hpp"
@@ -39,8 +40,10 @@ struct ComparedTrack {
 /// Rules as they are, without a track.
 [[nodiscard]] std::string rules_json(const std::vector<RuleSet>& sets);
 
-/// What rules say of a track.
-[[nodiscard]] std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements);
+/// What rules say of a track, and those of the shop of its parts.
+/// @param shop  null where nothing is fabricated
+[[nodiscard]] std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements,
+                                        const std::vector<ShopCheck>* shop = nullptr);
 
 /// Friction and drag fitted to measured speeds.
 /// @param as_designed  the same speeds with the friction and drag of the sheet's body

@@ -46,6 +46,22 @@ Json ride_json(const AsBuiltRide& ride) {
 
 }  // namespace
 
+Json shop_checks_json(const std::vector<ShopCheck>& checks) {
+  Json rows = Json::array();
+  for (const ShopCheck& check : checks) {
+    rows.push_back({{"rule", check.rule},
+                    {"verdict", to_text(check.verdict)},
+                    {"value", check.value},
+                    {"bound", check.bound},
+                    {"where", check.where},
+                    {"source", check.source},
+                    {"sentence", check.sentence},
+                    {"certainty", check.certainty},
+                    {"needs_checking", check.needs_checking}});
+  }
+  return rows;
+}
+
 void add_parts(Json& json, const WorkshopBuild* build) {
   for (const char* const key : {"master_curve", "parts", "items", "as_built", "shop_checks",
                                 "parts_volume_m3", "channel_volume_m3", "joints_m"}) {
@@ -64,18 +80,7 @@ void add_parts(Json& json, const WorkshopBuild* build) {
                              {"where", item.where}});
   }
   json["as_built"] = ride_json(build->ride);
-  json["shop_checks"] = Json::array();
-  for (const ShopCheck& check : workshop.checks) {
-    json["shop_checks"].push_back({{"rule", check.rule},
-                                   {"verdict", to_text(check.verdict)},
-                                   {"value", check.value},
-                                   {"bound", check.bound},
-                                   {"where", check.where},
-                                   {"source", check.source},
-                                   {"sentence", check.sentence},
-                                   {"certainty", check.certainty},
-                                   {"needs_checking", check.needs_checking}});
-  }
+  json["shop_checks"] = shop_checks_json(workshop.checks);
   json["parts_volume_m3"] = build->proof.volume + build->proof.added_volume;
   json["channel_volume_m3"] = build->proof.volume;
   json["joints_m"] = build->joints;

@@ -9,7 +9,8 @@
 
 namespace glissade::report {
 
-/// @return names of the files of one part, relative to the directory of the build
+/// What rules of the shop say of parts.
+[[nodiscard]] Json shop_checks_json(const std::vector<ShopCheck>& checks);
 
 /// Adds master_curve, parts, as_built, shop_checks and parts_volume_m3; null each where nothing is fabricated.
 void add_parts(Json& json, const WorkshopBuild* build);
