@@ -48,8 +48,9 @@ std::optional<Turn> turn_between(const SectionPlate& before, const SectionPlate&
   // The far faces lie to the left: a corner that leaves room for laps there turns to the right.
   const double sine = -cross(a, b);
   const double cosine = dot(a, b);
-  const double angle = Angle::from_radians(math::atan2(sine, cosine)).degrees();
-  if (angle < kLeastTurn || angle > 180.0 - kLeastTurn) return std::nullopt;
+  // Neither flatter nor, folded back, sharper.
+  const double most = math::cos(Angle::from_degrees(kLeastTurn).radians());
+  if (!(sine > 0.0) || std::fabs(cosine) > most) return std::nullopt;
   return Turn{thickness / sine, thickness * cosine / sine, thickness * (1.0 - cosine) / sine, sine};
 }
 

@@ -497,6 +497,8 @@ double volume_along(const StripJob& job, Vec2 section, const Span& span) {
 std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::vector<Strip>& strips,
                                               const std::vector<double>& joints,
                                               const std::vector<UnitWork>& works) {
+  // Of two plates that meet, one has what the mitre would have left to the other: a difference where only one of them goes on.
+  VolumeDifference ends{"edges beyond the ends of other plates", 0.0};
   VolumeDifference laps{"laps", 0.0};
   VolumeDifference tabs{"tabs", 0.0};
   VolumeDifference slots{"slots", 0.0};
@@ -508,6 +510,12 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
         std::upper_bound(joints.begin(), joints.end() - 1, strip.span.from) - joints.begin() - 1);
     const UnitWork& work = works[unit];
     const SectionPlate& plate = job.section.plates[strip.plate];
+    const CorneredPlate& own = edges[strip.plate];
+    const CorneredPlate mitred = plain_cut(plate, t, strip.span, job.options.material).edges;
+    ends.volume += volume_along(job,
+                                stretch_moments(plate, t, own.from.plain, own.to.plain) -
+                                    stretch_moments(plate, t, mitred.from.plain, mitred.to.plain),
+                                strip.span);
     const Span out{std::max(work.laps.from, strip.span.from), std::min(work.laps.to, strip.span.to)};
     for (const CornerEdge* const edge : {&edges[strip.plate].from, &edges[strip.plate].to}) {
       const bool passes = edge->meeting == CornerEdge::Meeting::passes;
@@ -526,8 +534,9 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
     }
   }
   std::vector<VolumeDifference> all;
-  for (const VolumeDifference& one : {laps, tabs, slots, holes}) {
-    if (one.volume != 0.0) all.push_back(one);
+  constexpr double kRounding = 1e-13;  // [m^3]
+  for (const VolumeDifference& one : {ends, laps, tabs, slots, holes}) {
+    if (std::fabs(one.volume) > kRounding) all.push_back(one);
   }
   return all;
 }
