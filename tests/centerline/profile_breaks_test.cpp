@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/known_profiles.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <cmath>
 #include <memory>
@@ -133,4 +134,17 @@ TEST_CASE("a curve that passes over what its points show is told by their patter
   const FittedProfile passed_over(waves);
   CHECK(passed_over.rms_deviation() > 5e-3);
   CHECK(passed_over.leaves_pattern());
+}
+
+TEST_CASE("a millimetre of noise at a hundred points hides neither radius nor load") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (const KnownProfile& known : profiles()) {
+    for (int draw = 0; draw < (testing::thorough() && known.name == "in-run" ? 60 : 3); ++draw) {
+      INFO(known.name << ", radius " << known.smallest_radius << " m, draw " << draw);
+      const FittedProfile profile(points_of(known, 100, 1e-3, random));
+      CHECK(testing::smallest_valley_radius(profile.curve()) == Approx(known.smallest_radius).epsilon(0.02));
+      CHECK(highest_load(profile) == Approx(highest_load(*known.truth)).epsilon(0.01));
+    }
+  }
 }

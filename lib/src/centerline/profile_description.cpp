@@ -34,6 +34,8 @@ constexpr std::size_t kMostDeciding = 300;
 
 // What a jump of curvature at a clothoid or another bend costs, in numbers, beside the number itself.
 constexpr double kPriceOfJump = 1.0;
+// And any bend: drawings have straights, arcs, clothoids and cubic parabolas.
+constexpr double kPriceOfBend = 2.0;
 
 enum class Change { tie, simpler, merge };
 
@@ -218,6 +220,24 @@ void add_cubic_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfi
   }
 }
 
+/// The profile with one of its pieces that turn little as a straight.
+std::vector<PiecewiseProfile> with_straights(const PiecewiseProfile& profile) {
+  constexpr double kLittle = 0.02;  // [rad]
+  std::vector<PiecewiseProfile> all;
+  for (std::size_t k = 0; k < profile.pieces.size(); ++k) {
+    const ProfilePiece& piece = profile.pieces[k];
+    const bool turns = std::fabs(turn_of(profile.pieces, k, k + 1)) > kLittle;
+    if (turns || piece.shape == PieceShape::straight || piece.shape == PieceShape::cubic) continue;
+    ProfilePiece straight;
+    straight.shape = PieceShape::straight;
+    straight.length = piece.length;
+    PiecewiseProfile next = replaced(profile, k, k + 1, straight);
+    if (k + 1 < next.pieces.size()) next.pieces[k + 1].tied = false;
+    all.push_back(std::move(next));
+  }
+  return all;
+}
+
 /// Where curvature jumps a little between a clothoid and a straight or an arc: no jump, and the break where the
 /// clothoid has the other's curvature.
 void add_moved_ties(const PiecewiseProfile& profile, std::vector<PiecewiseProfile>& ways) {
@@ -256,14 +276,81 @@ void add_moved_ties(const PiecewiseProfile& profile, std::vector<PiecewiseProfil
   }
 }
 
+/// The profile with a straight at an end, out of a part of the piece there: a jump that few points beyond it show.
+std::vector<PiecewiseProfile> with_straight_ends(const PiecewiseProfile& profile) {
+  std::vector<PiecewiseProfile> all;
+  for (const bool last : {false, true}) {
+    const ProfilePiece& piece = last ? profile.pieces.back() : profile.pieces.front();
+    if (piece.constant() || piece.shape == PieceShape::cubic) continue;
+    for (const double share : {0.4, 0.7}) {
+      ProfilePiece straight;
+      straight.shape = PieceShape::straight;
+      straight.length = share * piece.length;
+      PiecewiseProfile next = profile;
+      ProfilePiece& rest = last ? next.pieces.back() : next.pieces.front();
+      rest.length -= straight.length;
+      rest.shape = PieceShape::clothoid;
+      rest.swellings = 0;
+      if (last) {
+        rest.exit_curvature = rest.entry_curvature;
+        next.pieces.push_back(straight);
+      } else {
+        rest.entry_curvature = rest.exit_curvature;
+        rest.tied = false;
+        next.pieces.insert(next.pieces.begin(), straight);
+      }
+      all.push_back(std::move(next));
+    }
+  }
+  return all;
+}
+
+/// What lies between two straights or arcs as one clothoid that leads over: noise lets an arc, another bend, or both pass
+/// for it.
+void add_plain_transitions(const PiecewiseProfile& profile, std::vector<PiecewiseProfile>& ways) {
+  constexpr std::size_t kMostReplaced = 3;
+  constexpr double kLonger = 0.4;  // than an arc that stands for it, on both sides
+  const std::vector<ProfilePiece>& pieces = profile.pieces;
+  for (std::size_t from = 1; from + 1 < pieces.size(); ++from) {
+    double length = 0.0;
+    for (std::size_t to = from + 1; to < pieces.size() && to <= from + kMostReplaced; ++to) {
+      length += pieces[to - 1].length;
+      const ProfilePiece& before = pieces[from - 1];
+      const ProfilePiece& after = pieces[to];
+      const bool arc = pieces[from].constant();
+      const bool known =
+          to == from + 1 && pieces[from].shape == PieceShape::clothoid && pieces[from].tied && after.tied;
+      if (!before.constant() || !after.constant() || known) continue;
+      if (before.exit_curvature == after.entry_curvature) continue;
+      const double more =
+          arc && to == from + 1 ? std::min({kLonger * length, 0.5 * before.length, 0.5 * after.length}) : 0.0;
+      ProfilePiece clothoid;
+      clothoid.length = length + 2.0 * more;
+      clothoid.entry_curvature = before.exit_curvature;
+      clothoid.exit_curvature = after.entry_curvature;
+      clothoid.tied = true;
+      PiecewiseProfile next = replaced(profile, from, to, clothoid);
+      next.pieces[from - 1].length -= more;
+      next.pieces[from + 1].length -= more;
+      next.pieces[from + 1].tied = true;
+      ways.push_back(std::move(next));
+    }
+  }
+}
+
 /// What the points had to yield: the unknowns, and the places of the breaks once more, as they were chosen among
 /// many.
 double freedom_of(const PieceFit& fit) {
   return static_cast<double>(fit.freedom() + fit.profile().pieces.size() - 1);
 }
 
-double jump_prices_of(const PieceFit& fit) {
-  return kPriceOfJump * static_cast<double>(jumps_of(fit.profile()));
+/// What the kinds of pieces cost beside their numbers, in numbers.
+double prices_of_kinds(const PieceFit& fit) {
+  const std::vector<ProfilePiece>& pieces = fit.profile().pieces;
+  const auto bends = std::count_if(pieces.begin(), pieces.end(),
+                                   [](const ProfilePiece& piece) { return piece.shape == PieceShape::bend; });
+  return kPriceOfJump * static_cast<double>(jumps_of(fit.profile())) +
+         kPriceOfBend * static_cast<double>(bends);
 }
 
 class Describer {
@@ -315,6 +402,17 @@ class Describer {
       std::vector<PiecewiseProfile> ways;
       add_moved_ties(fit_.profile(), ways);
       add_cubic_bends(fit_.profile(), ways);
+      add_plain_transitions(fit_.profile(), ways);
+      // A neighbour that hardly turns may be the straight that noise hides.
+      for (const PiecewiseProfile& straighter : with_straights(fit_.profile())) {
+        add_cubic_bends(straighter, ways);
+        add_plain_transitions(straighter, ways);
+      }
+      for (const PiecewiseProfile& ended : with_straight_ends(fit_.profile())) {
+        ways.push_back(ended);
+        add_cubic_bends(ended, ways);
+        add_plain_transitions(ended, ways);
+      }
       std::optional<PieceFit> best;
       double least = score(fit_);
       for (PiecewiseProfile& way : ways) {
@@ -334,7 +432,7 @@ class Describer {
  private:
   /// Of the Bayesian information criterion, in variances.
   [[nodiscard]] double score(const PieceFit& fit) const {
-    return fit.square_sum() / variance_ + (freedom_of(fit) + jump_prices_of(fit)) * number_price_;
+    return fit.square_sum() / variance_ + (freedom_of(fit) + prices_of_kinds(fit)) * number_price_;
   }
 
   /// From the last place of the profile to the first, so that the steps leave each other's indices alone.
@@ -451,7 +549,7 @@ class Descriptions {
     const auto count = static_cast<double>(points_.size());
     const double length = fit.profile().length();
     const double mean_square = std::max(fit.square_sum() / count, kRounding * length * length);
-    return count * math::log(mean_square) + (freedom_of(fit) + jump_prices_of(fit)) * math::log(count);
+    return count * math::log(mean_square) + (freedom_of(fit) + prices_of_kinds(fit)) * math::log(count);
   }
 
   const std::vector<Vec2>& points_;
