@@ -438,8 +438,11 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
   constexpr double kLostAtMost = 5e-7;      // accuracy: half that of a time
   constexpr std::size_t kMostPieces = 120;  // budget
   constexpr double kKept = 0.1;             // taste
-  constexpr int kMostIdle = 1;  // budget: halves that win nothing by themselves may let the next ones
+  constexpr int kMostIdle = 1;     // budget: halves that win nothing by themselves may let the next ones
+  constexpr double kSpread = 0.5;  // taste
+  constexpr double kTold = 2e-6;   // accuracy: of a time, as it is told
   int idle = 0;
+  double before = HUGE_VAL;
   for (int round = 0; round < kMostRounds; ++round) {
     const Remainder left = remainder_of(problem, found, control_);
     finer_mesh_wins_ = left.objective / std::fabs(found.objective);
@@ -448,8 +451,12 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
     const bool breaks = smooth && left.lost > kLostAtMost * std::fabs(found.objective);
     if (!breaks && left.objective <= left_at_most * std::fabs(found.objective)) break;
     if (found.track->mesh().knots.size() > kMostPieces) break;
-    const MeshTrack finer = breaks ? with_all_halved(*found.track, found.z)
-                                   : with_halved_pieces(*found.track, found.z, worth_halving(left));
+    // A few pieces that promise the most of it, and win nothing, are not where it is to be won.
+    const bool spread =
+        smooth && left.objective > kSpread * std::max(before, kTold * std::fabs(found.objective));
+    before = left.objective;
+    const MeshTrack finer = breaks || spread ? with_all_halved(*found.track, found.z)
+                                             : with_halved_pieces(*found.track, found.z, worth_halving(left));
     aim_at(options_.tolerance, 0);
     Found next = minimise(problem, finer.mesh, finer.z, margins_, control_, &found);
     if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
