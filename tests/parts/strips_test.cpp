@@ -286,3 +286,31 @@ TEST_CASE("strips: what cannot be made is refused with place, value and bound") 
   thick.polygon_thickness = 4e-3;
   CHECK(refusal(thin, thick, chute()).find("thickness|thickness: ") == 0);
 }
+
+TEST_CASE(
+    "strips: frames clear staves that begin close behind them, at a vertical start; a gap that was told is "
+    "refused") {
+  const CoulombBrachistochrone steep{{3.5, 2.6}, kFriction};
+  const section::Measures pipe = section::Pipe{0.411, 3e-3};
+  for (const double tolerance : {0.010, 0.019, 0.025}) {
+    INFO("staves to " << tolerance << " m");
+    PlateOptions options;
+    options.round = RoundMake::staves;
+    options.stave_tolerance = tolerance;
+    options.split.longest = 1.2;
+    const WorkshopBuild build = plates_of(steep, pipe, options);
+    CHECK(named(build, "end_frame").size() >= 2);
+    CHECK(build.proof.pairs > 10);
+    // Such a start closes the usual gap: told, it is refused with one that does.
+    options.flanges.as_told = true;
+    const std::string told = refusal_of([&] { return plates_of(steep, pipe, options); });
+    CHECK(
+        told.find(
+            "flanges.gap|gap: 0.5 mm is closed by plates that begin or bend behind a frame, at 0 m along") ==
+        0);
+    const std::size_t hint = told.find("|gap: ", told.find("out of the section there."));
+    REQUIRE(hint != std::string::npos);
+    options.flanges.gap = 1e-3 * std::stod(told.substr(hint + 6));
+    CHECK(plates_of(steep, pipe, options).proof.pairs == build.proof.pairs);
+  }
+}

@@ -12,6 +12,7 @@
 #include "parts/bores.hpp"
 #include "parts/corners.hpp"
 #include "parts/equal_parts.hpp"
+#include "parts/frame_room.hpp"
 #include "parts/offset_line.hpp"
 #include "parts/plate_checks.hpp"
 #include "parts/plate_facts.hpp"
@@ -350,6 +351,42 @@ void add_frames(const StripJob& job, const std::optional<BentStrips>& bent, cons
   const std::string where =
       joints.size() == 3 ? "at the joint" : "at the " + std::to_string(joints.size() - 2) + " joints";
   add_bolts(workshop, job.options.flanges.bolt, 2.0 * job.options.flanges.thickness, bolts, where);
+}
+
+/// Widens the gap of frames that nobody told where plates that begin or bend close behind one would stand in it.
+/// @throws InputError where the gap was told: the place, and the gap that would do
+FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& joints,
+                                const std::vector<Strip>& strips) {
+  FlangeOptions flange = job.options.flanges;
+  if (!flange.wanted || !job.section.convex) return flange;
+  double most = 0.0;
+  double where = 0.0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.closed,
+                               job.section.outside_on_left};
+    for (const double shift : {0.0, -flange.thickness}) {
+      if (shift == 0.0 ? i + 1 == joints.size() : i == 0) continue;
+      const Frame place = place_of_frame(job, joints[i], shift);
+      for (const Strip& strip : strips) {
+        const double out = standing_out(strip.part, opening, place, flange.thickness, 0.5 * flange.width);
+        if (out > most) where = joints[i];
+        most = std::max(most, out);
+      }
+    }
+  }
+  constexpr double kRounding = 1.5e-5;  // of arcs, and of parts that share a number
+  if (most <= flange.gap + kRounding) return flange;
+  const double enough = 1e-4 * std::ceil(1.05e4 * most);
+  if (flange.as_told) {
+    throw InputError({"flanges.gap",
+                      "gap: " + length_text(flange.gap) +
+                          " is closed by plates that begin or bend behind a frame, at " +
+                          length_text(where, 3) + " along the track",
+                      "They stand " + length_text(most, 3) + " out of the section there.",
+                      "gap: " + length_text(enough) + ", or a thinner frame"});
+  }
+  flange.gap = enough;
+  return flange;
 }
 
 // --- proof
@@ -803,7 +840,9 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   }
   Workshop& workshop = build.workshop;
   list_strips(strips, workshop);
-  add_frames(job, bent, build.joints, workshop);
+  PlateOptions framed = options;
+  if (!bent) framed.flanges = frames_that_clear(job, build.joints, strips);
+  add_frames({track, section, framed, placement}, bent, build.joints, workshop);
   add_strip_rims(job, build.joints, workshop);
   add_strip_covers(job, build.joints, workshop);
   if (options.liner) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "glissade/core/vec.hpp"
+#include "glissade/parts/shop_part.hpp"
+
+#include <vector>
+
+namespace glissade::parts {
+
+/// Outlines that frames are set round, seen against the track.
+struct FrameOpening {
+  std::vector<Vec2> outside;  ///< convex; x across, y up
+  bool closed = false;
+  bool outside_on_left = false;
+};
+
+/// How far a piece stands out of an opening within a frame's thickness: near a vertical start plates begin and bend so soon
+/// behind the frame that they leave the section's own outline.
+/// @param place      of the frame: x across, y up, z along the track from its one face to the other
+/// @param thickness  of the frame [m]
+/// @param reach      what is farther outside than this is on another stretch of the track [m]
+/// @return 0 or more [m], to 10 um
+[[nodiscard]] double standing_out(const ShopPart& part, const FrameOpening& opening, const Frame& place,
+                                  double thickness, double reach);
+
+}  // namespace glissade::parts
