@@ -44,7 +44,8 @@ Workshop forty_parts() {
     if (i % 4 == 2)
       workshop.parts.push_back(testing::shop_part(i, "flange", Prism{testing::metre_band(1, 12), 0.01}));
     if (i % 4 == 3)
-      workshop.parts.push_back(testing::shop_part(i, "gore", TubeGore{0.1, 0.003, 0.3, -0.1, 0.1}));
+      workshop.parts.push_back(testing::shop_part(
+          i, "gore", TubeGore{0.1, 0.003, 0.3, Angle::from_radians(-0.1), Angle::from_radians(0.1)}));
     workshop.parts.back().places = {place};
     const Prism* const plate = std::get_if<Prism>(&workshop.parts.back().body);
     if (plate != nullptr) workshop.parts.back().pattern = FlatPattern{plate->region, {}, {}, {}, {}, 0.0};
