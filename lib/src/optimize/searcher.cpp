@@ -440,7 +440,8 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
   constexpr double kKept = 0.1;             // taste
   constexpr int kMostIdle = 1;     // budget: halves that win nothing by themselves may let the next ones
   constexpr double kSpread = 0.5;  // taste
-  constexpr double kTold = 2e-6;   // accuracy: of a time, as it is told
+  constexpr double kTold = 1e-5;   // accuracy: ten times that of a time
+  constexpr std::size_t kMostSpread = 80;  // budget
   int idle = 0;
   double before = HUGE_VAL;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -452,8 +453,8 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
     if (!breaks && left.objective <= left_at_most * std::fabs(found.objective)) break;
     if (found.track->mesh().knots.size() > kMostPieces) break;
     // A few pieces that promise the most of it, and win nothing, are not where it is to be won.
-    const bool spread =
-        smooth && left.objective > kSpread * std::max(before, kTold * std::fabs(found.objective));
+    const bool spread = smooth && found.track->mesh().knots.size() <= kMostSpread &&
+                        left.objective > kSpread * std::max(before, kTold * std::fabs(found.objective));
     before = left.objective;
     const MeshTrack finer = breaks || spread ? with_all_halved(*found.track, found.z)
                                              : with_halved_pieces(*found.track, found.z, worth_halving(left));
