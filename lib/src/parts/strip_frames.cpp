@@ -1,0 +1,162 @@
+#include "parts/strip_frames.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/bolts.hpp"
+#include "parts/frame_room.hpp"
+#include "parts/plate_unit.hpp"
+#include "parts/workshop_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+void add_polygon(ArcPath& path, const std::vector<Vec2>& corners) {
+  for (const Vec2 corner : corners) path.vertices.push_back({corner, 0.0});
+}
+
+/// Evenly spaced places along a chain of lines.
+std::vector<Vec2> along_chain(std::vector<Vec2> chain, bool closed, double pitch, double edge) {
+  if (closed) chain.push_back(chain.front());
+  double whole = 0.0;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) whole += norm(chain[i + 1] - chain[i]);
+  const double room = closed ? whole : whole - 2.0 * edge;
+  const double gaps = std::max(closed ? 4.0 : 1.0, std::ceil(room / pitch - 1e-9));
+  std::vector<Vec2> places;
+  for (double k = 0.0; k < (closed ? gaps : gaps + 1.0); k += 1.0) {
+    double left = (closed ? 0.5 * room / gaps : edge) + room * k / gaps;
+    std::size_t i = 0;
+    while (i + 2 < chain.size() && left > norm(chain[i + 1] - chain[i])) {
+      left -= norm(chain[i + 1] - chain[i]);
+      ++i;
+    }
+    places.push_back(chain[i] + (left / norm(chain[i + 1] - chain[i])) * (chain[i + 1] - chain[i]));
+  }
+  return places;
+}
+
+/// The outside of the section over the thickness of the frames on both sides of a joint: farther out nowhere.
+std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
+  const double t = job.options.flanges.thickness;
+  double wider = 0.0;
+  for (const double place : {s - t, s, s + t}) wider = std::max(wider, job.wider_at(place));
+  std::vector<Vec2> corners;
+  for (const Vec2 corner : job.section.outside) corners.push_back(job.at(corner, wider, lean));
+  return corners;
+}
+
+ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, HoleFit fit) {
+  const FlangeOptions& flange = job.options.flanges;
+  const PlateSection& section = job.section;
+  const double sign = section.outside_on_left ? 1.0 : -1.0;
+  const auto at = [&](double by) { return moved_to_left(outside, section.closed, sign * by); };
+  std::vector<Vec2> inner = at(flange.gap);
+  std::vector<Vec2> outer = at(flange.gap + flange.width);
+  FlatPattern pattern;
+  pattern.region.outline.closed = true;
+  if (section.closed) {
+    add_polygon(pattern.region.outline, outer);
+    pattern.region.cutouts.push_back({{}, true});
+    add_polygon(pattern.region.cutouts.back(), inner);
+  } else {
+    std::reverse(inner.begin(), inner.end());
+    add_polygon(pattern.region.outline, outer);
+    add_polygon(pattern.region.outline, inner);
+  }
+  // Rims are level: of a wall that leans, holes keep their distance from the rim, not along the wall.
+  const Vec2 first = outside[1] - outside[0];
+  const double upright = section.closed ? 1.0 : std::fabs(first.y) / norm(first);
+  const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse) / (upright > 0.0 ? upright : 1.0);
+  const double radius = 0.5 * clearance_hole(flange.bolt, fit);
+  for (const Vec2 centre :
+       along_chain(at(flange.gap + 0.5 * flange.width), section.closed, flange.pitch, edge))
+    pattern.region.holes.push_back({centre, radius});
+  ShopPart part;
+  part.name = fit == HoleFit::coarse ? "end_frame_loose" : "end_frame";
+  part.material = job.options.material.name;
+  part.density = job.options.material.density;
+  part.thickness = flange.thickness;
+  part.body = Prism{pattern.region, flange.thickness};
+  part.pattern = std::move(pattern);
+  return part;
+}
+
+Frame place_of_frame(const StripJob& job, double s, double shift) {
+  const TrackFrame at = frame_at(job.track, s);
+  return {in_space(job.placement, at.at + shift * at.along), across(job.placement),
+          direction_in_space(job.placement, at.up), direction_in_space(job.placement, at.along)};
+}
+
+}  // namespace
+
+void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent,
+                      const std::vector<double>& joints, Workshop& workshop) {
+  if (!job.options.flanges.wanted) return;
+  if (!job.section.convex) {
+    workshop.notes.emplace_back("The section is hollow outside: no frame fits round it, ends are welded.");
+    return;
+  }
+  std::size_t bolts = 0;
+  for (const HoleFit fit : {HoleFit::medium, HoleFit::coarse}) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const bool tight = fit == HoleFit::medium;
+      if (tight ? i == 0 : i + 1 == joints.size()) continue;
+      // Both frames of a joint are one figure, but for their holes.
+      const double lean = bent ? bent->lean_at(joints[i]) : job.lean_at(joints[i]);
+      ShopPart frame = frame_of(job, outside_at(job, lean, joints[i]), fit);
+      if (job.widens()) frame.name += "_" + std::to_string(i);
+      frame.places = {place_of_frame(job, joints[i], tight ? -job.options.flanges.thickness : 0.0)};
+      if (tight && i + 1 < joints.size()) bolts += frame.pattern->region.holes.size();
+      weigh(frame);
+      add_part(workshop, frame, kFrameColour);
+    }
+  }
+  if (bolts == 0) return;
+  const std::string where =
+      joints.size() == 3 ? "at the joint" : "at the " + std::to_string(joints.size() - 2) + " joints";
+  add_bolts(workshop, job.options.flanges.bolt, 2.0 * job.options.flanges.thickness, bolts, where);
+}
+
+FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& joints,
+                                const std::vector<Strip>& strips) {
+  FlangeOptions flange = job.options.flanges;
+  if (!flange.wanted || !job.section.convex) return flange;
+  double most = 0.0;
+  double where = 0.0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.closed,
+                               job.section.outside_on_left};
+    for (const double shift : {0.0, -flange.thickness}) {
+      if (shift == 0.0 ? i + 1 == joints.size() : i == 0) continue;
+      const Frame place = place_of_frame(job, joints[i], shift);
+      for (const Strip& strip : strips) {
+        const double out = standing_out(strip.part, opening, place, flange.thickness, 0.5 * flange.width);
+        if (out > most) where = joints[i];
+        most = std::max(most, out);
+      }
+    }
+  }
+  constexpr double kRounding = 1.5e-5;  // of arcs, and of parts that share a number
+  if (most <= flange.gap + kRounding) return flange;
+  const double enough = 1e-4 * std::ceil(1.05e4 * most);
+  if (flange.as_told) {
+    throw InputError({"flanges.gap",
+                      "gap: " + length_text(flange.gap) +
+                          " is closed by plates that begin or bend behind a frame, at " +
+                          length_text(where, 3) + " along the track",
+                      "They stand " + length_text(most, 3) + " out of the section there.",
+                      "gap: " + length_text(enough) + ", or a thinner frame"});
+  }
+  flange.gap = enough;
+  return flange;
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,251 @@
+#include "parts/strip_proof.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/bores.hpp"
+#include "parts/plate_proof.hpp"
+#include "parts/section_corners.hpp"
+#include "parts/strip_sheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kSameEdge = 1e-9;  // lengths of edges that meet [m]
+
+/// Area and first moment of the whole section by its outlines.
+Vec2 area_and_moment(const PlateSection& section) {
+  if (!section.mitred) {
+    // Plates that butt are no chain: one by one.
+    Vec2 sum;
+    for (const SectionPlate& plate : section.plates) {
+      PlateSection one;
+      one.plates = {plate};
+      sum = sum + area_and_moment(one);
+    }
+    return sum;
+  }
+  Vec2 sum;
+  const auto add = [&](const std::vector<Vec2>& corners) {
+    Vec2 one;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2 a = corners[i];
+      const Vec2 b = corners[(i + 1) % corners.size()];
+      one = one + Vec2{0.5 * cross(a, b), cross(a, b) * (a.y + b.y) / 6.0};
+    }
+    return one;
+  };
+  std::vector<Vec2> face;
+  std::vector<Vec2> back;
+  for (const SectionPlate& plate : section.plates) {
+    face.push_back(plate.face_from);
+    back.push_back(plate.back_from);
+  }
+  if (section.closed) {
+    const Vec2 one = add(face);
+    const Vec2 other = add(back);
+    sum = one - other;
+  } else {
+    face.push_back(section.plates.back().face_to);
+    back.push_back(section.plates.back().back_to);
+    face.insert(face.end(), back.rbegin(), back.rend());
+    sum = add(face);
+  }
+  return sum.x < 0.0 ? -1.0 * sum : sum;
+}
+
+PlateSection moved_out(const StripJob& job, PlateSection section, double wider, double lean) {
+  for (SectionPlate& plate : section.plates) {
+    for (Vec2* const corner : {&plate.face_from, &plate.face_to, &plate.back_from, &plate.back_to})
+      *corner = job.at(*corner, wider, lean);
+  }
+  return section;
+}
+
+/// A S - M phi of a section along a stretch: exactly, since corners move across evenly and keep their heights.
+/// @param leaning  as the plates do; else as the design has it
+double volume_along(const StripJob& job, const PlateSection& section, const Span& span, bool leaning) {
+  double volume = 0.0;
+  for (const StripArc& one : job.arcs_in(span)) {
+    const double lean = leaning ? 1.0 : 0.0;
+    const Vec2 from = area_and_moment(moved_out(job, section, one.wide_from, lean * one.lean_from));
+    const Vec2 to = area_and_moment(moved_out(job, section, one.wide_to, lean * one.lean_to));
+    const Vec2 mean = 0.5 * (from + to);
+    volume += one.arc.length * (mean.x - one.arc.curvature * mean.y);
+  }
+  return volume;
+}
+
+/// Of a plate over the stretches where it is missing.
+double missing_volume(const StripJob& job, const SectionPlate& plate, bool leaning) {
+  const Span span = unfolded(job, plate);
+  PlateSection alone;
+  alone.plates = {plate};
+  return volume_along(job, alone, {0.0, span.from}, leaning) +
+         volume_along(job, alone, {span.to, job.track.length()}, leaning);
+}
+
+/// What the plates should hold, and the greatest difference of an edge from what it should be.
+struct Wanted {
+  double volume = 0.0;
+  double edge_mismatch = 0.0;
+};
+
+Wanted wanted_of(const StripJob& job, const std::vector<Strip>& strips) {
+  Wanted wanted{volume_along(job, job.section, {0.0, job.track.length()}, true), 0.0};
+  for (const SectionPlate& plate : job.section.plates) wanted.volume -= missing_volume(job, plate, true);
+  for (const Strip& strip : strips) {
+    if (strip.edge_mismatch) {
+      wanted.edge_mismatch = std::max(wanted.edge_mismatch, *strip.edge_mismatch);
+      continue;
+    }
+    const SectionPlate& plate = job.section.plates[strip.plate];
+    double from = 0.0;
+    double to = 0.0;
+    for (const StripArc& one : job.arcs_in(strip.span)) {
+      const auto edge = [&](Vec2 middle) {
+        return one.arc.length * (1.0 - one.arc.curvature * middle.y) * math::hypot(1.0, one.taper());
+      };
+      from += edge(plate.middle_from());
+      to += edge(plate.middle_to());
+    }
+    wanted.edge_mismatch =
+        std::max({wanted.edge_mismatch, std::fabs(from - strip.edge_from), std::fabs(to - strip.edge_to)});
+  }
+  return wanted;
+}
+
+Wanted wanted_of(const BentStrips& bent, const std::vector<Strip>& strips) {
+  Wanted wanted;
+  for (const Strip& strip : strips) {
+    const BentStrips::Expected expected = bent.expected(strip);
+    wanted.volume += expected.volume;
+    wanted.edge_mismatch = std::max({wanted.edge_mismatch, std::fabs(expected.edge_from - strip.edge_from),
+                                     std::fabs(expected.edge_to - strip.edge_to)});
+  }
+  return wanted;
+}
+
+/// The section by design over what the plates cover, along the arcs.
+double exact_volume(const StripJob& job, const std::optional<BentStrips>& bent,
+                    const std::vector<Strip>& strips) {
+  double volume = 0.0;
+  if (!bent) {
+    volume = volume_along(job, job.section, {0.0, job.track.length()}, false);
+    // What is missing where the track bends tighter than a strip is high.
+    for (const SectionPlate& plate : job.section.plates) volume -= missing_volume(job, plate, false);
+    return volume;
+  }
+  for (const Strip& strip : strips) {
+    PlateSection alone;
+    alone.plates = {job.section.plates[strip.plate]};
+    volume += volume_along(job, alone, strip.span, false);
+  }
+  return volume;
+}
+
+/// Of a stretch of a plate's section along a stretch of track.
+double volume_along(const StripJob& job, Vec2 section, const Span& span) {
+  double volume = 0.0;
+  for (const StripArc& one : job.arcs_in(span))
+    volume += one.arc.length * (section.x - one.arc.curvature * section.y);
+  return volume;
+}
+
+}  // namespace
+
+std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::vector<Strip>& strips,
+                                              const std::vector<double>& joints,
+                                              const std::vector<UnitWork>& works) {
+  // Of two plates that meet, one has what the mitre would have left to the other: a difference where only one of them goes on.
+  VolumeDifference ends{"edges beyond the ends of other plates", 0.0};
+  VolumeDifference laps{"laps", 0.0};
+  VolumeDifference tabs{"tabs", 0.0};
+  VolumeDifference slots{"slots", 0.0};
+  VolumeDifference holes{"holes of the liner", 0.0};
+  const std::vector<CorneredPlate> edges = cornered(job.section, job.options);
+  const double t = job.section.thickness;
+  for (const Strip& strip : strips) {
+    const auto unit = static_cast<std::size_t>(
+        std::upper_bound(joints.begin(), joints.end() - 1, strip.span.from) - joints.begin() - 1);
+    const UnitWork& work = works[unit];
+    const SectionPlate& plate = job.section.plates[strip.plate];
+    const CorneredPlate& own = edges[strip.plate];
+    const CorneredPlate mitred = plain_cut(plate, t, strip.span, job.options.material).edges;
+    ends.volume += volume_along(job,
+                                stretch_moments(plate, t, own.from.plain, own.to.plain) -
+                                    stretch_moments(plate, t, mitred.from.plain, mitred.to.plain),
+                                strip.span);
+    const Span out{std::max(work.laps.from, strip.span.from), std::min(work.laps.to, strip.span.to)};
+    for (const CornerEdge* const edge : {&edges[strip.plate].from, &edges[strip.plate].to}) {
+      const bool passes = edge->meeting == CornerEdge::Meeting::passes;
+      if (passes) laps.volume += volume_along(job, stretch_moments(plate, t, edge->plain, edge->out), out);
+      if (edge->meeting == CornerEdge::Meeting::mitre) continue;
+      for (const Span& tab : work.tabs) {
+        const Span slot{tab.from - slack_of(job), tab.to + slack_of(job)};
+        if (passes)
+          slots.volume -= volume_along(job, stretch_moments(plate, t, edge->slot_near, edge->slot_far), slot);
+        else
+          tabs.volume += volume_along(job, stretch_moments(plate, t, edge->plain, edge->out), tab);
+      }
+    }
+    if (const auto* const sheet = std::get_if<RolledSheet>(&strip.part.body)) {
+      for (const Bore& bore : bores_of(*sheet)) holes.volume -= drilled_by_layers(bore);
+    }
+  }
+  std::vector<VolumeDifference> all;
+  constexpr double kRounding = 1e-13;  // [m^3]
+  for (const VolumeDifference& one : {ends, laps, tabs, slots, holes}) {
+    if (std::fabs(one.volume) > kRounding) all.push_back(one);
+  }
+  return all;
+}
+
+PartsProof prove_strips(const StripJob& job, const std::optional<BentStrips>& bent,
+                        const std::vector<Strip>& strips, const std::vector<VolumeDifference>& cut,
+                        const Workshop& workshop) {
+  PartsProof proof;
+  proof.exact_volume = exact_volume(job, bent, strips);
+  Wanted wanted = bent ? wanted_of(*bent, strips) : wanted_of(job, strips);
+  if (bent) {
+    proof.differences = {{job.widens() ? "flats for arcs, lean of the walls" : "flats for arcs",
+                          wanted.volume - proof.exact_volume}};
+  } else if (job.widens()) {
+    proof.differences = {{"lean of the walls", wanted.volume - proof.exact_volume}};
+  }
+  for (const VolumeDifference& difference : cut) {
+    proof.differences.push_back(difference);
+    wanted.volume += difference.volume;
+  }
+  for (const Strip& strip : strips) proof.volume += strip.part.volume;
+  proof.edge_mismatch = wanted.edge_mismatch;
+  double listed = 0.0;
+  for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());
+  proof.added_volume = listed - proof.volume;
+  if (!(std::fabs(proof.volume - wanted.volume) <= kPartsVolumeAccuracy * wanted.volume)) {
+    throw InternalError({"",
+                         "the strips hold " + rounded_text(proof.volume, 12) + " m^3, the section " +
+                             rounded_text(wanted.volume, 12) + " m^3",
+                         "", ""});
+  }
+  if (!(proof.edge_mismatch <= kSameEdge)) {
+    throw InternalError({"", "edges differ by " + length_text(proof.edge_mismatch, 3), "", ""});
+  }
+  proof.pairs = require_no_clash(workshop);
+  require_bolts_meet(workshop);
+  if (job.options.flanges.wanted) proof.smallest_gap = job.options.flanges.gap;
+  if (has_tabs(job)) {
+    const double slack = slack_of(job);
+    proof.smallest_gap = proof.smallest_gap > 0.0 ? std::min(proof.smallest_gap, slack) : slack;
+  }
+  return proof;
+}
+
+}  // namespace glissade::parts
