@@ -6,6 +6,9 @@
 #include "support/shop_parts.hpp"
 #include "support/temp_dir.hpp"
 
+#include <cstddef>
+#include <set>
+#include <sstream>
 #include <string>
 
 using namespace glissade;
@@ -76,7 +79,7 @@ TEST_CASE(
   CHECK(facts.solids[12].cones == 6 * (4 + 2) + 2);
   for (std::size_t i = 10; i < 13; ++i) CHECK(facts.solids[i].splines == 0);
   // ISO 10303-21 has capital exponents, after a decimal point.
-  CHECK(text.find(",7.5254E-06,") != std::string::npos);
+  CHECK(text.find(",7.525E-06,") != std::string::npos);
   CHECK(text.find("e-") == std::string::npos);
   CHECK(text.find("'Chute with ''quotes'', L\\X2\\00E4\\X0\\nge'") != std::string::npos);
 }
@@ -128,6 +131,29 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("STEP writes each point, direction and frame once, coordinates to 1e-9 mm") {
+  const std::string text = step_text(testing::sample_workshop());
+  std::set<std::string> written;
+  std::size_t points = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string entity = line.substr(line.find('=') + 1);
+    const auto is = [&](const char* keyword) { return entity.rfind(keyword, 0) == 0; };
+    if (!is("CARTESIAN_POINT(") && !is("DIRECTION(") && !is("VECTOR(") && !is("AXIS2_PLACEMENT_3D("))
+      continue;
+    INFO(line);
+    CHECK(written.insert(entity).second);
+    if (!is("CARTESIAN_POINT(")) continue;
+    ++points;
+    std::istringstream numbers(entity.substr(entity.rfind('(') + 1));
+    for (std::string number; std::getline(numbers, number, ',');) {
+      if (number.find('E') != std::string::npos) continue;
+      CHECK(number.substr(number.find('.') + 1, number.find(')') - number.find('.') - 1).size() <= 9);
+    }
+  }
+  CHECK(points > 500);
+}
+
 TEST_CASE("a STEP file that is not the parts is found out") {
   const TempDir directory;
   const auto file = directory / "chute.step";
@@ -144,7 +170,7 @@ TEST_CASE("a STEP file that is not the parts is found out") {
   CHECK_THROWS_AS(spoil("01 left_wall", "01 left_wal")(), InternalError);
   CHECK_THROWS_AS(spoil("CYLINDRICAL_SURFACE('',#", "CYLINDRICAL_SURFACE('',#9999")(), FileError);
   CHECK_THROWS_AS(spoil("PLANE(", "B_SPLINE_SURFACE(")(), FileError);
-  CHECK_THROWS_AS(spoil("7.5254E-06", "7.5254e-06")(), FileError);
+  CHECK_THROWS_AS(spoil("7.525E-06", "7.525e-06")(), FileError);
   Workshop other = workshop;
   std::get<Prism>(other.parts[0].body).region.holes.pop_back();
   put_bytes(file, good);

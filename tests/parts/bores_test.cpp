@@ -48,16 +48,16 @@ double off_face(const parts::Bore& bore, double depth, Vec3 point) {
 /// Points of a rational curve by de Boor's sum.
 std::vector<Vec3> points_of(const parts::RationalCurve& curve) {
   std::vector<Vec3> points;
-  for (std::size_t third = 0; third < 3; ++third) {
-    for (const double t : {0.0, 0.13, 0.37, 0.5, 0.81}) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    for (const double t : {0.0, 0.06, 0.13, 0.37, 0.5, 0.61, 0.81}) {
       Vec3 sum;
       double weights = 0.0;
       double choose = 1.0;
       for (std::size_t k = 0; k <= curve.degree; ++k) {
         const double bernstein = choose * std::pow(t, static_cast<double>(k)) *
                                  std::pow(1.0 - t, static_cast<double>(curve.degree - k));
-        const double weight = bernstein * curve.weights.at(third * curve.degree + k);
-        sum = sum + weight * curve.poles.at(third * curve.degree + k);
+        const double weight = bernstein * curve.weights.at(half * curve.degree + k);
+        sum = sum + weight * curve.poles.at(half * curve.degree + k);
         weights += weight;
         choose *= static_cast<double>(curve.degree - k) / static_cast<double>(k + 1);
       }

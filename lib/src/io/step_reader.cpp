@@ -232,10 +232,16 @@ double beyond_rounding(double gap, double radius) {
   return std::max(0.0, gap - 4.0 * std::numeric_limits<double>::epsilon() * radius);
 }
 
+/// ISO 10303-42 gives the length of a direction no meaning.
+Vec3 direction(const StepEntities& step, Id id) {
+  const Vec3 along = step.triple(id);
+  return (1.0 / norm(along)) * along;
+}
+
 Placement3 placement(const StepEntities& step, Id id) {
   const auto parts = step.parameters(id, 4);
-  return {step.triple(step.reference(parts[1])), step.triple(step.reference(parts[2])),
-          step.triple(step.reference(parts[3]))};
+  return {step.triple(step.reference(parts[1])), direction(step, step.reference(parts[2])),
+          direction(step, step.reference(parts[3]))};
 }
 
 /// How far places are from the nearer end of a spline.
@@ -255,7 +261,7 @@ std::function<double(Vec3)> gap_from_curve(const StepEntities& step, Id id) {
   const auto parts = step.parameters(id, 3);
   if (curve.keyword == "LINE") {
     const Vec3 from = step.triple(step.reference(parts[1]));
-    const Vec3 along = step.triple(step.reference(step.parameters(step.reference(parts[2]), 3)[1]));
+    const Vec3 along = direction(step, step.reference(step.parameters(step.reference(parts[2]), 3)[1]));
     return [from, along](Vec3 point) { return norm(cross(along, point - from)); };
   }
   if (curve.keyword == "B_SPLINE_CURVE_WITH_KNOTS") {

@@ -9,6 +9,7 @@
 #include "parts/brep.hpp"
 
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -112,27 +113,119 @@ class StepText {
   Id last_ = 0;
 };
 
-double rounded(double millimetres) {
-  return std::round(millimetres / kStepRounding) * kStepRounding;
+/// To a multiple of a grid whose decimal is short: a product would bring its last digits back.
+double on_grid(double value, double per_unit) {
+  return std::round(value * per_unit) / per_unit + 0.0;
 }
 
-/// To a multiple of kStepRounding whose decimal is short: a product would bring its last digits back.
+/// Lengths in millimetres.
 double on_grid(double millimetres) {
-  constexpr double kPerMillimetre = 1e10;
+  constexpr double kPerMillimetre = 1e9;
   static_assert(kPerMillimetre * kStepRounding == 1.0);
   // Beyond this, doubles are coarser than the grid.
-  return std::fabs(millimetres) < 1e5 ? std::round(millimetres * kPerMillimetre) / kPerMillimetre
-                                      : rounded(millimetres);
+  return std::fabs(millimetres) < 1e6 ? on_grid(millimetres, kPerMillimetre)
+                                      : std::round(millimetres / kStepRounding) * kStepRounding;
 }
 
-/// The geometry of one solid. Directions that come again are written once.
+Vec3 on_grid(Vec3 millimetres) {
+  return {on_grid(millimetres.x), on_grid(millimetres.y), on_grid(millimetres.z)};
+}
+
+/// A direction in digits that move nothing: 1e-9 mm over 10 m.
+Vec3 on_grid_of_directions(Vec3 along) {
+  constexpr double kPerUnit = 1e13;
+  return {on_grid(along.x, kPerUnit), on_grid(along.y, kPerUnit), on_grid(along.z, kPerUnit)};
+}
+
+/// Numbers that tell one entity from another of its kind.
+using Key = std::array<std::uint64_t, 3>;
+
+struct KeyHash {
+  std::size_t operator()(const Key& key) const {
+    std::uint64_t mixed = 0;
+    for (const std::uint64_t part : key) {
+      mixed = (mixed ^ part) * 0x9e3779b97f4a7c15U;
+      mixed ^= mixed >> 29U;
+    }
+    return static_cast<std::size_t>(mixed);
+  }
+};
+
+Key key_of(Vec3 triple) {
+  return {std::bit_cast<std::uint64_t>(triple.x), std::bit_cast<std::uint64_t>(triple.y),
+          std::bit_cast<std::uint64_t>(triple.z)};
+}
+
+/// What was written already, by what it says.
+using Known = std::unordered_map<Key, Id, KeyHash>;
+
+/// Points, directions and frames of one file: what comes again is written once.
+class Places {
+ public:
+  explicit Places(StepText& text) : text_(text) {}
+
+  Id point(Vec3 place) {
+    const Vec3 rounded = on_grid(place);
+    return once(points_, key_of(rounded), [&] { return text_.add("CARTESIAN_POINT('',", rounded, ")"); });
+  }
+
+  Id direction(Vec3 along) {
+    const Vec3 rounded = on_grid_of_directions(along);
+    return once(directions_, key_of(rounded), [&] { return text_.add("DIRECTION('',", rounded, ")"); });
+  }
+
+  Id vector(Vec3 along) {
+    const Id way = direction(along);
+    return once(vectors_, {way, 0, 0}, [&] { return text_.add("VECTOR('',", way, ",1.)"); });
+  }
+
+  Id placement(Vec3 origin, Vec3 axis, Vec3 reference) {
+    const Id centre = point(origin);
+    const Id normal = direction(axis);
+    const Id across = direction(reference);
+    return once(placements_, {centre, normal, across},
+                [&] { return text_.add("AXIS2_PLACEMENT_3D('',", centre, ",", normal, ",", across, ")"); });
+  }
+
+ private:
+  template <typename Write>
+  static Id once(Known& known, const Key& key, const Write& write) {
+    const auto [entry, fresh] = known.try_emplace(key, 0);
+    if (fresh) entry->second = write();
+    return entry->second;
+  }
+
+  StepText& text_;
+  Known points_;
+  Known directions_;
+  Known vectors_;
+  Known placements_;
+};
+
+/// A direction square to an axis that others with that axis have as well; where angles count from says nothing of a face or an
+/// arc that does not close on itself.
+Vec3 common_reference(Vec3 axis) {
+  constexpr std::array<Vec3, 3> kAxes = {Vec3{0.0, 0.0, 1.0}, Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}};
+  Vec3 least = kAxes[0];
+  for (const Vec3 one : kAxes) {
+    if (dot(axis, one) == 0.0) return one;
+    if (std::fabs(dot(axis, one)) < std::fabs(dot(axis, least))) least = one;
+  }
+  const Vec3 square = cross(axis, least);
+  return (1.0 / norm(square)) * square;
+}
+
+/// Beyond it [mm] the digits of an angle are too coarse to count from anywhere but the arc itself.
+constexpr double kLargeRadius = 1e5;
+
+/// The geometry of one solid.
 class SolidText {
  public:
-  SolidText(StepText& text, const Brep& brep) : text_(text), brep_(brep) {}
+  SolidText(StepText& text, Places& places, const Brep& brep) : text_(text), places_(places), brep_(brep) {}
 
   Id whole(const std::string& name) {
     for (const Vec3& vertex : brep_.vertices) {
-      points_.push_back(point(vertex));
+      points_.push_back(places_.point(vertex));
       vertices_.push_back(text_.add("VERTEX_POINT('',", points_.back(), ")"));
     }
     for (const BrepEdge& edge : brep_.edges) edges_.push_back(edge_curve(edge));
@@ -142,38 +235,22 @@ class SolidText {
     return text_.add("MANIFOLD_SOLID_BREP(", step_string(name), ",", shell, ")");
   }
 
-  Id point(Vec3 place) {
-    return text_.add("CARTESIAN_POINT('',", Vec3{on_grid(place.x), on_grid(place.y), on_grid(place.z)}, ")");
-  }
-
-  Id placement(Vec3 origin, Vec3 axis, Vec3 reference) {
-    const Id centre = point(origin);
-    const Id normal = direction(axis);
-    const Id across = direction(reference);
-    return text_.add("AXIS2_PLACEMENT_3D('',", centre, ",", normal, ",", across, ")");
-  }
-
  private:
-  Id direction(Vec3 along) {
-    const std::string key = exact_text(along.x) + "," + exact_text(along.y) + "," + exact_text(along.z);
-    const auto [entry, fresh] = directions_.try_emplace(key, 0);
-    if (fresh) entry->second = text_.add("DIRECTION('',", along, ")");
-    return entry->second;
-  }
-
   Id curve(const BrepEdge& edge) {
     if (edge.kind == CurveKind::line) {
       const Vec3 along = brep_.vertices[edge.to] - brep_.vertices[edge.from];
-      const Id vector = text_.add("VECTOR('',", direction((1.0 / norm(along)) * along), ",1.)");
-      return text_.add("LINE('',", points_[edge.from], ",", vector, ")");
+      return text_.add("LINE('',", points_[edge.from], ",", places_.vector((1.0 / norm(along)) * along), ")");
     }
     if (edge.kind == CurveKind::cubic) {
       return text_.add("B_SPLINE_CURVE_WITH_KNOTS('',3,", poles(edge.poles),
                        ",.UNSPECIFIED.,.F.,.F.,(4,4),(0.,1.),.UNSPECIFIED.)");
     }
     if (edge.kind == CurveKind::mouth) return mouth(edge);
-    const Id place = placement(edge.centre, edge.axis, edge.reference);
-    if (edge.kind == CurveKind::circle) return text_.add("CIRCLE('',", place, ",", edge.radius, ")");
+    const bool open_arc =
+        edge.kind == CurveKind::circle && edge.from != edge.to && edge.radius < kLargeRadius;
+    const Id place =
+        places_.placement(edge.centre, edge.axis, open_arc ? common_reference(edge.axis) : edge.reference);
+    if (edge.kind == CurveKind::circle) return text_.add("CIRCLE('',", place, ",", on_grid(edge.radius), ")");
     return text_.add("ELLIPSE('',", place, ",", edge.radius, ",", edge.second_radius, ")");
   }
 
@@ -186,20 +263,32 @@ class SolidText {
     const RationalCurve rational = rational_mouth(edge);
     const std::string degree = std::to_string(rational.degree);
     const std::string end = std::to_string(rational.degree + 1);
-    std::vector<Id> places;
-    for (const Vec3 pole : rational.poles) places.push_back(point(pole));
-    return text_.add("(BOUNDED_CURVE()B_SPLINE_CURVE(", degree, ",", places,
-                     ",.UNSPECIFIED.,.T.,.F.)B_SPLINE_CURVE_WITH_KNOTS((", end, ",", degree, ",", degree, ",",
-                     end,
-                     "),(0.,1.,2.,3.),.UNSPECIFIED.)CURVE()GEOMETRIC_REPRESENTATION_ITEM()"
+    std::vector<Id> poles;
+    poles.reserve(rational.poles.size());
+    for (const Vec3 pole : rational.poles) poles.push_back(places_.point(pole));
+    return text_.add("(BOUNDED_CURVE()B_SPLINE_CURVE(", degree, ",", poles,
+                     ",.UNSPECIFIED.,.T.,.F.)B_SPLINE_CURVE_WITH_KNOTS((", end, ",", degree, ",", end,
+                     "),(0.,1.,2.),.UNSPECIFIED.)CURVE()GEOMETRIC_REPRESENTATION_ITEM()"
                      "RATIONAL_B_SPLINE_CURVE(",
                      rational.weights, ")REPRESENTATION_ITEM(''))");
   }
 
   std::vector<Id> poles(const std::array<Vec3, 4>& places) {
     std::vector<Id> ids;
-    for (const Vec3 place : places) ids.push_back(point(place));
+    for (const Vec3 place : places) ids.push_back(places_.point(place));
     return ids;
+  }
+
+  /// Where angles count from does not matter: no edge of the face closes on itself, and the face is small enough.
+  [[nodiscard]] bool open_face(const BrepFace& face) const {
+    if (face.kind == SurfaceKind::plane) return true;
+    if (face.kind != SurfaceKind::cylinder || !(face.radius < kLargeRadius)) return false;
+    for (const std::vector<BrepUse>& loop : face.loops) {
+      for (const BrepUse& use : loop) {
+        if (brep_.edges[use.edge].from == brep_.edges[use.edge].to) return false;
+      }
+    }
+    return true;
   }
 
   Id ruled(const BrepFace& face) {
@@ -211,10 +300,11 @@ class SolidText {
 
   Id surface(const BrepFace& face) {
     if (face.kind == SurfaceKind::ruled) return ruled(face);
-    const Id place = placement(face.origin, face.axis, face.reference);
+    const Id place = places_.placement(face.origin, face.axis,
+                                       open_face(face) ? common_reference(face.axis) : face.reference);
     switch (face.kind) {
       case SurfaceKind::cylinder:
-        return text_.add("CYLINDRICAL_SURFACE('',", place, ",", face.radius, ")");
+        return text_.add("CYLINDRICAL_SURFACE('',", place, ",", on_grid(face.radius), ")");
       case SurfaceKind::cone:
         return text_.add("CONICAL_SURFACE('',", place, ",", face.radius, ",", face.half_angle, ")");
       case SurfaceKind::ruled:
@@ -240,11 +330,11 @@ class SolidText {
   }
 
   StepText& text_;
+  Places& places_;
   const Brep& brep_;
   std::vector<Id> points_;
   std::vector<Id> vertices_;
   std::vector<Id> edges_;
-  std::unordered_map<std::string, Id> directions_;
 };
 
 /// A product with the representation of its shape.
@@ -277,7 +367,7 @@ class StepFile {
   Product add_part(const ShopPart& part) {
     const Brep brep = brep_of(part);
     const std::string name = step_name(part);
-    const Id solid = SolidText(text_, brep).whole(name);
+    const Id solid = SolidText(text_, places_, brep).whole(name);
     styled_.push_back(text_.add("STYLED_ITEM('',(", style(part.colour), "),", solid, ")"));
     const Id shape =
         text_.add("ADVANCED_BREP_SHAPE_REPRESENTATION('',(", origin_, ",", solid, "),", space_, ")");
@@ -308,10 +398,7 @@ class StepFile {
   }
 
  private:
-  Id frame(const Frame& place) {
-    const Brep none;
-    return SolidText(text_, none).placement(kMillimetres * place.origin, place.z, place.x);
-  }
+  Id frame(const Frame& place) { return places_.placement(kMillimetres * place.origin, place.z, place.x); }
 
   Product product(const std::string& name, Id shape) {
     const std::string quoted = step_string(name);
@@ -352,6 +439,7 @@ class StepFile {
   }
 
   StepText text_;
+  Places places_{text_};
   Id application_ = 0;
   Id product_context_ = 0;
   Id definition_context_ = 0;

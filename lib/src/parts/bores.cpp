@@ -281,21 +281,19 @@ BoreLoops add_bore(Brep& brep, const Bore& bore) {
 
 RationalCurve rational_mouth(const BrepEdge& edge) {
   const Vec3 across = cross(edge.axis, edge.reference);
-  const Bernstein weight{1.0, 0.5, 1.0};  // of a third of a turn
+  // Half a turn: (1 - 2t, 2t(1 - t)) over (1 - t)^2 + t^2, as a quadratic with no weight in its middle. Powers of it, raised by
+  // one degree, have weights that are all positive.
+  const Bernstein weight{1.0, 0.0, 1.0};
+  const Bernstein none_more{1.0, 1.0};
+  const Bernstein lift = edge.skew == 0.0 ? weight : weight * weight;
+  const Bernstein weights = lift * weight * none_more;
   RationalCurve curve;
-  curve.degree = edge.skew == 0.0 ? 4 : 6;
-  for (int third = 0; third < 3; ++third) {
-    Bernstein x;
-    Bernstein y;
-    for (int k = 0; k < 3; ++k) {
-      const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * (third + 0.5 * k) / 3.0);
-      x.push_back(cosine);
-      y.push_back(sine);
-    }
-    const Bernstein lift = edge.skew == 0.0 ? weight : weight * weight;
-    const Bernstein weights = lift * weight;
-    const Bernstein xs = x * lift;
-    const Bernstein ys = y * lift;
+  curve.degree = weights.size() - 1;
+  for (const double half : {1.0, -1.0}) {
+    const Bernstein x{half, 0.0, -half};
+    const Bernstein y{0.0, half, 0.0};
+    const Bernstein xs = x * lift * none_more;
+    const Bernstein ys = y * lift * none_more;
     Bernstein out = x * x;
     for (double& one : out) one *= edge.rise;
     if (edge.skew != 0.0) {
@@ -303,11 +301,14 @@ RationalCurve rational_mouth(const BrepEdge& edge) {
       out = out * weight;
       for (std::size_t k = 0; k < out.size(); ++k) out[k] += edge.skew * skewed[k];
     }
-    for (std::size_t k = third == 0 ? 0 : 1; k <= curve.degree; ++k) {
+    out = out * none_more;
+    for (std::size_t k = half > 0.0 ? 0 : 1; k <= curve.degree; ++k) {
       const double w = weights[k];
       curve.poles.push_back(edge.centre + (edge.radius * xs[k] / w) * edge.reference +
                             (edge.radius * ys[k] / w) * across + (out[k] / w) * edge.axis);
-      curve.weights.push_back(w);
+      // A common factor makes them short; it moves nothing.
+      constexpr double kDigits = 1e12;
+      curve.weights.push_back(std::round(w * static_cast<double>(curve.degree) * kDigits) / kDigits);
     }
   }
   return curve;

@@ -80,10 +80,10 @@ struct BoreLoops {
 };
 BoreLoops add_bore(Brep& brep, const Bore& bore);
 
-/// A mouth as a rational B-spline of three Bezier pieces of one degree: on the hole's cylinder exactly.
+/// A mouth as a rational B-spline of two Bezier pieces of one degree, half a turn each: on the hole's cylinder exactly.
 struct RationalCurve {
   std::size_t degree = 0;
-  std::vector<Vec3> poles;  ///< 3 degree + 1
+  std::vector<Vec3> poles;  ///< 2 degree + 1
   std::vector<double> weights;
 };
 [[nodiscard]] RationalCurve rational_mouth(const BrepEdge& edge);

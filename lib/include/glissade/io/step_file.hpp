@@ -18,7 +18,7 @@ namespace glissade {
 /// Accuracy: each vertex lies on the curves and surfaces that meet there within kStepAccuracy.
 
 /// Coordinates are whole multiples of this [mm].
-inline constexpr double kStepRounding = 1e-10;
+inline constexpr double kStepRounding = 1e-9;
 /// Largest distance of a vertex from its curves and surfaces [mm], for parts up to 100 m across; beyond the rounding of a radius,
 /// four units in its last place, where an arc is all but straight.
 inline constexpr double kStepAccuracy = 1e-8;
