@@ -52,6 +52,7 @@ SplitOptions read_split(const Value& value, Findings& findings) {
   split.longest = map.quantity("longest", Dimension::length);
   if (const auto sheet = map.find("sheet")) split.sheet = read_sheet(*sheet, findings);
   split.heaviest = map.quantity("heaviest", Dimension::mass);
+  split.widest = map.quantity("widest", Dimension::length);
   if (const auto allowed = map.find("allowed")) split.allowed = as_flag(*allowed, findings).value_or(true);
   map.refuse_unknown_keys();
   return split;

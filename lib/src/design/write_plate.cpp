@@ -32,6 +32,7 @@ std::string split(const SplitOptions& options) {
   group.add("longest", options.longest, Dimension::length);
   group.add("sheet", point(options.sheet));
   group.add("heaviest", options.heaviest, Dimension::mass);
+  group.add("widest", options.widest, Dimension::length);
   if (!options.allowed) group.add("allowed", "false");
   return group.inlined();
 }

@@ -5,8 +5,10 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
 #include "parts/nearest_place.hpp"
+#include "parts/seams.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -174,6 +176,13 @@ double flat_from_end(const ArcSpline& track, const Span& span, double height, do
   return sum;
 }
 
+Span lid_heights(const Job& job, const InspectionOptions& opening) {
+  const double rim = job.options.rim ? job.options.rim->thickness + 2e-3 : 0.0;
+  const double middle = 0.5 * (job.channel.wall_height - rim);
+  const double half = 0.5 * opening.height + kLap;
+  return {middle - half, middle + half};
+}
+
 void add_rims(const Fitting& fitting) {
   const Job& job = fitting.job;
   if (!job.options.rim) return;
@@ -249,7 +258,8 @@ void add_stiffeners(const Fitting& fitting) {
   }
   if (part.places.empty()) return;
   weigh(part);
-  add_part(fitting.workshop, part, kFittingColour);
+  for (ShopPart& piece : pieces_across(part, false, job.options.split))
+    add_part(fitting.workshop, std::move(piece), kFittingColour);
 }
 
 void add_covers(const Fitting& fitting) {
@@ -308,24 +318,33 @@ std::vector<Vec2> lid_bolts(const ArcSpline& track, const InspectionOptions& ope
   return places;
 }
 
-/// Cuts an opening out of the left wall of a unit, which becomes a part of its own.
-void cut_wall(const Fitting& fitting, const Unit& unit, const std::vector<ArcPath>& openings,
-              const std::vector<Circle>& holes) {
+/// An opening in a wall with the holes of its lid's bolts, in the plane (x, height).
+struct Opening {
+  Span heights;  ///< of its lid
+  ArcPath outline;
+  std::vector<Circle> holes;
+};
+
+/// Cuts openings out of the left wall of a unit, whose strips with openings become parts of their own.
+void cut_wall(const Fitting& fitting, const Unit& unit, const std::vector<Opening>& openings) {
   const Job& job = fitting.job;
-  const double inner = 0.5 * job.channel.width;
-  PlaneRegion region = *wall_region(job, unit.span, unit.face, unit.tabs);
-  region.cutouts.insert(region.cutouts.end(), openings.begin(), openings.end());
-  region.holes = holes;
-  ShopPart part = upright_plate(job, region, job.channel.wall(), {-inner - job.channel.wall()});
-  part.name = unit.wall->name;
-  part.name.insert(0, "left_");
-  FlatPattern pattern;
-  pattern.region = std::get<Prism>(part.body).region;
-  set_number_place(pattern, bounds(pattern.region.outline));
-  part.pattern = std::move(pattern);
-  // Of the plain wall the right one is left.
-  take_back(fitting.workshop, *unit.wall, unit.wall->places.front());
-  add_part(fitting.workshop, part, kWallColour);
+  for (const WallStrip& strip : wall_strips(job, unit)) {
+    PlaneRegion region = strip.region;
+    for (const Opening& opening : openings) {
+      const double middle = 0.5 * (opening.heights.from + opening.heights.to);
+      if (!(middle > strip.heights.from && middle < strip.heights.to)) continue;
+      region.cutouts.push_back(opening.outline);
+      region.holes.insert(region.holes.end(), opening.holes.begin(), opening.holes.end());
+    }
+    if (region.holes.empty()) continue;
+    ShopPart part = wall_of(job, region);
+    part.places.resize(1);
+    weigh(part);
+    part.name = "left_" + strip.part.name;
+    // Of the plain wall the right one is left.
+    take_back(fitting.workshop, strip.part, strip.part.places.front());
+    add_part(fitting.workshop, std::move(part), kWallColour);
+  }
 }
 
 void add_lid(const Fitting& fitting, const InspectionOptions& opening, const Span& heights,
@@ -351,7 +370,6 @@ void add_lid(const Fitting& fitting, const InspectionOptions& opening, const Spa
 
 void add_openings(const Fitting& fitting) {
   const Job& job = fitting.job;
-  const double rim = job.options.rim ? job.options.rim->thickness + 2e-3 : 0.0;
   for (const InspectionOptions& opening : job.options.inspection) {
     if (opening.at > 0.0 && opening.at < job.track.length()) continue;
     refuse("inspection", "at: an opening at " + length_text(opening.at, 4) + " is not on the track",
@@ -359,8 +377,7 @@ void add_openings(const Fitting& fitting) {
            "at: " + length_text(0.5 * job.track.length(), 2));
   }
   for (const Unit& unit : fitting.units) {
-    std::vector<ArcPath> openings;
-    std::vector<Circle> holes;
+    std::vector<Opening> openings;
     for (const InspectionOptions& opening : job.options.inspection) {
       const double reach = 0.5 * opening.length + kLap;
       if (opening.at + reach <= unit.span.from || opening.at - reach >= unit.span.to) continue;
@@ -372,20 +389,20 @@ void add_openings(const Fitting& fitting) {
                    "; with its lid it is " + length_text(2.0 * reach) + " long.",
                "at: " + length_text(std::clamp(opening.at, room.from + reach, room.to - reach), 4));
       }
-      const double middle = 0.5 * (job.channel.wall_height - rim);
-      const Span heights{middle - 0.5 * opening.height, middle + 0.5 * opening.height};
+      const Span lid = lid_heights(job, opening);
+      const Span heights{lid.from + kLap, lid.to - kLap};
       if (job.track.at(opening.at).curvature * (heights.to + kLap) > 0.9) {
         refuse("inspection", "at: the track bends too tightly at " + length_text(opening.at, 4), "",
                "another at");
       }
-      openings.push_back(window(job.track, opening.at, 0.5 * opening.length, heights));
+      openings.push_back({lid, window(job.track, opening.at, 0.5 * opening.length, heights), {}});
       const std::vector<Vec2> bolts = lid_bolts(job.track, opening, heights);
       for (const Vec2 bolt : bolts)
-        holes.push_back({bolt, 0.5 * clearance_hole(opening.bolt, HoleFit::medium)});
+        openings.back().holes.push_back({bolt, 0.5 * clearance_hole(opening.bolt, HoleFit::medium)});
       add_lid(fitting, opening, heights, bolts);
       fitting.below.add(opening.at - reach, opening.at + reach);
     }
-    if (!openings.empty()) cut_wall(fitting, unit, openings, holes);
+    if (!openings.empty()) cut_wall(fitting, unit, openings);
   }
 }
 

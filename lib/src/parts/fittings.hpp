@@ -33,6 +33,9 @@ struct Fitting {
                                   double high);
 inline constexpr double kAsideOfFrame = 1e-3;  ///< between a rim and the frame that it ends before [m]
 
+/// @return the heights above the floor line between which an opening and its lid lie
+[[nodiscard]] Span lid_heights(const Job& job, const InspectionOptions& opening);
+
 /// What no shop can make of tiles on a lane.
 /// @param lane  its width as `width`
 [[nodiscard]] std::vector<Issue> liner_problems(const ChannelMeasures& lane, const PlateOptions& options);

@@ -84,12 +84,19 @@ double courses_in(const PlateOptions& options, const std::vector<double>& lanes,
   return std::max(1.0, std::ceil((span.to - span.from) / std::min(liner.tile_length, heavy) - 1e-9));
 }
 
+/// Where bolts stand across a tile, from its left edge.
+std::vector<double> across_tile(const LinerOptions& liner, double width) {
+  const double hole = clearance_hole(liner.bolt, HoleFit::medium);
+  if (width < 6.0 * hole) return {0.5 * width};
+  const double side = std::min(3.0 * hole, 0.25 * width);
+  return {side, width - side};
+}
+
 /// Where the bolts of a tile stand: places along the track, and across from its left edge [m].
 void set_bolts(const LinerOptions& liner, const OnOneArc& arcs, TilePlace& tile) {
   const Span& span = tile.span;
   const double hole = clearance_hole(liner.bolt, HoleFit::medium);
   const double edge = std::min(4.0 * hole, 0.25 * (span.to - span.from));
-  const double side = std::min(3.0 * hole, 0.25 * tile.width);
   std::vector<double> wanted = {span.from + edge, span.to - edge};
   if (span.to - span.from < 6.0 * hole) wanted = {0.5 * (span.from + span.to)};
   const double least = std::min(1.2 * hole, 0.5 * (span.to - span.from));
@@ -107,11 +114,21 @@ void set_bolts(const LinerOptions& liner, const OnOneArc& arcs, TilePlace& tile)
                           length_text(hole) + ".",
                       "a smaller bolt, a longer tile_length, or a larger arc_tolerance"});
   }
-  tile.across = {side, tile.width - side};
-  if (tile.width < 6.0 * hole) tile.across = {0.5 * tile.width};
+  tile.across = across_tile(liner, tile.width);
 }
 
 }  // namespace
+
+std::vector<double> bolts_across(const LinerOptions& liner, double lane) {
+  std::vector<double> places;
+  for (const bool odd : {false, true}) {
+    const Course course = course_of(liner, lane, odd);
+    for (std::size_t i = 0; i < course.widths.size(); ++i) {
+      for (const double y : across_tile(liner, course.widths[i])) places.push_back(course.edges[i] + y);
+    }
+  }
+  return places;
+}
 
 std::vector<TilePlace> tile_places(const PlateOptions& options, const std::vector<double>& lanes,
                                    const Span& unit, const OnOneArc& arcs, int& row) {

@@ -22,6 +22,7 @@ namespace glissade {
 namespace parts {
 namespace {
 
+constexpr double kLeastStrip = 50e-3;  // [m]
 constexpr double kEdgeAtTop = 1.5;  // hole diameters below the top of a frame, as frame_plate() has it
 
 /// Collects what is wrong with the measures, all of it.
@@ -108,6 +109,14 @@ void object_to_split(const SplitOptions& split, Objections& objections) {
   objections.positive(split.sheet.x, "split.sheet");
   objections.positive(split.sheet.y, "split.sheet");
   if (split.longest) objections.positive(*split.longest, "split.longest");
+  if (split.widest && !(*split.widest >= kLeastStrip)) {
+    objections.add("split.widest", "widest: " + length_text(*split.widest) + " is too narrow",
+                   "Strips that are welded along the track are at least " + length_text(kLeastStrip) + " wide.",
+                   "widest: 1 m");
+  } else if (split.widest && !split.allowed) {
+    objections.add("split.widest", "widest beside allowed: false", "One piece is asked for, and strips.",
+                   "one of them");
+  }
   if (split.heaviest && !(*split.heaviest > 0.0)) {
     objections.add("split.heaviest",
                    "heaviest: " + quantity_text(*split.heaviest, Dimension::mass) + " is not positive", "",

@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/calm_joints.hpp"
+#include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
 
 #include <algorithm>
@@ -206,11 +207,14 @@ std::vector<Unit> split_units(const Job& job, double largest_kink) {
     std::optional<Excess> found;
     for (std::size_t i = 0; i < units.size() && !found; ++i) {
       const std::string number = " of unit " + std::to_string(i + 1);
-      if ((found = excess(job.options.split, units[i].floor)))
-        found->what = "the floor" + number + " " + found->what;
-      if (found || !units[i].wall) continue;
-      if ((found = excess(job.options.split, *units[i].wall)))
-        found->what = "a wall" + number + " " + found->what;
+      for (const ShopPart& floor : floor_strips(job, units[i], i)) {
+        if (!found && (found = excess(job.options.split, floor)))
+          found->what = "the floor" + number + " " + found->what;
+      }
+      for (const WallStrip& wall : wall_strips(job, units[i])) {
+        if (!found && (found = excess(job.options.split, wall.part)))
+          found->what = "a wall" + number + " " + found->what;
+      }
     }
     return found;
   });

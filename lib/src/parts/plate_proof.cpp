@@ -9,6 +9,7 @@
 
 #include "parts/body_geometry.hpp"
 #include "parts/bores.hpp"
+#include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
 #include "parts/equal_parts.hpp"
 
@@ -293,8 +294,9 @@ void require_bolts_meet(const Workshop& workshop) {
 
 PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
   PartsProof proof;
-  for (const Unit& unit : units) {
-    proof.volume += unit.floor.volume + (unit.wall ? 2.0 * unit.wall->volume : 0.0);
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    for (const ShopPart& floor : floor_strips(job, units[i], i)) proof.volume += floor.volume;
+    for (const WallStrip& wall : wall_strips(job, units[i])) proof.volume += 2.0 * wall.part.volume;
   }
   double listed = 0.0;
   for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());

@@ -223,8 +223,12 @@ std::optional<ShopPart> wall_plate(const Job& job, const Span& span, const Floor
                                    const std::vector<Span>& tabs) {
   const auto region = wall_region(job, span, face, tabs);
   if (!region) return std::nullopt;
+  return wall_of(job, *region);
+}
+
+ShopPart wall_of(const Job& job, const PlaneRegion& region) {
   const double inner = 0.5 * job.channel.width;
-  ShopPart part = upright_plate(job, *region, job.channel.wall(), {-inner - job.channel.wall(), inner});
+  ShopPart part = upright_plate(job, region, job.channel.wall(), {-inner - job.channel.wall(), inner});
   part.name = "wall";
   FlatPattern pattern;
   pattern.region = std::get<Prism>(part.body).region;

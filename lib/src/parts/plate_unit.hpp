@@ -80,6 +80,9 @@ void drill_floor(const Job& job, const FloorFace& face, const std::vector<Span>&
 [[nodiscard]] std::optional<ShopPart> wall_plate(const Job& job, const Span& span, const FloorFace& face,
                                                  const std::vector<Span>& tabs);
 
+/// Both walls of a region of the plane (x, height), with their pattern.
+[[nodiscard]] ShopPart wall_of(const Job& job, const PlaneRegion& region);
+
 /// What goes round the channel from the top of one wall to that of the other; without holes.
 /// @param width  from the channel outwards
 /// @param top    height to which it reaches; no more than 0: a bar below the floor

@@ -9,6 +9,7 @@
 
 #include "parts/as_built.hpp"
 #include "parts/bolts.hpp"
+#include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
 #include "parts/mitred_pipe.hpp"
@@ -16,6 +17,7 @@
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_proof.hpp"
+#include "parts/seams.hpp"
 #include "parts/section_corners.hpp"
 #include "parts/setting_out.hpp"
 #include "parts/strip_fittings.hpp"
@@ -37,25 +39,29 @@ using namespace parts;
 
 namespace {
 
-void add_units(Workshop& workshop, const std::vector<Unit>& units) {
+void add_units(const Job& job, const std::vector<Unit>& units, Workshop& workshop) {
+  const auto suffix = [&](std::size_t i) { return units.size() > 1 ? "_" + std::to_string(i + 1) : ""; };
+  double seams = 0.0;
   for (std::size_t i = 0; i < units.size(); ++i) {
-    const std::string suffix = units.size() > 1 ? "_" + std::to_string(i + 1) : "";
-    ShopPart floor = units[i].floor;
-    floor.name += suffix;
-    const std::size_t before = workshop.parts.size();
-    const int number = add_part(workshop, std::move(floor), kFloorColour);
-    if (workshop.parts.size() == before) continue;  // as another one: its schedule stands already
-    for (BendStep step : units[i].steps) {
-      step.part = number;
-      workshop.bends.push_back(step);
+    seams += seam_length(job, units[i], i);
+    for (ShopPart& floor : floor_strips(job, units[i], i)) {
+      floor.name += suffix(i);
+      const std::size_t before = workshop.parts.size();
+      const int number = add_part(workshop, std::move(floor), kFloorColour);
+      if (workshop.parts.size() == before) continue;  // as another one: its schedule stands already
+      for (BendStep step : units[i].steps) {
+        step.part = number;
+        workshop.bends.push_back(step);
+      }
     }
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
-    if (!units[i].wall) continue;
-    ShopPart wall = *units[i].wall;
-    if (units.size() > 1) wall.name += "_" + std::to_string(i + 1);
-    add_part(workshop, std::move(wall), kWallColour);
+    for (WallStrip& wall : wall_strips(job, units[i])) {
+      wall.part.name += suffix(i);
+      add_part(workshop, std::move(wall.part), kWallColour);
+    }
   }
+  note_seams(seams, workshop);
 }
 
 void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& joints) {
@@ -67,9 +73,14 @@ void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& j
     downstream.push_back(frame_place(job, joints[i + 1], false));
   }
   // Holes of one of two frames that meet are larger, so that they fit as they come.
-  add_part(workshop, frame_plate(job, HoleFit::medium, downstream), kFrameColour);
-  add_part(workshop, frame_plate(job, HoleFit::coarse, upstream), kFrameColour);
-  const std::size_t holes = workshop.parts.back().pattern->region.holes.size();
+  std::size_t holes = 0;
+  for (const HoleFit fit : {HoleFit::medium, HoleFit::coarse}) {
+    const bool loose = fit == HoleFit::coarse;
+    const ShopPart frame = frame_plate(job, fit, loose ? upstream : downstream);
+    holes = frame.pattern->region.holes.size();
+    for (ShopPart& piece : pieces_across(frame, loose, job.options.split))
+      add_part(workshop, std::move(piece), kFrameColour);
+  }
   add_joint_bolts(workshop, job.options.flanges, holes, joints.size() - 2);
 }
 
@@ -160,7 +171,7 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
     require_frame_room(job.track, build.joints, options.flanges, -floor_depth(job) - channel.thickness,
                        std::nullopt);
   Workshop& workshop = build.workshop;
-  add_units(workshop, units);
+  add_units(job, units, workshop);
   add_frames(job, workshop, build.joints);
   workshop.setting_out = setting_out(job.track, build.joints, placement);
   add_fittings(job, units, workshop);

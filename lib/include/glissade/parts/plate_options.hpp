@@ -68,6 +68,8 @@ struct SplitOptions {
   Vec2 sheet{3.0, 1.5};            ///< stock, longer side first [m]
   std::optional<double> heaviest;  ///< mass of a part [kg]
   bool allowed = true;             ///< false: everything in one piece, or an error
+  /// Of a strip of a plate, across the track [m]; what is wider is strips side by side, welded along the track. None: as the sheet asks.
+  std::optional<double> widest = std::nullopt;
 
   friend bool operator==(const SplitOptions&, const SplitOptions&) = default;
 };

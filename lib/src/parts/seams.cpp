@@ -1,0 +1,210 @@
+#include "parts/seams.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/plate_joints.hpp"
+#include "parts/plate_unit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kOfSheet = 0.95;   // of a sheet that curved strips may take: their pattern needs more
+constexpr double kStep = 1e-3;      // in which seams move off what is taken [m]
+constexpr int kMoreStrips = 10;     // than an even division asks for
+constexpr double kTouch = 1e-9;     // [m]
+constexpr int kMostPieces = 20;     // of a plate across the track
+constexpr double kOffHole = 2.0;    // radii of a hole from its middle to a cut
+constexpr double kStagger = 60e-3;  // of cuts in two plates that meet, from the even places [m]
+
+/// The widest that a strip of a plate may be.
+double widest_strip(double width, bool straight, const SplitOptions& split) {
+  if (!split.allowed) return std::numeric_limits<double>::infinity();
+  const double share = straight ? 1.0 : kOfSheet;
+  const double longer = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  const double shorter = std::min(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  double most = std::numeric_limits<double>::infinity();
+  if (width > share * longer + kTouch) most = share * shorter;
+  return std::min(most, split.widest.value_or(most));
+}
+
+/// The place nearest to one that lies in nothing that is taken.
+std::optional<double> free_place(double about, double room, const std::vector<Span>& taken) {
+  const auto is_free = [&](double place) {
+    return std::none_of(taken.begin(), taken.end(),
+                        [&](const Span& span) { return place > span.from && place < span.to; });
+  };
+  for (double off = 0.0; off <= room; off += kStep) {
+    if (is_free(about - off)) return about - off;
+    if (is_free(about + off)) return about + off;
+  }
+  return std::nullopt;
+}
+
+/// Even places, each moved off what is taken; none where one of them cannot be.
+std::optional<std::vector<double>> even_seams(const Span& across, std::size_t strips,
+                                              const std::vector<Span>& taken, double stagger) {
+  const double step = (across.to - across.from) / static_cast<double>(strips);
+  std::vector<double> seams;
+  for (std::size_t k = 1; k < strips; ++k) {
+    const auto place = free_place(across.from + static_cast<double>(k) * step + stagger, 0.4 * step, taken);
+    if (!place) return std::nullopt;
+    seams.push_back(*place);
+  }
+  return seams;
+}
+
+double widest_of(const std::vector<Span>& strips) {
+  double widest = 0.0;
+  for (const Span& strip : strips) widest = std::max(widest, strip.to - strip.from);
+  return widest;
+}
+
+}  // namespace
+
+std::vector<double> seams_across(const std::string& plate, const Span& across, bool straight,
+                                 const std::vector<Span>& taken, const SplitOptions& split, double stagger) {
+  const double width = across.to - across.from;
+  const double most = widest_strip(width, straight, split);
+  if (!(width > most + kTouch)) return {};
+  // Also of a sheet that has no room at all.
+  const double even = most > 0.0 ? std::ceil(width / most - 1e-9) : 0.0;
+  for (int more = 0; even > 1.0 && even < 1e3 && more <= kMoreStrips; ++more) {
+    const auto seams = even_seams(across, static_cast<std::size_t>(even) + static_cast<std::size_t>(more), taken, stagger);
+    if (seams && widest_of(strips_between_seams(across, *seams)) <= most + kTouch) return *seams;
+  }
+  throw InputError({split.widest ? "split.widest" : "split.sheet",
+                    "the " + plate + ", " + length_text(width, 4) + " wide, leaves no place for seams that make strips of " +
+                        length_text(most, 4) + " or less",
+                    "Seams keep off laps, slots, openings and holes.",
+                    split.widest ? "a larger widest" : "a larger sheet"});
+}
+
+std::vector<Span> strips_between_seams(const Span& across, const std::vector<double>& seams) {
+  std::vector<Span> strips;
+  double from = across.from;
+  for (const double seam : seams) {
+    strips.push_back({from, seam});
+    from = seam;
+  }
+  strips.push_back({from, across.to});
+  return strips;
+}
+
+std::string strip_letter(std::size_t strip, std::size_t strips) {
+  if (strips < 2) return "";
+  std::string letters;
+  for (std::size_t left = strip + 1; left > 0; left = (left - 1) / 26)
+    letters.insert(letters.begin(), static_cast<char>('a' + (left - 1) % 26));
+  return "_" + letters;
+}
+
+namespace {
+
+/// What of a region of straight edges lies to one side of an upright line.
+ArcPath on_side(const ArcPath& outline, double x, double sense) {
+  const auto beyond = [&](Vec2 point) { return sense * (point.x - x); };
+  ArcPath part;
+  part.closed = true;
+  const std::size_t count = outline.vertices.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 a = outline.vertices[i].at;
+    const Vec2 b = outline.vertices[(i + 1) % count].at;
+    if (beyond(a) >= 0.0) part.vertices.push_back({a, 0.0});
+    if ((beyond(a) > 0.0 && beyond(b) < 0.0) || (beyond(a) < 0.0 && beyond(b) > 0.0))
+      part.vertices.push_back({{x, a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x))}, 0.0});
+  }
+  return part;
+}
+
+/// Whether an upright line crosses an outline once, from one edge to another, off its corners.
+bool cuts_once(const ArcPath& outline, double x) {
+  constexpr double kOffCorner = 5e-3;  // [m]
+  int edges = 0;
+  const std::size_t count = outline.vertices.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const PathVertex& a = outline.vertices[i];
+    const Vec2 b = outline.vertices[(i + 1) % count].at;
+    if (a.bulge != 0.0 || std::fabs(a.at.x - x) < kOffCorner) return false;
+    if ((a.at.x < x) != (b.x < x)) ++edges;
+  }
+  return edges == 2;
+}
+
+std::optional<double> cut_near(const PlaneRegion& region, double about, double room) {
+  for (double off = 0.0; off <= room; off += kStep) {
+    for (const double x : {about - off, about + off}) {
+      const bool free = std::none_of(region.holes.begin(), region.holes.end(), [&](const Circle& hole) {
+        return std::fabs(hole.centre.x - x) < kOffHole * hole.radius;
+      });
+      if (free && cuts_once(region.outline, x)) return x;
+    }
+  }
+  return std::nullopt;
+}
+
+ShopPart piece_of(const ShopPart& plate, const Span& span, std::size_t index, std::size_t count) {
+  const PlaneRegion& whole = plate.pattern->region;
+  PlaneRegion region;
+  region.outline = on_side(on_side(whole.outline, span.from, 1.0), span.to, -1.0);
+  for (const Circle& hole : whole.holes) {
+    if (hole.centre.x > span.from && hole.centre.x < span.to) region.holes.push_back(hole);
+  }
+  ShopPart piece = plate;
+  piece.name += strip_letter(index, count);
+  piece.body = Prism{region, std::get<Prism>(plate.body).depth};
+  piece.pattern = FlatPattern{};
+  piece.pattern->region = std::move(region);
+  set_number_place(*piece.pattern, bounds(piece.pattern->region.outline));
+  weigh(piece);
+  return piece;
+}
+
+/// A plate in so many pieces; none where they do not fit or find no cuts.
+std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& plate, std::size_t count, double shift,
+                                               const SplitOptions& sheet) {
+  const PlaneRegion& region = plate.pattern->region;
+  const PlaneBox box = bounds(region.outline);
+  const double step = box.width() / static_cast<double>(count);
+  std::vector<double> cuts;
+  for (std::size_t k = 1; k < count; ++k) {
+    const auto cut = cut_near(region, box.low.x + static_cast<double>(k) * step + shift, 0.25 * step);
+    if (!cut) return std::nullopt;
+    cuts.push_back(*cut);
+  }
+  std::vector<ShopPart> pieces;
+  for (const Span& span : strips_between_seams({box.low.x - 1.0, box.high.x + 1.0}, cuts)) {
+    pieces.push_back(piece_of(plate, span, pieces.size(), count));
+    if (excess(sheet, pieces.back())) return std::nullopt;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<ShopPart> pieces_across(const ShopPart& plate, bool staggered, const SplitOptions& split) {
+  SplitOptions sheet = split;
+  sheet.heaviest.reset();
+  if (!split.allowed || !excess(sheet, plate) || !plate.pattern->region.cutouts.empty()) return {plate};
+  const double shift = staggered ? -kStagger : kStagger;
+  for (std::size_t count = 2; count <= kMostPieces; ++count) {
+    if (auto pieces = in_pieces(plate, count, shift, sheet)) return *pieces;
+  }
+  return {plate};
+}
+
+void note_seams(double length, Workshop& workshop) {
+  if (!(length > 0.0)) return;
+  workshop.notes.push_back("Plates wider than a strip may be are strips side by side, welded edge to edge along the track: " +
+                           length_text(length, 4) + " of seam in all.");
+}
+
+}  // namespace glissade::parts

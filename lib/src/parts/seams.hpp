@@ -1,0 +1,42 @@
+#pragma once
+
+#include "glissade/parts/plate_options.hpp"
+#include "glissade/parts/shop_part.hpp"
+
+#include "parts/offset_line.hpp"
+
+#include <string>
+#include <vector>
+
+namespace glissade::parts {
+
+/// Plates that are wider than the sheet is long, or than `split.widest`, are strips side by side, welded edge to edge along the
+/// track.
+
+/// The seams across a plate: as few as strips need, even, but off what is taken.
+/// @param across    the plate from edge to edge
+/// @param straight  its pattern is as wide as it is; else it curves, and takes more of a sheet
+/// @param taken     stretches that no seam may lie in
+/// @param stagger   by which seams lie off even places [m]
+/// @return ascending places; none of a plate that goes in one piece
+/// @throws InputError where no seams keep off what is taken: the widest strip, and a way out
+[[nodiscard]] std::vector<double> seams_across(const std::string& plate, const Span& across, bool straight,
+                                               const std::vector<Span>& taken, const SplitOptions& split,
+                                               double stagger);
+
+/// @return the strips that seams leave of a plate, edge to edge
+[[nodiscard]] std::vector<Span> strips_between_seams(const Span& across, const std::vector<double>& seams);
+
+/// @return "_a", "_b", ... of a strip's name; nothing where there is one
+[[nodiscard]] std::string strip_letter(std::size_t strip, std::size_t strips);
+
+/// A plate that stands across the track, in pieces that fit the sheet: cut upright where that crosses it once, off its holes.
+/// @param staggered  cuts lie elsewhere: of one of two plates that meet
+/// @return the plate alone where it fits, or where no such cuts are to be had
+[[nodiscard]] std::vector<ShopPart> pieces_across(const ShopPart& plate, bool staggered,
+                                                  const SplitOptions& split);
+
+/// Says how long the seams are.
+void note_seams(double length, Workshop& workshop);
+
+}  // namespace glissade::parts
