@@ -13,10 +13,10 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kOffEdge = 2.0;      // thicknesses from slots and the ends of tabs to a seam
-constexpr double kOffHole = 1.5;      // diameters from the middle of a hole to a seam
-constexpr double kOffRim = 10e-3;     // [m]
-constexpr double kStagger = 100e-3;   // of seams from even places, where units are welded end to end [m]
+constexpr double kOffEdge = 2.0;     // thicknesses from slots and the ends of tabs to a seam
+constexpr double kOffHole = 1.5;     // diameters from the middle of a hole to a seam
+constexpr double kOffRim = 10e-3;    // [m]
+constexpr double kStagger = 100e-3;  // of seams from even places, where units are welded end to end [m]
 
 /// What of a sheet lies between two lines along it, whose ends alone they cross.
 ArcPath between(const ArcPath& outline, const Span& strip) {
@@ -85,8 +85,8 @@ std::vector<Span> taken_of_floor(const Job& job) {
   const double width = floor_width(job);
   const bool beside = job.options.walls == WallSeat::beside_floor;
   const double wall = job.channel.wall_height > 0.0 ? job.channel.wall() : 0.0;
-  const double edge = (beside ? 0.0 : overlap(job) + job.options.corners.clearance) + wall +
-                      kOffEdge * job.channel.thickness;
+  const double edge =
+      (beside ? 0.0 : overlap(job) + job.options.corners.clearance) + wall + kOffEdge * job.channel.thickness;
   std::vector<Span> taken = {{0.0, edge}, {width - edge, width}};
   if (!job.options.liner) return taken;
   const double off = kOffHole * clearance_hole(job.options.liner->bolt, HoleFit::coarse);
@@ -112,7 +112,8 @@ std::vector<Span> taken_of_wall(const Job& job) {
 
 std::vector<double> floor_seams(const Job& job, std::size_t index) {
   const double stagger = job.options.flanges.wanted ? 0.0 : (index % 2 == 0 ? kStagger : -kStagger);
-  return seams_across("floor", {0.0, floor_width(job)}, true, taken_of_floor(job), job.options.split, stagger);
+  return seams_across("floor", {0.0, floor_width(job)}, true, taken_of_floor(job), job.options.split,
+                      stagger);
 }
 
 std::vector<ShopPart> floor_strips(const Job& job, const Unit& unit, std::size_t index) {

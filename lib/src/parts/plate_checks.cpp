@@ -23,7 +23,7 @@ namespace parts {
 namespace {
 
 constexpr double kLeastStrip = 50e-3;  // [m]
-constexpr double kEdgeAtTop = 1.5;  // hole diameters below the top of a frame, as frame_plate() has it
+constexpr double kEdgeAtTop = 1.5;     // hole diameters below the top of a frame, as frame_plate() has it
 
 /// Collects what is wrong with the measures, all of it.
 class Objections {
@@ -110,9 +110,10 @@ void object_to_split(const SplitOptions& split, Objections& objections) {
   objections.positive(split.sheet.y, "split.sheet");
   if (split.longest) objections.positive(*split.longest, "split.longest");
   if (split.widest && !(*split.widest >= kLeastStrip)) {
-    objections.add("split.widest", "widest: " + length_text(*split.widest) + " is too narrow",
-                   "Strips that are welded along the track are at least " + length_text(kLeastStrip) + " wide.",
-                   "widest: 1 m");
+    objections.add(
+        "split.widest", "widest: " + length_text(*split.widest) + " is too narrow",
+        "Strips that are welded along the track are at least " + length_text(kLeastStrip) + " wide.",
+        "widest: 1 m");
   } else if (split.widest && !split.allowed) {
     objections.add("split.widest", "widest beside allowed: false", "One piece is asked for, and strips.",
                    "one of them");

@@ -19,6 +19,8 @@ struct SectionPlate {
   Vec2 back_from;  ///< on the other side
   Vec2 back_to;
 
+  /// Its unit direction along the face.
+  [[nodiscard]] Vec2 way() const { return (1.0 / norm(face_to - face_from)) * (face_to - face_from); }
   /// Ends of its middle line.
   [[nodiscard]] Vec2 middle_from() const { return 0.5 * (face_from + back_from); }
   [[nodiscard]] Vec2 middle_to() const { return 0.5 * (face_to + back_to); }
@@ -26,9 +28,10 @@ struct SectionPlate {
 
 /// What tiles of a liner lie on, their faces where the section has its own.
 struct LinedFace {
-  std::size_t plate = 0;  ///< below them
+  std::size_t plate = 0;  ///< below them, the first of its strips
   Vec2 from;              ///< of the section's own face, as `face_from` and `face_to`
   Vec2 to;
+  std::size_t strips = 1;  ///< into which seams along the track cut the plate
 };
 
 /// A section as flat plates that meet in mitres: from the left rim round to the right one.
@@ -39,10 +42,11 @@ struct PlateSection {
   bool convex = false;  ///< a frame fits round it
   double lowest = 0.0;
   double highest = 0.0;
-  double departure = 0.0;             ///< of the plates from a round section [m]
-  std::vector<Vec2> outside;          ///< corners that a frame goes round
-  bool outside_on_left = true;        ///< seen along `outside`, the frame lies to its left
-  bool mitred = true;                 ///< else walls stand beside a floor, or on it, edge against face
+  double departure = 0.0;        ///< of the plates from a round section [m]
+  std::vector<Vec2> outside;     ///< corners that a frame goes round
+  bool outside_on_left = true;   ///< seen along `outside`, the frame lies to its left
+  bool mitred = true;            ///< else walls stand beside a floor, or on it, edge against face
+  std::vector<Vec2> seams = {};  ///< on the faces of plates that are cut along the track, where strips meet
   std::vector<LinedFace> lined = {};  ///< of a section that is to be lined: its plates lie farther out for it
   /// Of a floor that widens: all of the above are of its narrowest place, and corners beside the middle move out with half of it.
   std::optional<WidthLaw> widths = std::nullopt;

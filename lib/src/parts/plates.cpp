@@ -19,8 +19,10 @@
 #include "parts/plate_proof.hpp"
 #include "parts/seams.hpp"
 #include "parts/section_corners.hpp"
+#include "parts/section_seams.hpp"
 #include "parts/setting_out.hpp"
 #include "parts/strip_fittings.hpp"
+#include "parts/strip_shape.hpp"
 #include "parts/strips.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -222,7 +224,11 @@ WorkshopBuild make_round_or_strips(const ArcSpline& track, const section::Measur
                                    const PlateOptions& options, const Placement& placement, const Body& body,
                                    double gravity, const Motion& design) {
   const auto strips = [&] {
-    return make_strips(track, *plate_section(measures, options), options, placement, body, gravity, design);
+    const PlateSection whole = *plate_section(measures, options);
+    // What a width that changes forbids, seams or none, is told first.
+    if (whole.widths) (void)StripJob(track, whole, options, placement);
+    const PlateSection section = with_seams(whole, options);
+    return make_strips(track, section, options, placement, body, gravity, design);
   };
   const auto round = mitred_round(measures, options);
   if (!round) return strips();

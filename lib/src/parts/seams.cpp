@@ -22,19 +22,8 @@ constexpr double kStep = 1e-3;      // in which seams move off what is taken [m]
 constexpr int kMoreStrips = 10;     // than an even division asks for
 constexpr double kTouch = 1e-9;     // [m]
 constexpr int kMostPieces = 20;     // of a plate across the track
-constexpr double kOffHole = 2.0;    // radii of a hole from its middle to a cut
+constexpr double kOffHole = 3.0;    // radii of a hole from its middle to a cut
 constexpr double kStagger = 60e-3;  // of cuts in two plates that meet, from the even places [m]
-
-/// The widest that a strip of a plate may be.
-double widest_strip(double width, bool straight, const SplitOptions& split) {
-  if (!split.allowed) return std::numeric_limits<double>::infinity();
-  const double share = straight ? 1.0 : kOfSheet;
-  const double longer = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
-  const double shorter = std::min(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
-  double most = std::numeric_limits<double>::infinity();
-  if (width > share * longer + kTouch) most = share * shorter;
-  return std::min(most, split.widest.value_or(most));
-}
 
 /// The place nearest to one that lies in nothing that is taken.
 std::optional<double> free_place(double about, double room, const std::vector<Span>& taken) {
@@ -70,6 +59,16 @@ double widest_of(const std::vector<Span>& strips) {
 
 }  // namespace
 
+double widest_strip(double width, bool straight, const SplitOptions& split) {
+  if (!split.allowed) return std::numeric_limits<double>::infinity();
+  const double share = straight ? 1.0 : kOfSheet;
+  const double longer = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  const double shorter = std::min(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  double most = std::numeric_limits<double>::infinity();
+  if (width > share * longer + kTouch) most = share * shorter;
+  return std::min(most, split.widest.value_or(most));
+}
+
 std::vector<double> seams_across(const std::string& plate, const Span& across, bool straight,
                                  const std::vector<Span>& taken, const SplitOptions& split, double stagger) {
   const double width = across.to - across.from;
@@ -78,12 +77,14 @@ std::vector<double> seams_across(const std::string& plate, const Span& across, b
   // Also of a sheet that has no room at all.
   const double even = most > 0.0 ? std::ceil(width / most - 1e-9) : 0.0;
   for (int more = 0; even > 1.0 && even < 1e3 && more <= kMoreStrips; ++more) {
-    const auto seams = even_seams(across, static_cast<std::size_t>(even) + static_cast<std::size_t>(more), taken, stagger);
+    const auto seams =
+        even_seams(across, static_cast<std::size_t>(even) + static_cast<std::size_t>(more), taken, stagger);
     if (seams && widest_of(strips_between_seams(across, *seams)) <= most + kTouch) return *seams;
   }
   throw InputError({split.widest ? "split.widest" : "split.sheet",
-                    "the " + plate + ", " + length_text(width, 4) + " wide, leaves no place for seams that make strips of " +
-                        length_text(most, 4) + " or less",
+                    "the " + plate + ", " + length_text(width, 4) +
+                        " wide, leaves no place for seams that make strips of " + length_text(most, 4) +
+                        " or less",
                     "Seams keep off laps, slots, openings and holes.",
                     split.widest ? "a larger widest" : "a larger sheet"});
 }
@@ -203,8 +204,9 @@ std::vector<ShopPart> pieces_across(const ShopPart& plate, bool staggered, const
 
 void note_seams(double length, Workshop& workshop) {
   if (!(length > 0.0)) return;
-  workshop.notes.push_back("Plates wider than a strip may be are strips side by side, welded edge to edge along the track: " +
-                           length_text(length, 4) + " of seam in all.");
+  workshop.notes.push_back(
+      "Plates wider than a strip may be are strips side by side, welded edge to edge along the track: " +
+      length_text(length, 4) + " of seam in all.");
 }
 
 }  // namespace glissade::parts

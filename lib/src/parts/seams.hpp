@@ -13,9 +13,13 @@ namespace glissade::parts {
 /// Plates that are wider than the sheet is long, or than `split.widest`, are strips side by side, welded edge to edge along the
 /// track.
 
+/// @return the widest that a strip of a plate may be; infinity of a plate that goes in one piece
+/// @param straight  its pattern is as wide as it is; else it curves, and takes more of a sheet
+[[nodiscard]] double widest_strip(double width, bool straight, const SplitOptions& split);
+
 /// The seams across a plate: as few as strips need, even, but off what is taken.
 /// @param across    the plate from edge to edge
-/// @param straight  its pattern is as wide as it is; else it curves, and takes more of a sheet
+/// @param straight  as above
 /// @param taken     stretches that no seam may lie in
 /// @param stagger   by which seams lie off even places [m]
 /// @return ascending places; none of a plate that goes in one piece

@@ -18,20 +18,19 @@ namespace {
 
 using Meeting = CornerEdge::Meeting;
 
-Vec2 way_of(const SectionPlate& plate) {
-  const Vec2 way = plate.face_to - plate.face_from;
-  return (1.0 / norm(way)) * way;
-}
-
-/// How many plates a plate is away from the floor.
+/// How many plates a plate is away from the floor, or from the nearest of its strips.
 std::size_t rank_of(const PlateSection& section, std::size_t plate) {
-  const auto found = std::find_if(section.plates.begin(), section.plates.end(),
-                                  [](const SectionPlate& one) { return one.name == "floor"; });
   const auto count = static_cast<std::size_t>(section.plates.size());
-  const std::size_t floor =
-      found == section.plates.end() ? count / 2 : static_cast<std::size_t>(found - section.plates.begin());
-  const std::size_t away = plate > floor ? plate - floor : floor - plate;
-  return section.closed ? std::min(away, count - away) : away;
+  const auto away_from = [&](std::size_t floor) {
+    const std::size_t away = plate > floor ? plate - floor : floor - plate;
+    return section.closed ? std::min(away, count - away) : away;
+  };
+  std::optional<std::size_t> least;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (section.plates[i].name.starts_with("floor"))
+      least = std::min(least.value_or(away_from(i)), away_from(i));
+  }
+  return least ? *least : away_from(count / 2);
 }
 
 /// The numbers of a corner that turns outwards.
@@ -43,8 +42,8 @@ struct Turn {
 };
 
 std::optional<Turn> turn_between(const SectionPlate& before, const SectionPlate& after, double thickness) {
-  const Vec2 a = way_of(before);
-  const Vec2 b = way_of(after);
+  const Vec2 a = before.way();
+  const Vec2 b = after.way();
   // The far faces lie to the left: a corner that leaves room for laps there turns to the right.
   const double sine = -cross(a, b);
   const double cosine = dot(a, b);
@@ -80,7 +79,7 @@ std::vector<CorneredPlate> cornered(const PlateSection& section, const PlateOpti
   std::vector<CorneredPlate> plates(count);
   for (std::size_t i = 0; i < count; ++i) {
     const SectionPlate& plate = section.plates[i];
-    const Vec2 way = way_of(plate);
+    const Vec2 way = plate.way();
     plates[i].from.plain = {0.0, dot(plate.back_from - plate.face_from, way)};
     plates[i].to.plain = {norm(plate.face_to - plate.face_from), dot(plate.back_to - plate.face_to, way)};
   }
@@ -105,7 +104,7 @@ namespace {
 /// Corners of a stretch of a plate's section.
 std::array<Vec2, 4> stretch_of(const SectionPlate& plate, double thickness, const Bevel& from,
                                const Bevel& to) {
-  const Vec2 way = way_of(plate);
+  const Vec2 way = plate.way();
   const Vec2 back = thickness * Vec2{-way.y, way.x};
   const auto face = [&](const Bevel& end) { return plate.face_from + end.at * way; };
   const auto below = [&](const Bevel& end) { return plate.face_from + (end.at + end.below) * way + back; };
@@ -171,8 +170,8 @@ double largest_turn(const PlateSection& section) {
   double most = 0.0;
   const std::size_t count = section.plates.size();
   for (std::size_t i = 0; i + (section.closed ? 0 : 1) < count; ++i) {
-    const Vec2 a = way_of(section.plates[i]);
-    const Vec2 b = way_of(section.plates[(i + 1) % count]);
+    const Vec2 a = section.plates[i].way();
+    const Vec2 b = section.plates[(i + 1) % count].way();
     most = std::max(most, math::atan2(-cross(a, b), dot(a, b)));
   }
   return most;

@@ -199,23 +199,18 @@ void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Wo
 
 namespace {
 
-/// What of a lined face holds tiles: from `low` along it.
-struct Lane {
-  double low = 0.0;
-  double width = 0.0;
-};
-
 Vec2 way_of(const LinedFace& face) {
   return (1.0 / norm(face.to - face.from)) * (face.to - face.from);
 }
 
-/// Between the corners of the section and of the plate below, whichever are nearer to the middle: tiles are cut square.
-Lane lane_of(const PlateSection& section, const LinedFace& face) {
-  const SectionPlate& plate = section.plates[face.plate];
-  const Vec2 way = way_of(face);
-  const double low = std::max(0.0, dot(plate.face_from - face.from, way));
-  const double high = std::min(norm(face.to - face.from), dot(plate.face_to - face.from, way));
-  return {low, high - low};
+/// The strip of the plate below a lined face in which a place along the face of the first one lies.
+std::size_t strip_below(const PlateSection& section, const LinedFace& face, double y) {
+  const Vec2 origin = section.plates[face.plate].face_from;
+  std::size_t strip = face.plate;
+  for (std::size_t k = 1; k < face.strips; ++k) {
+    if (y > dot(section.plates[face.plate + k].face_from - origin, way_of(face))) strip = face.plate + k;
+  }
+  return strip;
 }
 
 std::vector<double> widths_of(const PlateSection& section) {
@@ -236,6 +231,15 @@ SectionPlate tile_plate(const PlateSection& section, const TilePlace& tile, doub
 
 }  // namespace
 
+Lane lane_of(const PlateSection& section, const LinedFace& face) {
+  const SectionPlate& first = section.plates[face.plate];
+  const SectionPlate& last = section.plates[face.plate + face.strips - 1];
+  const Vec2 way = way_of(face);
+  const double low = std::max(0.0, dot(first.face_from - face.from, way));
+  const double high = std::min(norm(face.to - face.from), dot(last.face_to - face.from, way));
+  return {low, high - low};
+}
+
 std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, const std::vector<double>& breaks,
                                    int& row) {
   const LinerOptions& liner = *job.options.liner;
@@ -243,13 +247,15 @@ std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, const 
   double high = -low;
   Span room = unit;
   for (const LinedFace& face : job.section.lined) {
-    const SectionPlate& plate = job.section.plates[face.plate];
-    for (const Vec2 corner : {face.from, face.to, plate.back_from, plate.back_to}) {
-      low = std::min(low, corner.y);
-      high = std::max(high, corner.y);
+    for (std::size_t k = 0; k < face.strips; ++k) {
+      const SectionPlate& plate = job.section.plates[face.plate + k];
+      for (const Vec2 corner : {face.from, face.to, plate.back_from, plate.back_to}) {
+        low = std::min(low, corner.y);
+        high = std::max(high, corner.y);
+      }
+      const Span whole = unfolded(job, plate);
+      room = {std::max(room.from, whole.from), std::min(room.to, whole.to)};
     }
-    const Span whole = unfolded(job, plate);
-    room = {std::max(room.from, whole.from), std::min(room.to, whole.to)};
   }
   const OnOneArc arcs(job.track, 0.5 * clearance_hole(liner.bolt, HoleFit::coarse), {low, high}, breaks);
   return tile_places(job.options, widths_of(job.section), room, arcs, row);
@@ -262,8 +268,11 @@ std::vector<std::vector<Circle>> holes_below(const StripJob& job, const std::vec
     const LinedFace& face = job.section.lined[tile.lane];
     const SectionPlate& plate = job.section.plates[face.plate];
     const double from = lane_of(job.section, face).low - dot(plate.face_from - face.from, way_of(face));
-    for (const double s : tile.along) {
-      for (const double y : tile.across) holes[face.plate].push_back({{s, from + tile.edge + y}, radius});
+    for (const double across : tile.across) {
+      const double y = from + tile.edge + across;
+      const std::size_t strip = strip_below(job.section, face, y);
+      const double own = y - dot(job.section.plates[strip].face_from - plate.face_from, way_of(face));
+      for (const double s : tile.along) holes[strip].push_back({{s, own}, radius});
     }
   }
   return holes;

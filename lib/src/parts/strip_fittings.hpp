@@ -34,6 +34,14 @@ void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Wo
                                                            const std::vector<TilePlace>& tiles);
 void add_strip_liner(const StripJob& job, const std::vector<TilePlace>& tiles, Workshop& workshop);
 
+/// What of a lined face holds tiles: from `low` along it.
+struct Lane {
+  double low = 0.0;
+  double width = 0.0;
+};
+/// Between the corners of the section and of the plate below, whichever are nearer to the middle: tiles are cut square.
+[[nodiscard]] Lane lane_of(const PlateSection& section, const LinedFace& face);
+
 /// What no shop can set on a section, whatever the track is.
 [[nodiscard]] std::vector<Issue> section_fitting_problems(const PlateSection& section,
                                                           const PlateOptions& options);

@@ -8,6 +8,7 @@
 #include "parts/bolts.hpp"
 #include "parts/frame_room.hpp"
 #include "parts/plate_unit.hpp"
+#include "parts/seams.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -116,7 +117,8 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
       frame.places = {place_of_frame(job, joints[i], tight ? -job.options.flanges.thickness : 0.0)};
       if (tight && i + 1 < joints.size()) bolts += frame.pattern->region.holes.size();
       weigh(frame);
-      add_part(workshop, frame, kFrameColour);
+      for (ShopPart& piece : pieces_across(frame, !tight, job.options.split))
+        add_part(workshop, std::move(piece), kFrameColour);
     }
   }
   if (bolts == 0) return;

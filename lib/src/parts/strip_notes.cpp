@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/equal_parts.hpp"
+#include "parts/seams.hpp"
 #include "parts/section_corners.hpp"
 #include "parts/strip_works.hpp"
 
@@ -107,6 +108,12 @@ void add_strip_notes(const StripJob& job, const std::optional<BentStrips>& bent,
                              length_text(job.section.departure, 3) + ".");
   }
   note_short_plates(job, strips, workshop);
+  double seams = 0.0;
+  for (const Vec2 seam : job.section.seams) {
+    for (const StripArc& one : job.arcs_in({0.0, job.track.length()}))
+      seams += one.arc.length * (1.0 - one.arc.curvature * seam.y);
+  }
+  note_seams(seams, workshop);
 }
 
 }  // namespace glissade::parts

@@ -17,11 +17,6 @@ namespace {
 
 using Meeting = CornerEdge::Meeting;
 
-Vec2 way_of(const SectionPlate& plate) {
-  const Vec2 way = plate.face_to - plate.face_from;
-  return (1.0 / norm(way)) * way;
-}
-
 double sine_over(double half) {
   return std::fabs(half) < 1e-9 ? 1.0 : math::sin(half) / half;
 }
@@ -29,7 +24,7 @@ double sine_over(double half) {
 }  // namespace
 
 StripFlat::StripFlat(const StripJob& job, const SectionPlate& plate, const Span& span) {
-  const Vec2 way = way_of(plate);
+  const Vec2 way = plate.way();
   rise_ = way.y;
   const Vec2 back{-way.y, way.x};
   foot_ = plate.face_from.y + 0.5 * dot(back, plate.back_from - plate.face_from) * back.y;
@@ -189,7 +184,7 @@ ArcPath flat_loop(const StripFlat& flat, const RolledSheet& sheet, const Span& s
 ShopPart sheet_part(const StripJob& job, const SheetCut& cut, const std::vector<double>& radii,
                     double& edge_mismatch) {
   const SectionPlate& plate = *cut.plate;
-  const Vec2 way = way_of(plate);
+  const Vec2 way = plate.way();
   const double middle = 0.5 * (plate.face_from.x + plate.face_to.x);
   RolledSheet sheet;
   sheet.path = *offset_line(job.track, cut.span, 0.0);
@@ -236,7 +231,7 @@ ShopPart sheet_part(const StripJob& job, const SheetCut& cut, const std::vector<
 
 SheetCut plain_cut(const SectionPlate& plate, double thickness, const Span& span,
                    const StockMaterial& material) {
-  const Vec2 way = way_of(plate);
+  const Vec2 way = plate.way();
   SheetCut cut;
   cut.plate = &plate;
   cut.thickness = thickness;
@@ -248,7 +243,7 @@ SheetCut plain_cut(const SectionPlate& plate, double thickness, const Span& span
 }
 
 Vec2 stretch_moments(const SectionPlate& plate, double thickness, const Bevel& from, const Bevel& to) {
-  const Vec2 way = way_of(plate);
+  const Vec2 way = plate.way();
   const Vec2 back = thickness * Vec2{-way.y, way.x};
   const std::array<Vec2, 4> corners = {plate.face_from + from.at * way, plate.face_from + to.at * way,
                                        plate.face_from + (to.at + to.below) * way + back,

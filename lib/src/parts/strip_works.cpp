@@ -139,6 +139,9 @@ UnitWork work_of(const StripJob& job, const Span& unit, std::size_t number, int&
   std::vector<double> breaks;
   for (const Span& tab : work.tabs)
     breaks.insert(breaks.end(), {tab.from - slack_of(job), tab.to + slack_of(job)});
+  // Where laps begin and end, plates that pass others have steps.
+  if (job.options.corners.kind != CornerJoint::butt)
+    breaks.insert(breaks.end(), {work.laps.from, work.laps.to});
   work.tiles = strip_tiles(job, unit, breaks, row);
   work.holes = holes_below(job, work.tiles);
   return work;

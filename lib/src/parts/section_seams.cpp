@@ -1,0 +1,137 @@
+#include "parts/section_seams.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/bolts.hpp"
+#include "parts/liner_tiles.hpp"
+#include "parts/seams.hpp"
+#include "parts/strip_fittings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kOffCorner = 3.0;  // thicknesses from a corner, its slots and its bevel to a seam
+constexpr double kOffHole = 1.5;    // diameters from the middle of a hole to a seam
+
+/// A plate along its face, from `face_from`: between the ends of its middle line.
+Span across_of(const SectionPlate& plate) {
+  return {dot(plate.middle_from() - plate.face_from, plate.way()),
+          dot(plate.middle_to() - plate.face_from, plate.way())};
+}
+
+bool is_level(const SectionPlate& plate) {
+  return std::fabs(plate.way().y) < 1e-9;
+}
+
+/// Seams of a plate of one width.
+std::vector<double> even_seams(const PlateSection& section, std::size_t index, const PlateOptions& options) {
+  const SectionPlate& plate = section.plates[index];
+  Span across = across_of(plate);
+  const double off = kOffCorner * section.thickness + options.corners.clearance;
+  std::vector<Span> taken = {{across.from - off, across.from + off}, {across.to - off, across.to + off}};
+  if (options.corners.kind != CornerJoint::butt) {
+    // A plate that passes others reaches beyond them.
+    const double lap = options.corners.overlap + 2.0 * section.thickness;
+    across = {across.from - lap, across.to + lap};
+    taken.push_back({across.from, across.from + lap});
+    taken.push_back({across.to - lap, across.to});
+  }
+  for (const LinedFace& face : section.lined) {
+    if (face.plate != index) continue;
+    const Lane lane = lane_of(section, face);
+    const double from = lane.low - dot(plate.face_from - face.from, plate.way());
+    const double room = kOffHole * clearance_hole(options.liner->bolt, HoleFit::coarse);
+    for (const double y : bolts_across(*options.liner, lane.width))
+      taken.push_back({from + y - room, from + y + room});
+  }
+  return seams_across(plate.name, across, is_level(plate), taken, options.split, 0.0);
+}
+
+/// Seams of a floor on both sides of whose middle the width changes: an odd number of strips, the middle one as wide as is left.
+std::vector<double> seams_of_widening(const PlateSection& section, const SectionPlate& plate,
+                                      const SplitOptions& split) {
+  const Span across = across_of(plate);
+  const double narrowest = across.to - across.from;
+  const double widest = narrowest + section.widths->widest() - section.widths->narrowest();
+  const double most = widest_strip(widest, false, split);
+  if (!(widest > most)) return {};
+  double count = std::ceil(widest / most - 1e-9);
+  if (std::fmod(count, 2.0) == 0.0) count += 1.0;
+  const double side = widest / count;
+  const double middle = narrowest - (count - 1.0) * side;
+  if (middle < 2.0 * kOffCorner * section.thickness) {
+    throw InputError({"cross_section.width",
+                      "the " + plate.name + " goes from " + length_text(narrowest, 4) + " to " +
+                          length_text(widest, 4) + ": strips of " + length_text(most, 4) +
+                          " leave nothing of the one in the middle",
+                      "That one takes the change of width; those beside it are as wide everywhere.",
+                      "a smaller change of width, or larger strips (split.widest, split.sheet)"});
+  }
+  std::vector<double> seams;
+  const auto sides = static_cast<int>(count) / 2;
+  for (int k = 1; k <= sides; ++k) seams.push_back(across.from + k * side);
+  for (int k = sides; k >= 1; --k) seams.push_back(across.to - k * side);
+  return seams;
+}
+
+std::vector<double> seams_of(const PlateSection& section, std::size_t index, const PlateOptions& options) {
+  const SectionPlate& plate = section.plates[index];
+  const bool both_sides = plate.face_from.x * plate.face_to.x < 0.0;
+  return section.widths && both_sides ? seams_of_widening(section, plate, options.split)
+                                      : even_seams(section, index, options);
+}
+
+/// The plate between seams, whose edges there are square.
+std::vector<SectionPlate> cut(const SectionPlate& plate, double thickness, const std::vector<double>& seams) {
+  const Vec2 back = thickness * Vec2{-plate.way().y, plate.way().x};
+  std::vector<SectionPlate> strips;
+  SectionPlate rest = plate;
+  for (const double seam : seams) {
+    SectionPlate strip = rest;
+    strip.name = plate.name + strip_letter(strips.size(), seams.size() + 1);
+    strip.face_to = plate.face_from + seam * plate.way();
+    strip.back_to = strip.face_to + back;
+    rest.face_from = strip.face_to;
+    rest.back_from = strip.back_to;
+    strips.push_back(std::move(strip));
+  }
+  rest.name = plate.name + strip_letter(strips.size(), seams.size() + 1);
+  strips.push_back(std::move(rest));
+  return strips;
+}
+
+}  // namespace
+
+PlateSection with_seams(PlateSection section, const PlateOptions& options) {
+  PlateSection whole = std::move(section);
+  PlateSection result = whole;
+  result.plates.clear();
+  for (std::size_t i = 0; i < whole.plates.size(); ++i) {
+    const std::vector<double> seams = seams_of(whole, i, options);
+    const std::size_t first = result.plates.size();
+    for (std::size_t k = 0; k < whole.lined.size(); ++k) {
+      if (whole.lined[k].plate != i) continue;
+      result.lined[k].plate = first;
+      result.lined[k].strips = seams.size() + 1;
+    }
+    if (seams.empty()) {
+      result.plates.push_back(whole.plates[i]);
+      continue;
+    }
+    for (SectionPlate& strip : cut(whole.plates[i], whole.thickness, seams)) {
+      if (result.plates.size() > first) result.seams.push_back(strip.face_from);
+      result.plates.push_back(std::move(strip));
+    }
+  }
+  return result;
+}
+
+}  // namespace glissade::parts

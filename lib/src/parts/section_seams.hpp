@@ -1,0 +1,12 @@
+#pragma once
+
+#include "parts/plate_section.hpp"
+
+namespace glissade::parts {
+
+/// Cuts plates that are wider than a strip may be along the track (seams.hpp). Of a floor that widens the middle strip takes
+/// the change.
+/// @throws InputError where no seams are to be had: which plate, and a way out
+[[nodiscard]] PlateSection with_seams(PlateSection section, const PlateOptions& options);
+
+}  // namespace glissade::parts
