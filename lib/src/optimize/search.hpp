@@ -9,6 +9,9 @@
 
 namespace glissade::optimizer {
 
+/// Searches aim at this share of the residual that is allowed: where rounding keeps them from it, they have ended well.
+inline constexpr double kAimed = 0.1;  // taste
+
 /// What a search may cost, and who may end it.
 struct SearchControl {
   double tolerance = 1e-7;        ///< of the residual

@@ -32,7 +32,7 @@ constexpr double kNearlyFeasible = 1e-3;  // taste
 // The lowest load is kept this far above its bound, in g: a body that weighs nothing at all has left the
 // track.
 constexpr double kContactMargin = 1e-6;  // accuracy: ten times that of a limit
-constexpr int kTighteningRounds = 12;    // budget
+constexpr int kTighteningRounds = 16;    // budget
 // So many of them, short ones, once the search has been asked to end.
 constexpr int kGraceRounds = 6;  // budget
 constexpr int kGraceEffort = 2;  // budget
@@ -309,7 +309,7 @@ Mesh Searcher::mesh_with(const ScaledProblem& problem, Vector knots, double core
 std::optional<Found> Searcher::from_exact(const ScaledProblem& problem, const GuessCurve& start) {
   const auto pieces = static_cast<std::size_t>(options_.pieces);
   const Mesh mesh = mesh_with(problem, graded_knots(start, pieces, 0.0), start.length);
-  aim_at(options_.tolerance, 8);
+  aim_at(kAimed * options_.tolerance, 8);
   Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
   return found;
 }
@@ -385,7 +385,7 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, const ScaledProble
     tell("finer track", done);
     done += 0.7 / static_cast<double>(levels.size());
     const bool finest = levels[level] == pieces;
-    aim_at(finest ? options_.tolerance : kCoarseTolerance, finest ? 3 : 5);
+    aim_at(finest ? kAimed * options_.tolerance : kCoarseTolerance, finest ? 3 : 5);
     const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
                                 core_length_of(found));
     Found next = on_mesh(finest ? problem : rough, mesh,
@@ -410,7 +410,7 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, const ScaledProble
     if (still || hopeless > 1) break;
   }
   if (!is_rough) return found;
-  aim_at(options_.tolerance, 3);
+  aim_at(kAimed * options_.tolerance, 3);
   return minimise(problem, found.track->mesh(), found.z, margins_, control_, &found);
 }
 
@@ -420,7 +420,7 @@ Found Searcher::followed(const ScaledProblem& problem, Found found) {
   for (int round = 0; round < kMostRounds; ++round) {
     const std::optional<Mesh> mesh = following_loads(problem, found);
     if (!mesh) break;
-    aim_at(options_.tolerance, 0);
+    aim_at(kAimed * options_.tolerance, 0);
     Found next = minimise(problem, *mesh, found.z, margins_, control_, &found);
     if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
     const double won = found.objective - next.objective;
@@ -458,7 +458,7 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
     before = left.objective;
     const MeshTrack finer = breaks || spread ? with_all_halved(*found.track, found.z)
                                              : with_halved_pieces(*found.track, found.z, worth_halving(left));
-    aim_at(options_.tolerance, 0);
+    aim_at(kAimed * options_.tolerance, 0);
     Found next = minimise(problem, finer.mesh, finer.z, margins_, control_, &found);
     if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
     next = followed(problem, std::move(next));
@@ -491,7 +491,7 @@ Found Searcher::laid_anew(const ScaledProblem& problem, Found found) {
   };
   for (int round = 0; round < kMostRounds && !found.stopped && is_off(found); ++round) {
     const MeshTrack again = relaid(problem, found);
-    aim_at(options_.tolerance, 3);
+    aim_at(kAimed * options_.tolerance, 3);
     Found next = on_mesh(problem, again.mesh, again.z, found);
     if (!next.feasible(kNearlyFeasible)) break;
     found = std::move(next);
@@ -537,6 +537,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
   candidate.stopped = candidate.stopped || found.stopped;
   tell("referee", 0.9);
   HeldPlaces held;
+  int rides_to_end = 0;  // of those that end early the rest is not known
   for (int round = 0; round < kTighteningRounds; ++round) {
     const CenterlinePtr track = track_of(problem, found);
     const referee::Judgement judgement = referee::judge_track(problem_, track, referee::kRefereeSamples);
@@ -570,17 +571,18 @@ void Searcher::mend(Candidate& candidate, Found found) {
         }
       }
     }
-    tighten(problem, judgement, lifts, round);
+    tighten(problem, judgement, lifts, rides_to_end);
     if (control_.any_track && !lifts.empty()) found = halved_at(lifts, found);
     Mesh mesh = mesh_again(found);
     mesh.extra_breaks = breaks_of(problem, core_length_of(found));
-    for (const double place : places_to_hold(problem, judgement, round))
+    for (const double place : places_to_hold(problem, judgement, rides_to_end))
       held.add(share_of(place), mesh.knots);
     for (const LiftOff& lift : lifts) {
       if (lift.depth > kShallow) held.add(lift.sigma, mesh.knots);
     }
+    if (judgement.arrived) ++rides_to_end;
     mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.places().begin(), held.places().end());
-    aim_at(options_.tolerance, found.stopped ? kGraceEffort : 3);
+    aim_at(kAimed * options_.tolerance, found.stopped ? kGraceEffort : 3);
     const bool stopped = found.stopped;
     found = laid_anew(problem, on_mesh(problem, mesh, found.z, found));
     control_.stop = stop;
@@ -595,7 +597,7 @@ std::optional<Found> Searcher::following_closely(const ScaledProblem& problem, c
   for (const LiftOff& lift : lifts) lifting.push_back(lift.sigma);
   const std::optional<Mesh> closer = following_loads(problem, found, lifting);
   if (!closer || closer->fine.size() <= found.track->mesh().fine.size()) return std::nullopt;
-  aim_at(options_.tolerance, 10);
+  aim_at(kAimed * options_.tolerance, 10);
   Found next = minimise(problem, *closer, found.z, margins_, control_, &found);
   if (!next.feasible(options_.limit_tolerance)) return std::nullopt;
   return next;

@@ -17,7 +17,7 @@ namespace glissade {
 /// How closely and for how long optimize() looks; the defaults suit tracks of a few metres to kilometres.
 struct OptimizeOptions {
   int pieces = 32;          ///< clothoids between the places where limits change over; 8 <= pieces <= 200
-  double tolerance = 1e-6;  ///< of the first-order residual; 1e-12 <= tolerance <= 1e-3
+  double tolerance = 1e-5;  ///< of the first-order residual, a tenth is aimed at; 1e-12 <= tolerance <= 1e-3
   double limit_tolerance = 1e-7;  ///< greatest violation of a limit, of its scale; 1e-10 <= value <= 1e-4
   double time_budget =
       60.0;  ///< of the calling thread's processor time [s]; > 0; ends with the best track so far
