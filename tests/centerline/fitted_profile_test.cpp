@@ -251,6 +251,63 @@ TEST_CASE("a wavy profile keeps its waves, however many and however sampled") {
   }
 }
 
+TEST_CASE("exact points of a wave are followed, from five a period on, and what few of them leave open is told") {
+  constexpr double kRun = 100.0;
+  constexpr double kHeight = 2.0;
+  for (const int each : {5, 6, 8, 12, 16}) {
+    for (const int periods : {1, 3, 5, 6, 8, 10}) {
+      if (each * periods > 60 && !testing::thorough()) continue;
+      for (const double phase : {0.0, 0.4}) {
+        const auto wave = [&](double x) {
+          return 0.5 * x + kHeight * std::sin(2.0 * std::numbers::pi * periods * x / kRun + phase);
+        };
+        std::vector<Vec2> points;
+        const int count = each * periods;
+        for (int i = 0; i < count; ++i) points.push_back({kRun * i / (count - 1), wave(kRun * i / (count - 1))});
+        const FittedProfile profile(points);
+        INFO(each << " points a period, " << periods << " periods, phase " << phase);
+        CHECK(profile.max_deviation() <= 0.01 * kHeight);
+        CHECK_FALSE(profile.leaves_out_much());
+        double off = 0.0;
+        for (int i = 0; i <= 1000; ++i) {
+          const CenterlinePoint place = profile.at(profile.length() * (i / 1000.0));
+          const double x = place.x;
+          const double away = place.drop + points.front().y - wave(x);
+          off = std::max(off, std::fabs(away) * std::cos(place.slope_angle));
+        }
+        CHECK(off <= (each < 8 ? 0.15 : 0.03) * kHeight);
+        // The points of some cells are more than the knots: there the points themselves are missed by more.
+        CHECK(off <= 4.0 * profile.between_points() + profile.max_deviation());
+        if (each <= 6) CHECK(profile.leaves_gaps());
+        if (each >= 12) CHECK_FALSE(profile.leaves_gaps());
+      }
+    }
+  }
+}
+
+TEST_CASE("noise on few points is not followed as if it were their shape") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr double kNoise = 0.02;
+  int followed = 0;
+  int told = 0;
+  for (const int count : {20, 24, 30, 40}) {
+    for (int draw = 0; draw < 10; ++draw) {
+      std::vector<Vec2> points;
+      for (int i = 0; i < count; ++i) {
+        const double x = 100.0 * i / (count - 1);
+        points.push_back({x, 0.3 * x + 2.0 * std::sin(0.02 * std::numbers::pi * x) + kNoise * bell(random)});
+      }
+      const FittedProfile profile(points);
+      followed += profile.max_deviation() < 0.1 * kNoise ? 1 : 0;
+      told += profile.leaves_gaps() || profile.leaves_out_much() ? 1 : 0;
+    }
+  }
+  // Two of a hundred of 20 to 24 points are: nothing else would follow a shape that few points show.
+  CHECK(followed <= 4);
+  CHECK(told == 0);
+}
+
 TEST_CASE("a profile that runs back is refused by the number of the point") {
   std::vector<Vec2> points;
   for (int i = 0; i < 60; ++i) points.push_back({2.5 * i - (i == 31 ? 4.0 : 0.0), 1.0 * i});

@@ -133,13 +133,14 @@ FittedProfile::FittedProfile(std::vector<Vec2> points, const ProfileFit& fit)
 FittedProfile::Fitted FittedProfile::fitted(std::vector<Vec2> points, const ProfileFit& fit) {
   FittedCurve found = fit_clothoid_spline(points, fit);
   for (Vec2& point : points) point = point - found.start;
-  return {std::move(points), std::move(found.curve)};
+  return {std::move(points), std::move(found.curve), found.between};
 }
 
 FittedProfile::FittedProfile(Fitted fitted)
     : points_(std::move(fitted.points)),
       curve_(std::move(fitted.curve)),
-      deviations_(deviations_from(curve_, points_)) {
+      deviations_(deviations_from(curve_, points_)),
+      between_points_(fitted.between) {
   double sum = 0.0;
   for (std::size_t i = 0; i < deviations_.size(); ++i) {
     const double deviation = deviations_[i].deviation;
@@ -156,6 +157,12 @@ FittedProfile::FittedProfile(Fitted fitted)
   // A straight has no shape of its own: rounding leaves nothing out of it.
   constexpr double kRounding = 1e-12;
   rms_bulge_ = std::max(std::sqrt(bulge / static_cast<double>(points_.size())), kRounding * norm(chord));
+}
+
+bool FittedProfile::leaves_gaps() const noexcept {
+  constexpr double kOfBulge = 0.03;
+  constexpr double kOfLength = 2e-4;
+  return between_points_ > std::max(kOfBulge * rms_bulge_, kOfLength * length());
 }
 
 }  // namespace glissade

@@ -31,6 +31,11 @@ constexpr double kPriceOfFreedom = 1.4;
 // tells nothing.
 constexpr double kMostFreedom = 0.65;
 constexpr std::size_t kFewestToValidate = 20;
+// What is left of points tells their noise up to here, and if it has that much freedom of its own.
+constexpr double kMostFreedomToTell = 0.85;
+constexpr double kLeastFreedomLeft = 7.0;
+// Fisher's ratio that noise passes once in a thousand times where 20 points are described, and never where many are.
+constexpr double kMoreThanNoise = 10.0;
 constexpr int kMostSteps = 60;
 constexpr int kMostHalvings = 12;
 // A step that promises less than this share of what is left is not worth its while.
@@ -69,12 +74,29 @@ struct Cost {
     if (freedom > kMostFreedom * equations) return std::numeric_limits<double>::infinity();
     return mean_square / math::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
   }
+  /// Whether so much of the points is left to chance that its size can be told.
+  [[nodiscard]] bool tells(std::size_t points) const {
+    const auto equations = static_cast<double>(points);
+    return freedom <= kMostFreedomToTell * equations && equations - freedom >= kLeastFreedomLeft;
+  }
+  /// Fisher's ratio: whether this description's additional freedom takes more from the points than noise yields.
+  [[nodiscard]] bool finds_more_than_noise(const Cost& stiffer, std::size_t points) const {
+    const double more = freedom - stiffer.freedom;
+    const double taken = (stiffer.mean_square - mean_square) / more;
+    return taken * (static_cast<double>(points) - freedom) > kMoreThanNoise * mean_square;
+  }
   /// Schwarz's Bayesian information criterion, over the number of points.
   [[nodiscard]] double bayesian_score(std::size_t points) const {
     const auto equations = static_cast<double>(points);
     return math::log(std::max(mean_square, kRoundingShare * kRoundingShare)) +
            freedom * math::log(equations) / equations;
   }
+};
+
+/// A shape that was relaxed, and what it costs.
+struct Relaxed {
+  Shape shape;
+  Cost cost;
 };
 
 class Fitter {
@@ -86,7 +108,8 @@ class Fitter {
     return model_.spline(within(max_deviation));
   }
   [[nodiscard]] ClothoidSpline validated_spline() { return model_.spline(validated()); }
-  /// @return what the smooth curve of the best score costs; none where cross-validation told nothing
+  /// @return what the validated curve costs, or of one that follows all points the best by the Bayesian criterion on
+  ///         the way there; none where points are too few
   [[nodiscard]] const std::optional<Cost>& best_cost() const { return best_cost_; }
 
  private:
@@ -94,6 +117,9 @@ class Fitter {
   [[nodiscard]] Shape moved(const std::vector<double>& move, double share) const;
   [[nodiscard]] std::optional<Cost> cost(double smoothing);
   [[nodiscard]] Shape validated();
+  [[nodiscard]] Shape interpolating(double smoothing);
+  [[nodiscard]] Shape nearest(double smoothing);
+  void keep_best_cost(const Cost& cost);
   [[nodiscard]] Shape within(double max_deviation);
   [[nodiscard]] double farthest_point() const;
 
@@ -171,32 +197,72 @@ std::optional<Cost> Fitter::cost(double smoothing) {
 }
 
 /// The shape of the best score over all of the range: a score with more than one valley is the rule where a
-/// profile has more than one length of wave. Where the score becomes better as long as it means anything, the
-/// points show no noise: then the one that goes through all of them.
+/// profile has more than one length of wave. Where the curve of the most freedom that the score can judge still
+/// finds what no noise shows, the points tell more than the score: then the one that goes on to follow them.
 Shape Fitter::validated() {
-  Shape best = shape_;
+  const std::size_t points = model_.point_count();
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::optional<Relaxed> best;
   double best_score = infinity;
-  bool meaningful = model_.point_count() >= kFewestToValidate;
-  bool improving = true;
-  for (double smoothing = kMostSmoothing; smoothing >= kLeastSmoothing; smoothing *= kSmoothingStep) {
+  bool follow = true;
+  double smoothing = kMostSmoothing;
+  for (; smoothing >= kLeastSmoothing; smoothing *= kSmoothingStep) {
     relax(smoothing);
-    if (!meaningful) continue;
     // Every point gives one equation, the last one two, the first one none.
-    const std::optional<Cost> here = cost(smoothing);
-    const double score = here ? here->validation_score(model_.point_count()) : infinity;
-    meaningful = std::isfinite(score);
-    if (!meaningful) {
-      if (!improving) return best;
-      continue;
+    const std::optional<Cost> here = points < kFewestToValidate ? std::nullopt : cost(smoothing);
+    if (!here || !here->tells(points)) break;
+    keep_best_cost(*here);
+    const double score = here->validation_score(points);
+    if (score < best_score) {
+      best = {shape_, *here};
+      best_score = score;
+      follow = true;
+    } else if (std::isfinite(score) || !follow) {
+      follow = here->finds_more_than_noise(best->cost, points);
     }
-    improving = score < best_score;
-    if (!improving) continue;
-    best = shape_;
-    best_score = score;
-    best_cost_ = here;
   }
-  return improving ? shape_ : best;
+  if (best && !follow) {
+    best_cost_ = best->cost;
+    return best->shape;
+  }
+  if (smoothing < kLeastSmoothing) return shape_;
+  return model_.can_interpolate() ? interpolating(smoothing) : nearest(smoothing);
+}
+
+/// The shape through all points, by less and less smoothing from the one that was relaxed for `smoothing`.
+Shape Fitter::interpolating(double smoothing) {
+  while (true) {
+    const std::optional<Cost> here = best_cost_ ? cost(smoothing) : std::nullopt;
+    if (here && here->tells(model_.point_count())) keep_best_cost(*here);
+    smoothing *= kSmoothingStep;
+    if (smoothing < kLeastSmoothing) return shape_;
+    relax(smoothing);
+  }
+}
+
+/// The same where there are more points than the curve can follow: with less smoothing than what the points ask for
+/// it would swing between them.
+Shape Fitter::nearest(double smoothing) {
+  const auto points = static_cast<double>(model_.point_count());
+  Shape best = shape_;
+  double least = std::numeric_limits<double>::infinity();
+  while (true) {
+    const std::optional<Cost> here = cost(smoothing);
+    if (!here) return best;
+    keep_best_cost(*here);
+    const double score = here->mean_square / math::pow(1.0 - here->freedom / points, 2);
+    if (score >= least) return best;
+    least = score;
+    best = shape_;
+    smoothing *= kSmoothingStep;
+    if (smoothing < kLeastSmoothing) return best;
+    relax(smoothing);
+  }
+}
+
+void Fitter::keep_best_cost(const Cost& cost) {
+  const std::size_t points = model_.point_count();
+  if (!best_cost_ || cost.bayesian_score(points) < best_cost_->bayesian_score(points)) best_cost_ = cost;
 }
 
 double Fitter::farthest_point() const {
@@ -266,7 +332,7 @@ bool describes_better(const Description& pieces, const std::vector<Vec2>& points
   const double unit = smooth.length() * smooth.length();
   const Cost cost{pieces.mean_square / unit, pieces.freedom};
   if (cost.mean_square <= kExact * kExact) return true;
-  if (!smooth_cost) return false;
+  if (!smooth_cost || !std::isfinite(cost.validation_score(points.size()))) return false;
   // Of very many points the smooth curve saw means only.
   if (points.size() > kMostFitted) smooth_cost->mean_square = mean_square_deviation(smooth, points) / unit;
   // Where points show no scatter, what is left of them is the description's own fault, and the smooth curve could
@@ -276,16 +342,39 @@ bool describes_better(const Description& pieces, const std::vector<Vec2>& points
   return cost.bayesian_score(points.size()) + margin < smooth_cost->bayesian_score(points.size());
 }
 
+/// How far a smooth curve may pass a profile between its knots [m]. Where curvature is linear from knot to knot, a
+/// change of its slope by c leaves c h^3/384 in the middle of two stretches of length h, the error of a cubic spline;
+/// towards the ends, which nothing holds, it is several times as large.
+double missed_between(const ClothoidSpline& curve) {
+  constexpr double kWithEnds = 10.0 / 384.0;
+  double most = 0.0;
+  const std::vector<ClothoidSegment>& segments = curve.segments();
+  for (std::size_t k = 0; k + 1 < segments.size(); ++k) {
+    const ClothoidSegment& here = segments[k];
+    const ClothoidSegment& next = segments[k + 1];
+    const double change = (next.exit_curvature - next.entry_curvature) / next.length -
+                          (here.exit_curvature - here.entry_curvature) / here.length;
+    const double stretch = 0.5 * (here.length + next.length);
+    most = std::max(most, kWithEnds * std::fabs(change) * stretch * stretch * stretch);
+  }
+  return most;
+}
+
+FittedCurve smooth_curve(ClothoidSpline curve, Vec2 start) {
+  const double between = missed_between(curve);
+  return {std::move(curve), start, between};
+}
+
 }  // namespace
 
 FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit) {
   Fitter fitter(points);
-  if (fit.max_deviation) return {fitter.within_deviation(*fit.max_deviation), points.front()};
+  if (fit.max_deviation) return smooth_curve(fitter.within_deviation(*fit.max_deviation), points.front());
   ClothoidSpline smooth = fitter.validated_spline();
-  if (points.size() < kFewestToValidate) return {std::move(smooth), points.front()};
+  if (points.size() < kFewestToValidate) return smooth_curve(std::move(smooth), points.front());
   const auto description = describe_in_pieces(points, smooth);
   if (!description || !describes_better(*description, points, smooth, fitter.best_cost())) {
-    return {std::move(smooth), points.front()};
+    return smooth_curve(std::move(smooth), points.front());
   }
   return {description->profile.spline(), description->profile.start(points.front())};
 }

@@ -11,7 +11,8 @@ namespace glissade::centerline {
 /// A curve beside points.
 struct FittedCurve {
   ClothoidSpline curve;
-  Vec2 start;  // where it begins, in the frame of the points
+  Vec2 start;            // where it begins, in the frame of the points
+  double between = 0.0;  // FittedProfile::between_points()
 };
 
 /// Fits a clothoid spline to points in order along it: few pieces with breaks of curvature between them where

@@ -48,6 +48,8 @@ class ProfileModel {
   explicit ProfileModel(std::vector<Vec2> points);
 
   [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+  /// Whether the curve has as many numbers as the points give equations: one each, the last two, the first none.
+  [[nodiscard]] bool can_interpolate() const { return unknowns() >= points_.size(); }
 
   /// @return a shape from the directions of a few chords: near enough for an iteration, hardly touched by
   /// noise

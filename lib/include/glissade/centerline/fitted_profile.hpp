@@ -93,6 +93,12 @@ class FittedProfile final : public Centerline {
     return rms_deviation_ > kLargeDeviation * rms_bulge_;
   }
   static constexpr double kLargeDeviation = 0.1;
+  /// @return an estimate of how far the curve may be from the profile between the points, within a factor of some two
+  ///         where they are 5 to 12 to a wave [m]; 0 where few pieces describe them
+  [[nodiscard]] double between_points() const noexcept { return between_points_; }
+  /// @return true where between_points() is more than 3 % of the profile's own shape (as leaves_out_much() has it) and
+  ///         more than 2e-4 of its length: the points are too few for their bends, although the curve meets them
+  [[nodiscard]] bool leaves_gaps() const noexcept;
   /// @return true where the deviations of neighbouring points go together, as no noise does: what they show of the
   ///         profile is not in the curve (Durbin and Watson's question). Never of fewer than 20 points, nor where a
   ///         max_deviation was asked for, which leaves such a pattern by design, nor of deviations that are next to
@@ -106,6 +112,7 @@ class FittedProfile final : public Centerline {
   struct Fitted {
     std::vector<Vec2> points;
     ClothoidSpline curve;
+    double between = 0.0;
   };
   [[nodiscard]] static Fitted fitted(std::vector<Vec2> points, const ProfileFit& fit);
   explicit FittedProfile(Fitted fitted);
@@ -116,6 +123,7 @@ class FittedProfile final : public Centerline {
   std::size_t farthest_point_ = 0;
   double rms_deviation_ = 0.0;
   double rms_bulge_ = 0.0;
+  double between_points_ = 0.0;
   bool leaves_pattern_ = false;
 };
 
