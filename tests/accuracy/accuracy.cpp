@@ -389,6 +389,42 @@ std::vector<Family> broken_families() {
           {{clothoid, {35.0, 60.0, 40.0, 1.0 / 60.0}}, {eased, {40.0, 30.0, 10.0, 0.025, 15.0, 10.0}}}};
 }
 
+/// The farthest that the curve through exact points of a wave lies from it, over its height.
+double wave_missed(int each, int periods, double phase) {
+  constexpr double kRun = 100.0;
+  constexpr double kHeight = 2.0;
+  const auto wave = [&](double x) {
+    return 0.3 * x + kHeight * std::sin(2.0 * std::numbers::pi * periods * x / kRun + phase);
+  };
+  std::vector<Vec2> points;
+  const int count = each * periods;
+  for (int i = 0; i < count; ++i) points.push_back({kRun * i / (count - 1), wave(kRun * i / (count - 1))});
+  const FittedProfile profile(points);
+  const Vec2 start = points.front() - profile.points().front();
+  double most = 0.0;
+  for (int i = 0; i <= 1000; ++i) {
+    const CenterlinePoint place = profile.at(profile.length() * (i / 1000.0));
+    const double away = place.drop + start.y - wave(place.x + start.x);
+    most = std::max(most, std::fabs(away) * std::cos(place.slope_angle));
+  }
+  return most / kHeight;
+}
+
+Section waves() {
+  Section section{"Waves from exact points, 1 to 10 periods (off the wave, over its height)", {}};
+  const std::vector<std::pair<int, double>> bounds = {{5, 0.2},    {6, 0.12},   {8, 0.03},
+                                                      {12, 0.012}, {20, 0.006}, {40, 0.006}};
+  for (const auto& [each, bound] : bounds) {
+    Line entry = line(fmt::format("{} points a period", each), bound);
+    for (const int periods : {1, 2, 5, 10}) {
+      if (each * periods > 200) continue;
+      for (const double phase : {0.0, 0.4}) entry.add(wave_missed(each, periods, phase));
+    }
+    section.lines.push_back(entry);
+  }
+  return section;
+}
+
 Section broken_profiles() {
   Section section{"Profiles whose curvature jumps, fitted to exact points (relative)", {}};
   for (const Family& family : broken_families()) {
@@ -404,7 +440,7 @@ Section noisy_profiles() {
       "the noise allows (relative)",
       {}};
   for (const Family& family : broken_families()) {
-    add_broken(section, family, 100, kNoise, 10, 0.03, 0.015);
+    add_broken(section, family, 100, kNoise, 10, 0.02, 0.01);
     add_allowed(section, family, 100, kNoise, 0.03, 0.015);
     add_broken(section, family, 1000, kNoise, 3, 0.005, 0.003);
     add_allowed(section, family, 1000, kNoise, 0.005, 0.003);
@@ -413,8 +449,8 @@ Section noisy_profiles() {
 }
 
 std::vector<Section> sections() {
-  return {fastest_track(), flying_start(),    constant_speed_curve(), given_tracks(),
-          referee(),       fitted_profiles(), broken_profiles(),      noisy_profiles()};
+  return {fastest_track(),   flying_start(), constant_speed_curve(), given_tracks(),  referee(),
+          fitted_profiles(), waves(),        broken_profiles(),      noisy_profiles()};
 }
 
 std::string read_all(const std::string& path) {

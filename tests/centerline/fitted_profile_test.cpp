@@ -251,7 +251,8 @@ TEST_CASE("a wavy profile keeps its waves, however many and however sampled") {
   }
 }
 
-TEST_CASE("exact points of a wave are followed, from five a period on, and what few of them leave open is told") {
+TEST_CASE(
+    "exact points of a wave are followed, from five a period on, and what few of them leave open is told") {
   constexpr double kRun = 100.0;
   constexpr double kHeight = 2.0;
   for (const int each : {5, 6, 8, 12, 16}) {
@@ -263,7 +264,8 @@ TEST_CASE("exact points of a wave are followed, from five a period on, and what 
         };
         std::vector<Vec2> points;
         const int count = each * periods;
-        for (int i = 0; i < count; ++i) points.push_back({kRun * i / (count - 1), wave(kRun * i / (count - 1))});
+        for (int i = 0; i < count; ++i)
+          points.push_back({kRun * i / (count - 1), wave(kRun * i / (count - 1))});
         const FittedProfile profile(points);
         INFO(each << " points a period, " << periods << " periods, phase " << phase);
         CHECK(profile.max_deviation() <= 0.01 * kHeight);

@@ -338,6 +338,27 @@ void add_plain_transitions(const PiecewiseProfile& profile, std::vector<Piecewis
   }
 }
 
+/// The profile without one of the pieces between two points: noise makes such, no point shows what they are.
+void add_without_slivers(const PiecewiseProfile& profile, double spacing,
+                         std::vector<PiecewiseProfile>& ways) {
+  const std::vector<ProfilePiece>& pieces = profile.pieces;
+  for (std::size_t k = 1; k + 1 < pieces.size(); ++k) {
+    const bool cubic = pieces[k - 1].shape == PieceShape::cubic || pieces[k + 1].shape == PieceShape::cubic;
+    if (pieces[k].length >= spacing || cubic) continue;
+    PiecewiseProfile next = profile;
+    ProfilePiece& before = next.pieces[k - 1];
+    ProfilePiece& after = next.pieces[k + 1];
+    before.length += 0.5 * pieces[k].length;
+    after.length += 0.5 * pieces[k].length;
+    after.tied = false;
+    next.pieces.erase(next.pieces.begin() + static_cast<std::ptrdiff_t>(k));
+    ways.push_back(next);
+    if (next.pieces[k - 1].constant() && next.pieces[k].constant()) continue;
+    tie(next.pieces[k - 1], next.pieces[k]);
+    ways.push_back(std::move(next));
+  }
+}
+
 /// What the points had to yield: the unknowns, and the places of the breaks once more, as they were chosen among
 /// many.
 double freedom_of(const PieceFit& fit) {
@@ -403,6 +424,8 @@ class Describer {
       add_moved_ties(fit_.profile(), ways);
       add_cubic_bends(fit_.profile(), ways);
       add_plain_transitions(fit_.profile(), ways);
+      add_without_slivers(fit_.profile(), fit_.profile().length() / static_cast<double>(points_.size()),
+                          ways);
       // A neighbour that hardly turns may be the straight that noise hides.
       for (const PiecewiseProfile& straighter : with_straights(fit_.profile())) {
         add_cubic_bends(straighter, ways);

@@ -54,10 +54,11 @@ std::optional<Issue> passed_over(const Design& design, const Track& track) {
   if (profile == nullptr) return {};
   const bool missed = profile->leaves_out_much() || profile->leaves_pattern();
   if (!missed && profile->leaves_gaps()) {
-    return Issue{design.where("centerline"),
-                 "between the points the curve may be off by some " + length_text(profile->between_points(), 1),
-                 "The points are too few for their bends; speeds and loads are those of the curve.",
-                 "more points where the profile bends, some 12 to a wave"};
+    return Issue{
+        design.where("centerline"),
+        "between the points the curve may be off by some " + length_text(profile->between_points(), 1),
+        "The points are too few for their bends; speeds and loads are those of the curve.",
+        "more points where the profile bends, some 12 to a wave"};
   }
   if (!missed) return {};
   const std::string amount = length_text(profile->rms_deviation(), 3) + " in the root of the mean square";
