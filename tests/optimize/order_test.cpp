@@ -92,7 +92,8 @@ TEST_CASE("mirrored, of another size and elsewhere clearances of a whole solid h
   CHECK(solved > 0);
 }
 
-TEST_CASE("what a cap lets through behind a lift-off, and rounding next to a crest, end no search elsewhere") {
+TEST_CASE(
+    "what a cap lets through behind a lift-off, and rounding next to a crest, end no search elsewhere") {
   struct Known {
     int seed;
     int index;
