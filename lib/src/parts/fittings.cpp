@@ -7,8 +7,8 @@
 #include "parts/bolts.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
-#include "parts/nearest_place.hpp"
 #include "parts/seams.hpp"
+#include "parts/shell.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -20,12 +20,15 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kLap = 30e-3;         // of a lid beyond its opening, all round [m]
-constexpr double kLeastWeb = 20e-3;    // of a wall above and below an opening [m]
-constexpr double kLeastRound = 20e-3;  // of a stiffener, beyond a corner that laps [m]
-constexpr double kLugHalf = 40e-3;     // of a lug, along the track [m]
-constexpr double kLugHigh = 60e-3;     // above the wall's top [m]
-constexpr double kLugLow = 60e-3;      // below it, on a wall without a rim [m]
+constexpr double kLugHalf = 40e-3;  // of a lug, along the track [m]
+constexpr double kLugHigh = 60e-3;  // above the wall's top [m]
+constexpr double kLugLow = 60e-3;   // below it, on a wall without a rim [m]
+
+std::vector<Span> spans_of(const std::vector<Unit>& units) {
+  std::vector<Span> spans;
+  for (const Unit& unit : units) spans.push_back(unit.span);
+  return spans;
+}
 
 /// Half the width of the channel outside.
 double outside(const Job& job) {
@@ -122,17 +125,19 @@ std::vector<double> cover_bolts(const Job& job, const Span& span) {
 
 }  // namespace
 
+bool TakenUp::is_free(double s, double half, const Span& within) const {
+  if (s - half < within.from || s + half > within.to) return false;
+  return std::all_of(spans_.begin(), spans_.end(),
+                     [&](const Span& span) { return s + half < span.from || s - half > span.to; });
+}
+
 std::optional<double> TakenUp::free_place(double about, double half, const Span& within) const {
-  const auto is_free = [&](double s) {
-    if (s - half < within.from || s + half > within.to) return false;
-    return std::all_of(spans_.begin(), spans_.end(),
-                       [&](const Span& span) { return s + half < span.from || s - half > span.to; });
-  };
   constexpr int kPlaces = 400;
   const double step = (within.to - within.from) / kPlaces;
   for (int k = 0; k <= kPlaces; ++k) {
     for (const double side : {-1.0, 1.0}) {
-      if (is_free(about + side * step * k)) return about + side * step * k;
+      const double s = about + side * step * k;
+      if (is_free(s, half, within)) return s;
     }
   }
   return std::nullopt;
@@ -179,7 +184,7 @@ double flat_from_end(const ArcSpline& track, const Span& span, double height, do
 Span lid_heights(const Job& job, const InspectionOptions& opening) {
   const double rim = job.options.rim ? job.options.rim->thickness + 2e-3 : 0.0;
   const double middle = 0.5 * (job.channel.wall_height - rim);
-  const double half = 0.5 * opening.height + kLap;
+  const double half = 0.5 * opening.height + kLidLap;
   return {middle - half, middle + half};
 }
 
@@ -228,7 +233,7 @@ std::optional<double> stiffener_place(const Fitting& fitting, const Unit& unit, 
 
 }  // namespace
 
-void add_stiffeners(const Fitting& fitting) {
+void add_channel_stiffeners(const Fitting& fitting) {
   const Job& job = fitting.job;
   if (!job.options.stiffeners) return;
   const StiffenerOptions& stiffener = *job.options.stiffeners;
@@ -307,9 +312,9 @@ ArcPath window(const ArcSpline& track, double at, double half_length, const Span
 /// Bolts round an opening, in the middle of the lid's lap.
 std::vector<Vec2> lid_bolts(const ArcSpline& track, const InspectionOptions& opening, const Span& heights) {
   const TrackFrame frame = frame_at(track, opening.at);
-  const double along = 0.5 * opening.length + 0.5 * kLap;
-  const double low = heights.from - 0.5 * kLap;
-  const double high = heights.to + 0.5 * kLap;
+  const double along = 0.5 * opening.length + 0.5 * kLidLap;
+  const double low = heights.from - 0.5 * kLidLap;
+  const double high = heights.to + 0.5 * kLidLap;
   std::vector<Vec2> places;
   for (const double level : {low, high}) {
     for (const Vec2 at : evenly({-along, level}, {along, level}, 150e-3))
@@ -350,10 +355,10 @@ void cut_wall(const Fitting& fitting, const Unit& unit, const std::vector<Openin
 void add_lid(const Fitting& fitting, const InspectionOptions& opening, const Span& heights,
              const std::vector<Vec2>& bolts) {
   const Job& job = fitting.job;
-  PlaneRegion region{
-      window(job.track, opening.at, 0.5 * opening.length + kLap, {heights.from - kLap, heights.to + kLap}),
-      {},
-      {}};
+  PlaneRegion region{window(job.track, opening.at, 0.5 * opening.length + kLidLap,
+                            {heights.from - kLidLap, heights.to + kLidLap}),
+                     {},
+                     {}};
   for (const Vec2 bolt : bolts)
     region.holes.push_back({bolt, 0.5 * clearance_hole(opening.bolt, HoleFit::coarse)});
   const double thickness = job.channel.wall();
@@ -379,7 +384,7 @@ void add_openings(const Fitting& fitting) {
   for (const Unit& unit : fitting.units) {
     std::vector<Opening> openings;
     for (const InspectionOptions& opening : job.options.inspection) {
-      const double reach = 0.5 * opening.length + kLap;
+      const double reach = 0.5 * opening.length + kLidLap;
       if (opening.at + reach <= unit.span.from || opening.at - reach >= unit.span.to) continue;
       const Span room = between_frames(job, unit.span);
       if (opening.at - reach < room.from || opening.at + reach > room.to) {
@@ -390,8 +395,8 @@ void add_openings(const Fitting& fitting) {
                "at: " + length_text(std::clamp(opening.at, room.from + reach, room.to - reach), 4));
       }
       const Span lid = lid_heights(job, opening);
-      const Span heights{lid.from + kLap, lid.to - kLap};
-      if (job.track.at(opening.at).curvature * (heights.to + kLap) > 0.9) {
+      const Span heights{lid.from + kLidLap, lid.to - kLidLap};
+      if (job.track.at(opening.at).curvature * (heights.to + kLidLap) > 0.9) {
         refuse("inspection", "at: the track bends too tightly at " + length_text(opening.at, 4), "",
                "another at");
       }
@@ -407,32 +412,6 @@ void add_openings(const Fitting& fitting) {
 }
 
 namespace {
-
-/// Mass and first moment of what belongs to a unit.
-struct UnitMass {
-  double mass = 0.0;
-  Vec3 moment;
-};
-
-std::vector<UnitMass> masses_of(const Fitting& fitting) {
-  const Job& job = fitting.job;
-  std::vector<UnitMass> masses(fitting.units.size());
-  const Span whole{0.0, job.track.length()};
-  const Vec3 start = in_space(job.placement, {});
-  for (const ShopPart& part : fitting.workshop.parts) {
-    const BodyMoments body = moments(part.body);
-    for (const Frame& place : part.places) {
-      const Vec3 centre = place.to_space(body.centroid);
-      const Vec3 away = centre - start;
-      const double s = nearest_place(job.track, whole, {dot(away, along(job.placement)), away.z}).s;
-      std::size_t unit = 0;
-      while (unit + 1 < fitting.units.size() && s >= fitting.units[unit].span.to) ++unit;
-      masses[unit].mass += part.mass;
-      masses[unit].moment = masses[unit].moment + part.mass * centre;
-    }
-  }
-  return masses;
-}
 
 /// Where the wall's top stands plumb above a place, within a span; its nearer end where it does so nowhere.
 double above(const Job& job, Vec3 centre, const Span& within) {
@@ -456,14 +435,15 @@ double above(const Job& job, Vec3 centre, const Span& within) {
 
 }  // namespace
 
-void add_lugs(const Fitting& fitting) {
+void add_channel_lugs(const Fitting& fitting) {
   const Job& job = fitting.job;
   if (!job.options.lifting) return;
   const LiftingOptions& lifting = *job.options.lifting;
   const double top = job.channel.wall_height;
   const double low = top - (job.options.rim ? job.options.rim->thickness : std::min(kLugLow, 0.5 * top));
   const double side = outside(job) + (job.options.rim ? job.options.rim->width : 0.0);
-  const std::vector<UnitMass> masses = masses_of(fitting);
+  const std::vector<UnitMass> masses =
+      masses_of(fitting.workshop, job.track, job.placement, spans_of(fitting.units));
   for (std::size_t i = 0; i < fitting.units.size(); ++i) {
     const Span room = between_frames(job, fitting.units[i].span);
     const Vec3 centre = (1.0 / masses[i].mass) * masses[i].moment;
@@ -473,6 +453,7 @@ void add_lugs(const Fitting& fitting) {
     if (!outline) continue;
     const TrackFrame frame = frame_at(job.track, at);
     PlaneRegion region{*outline, {}, {{frame.at + (top + 0.55 * kLugHigh) * frame.up, 0.5 * lifting.hole}}};
+    if (!faults_of(region).empty()) continue;
     ShopPart part = upright_plate(job, region, lifting.thickness, {-side - lifting.thickness, side});
     part.name = "lug" + suffix(fitting, i);
     FlatPattern pattern;
@@ -483,216 +464,6 @@ void add_lugs(const Fitting& fitting) {
                                      rounded_text(masses[i].mass, 4) + " kg, lugs at " + length_text(at, 4) +
                                      " along the track, beside its centre of gravity.");
   }
-}
-
-namespace {
-
-class Refusals {
- public:
-  void add(const char* where, std::string what, std::string why, std::string hint) {
-    issues_.push_back({where, std::move(what), std::move(why), std::move(hint)});
-  }
-  void positive(double value, const char* where, const char* key) {
-    if (value > 0.0) return;
-    add(where, std::string(key) + ": " + length_text(value) + " is not positive", "", "a positive length");
-  }
-  void bolt(int size, const char* where, const char* key) {
-    if (std::find(bolt_sizes().begin(), bolt_sizes().end(), size) != bolt_sizes().end()) return;
-    add(where, std::string(key) + ": M" + std::to_string(size) + " is no size whose holes are known", "",
-        "M5, M6, M8, M10, M12, M16, M20 or M24");
-  }
-  [[nodiscard]] std::vector<Issue> all() && { return std::move(issues_); }
-
- private:
-  std::vector<Issue> issues_;
-};
-
-/// Tiles hold their bolts: half ones 1.2 hole diameters from both edges.
-void object_to_tiles(const ChannelMeasures& channel, const LinerOptions& liner, Refusals& refusals) {
-  const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), liner.bolt) != bolt_sizes().end();
-  if (!known || !(liner.tile_width > 0.0) || !(liner.tile_length > 0.0)) return;
-  const double least = 2.4 * clearance_hole(liner.bolt, HoleFit::medium);
-  const std::string why =
-      "Holes for M" + std::to_string(liner.bolt) + " take " + length_text(least, 3) + " with their edges.";
-  const double count = std::ceil(channel.width / liner.tile_width - 1e-9);
-  const double full = (channel.width - (count + 1.0) * liner.gap) / count;
-  if (0.5 * (full - liner.gap) < least) {
-    refusals.add(
-        "liner.tile_width",
-        "tile_width: " + length_text(liner.tile_width) + " makes half tiles of " +
-            length_text(0.5 * (full - liner.gap), 3),
-        why, "tile_width: " + length_text(2.0 * least + 3.0 * liner.gap, 2) + " or more, or a smaller bolt");
-  }
-  if (liner.tile_length - liner.gap < least) {
-    refusals.add("liner.tile_length", "tile_length: " + length_text(liner.tile_length) + " is too short", why,
-                 "tile_length: 600 mm");
-  }
-}
-
-void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
-  const LinerOptions& liner = *options.liner;
-  refusals.positive(liner.thickness, "liner.thickness", "thickness");
-  refusals.positive(liner.tile_length, "liner.tile_length", "tile_length");
-  refusals.positive(liner.tile_width, "liner.tile_width", "tile_width");
-  refusals.bolt(liner.bolt, "liner.bolt", "bolt");
-  if (!(liner.heaviest > 0.0)) {
-    refusals.add("liner.heaviest", "heaviest: " + rounded_text(liner.heaviest, 4) + " kg is not positive", "",
-                 "25 kg");
-  }
-  if (!(liner.worn_from > 0.0 && liner.worn_from <= 1.0)) {
-    refusals.add("liner.worn_from",
-                 "worn_from: " + rounded_text(100.0 * liner.worn_from, 6) + " % is out of range",
-                 "It is a share of the wear where the floor wears most: above 0 to 100 %.", "50 %");
-  }
-  for (const auto& [value, key] :
-       {std::pair(liner.life, "liner.life"), std::pair(liner.tonnage, "liner.tonnage")}) {
-    if (value && !(*value > 0.0))
-      refusals.add(key, std::string(key).substr(6) + " is not positive", "A liner is to last for some time.",
-                   "20000 h");
-  }
-  if (liner.life && liner.tonnage) {
-    refusals.add("liner.tonnage", "tonnage beside life", "Either says how long tiles are to last.",
-                 "one of them");
-  }
-  if (!(liner.gap >= 0.0) || liner.gap > 0.1 * channel.width) {
-    refusals.add(
-        "liner.gap", "gap: " + length_text(liner.gap) + " is out of range",
-        "Gaps between tiles are 0 to a tenth of the floor's width, " + length_text(0.1 * channel.width) + ".",
-        "gap: 2 mm");
-  }
-  object_to_tiles(channel, liner, refusals);
-  if (options.floor == FloorMake::bent) {
-    refusals.add("liner", "liner: tiles would lie on the bends of a bent floor",
-                 "They are rolled as the floor is.", "floor: rolled");
-  }
-}
-
-void object_to_rim(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
-  const RimOptions& rim = *options.rim;
-  refusals.positive(rim.width, "rim.width", "width");
-  refusals.positive(rim.thickness, "rim.thickness", "thickness");
-  if (rim.thickness > 0.5 * channel.wall_height) {
-    refusals.add("rim.thickness",
-                 "thickness: " + length_text(rim.thickness) + " is more than half the walls, " +
-                     length_text(channel.wall_height),
-                 "The rim lies against them.", "thickness: 5 mm");
-  }
-  if (rim.width > channel.wall_height) {
-    refusals.add("rim.width",
-                 "width: " + length_text(rim.width) + " is more than the walls are high, " +
-                     length_text(channel.wall_height),
-                 "The rim would stand out farther than the channel is deep.", "a smaller width");
-  }
-}
-
-void object_to_cover(const PlateOptions& options, Refusals& refusals) {
-  refusals.positive(options.cover->thickness, "cover.thickness", "thickness");
-  if (!(options.cover->pitch >= 40e-3)) {
-    refusals.add("cover.pitch", "pitch: " + length_text(options.cover->pitch) + " is too close",
-                 "Bolts of covers are at least 40 mm apart.", "pitch: 300 mm");
-  }
-  refusals.bolt(options.cover->bolt, "cover.bolt", "bolt");
-  if (!options.rim)
-    refusals.add("cover", "cover: it is bolted to a rim, and there is none", "", "rim: {width: 40 mm}");
-}
-
-void object_to_openings(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
-  const double rim = options.rim ? options.rim->thickness + 2e-3 : 0.0;
-  for (const InspectionOptions& opening : options.inspection) {
-    refusals.positive(opening.length, "inspection", "length");
-    refusals.positive(opening.height, "inspection", "height");
-    refusals.bolt(opening.bolt, "inspection", "bolt");
-    const double most = channel.wall_height - rim - 2.0 * std::max(kLap, kLeastWeb);
-    if (opening.height <= most) continue;
-    refusals.add("inspection",
-                 "height: " + length_text(opening.height) + " leaves too little of the wall, " +
-                     length_text(channel.wall_height),
-                 "Its lid laps over by " + length_text(kLap) + " all round.",
-                 most > 0.0 ? "height: " + length_text(most, 3)
-                            : "no inspection, or a wall_height of at least " +
-                                  length_text(channel.wall_height - most + opening.height, 3));
-  }
-}
-
-void object_to_supports(const PlateOptions& options, Refusals& refusals) {
-  const SupportOptions& supports = *options.supports;
-  if (!(supports.spacing >= 4.0 * supports.tube)) {
-    refusals.add(
-        "supports.spacing", "spacing: " + length_text(supports.spacing) + " leaves no room between trestles",
-        "They are at least four tubes apart, " + length_text(4.0 * supports.tube) + ".", "spacing: 2 m");
-  }
-  refusals.positive(supports.tube, "supports.tube", "tube");
-  refusals.bolt(supports.anchor, "supports.anchor", "anchor");
-  if (!(supports.wall > 0.0) || 2.0 * supports.wall >= supports.tube) {
-    refusals.add(
-        "supports.wall",
-        "wall: " + length_text(supports.wall) + " does not go into a tube of " + length_text(supports.tube),
-        "", "wall: 4 mm");
-  }
-  for (std::size_t i = 1; i < supports.ground.size(); ++i) {
-    if (supports.ground[i].x > supports.ground[i - 1].x) continue;
-    refusals.add("supports.ground", "ground: its points do not lead from left to right", "",
-                 "points in the order of their x");
-    break;
-  }
-}
-
-}  // namespace
-
-std::vector<Issue> fitting_problems(const ChannelMeasures& channel, const PlateOptions& options) {
-  Refusals refusals;
-  const bool walls = channel.wall_height > 0.0;
-  const auto need_walls = [&](bool wanted, const char* key) {
-    if (!wanted || walls) return true;
-    refusals.add(key, std::string(key) + ": there are no walls to set it on", "",
-                 "a cross_section with walls");
-    return false;
-  };
-  if (options.rim && need_walls(true, "rim")) object_to_rim(channel, options, refusals);
-  if (options.cover && need_walls(true, "cover")) object_to_cover(options, refusals);
-  if (!options.inspection.empty() && need_walls(true, "inspection"))
-    object_to_openings(channel, options, refusals);
-  if (options.lifting && need_walls(true, "lifting")) {
-    refusals.positive(options.lifting->thickness, "lifting.thickness", "thickness");
-    if (!(options.lifting->hole > 0.0) || options.lifting->hole > 40e-3) {
-      refusals.add("lifting.hole", "hole: " + length_text(options.lifting->hole) + " does not go into a lug",
-                   "Lugs are 80 mm wide and reach 60 mm above the walls.", "hole: 22 mm");
-    }
-  }
-  if (options.stiffeners) {
-    if (!(options.stiffeners->spacing >= 10.0 * options.stiffeners->thickness)) {
-      refusals.add("stiffeners.spacing",
-                   "spacing: " + length_text(options.stiffeners->spacing) + " leaves no room to weld them",
-                   "They are at least ten thicknesses apart, " +
-                       length_text(10.0 * options.stiffeners->thickness) + ".",
-                   "spacing: 800 mm");
-    }
-    refusals.positive(options.stiffeners->width, "stiffeners.width", "width");
-    const double lap = options.corners.kind != CornerJoint::butt && walls ? options.corners.overlap : 0.0;
-    if (lap > 0.0 && options.stiffeners->width < lap + kLeastRound) {
-      refusals.add("stiffeners.width",
-                   "width: " + length_text(options.stiffeners->width) +
-                       " leaves nothing round corners that lap by " + length_text(lap),
-                   "At least " + length_text(kLeastRound) + " of it go round them.",
-                   "width: " + length_text(lap + 0.04));
-    }
-    refusals.positive(options.stiffeners->thickness, "stiffeners.thickness", "thickness");
-  }
-  if (options.liner) object_to_liner(channel, options, refusals);
-  if (options.supports) object_to_supports(options, refusals);
-  return std::move(refusals).all();
-}
-
-std::vector<Issue> liner_problems(const ChannelMeasures& lane, const PlateOptions& options) {
-  Refusals refusals;
-  if (options.liner) object_to_liner(lane, options, refusals);
-  return std::move(refusals).all();
-}
-
-std::vector<Issue> cover_problems(const PlateOptions& options) {
-  Refusals refusals;
-  if (options.cover) object_to_cover(options, refusals);
-  return std::move(refusals).all();
 }
 
 }  // namespace glissade::parts

@@ -11,6 +11,8 @@ namespace glissade::parts {
 class TakenUp {
  public:
   void add(double from, double to) { spans_.push_back({from, to}); }
+  /// @return whether nothing lies within `half` of a place, which does so inside a span
+  [[nodiscard]] bool is_free(double s, double half, const Span& within) const;
   /// @return the place nearest to `about` with nothing within `half` of it, inside a span; none if there is none
   [[nodiscard]] std::optional<double> free_place(double about, double half, const Span& within) const;
 
@@ -31,11 +33,14 @@ struct Fitting {
 /// @param sense  +1 from the upstream end, -1 from the downstream one
 [[nodiscard]] double beyond_frame(const ArcSpline& track, double taken, double end, double sense,
                                   double high);
+inline constexpr double kLidLap = 30e-3;       ///< of a lid beyond its opening, all round [m]
 inline constexpr double kAsideOfFrame = 1e-3;  ///< between a rim and the frame that it ends before [m]
 
 /// @return the heights above the floor line between which an opening and its lid lie
 [[nodiscard]] Span lid_heights(const Job& job, const InspectionOptions& opening);
 
+/// What no shop can make of stiffeners, lugs and trestles, whatever they are set on.
+[[nodiscard]] std::vector<Issue> set_on_problems(const PlateOptions& options);
 /// What no shop can make of tiles on a lane.
 /// @param lane  its width as `width`
 [[nodiscard]] std::vector<Issue> liner_problems(const ChannelMeasures& lane, const PlateOptions& options);
@@ -56,21 +61,17 @@ void drill_plate(const Job& job, const Span& span, double upper, double width,
 /// Flat bars along the outsides of the walls' tops.
 void add_rims(const Fitting& fitting);
 /// Plates round the channel between its ends.
-void add_stiffeners(const Fitting& fitting);
+void add_channel_stiffeners(const Fitting& fitting);
 /// Lids over the rims, bolted to them.
 void add_covers(const Fitting& fitting);
 /// Openings in the left walls, with lids.
 void add_openings(const Fitting& fitting);
-/// Lugs beside the centre of gravity of each unit.
-void add_lugs(const Fitting& fitting);
+/// Lugs beside the centre of gravity of each unit, on the walls.
+void add_channel_lugs(const Fitting& fitting);
 /// Holes of the liner's bolts in the floors' patterns, before they are listed.
 void drill_floors(const Job& job, std::vector<Unit>& units);
 /// Tiles on the floor, their upper faces the track.
 void add_liner(const Fitting& fitting);
-/// @return side of a square base plate
-[[nodiscard]] double base_side(const SupportOptions& supports);
-/// Trestles from the ground.
-void add_supports(const Fitting& fitting, std::vector<SettingOutPoint>& rows);
 
 /// What no shop can make of fittings, whatever the track is.
 [[nodiscard]] std::vector<Issue> fitting_problems(const ChannelMeasures& channel,

@@ -13,13 +13,12 @@ constexpr double kChord = 1e-5;  // of arcs [m]
 
 /// How far a point lies outside: of a convex outline the greatest distance beyond one of its sides.
 double outside_of(const FrameOpening& opening, Vec2 point) {
-  const double sign = opening.outside_on_left ? 1.0 : -1.0;
   const std::size_t count = opening.outside.size();
   double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + (opening.closed ? 0 : 1) < count; ++i) {
+  for (std::size_t i = 0; i + (opening.ring ? 0 : 1) < count; ++i) {
     const Vec2 from = opening.outside[i];
     const Vec2 along = opening.outside[(i + 1) % count] - from;
-    if (norm(along) > 0.0) most = std::max(most, sign * cross(along, point - from) / norm(along));
+    if (norm(along) > 0.0) most = std::max(most, cross(along, point - from) / norm(along));
   }
   return most;
 }

@@ -9,9 +9,8 @@ namespace glissade::parts {
 
 /// Outlines that frames are set round, seen against the track.
 struct FrameOpening {
-  std::vector<Vec2> outside;  ///< convex; x across, y up
-  bool closed = false;
-  bool outside_on_left = false;
+  std::vector<Vec2> outside;  ///< convex, to its left; x across, y up
+  bool ring = false;          ///< closed all round
 };
 
 /// How far a piece stands out of an opening within a frame's thickness: near a vertical start plates begin and bend so soon

@@ -12,6 +12,7 @@
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/strip_shell.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -589,6 +590,12 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   add_trough_rims(job, units, workshop);
   build.joints = on_track(facets, joints, track.length());
   workshop.setting_out = setting_out(track, build.joints, placement);
+  TakenUp taken;
+  const Shell shell =
+      pipe_shell(track, pipe, side, options, placement, facets, build.joints, workshop, taken);
+  add_stiffeners(shell);
+  add_lugs(shell);
+  add_supports(shell, workshop.setting_out);
   for (SettingOutPoint& row : mitres(job, facets)) workshop.setting_out.push_back(std::move(row));
   in_order(workshop.setting_out);
   build.ride = as_told(ride_facets({facets}, body, gravity, options.joint_step), design, facets.bends(),
@@ -610,6 +617,7 @@ std::vector<Issue> mitred_problems(std::optional<double> side, const PlateOption
     issues.push_back({where, std::move(what), std::move(why), std::move(hint)});
   };
   const std::string word = side ? "troughs" : "tubes";
+  for (Issue& issue : set_on_problems(options)) issues.push_back(std::move(issue));
   if (options.liner)
     add("liner", "liner: tiles are flat, mitred " + word + " are round inside",
         "They would touch along two lines.", "round: staves");

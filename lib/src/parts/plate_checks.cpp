@@ -161,10 +161,7 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
   };
   objections.positive(options.stave_tolerance, "stave_tolerance");
   if (options.polygon_thickness) objections.positive(*options.polygon_thickness, "thickness");
-  only_on_channels(options.stiffeners.has_value(), "stiffeners");
   only_on_channels(!options.inspection.empty(), "inspection");
-  only_on_channels(options.lifting.has_value(), "lifting");
-  only_on_channels(options.supports.has_value(), "supports");
   return std::move(objections).all();
 }
 

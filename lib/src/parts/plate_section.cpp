@@ -6,6 +6,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/section/cross_section.hpp"
 
+#include "core/plane_geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -82,6 +84,7 @@ PlateSection of_chain(const std::vector<Vec2>& chain, double thickness, bool clo
     section.plates.push_back({"", chain[i], chain[next], back[i], back[next]});
   }
   section.outside = back;
+  section.ring = closed;
   return section;
 }
 
@@ -249,6 +252,53 @@ std::vector<Vec2> with_side_moved(std::vector<Vec2> chain, std::size_t side, dou
   return chain;
 }
 
+/// @param outline  counter-clockwise
+/// @return its corners from the left top below it to the right one: tops are the highest corners beside the floor line, the outermost
+std::vector<Vec2> below_tops(const std::vector<Vec2>& outline) {
+  constexpr double kLevel = 1e-9;  // [m]
+  const std::size_t count = outline.size();
+  // The floor line is the origin, on a side or at a corner.
+  std::size_t first = 0;  // the corner before it, or that at it
+  for (std::size_t i = 0; i < count; ++i) {
+    const double near = core::distance_to_segment({}, outline[i], outline[(i + 1) % count]);
+    if (near < core::distance_to_segment({}, outline[first], outline[(first + 1) % count])) first = i;
+  }
+  double lowest = outline.front().y;
+  for (const Vec2 corner : outline) lowest = std::min(lowest, corner.y);
+  // Ahead of the floor line the outline goes down on the right.
+  const auto top = [&](std::size_t from, std::size_t step) {
+    std::size_t best = from;
+    for (std::size_t i = from; outline[i].y > lowest + kLevel; i = (i + step) % count) {
+      if (outline[i].y > outline[best].y - kLevel) best = i;
+    }
+    return best;
+  };
+  const std::size_t right = top((first + 1) % count, 1);
+  const std::size_t left = top(first, count - 1);
+  std::vector<Vec2> chain = {outline[left]};
+  for (std::size_t i = left; i != right;) {
+    i = (i + count - 1) % count;
+    chain.push_back(outline[i]);
+  }
+  return chain;
+}
+
+/// Whether the side at an end of a chain is upright enough for what ends level with it.
+bool steep(Vec2 top, Vec2 low) {
+  constexpr double kSteepEnough = 0.2;  // height per length
+  return top.y - low.y > kSteepEnough * norm(low - top);
+}
+
+void set_outside(const std::vector<Vec2>& outline, PlateSection& section) {
+  section.outside = below_tops(outline);
+  section.ring = false;
+  section.inside_outline = true;
+  const std::size_t count = section.outside.size();
+  section.convex = count > 2 && turns_one_way(section.outside, false) &&
+                   steep(section.outside[0], section.outside[1]) &&
+                   steep(section.outside[count - 1], section.outside[count - 2]);
+}
+
 /// Plates inside the outline of a solid, one a side.
 std::optional<PlateSection> round_outline(const section::Measures& measures, const PlateOptions& options) {
   const CrossSection whole(measures);
@@ -267,8 +317,7 @@ std::optional<PlateSection> round_outline(const section::Measures& measures, con
     if (std::fabs(cross(in, out)) > 1e-9 * norm(in) * norm(out)) kept.push_back(chain[i]);
   }
   PlateSection section = of_chain(kept, options.polygon_thickness.value_or(4e-3), true);
-  section.outside = kept;
-  section.outside_on_left = false;
+  set_outside(kept, section);
   name_by_place(section, "side");
   for (std::size_t i = 0; options.liner && i < section.plates.size(); ++i) {
     if (section.plates[i].name != "floor") continue;
@@ -276,8 +325,7 @@ std::optional<PlateSection> round_outline(const section::Measures& measures, con
     PlateSection below = of_chain(with_side_moved(kept, i, lining_of(options)), section.thickness, true);
     for (std::size_t k = 0; k < below.plates.size(); ++k) below.plates[k].name = section.plates[k].name;
     below.lined = {{i, section.plates[i].face_from, section.plates[i].face_to}};
-    below.outside = with_side_moved(kept, i, lining_of(options));
-    below.outside_on_left = false;
+    set_outside(with_side_moved(kept, i, lining_of(options)), below);
     return below;
   }
   return section;

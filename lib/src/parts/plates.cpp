@@ -9,6 +9,7 @@
 
 #include "parts/as_built.hpp"
 #include "parts/bolts.hpp"
+#include "parts/channel_shell.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
@@ -21,8 +22,10 @@
 #include "parts/section_corners.hpp"
 #include "parts/section_seams.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/shell.hpp"
 #include "parts/strip_fittings.hpp"
 #include "parts/strip_shape.hpp"
+#include "parts/strip_shell.hpp"
 #include "parts/strips.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -98,11 +101,15 @@ void add_fittings(const Job& job, const std::vector<Unit>& units, Workshop& work
   add_liner(fitting);
   add_rims(fitting);
   add_openings(fitting);
-  add_stiffeners(fitting);
+  add_channel_stiffeners(fitting);
   add_covers(fitting);
-  add_lugs(fitting);
+  const Shell shell = channel_shell(job, units, workshop, below);
+  if (job.channel.wall_height > 0.0)
+    add_channel_lugs(fitting);
+  else
+    add_lugs(shell);
   // What is lifted stands on none of them.
-  add_supports(fitting, workshop.setting_out);
+  add_supports(shell, workshop.setting_out);
   in_order(workshop.setting_out);
 }
 
@@ -311,7 +318,8 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
   if (const auto round = mitred_round(measures, options)) return mitred_problems(round->side, options);
   const auto section = plate_section(measures, options);
   if (!section) return width_changes();
-  for (const auto& problems : {strip_problems, section_corner_problems, section_fitting_problems}) {
+  for (const auto& problems :
+       {strip_problems, section_corner_problems, section_fitting_problems, strip_shell_problems}) {
     for (Issue& issue : problems(*section, options)) issues.push_back(std::move(issue));
   }
   return issues;

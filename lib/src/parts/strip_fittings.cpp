@@ -36,22 +36,10 @@ std::optional<OuterSide> side_from(Vec2 top, Vec2 low) {
 
 /// @param sign  +1 on the left, -1 on the right
 std::optional<OuterSide> outer_side(const PlateSection& section, double sign) {
-  if (!section.closed) {
-    const SectionPlate& plate = sign > 0.0 ? section.plates.front() : section.plates.back();
-    return sign > 0.0 ? side_from(plate.back_from, plate.back_to) : side_from(plate.back_to, plate.back_from);
-  }
-  // Plates inside an outline: from its highest corner, the outermost of them, down outside. Those round a closed section have no tops.
-  if (section.outside_on_left) return std::nullopt;
-  const std::vector<Vec2>& outline = section.outside;
-  std::size_t best = 0;
-  constexpr double kLevel = 1e-9;  // [m]
-  for (std::size_t i = 1; i < outline.size(); ++i) {
-    const double higher = outline[i].y - outline[best].y;
-    if (higher > kLevel || (higher > -kLevel && sign * (outline[i].x - outline[best].x) > 0.0)) best = i;
-  }
-  // It runs counter-clockwise, across being to the left: up on the left, down on the right.
-  const std::size_t count = outline.size();
-  return side_from(outline[best], outline[sign > 0.0 ? (best + count - 1) % count : (best + 1) % count]);
+  const std::vector<Vec2>& outside = section.outside;
+  if (section.ring || outside.size() < 2) return std::nullopt;
+  return sign > 0.0 ? side_from(outside[0], outside[1])
+                    : side_from(outside[outside.size() - 1], outside[outside.size() - 2]);
 }
 
 /// A level bar against the outside of a side, its upper face level with the top.
@@ -320,7 +308,7 @@ void object_to_rims(const PlateSection& section, const RimOptions& rim, Issues& 
   for (const double sign : {1.0, -1.0}) {
     const auto side = outer_side(section, sign);
     if (!side) {
-      const bool round = section.closed && section.outside_on_left;
+      const bool round = section.ring;
       issues.add("rim",
                  round ? "rim: a closed section has no tops that it could lie along"
                        : "rim: this section has no side that it could lie against",

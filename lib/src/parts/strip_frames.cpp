@@ -57,13 +57,12 @@ std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
 ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, HoleFit fit) {
   const FlangeOptions& flange = job.options.flanges;
   const PlateSection& section = job.section;
-  const double sign = section.outside_on_left ? 1.0 : -1.0;
-  const auto at = [&](double by) { return moved_to_left(outside, section.closed, sign * by); };
+  const auto at = [&](double by) { return moved_to_left(outside, section.ring, by); };
   std::vector<Vec2> inner = at(flange.gap);
   std::vector<Vec2> outer = at(flange.gap + flange.width);
   FlatPattern pattern;
   pattern.region.outline.closed = true;
-  if (section.closed) {
+  if (section.ring) {
     add_polygon(pattern.region.outline, outer);
     pattern.region.cutouts.push_back({{}, true});
     add_polygon(pattern.region.cutouts.back(), inner);
@@ -74,11 +73,10 @@ ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, HoleFit
   }
   // Rims are level: of a wall that leans, holes keep their distance from the rim, not along the wall.
   const Vec2 first = outside[1] - outside[0];
-  const double upright = section.closed ? 1.0 : std::fabs(first.y) / norm(first);
+  const double upright = section.ring ? 1.0 : std::fabs(first.y) / norm(first);
   const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse) / (upright > 0.0 ? upright : 1.0);
   const double radius = 0.5 * clearance_hole(flange.bolt, fit);
-  for (const Vec2 centre :
-       along_chain(at(flange.gap + 0.5 * flange.width), section.closed, flange.pitch, edge))
+  for (const Vec2 centre : along_chain(at(flange.gap + 0.5 * flange.width), section.ring, flange.pitch, edge))
     pattern.region.holes.push_back({centre, radius});
   ShopPart part;
   part.name = fit == HoleFit::coarse ? "end_frame_loose" : "end_frame";
@@ -102,7 +100,7 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
                       const std::vector<double>& joints, Workshop& workshop) {
   if (!job.options.flanges.wanted) return;
   if (!job.section.convex) {
-    workshop.notes.emplace_back("The section is hollow outside: no frame fits round it, ends are welded.");
+    workshop.notes.emplace_back("The section is hollow below: no frame fits round it, ends are welded.");
     return;
   }
   std::size_t bolts = 0;
@@ -134,8 +132,7 @@ FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& 
   double most = 0.0;
   double where = 0.0;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.closed,
-                               job.section.outside_on_left};
+    const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.ring};
     for (const double shift : {0.0, -flange.thickness}) {
       if (shift == 0.0 ? i + 1 == joints.size() : i == 0) continue;
       const Frame place = place_of_frame(job, joints[i], shift);

@@ -17,6 +17,7 @@
 #include "parts/strip_notes.hpp"
 #include "parts/strip_proof.hpp"
 #include "parts/strip_shape.hpp"
+#include "parts/strip_shell.hpp"
 #include "parts/strip_works.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -64,6 +65,29 @@ AsBuiltRide ride_rolled(const StripJob& job, const std::vector<double>& joints, 
   return ride_units(lines, job.options.joint_step, design, body, gravity);
 }
 
+/// Frames, rims, covers, liner, stiffeners, lugs and trestles, each with room for those before.
+void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent,
+                   const std::vector<double>& joints, const std::vector<Strip>& strips,
+                   const std::vector<UnitWork>& works, Workshop& workshop) {
+  PlateOptions framed = job.options;
+  if (!bent) framed.flanges = frames_that_clear(job, joints, strips);
+  add_strip_frames({job.track, job.section, framed, job.placement}, bent, joints, workshop);
+  add_strip_rims(job, joints, workshop);
+  add_strip_covers(job, joints, workshop);
+  if (job.options.liner) {
+    std::vector<TilePlace> tiles;
+    for (const UnitWork& work : works) tiles.insert(tiles.end(), work.tiles.begin(), work.tiles.end());
+    add_strip_liner(job, tiles, workshop);
+  }
+  workshop.setting_out = setting_out(job.track, joints, job.placement);
+  TakenUp taken;
+  const Shell shell = strip_shell(job, bent, joints, works, workshop, taken);
+  add_stiffeners(shell);
+  add_lugs(shell);
+  add_supports(shell, workshop.setting_out);
+  in_order(workshop.setting_out);
+}
+
 }  // namespace
 
 std::vector<Issue> strip_problems(const PlateSection& section, const PlateOptions& options) {
@@ -73,14 +97,14 @@ std::vector<Issue> strip_problems(const PlateSection& section, const PlateOption
   }
   for (const SectionPlate& plate : section.plates) {
     if (dot(plate.back_to - plate.back_from, plate.face_to - plate.face_from) > 0.0) continue;
-    issues.push_back({section.outside_on_left ? "cross_section.thickness" : "thickness",
+    issues.push_back({section.inside_outline ? "thickness" : "cross_section.thickness",
                       "thickness: " + length_text(section.thickness) + " leaves nothing of the " +
                           plate.name + ", which is " + length_text(norm(plate.face_to - plate.face_from), 3) +
                           " wide",
                       "Plates meet in mitres there.", "a thinner plate"});
     return issues;
   }
-  if (!section.outside_on_left) {
+  if (section.inside_outline) {
     const std::size_t count = section.plates.size();
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = i + 1; k < count; ++k) {
@@ -138,21 +162,11 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   });
   if (!bent && section.convex) {
     require_frame_room(track, build.joints, options.flanges, section.lowest,
-                       section.closed ? std::optional(section.highest) : std::nullopt);
+                       section.ring ? std::optional(section.highest) : std::nullopt);
   }
   Workshop& workshop = build.workshop;
   list_strips(strips, workshop);
-  PlateOptions framed = options;
-  if (!bent) framed.flanges = frames_that_clear(job, build.joints, strips);
-  add_strip_frames({track, section, framed, placement}, bent, build.joints, workshop);
-  add_strip_rims(job, build.joints, workshop);
-  add_strip_covers(job, build.joints, workshop);
-  if (options.liner) {
-    std::vector<TilePlace> tiles;
-    for (const UnitWork& work : works) tiles.insert(tiles.end(), work.tiles.begin(), work.tiles.end());
-    add_strip_liner(job, tiles, workshop);
-  }
-  workshop.setting_out = setting_out(track, build.joints, placement);
+  set_on_strips(job, bent, build.joints, strips, works, workshop);
   build.ride = bent ? as_told(ride_facets(bent->facets(), body, gravity, options.joint_step), design,
                               bent->bends(), build.joints.size() - 2)
                     : ride_rolled(job, build.joints, body, gravity, design);

@@ -5,15 +5,22 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bolts.hpp"
-#include "parts/corners.hpp"
-#include "parts/fittings.hpp"
 #include "parts/ground.hpp"
+#include "parts/plate_joints.hpp"
+#include "parts/plate_unit.hpp"
+#include "parts/section_outside.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/shell.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace glissade::parts {
 namespace {
@@ -42,26 +49,102 @@ struct Trestle {
   }
 };
 
-double underside(const Job& job) {
-  return -floor_depth(job) - job.channel.thickness;
+/// Where the saddles of a trestle stand, and how high the section's outside is there.
+struct Saddles {
+  std::array<double, 2> aside{};   ///< to the left, of the left one and the right one
+  std::array<double, 2> height{};  ///< of the outside above the floor line
+  double half = kSaddleHalf;       ///< along the track
+};
+
+/// The lowest of the outside above a plate between two places across.
+double underside_between(const ArcPath& line, double from, double to) {
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto see = [&](double x) {
+    if (const auto y = underside_at(line, x)) lowest = std::min(lowest, *y);
+  };
+  see(from);
+  see(0.5 * (from + to));
+  see(to);
+  for (const PathVertex& vertex : line.vertices) {
+    if (vertex.at.x > from && vertex.at.x < to) see(vertex.at.x);
+  }
+  return lowest;
 }
 
-Trestle trestle_at(const Job& job, double at) {
-  const SupportOptions& supports = *job.options.supports;
+/// As far out as the outside leans no more than so, clear of what laps below it.
+double saddle_on_left(const SectionOutside& outside) {
+  constexpr double kMostLean = 0.58;   // tan 30 deg
+  constexpr double kFromEdge = 20e-3;  // of a saddle's middle [m]
+  constexpr double kAtLeast = 0.25;    // of the section's half width, however it leans
+  constexpr int kPlaces = 400;
+  double widest = 0.0;
+  for (const Vec2 point : flattened(outside.line, 1e-4)) widest = std::max(widest, point.x);
+  double aside = 0.0;
+  const double step = widest / kPlaces;
+  std::optional<double> before = underside_at(outside.line, 0.0);
+  for (int k = 1; k <= kPlaces && before; ++k) {
+    // The outermost line itself is upright.
+    const auto here = underside_at(outside.line, step * std::min(k + 0.0, kPlaces - 1e-6));
+    if (!here || std::fabs(*here - *before) > kMostLean * step) break;
+    aside = step * k;
+    before = here;
+  }
+  for (const Vec2 tip : lap_tips(outside)) {
+    // A whole saddle inside of walls that reach below the floor.
+    if (tip.x > 0.0 && tip.x < aside + kSaddle) aside = std::min(aside, tip.x - 0.5 * kSaddle);
+  }
+  return std::max(aside - kFromEdge, kAtLeast * widest);
+}
+
+Saddles saddles_at(const Shell& shell, double s, double half) {
+  Saddles saddles;
+  saddles.half = half;
+  for (std::size_t side = 0; side < 2; ++side) {
+    double aside = std::numeric_limits<double>::infinity();
+    double height = std::numeric_limits<double>::infinity();
+    for (const bool placed : {false, true}) {
+      for (const double at : {s - half, s, s + half}) {
+        const SectionOutside outside = side == 0 ? shell.outside(at) : mirrored(shell.outside(at));
+        if (placed) {
+          height =
+              std::min(height, underside_between(outside.line, aside - 0.5 * kSaddle, aside + 0.5 * kSaddle));
+        } else {
+          aside = std::min(aside, saddle_on_left(outside));
+        }
+      }
+    }
+    saddles.aside[side] = side == 0 ? aside : -aside;
+    saddles.height[side] = height;
+  }
+  return saddles;
+}
+
+/// Of a square base plate.
+double base_side(const SupportOptions& supports) {
+  return std::max(150e-3, supports.tube + 90e-3);
+}
+
+Trestle trestle_at(const Shell& shell, double at, const Saddles& saddles) {
+  const SupportOptions& supports = *shell.options.supports;
   Trestle trestle;
   trestle.at = at;
-  double low = 1e300;
-  Vec2 middle;
-  for (const double s : {at - kSaddleHalf, at, at + kSaddleHalf}) {
-    const TrackFrame frame = frame_at(job.track, s);
-    const Vec2 under = frame.at + underside(job) * frame.up;
-    if (s == at) middle = under;
-    low = std::min(low, under.y);
+  const double height = 0.5 * (saddles.height[0] + saddles.height[1]);
+  const auto below = [&](double s) {
+    const TrackFrame frame = frame_of(shell, s);
+    return frame.at + shell.lowest * frame.up;
+  };
+  const TrackFrame frame = frame_of(shell, at);
+  trestle.x = (frame.at + height * frame.up).x;
+  // Lines that are lower than the saddles' lie above the beam from another stretch of the track.
+  const double reach = saddles.half + std::fabs(height - shell.lowest);
+  double low = std::min({below(at - saddles.half).y, below(at).y, below(at + saddles.half).y});
+  constexpr int kPlaces = 40;
+  for (int k = -kPlaces; k <= kPlaces && height > shell.lowest; ++k) {
+    const double s = std::clamp(at + reach * k / kPlaces, 0.0, shell.track.length());
+    const Vec2 point = below(s);
+    if (std::fabs(point.x - trestle.x) <= kSaddleHalf + supports.tube) low = std::min(low, point.y);
   }
-  trestle.x = middle.x;
-  // Below walls that lap the floor, too.
-  const bool laps = job.options.walls == WallSeat::beside_floor;
-  trestle.beam = low - kSaddleLeast - (laps ? overlap(job) / frame_at(job.track, at).up.y : 0.0);
+  trestle.beam = low - kSaddleLeast;
   // The lower of the places of both edges of the base plate: grout fills the rest.
   const double half = 0.5 * base_side(supports);
   trestle.ground =
@@ -70,14 +153,14 @@ Trestle trestle_at(const Job& job, double at) {
   return trestle;
 }
 
-ShopPart bought_tube(const Job& job, const std::string& name, double length, const Frame& place) {
-  const SupportOptions& supports = *job.options.supports;
+ShopPart bought_tube(const Shell& shell, const std::string& name, double length, const Frame& place) {
+  const SupportOptions& supports = *shell.options.supports;
   const double half = 0.5 * supports.tube;
   const double inner = half - supports.wall;
   ShopPart part;
   part.name = name;
-  part.material = job.options.material.name;
-  part.density = job.options.material.density;
+  part.material = shell.options.material.name;
+  part.density = shell.options.material.density;
   part.thickness = supports.wall;
   part.stands = true;
   part.bought_in = true;
@@ -88,12 +171,12 @@ ShopPart bought_tube(const Job& job, const std::string& name, double length, con
   return part;
 }
 
-ShopPart plate_part(const Job& job, const std::string& name, const PlaneRegion& region, double thickness,
+ShopPart plate_part(const Shell& shell, const std::string& name, const PlaneRegion& region, double thickness,
                     const std::vector<Frame>& places) {
   ShopPart part;
   part.name = name;
-  part.material = job.options.material.name;
-  part.density = job.options.material.density;
+  part.material = shell.options.material.name;
+  part.density = shell.options.material.density;
   part.thickness = thickness;
   part.stands = true;
   part.body = Prism{region, thickness};
@@ -105,64 +188,73 @@ ShopPart plate_part(const Job& job, const std::string& name, const PlaneRegion& 
   return part;
 }
 
-/// Everything about a trestle that depends on the job alone.
+/// How far a trestle reaches to both sides.
 struct Measures {
   double beam_length = 0.0;
-  double leg_aside = 0.0;     ///< of a leg's middle from the plane of the track
-  double saddle_aside = 0.0;  ///< of a saddle's middle
+  double leg_aside = 0.0;  ///< of a leg's middle from the plane of the track
 };
 
-Measures measures_of(const Job& job) {
-  const SupportOptions& supports = *job.options.supports;
-  const double width = job.channel.width + 2.0 * job.channel.wall();
+Measures measures_of(const Shell& shell, const Saddles& saddles) {
+  constexpr double kBeyondSaddle = 20e-3;  // of the beam [m]
+  constexpr double kLeastSpread = 0.7;     // of the section's width, that it may not tip over
+  const SupportOptions& supports = *shell.options.supports;
+  double widest = 0.0;
+  for (const Vec2 point : flattened(shell.outside(0.5 * shell.track.length()).line, 1e-4))
+    widest = std::max(widest, std::fabs(point.x));
+  const double aside = std::max(saddles.aside[0], -saddles.aside[1]);
   Measures measures;
-  measures.beam_length = std::max(width, 4.0 * supports.tube);
+  measures.beam_length =
+      std::max({2.0 * (aside + kBeyondSaddle), 4.0 * supports.tube, 2.0 * kLeastSpread * widest});
   measures.leg_aside = 0.5 * measures.beam_length - 0.5 * supports.tube - 10e-3;
-  // Inside of walls that reach below the floor.
-  measures.saddle_aside = 0.5 * (overlap(job) > 0.0 ? job.channel.width - kSaddle : width) - 20e-3;
   return measures;
 }
 
-void add_saddles(const Fitting& fitting, const Trestle& trestle, const std::string& number) {
-  const Job& job = fitting.job;
-  const Measures measures = measures_of(job);
-  const auto under =
-      offset_line(job.track, {trestle.at - kSaddleHalf, trestle.at + kSaddleHalf}, underside(job));
-  ArcPath outline = *under;
-  outline.closed = true;
-  const Vec2 first = outline.vertices.front().at;
-  const Vec2 last = outline.vertices.back().at;
-  outline.vertices.push_back({{last.x, trestle.beam}, 0.0});
-  outline.vertices.push_back({{first.x, trestle.beam}, 0.0});
-  ShopPart part =
-      upright_plate(job, {outline, {}, {}}, kSaddle,
-                    {-measures.saddle_aside - 0.5 * kSaddle, measures.saddle_aside - 0.5 * kSaddle});
-  part.name = "saddle_" + number;
-  FlatPattern pattern;
-  pattern.region = std::get<Prism>(part.body).region;
-  part.pattern = std::move(pattern);
-  add_part(fitting.workshop, part, kSupportColour);
+/// What of the outside a saddle is cut to.
+std::optional<ArcPath> seat_line(const Shell& shell, double at, double half, double height) {
+  if (shell.straights.empty()) return offset_line(shell.track, {at - half, at + half}, height);
+  ArcPath line;
+  for (const double s : {at - half, at + half}) {
+    const TrackFrame frame = frame_of(shell, s);
+    line.vertices.push_back({frame.at + height * frame.up, 0.0});
+  }
+  return line;
 }
 
-void add_legs(const Fitting& fitting, const Trestle& trestle, const std::string& number) {
-  const Job& job = fitting.job;
-  const SupportOptions& supports = *job.options.supports;
-  const Measures measures = measures_of(job);
-  const Vec3 left = across(job.placement);
-  const Vec3 run = along(job.placement);
+void add_saddles(const Shell& shell, const Trestle& trestle, const Saddles& saddles,
+                 const std::string& number) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    ArcPath outline = *seat_line(shell, trestle.at, saddles.half, saddles.height[side]);
+    outline.closed = true;
+    const Vec2 first = outline.vertices.front().at;
+    const Vec2 last = outline.vertices.back().at;
+    outline.vertices.push_back({{last.x, trestle.beam}, 0.0});
+    outline.vertices.push_back({{first.x, trestle.beam}, 0.0});
+    const OwnPlane plane = own_plane(outline);
+    const PlaneRegion region = moved(PlaneRegion{outline, {}, {}}, into(plane));
+    const Frame place =
+        plane_of_track(shell.placement, plane.origin, plane.angle, -saddles.aside[side] - 0.5 * kSaddle);
+    add_part(shell.workshop, plate_part(shell, "saddle_" + number, region, kSaddle, {place}), kSupportColour);
+  }
+}
+
+void add_legs(const Shell& shell, const Trestle& trestle, const Measures& measures,
+              const std::string& number) {
+  const SupportOptions& supports = *shell.options.supports;
+  const Vec3 left = across(shell.placement);
+  const Vec3 run = along(shell.placement);
   const auto at = [&](double aside, double height) {
-    return in_space(job.placement, {trestle.x, height}) + aside * left;
+    return in_space(shell.placement, {trestle.x, height}) + aside * left;
   };
   // Tubes run along z of their frames.
   const double half = 0.5 * measures.beam_length;
-  ShopPart beam = bought_tube(job, "beam", measures.beam_length,
+  ShopPart beam = bought_tube(shell, "beam", measures.beam_length,
                               {at(-half, trestle.beam - 0.5 * supports.tube), kUp, run, left});
-  add_part(fitting.workshop, beam, kSupportColour);
+  add_part(shell.workshop, beam, kSupportColour);
   const double foot = trestle.ground + supports.grout + kPlate;
-  ShopPart leg = bought_tube(job, "leg_" + number, trestle.leg(supports),
+  ShopPart leg = bought_tube(shell, "leg_" + number, trestle.leg(supports),
                              {at(measures.leg_aside, foot), run, left, kUp});
   leg.places.push_back({at(-measures.leg_aside, foot), run, left, kUp});
-  add_part(fitting.workshop, leg, kSupportColour);
+  add_part(shell.workshop, leg, kSupportColour);
 
   const double side = 0.5 * base_side(supports);
   const double hole = 0.5 * clearance_hole(supports.anchor, HoleFit::coarse);
@@ -174,17 +266,17 @@ void add_legs(const Fitting& fitting, const Trestle& trestle, const std::string&
   std::vector<Frame> places;
   for (const double aside : {measures.leg_aside, -measures.leg_aside})
     places.push_back({at(aside, foot - kPlate), run, left, kUp});
-  add_part(fitting.workshop, plate_part(job, "base_plate", region, kPlate, places), kSupportColour);
-  add_item(fitting.workshop,
+  add_part(shell.workshop, plate_part(shell, "base_plate", region, kPlate, places), kSupportColour);
+  add_item(shell.workshop,
            {"anchor M" + std::to_string(supports.anchor), "as the ground asks", 8, "base plates"});
 }
 
 /// A flat bar across a plane from one leg's foot to the other's head.
-void add_braces(const Fitting& fitting, const Trestle& trestle, const std::string& number) {
-  const Job& job = fitting.job;
-  const SupportOptions& supports = *job.options.supports;
+void add_braces(const Shell& shell, const Trestle& trestle, const Measures& measures,
+                const std::string& number) {
+  const SupportOptions& supports = *shell.options.supports;
   if (trestle.leg(supports) < supports.braced_from) return;
-  const Measures measures = measures_of(job);
+  const double longest = std::max(shell.options.split.sheet.x, shell.options.split.sheet.y);
   const double width = 2.0 * measures.leg_aside;
   const double room = trestle.leg(supports) - 200e-3;
   // Crosses no steeper than 60 deg, one above the other.
@@ -195,82 +287,125 @@ void add_braces(const Fitting& fitting, const Trestle& trestle, const std::strin
   PlaneRegion region{rectangle({-edge, -0.5 * kBraceWidth}, {length + edge, 0.5 * kBraceWidth}), {}, {}};
   const double hole = 0.5 * clearance_hole(supports.anchor, HoleFit::medium);
   region.holes = {{{0.0, 0.0}, hole}, {{length, 0.0}, hole}};
-  const Vec3 left = across(job.placement);
-  const Vec3 run = along(job.placement);
+  const Vec3 left = across(shell.placement);
+  const Vec3 run = along(shell.placement);
   const double foot = trestle.ground + supports.grout + kPlate + 100e-3;
   for (double k = 0.0; k < count; k += 1.0) {
     // One of each cross before the legs, one behind them.
     for (const double side : {1.0, -1.0}) {
       const double out = side * (0.5 * supports.tube) - (side < 0.0 ? kBrace : 0.0);
-      const Vec3 origin = in_space(job.placement, {trestle.x, foot + k * rise}) -
+      const Vec3 origin = in_space(shell.placement, {trestle.x, foot + k * rise}) -
                           side * measures.leg_aside * left + out * run;
       const Vec3 x = (1.0 / length) * (side * width * left + rise * kUp);
       const Vec3 y = (1.0 / length) * (width * kUp - side * rise * left);
       // x, y and the outward normal are right-handed on one side, left-handed on the other.
       Frame place{origin, x, side > 0.0 ? y : -1.0 * y, run};
-      add_part(fitting.workshop, plate_part(job, "brace_" + number, region, kBrace, {place}), kSupportColour);
+      ShopPart brace = plate_part(shell, "brace_" + number, region, kBrace, {place});
+      // Flat bar where no sheet is as long.
+      brace.bought_in = bounds(region.outline).width() + 2.0 * kSheetMargin > longest;
+      add_part(shell.workshop, std::move(brace), kSupportColour);
     }
   }
 }
 
-}  // namespace
-
-double base_side(const SupportOptions& supports) {
-  return std::max(150e-3, supports.tube + 90e-3);
-}
-
-namespace {
-
 /// How far from a trestle along the track frames must stay: below a slope they lean back over its beam.
-double clear_of(const Job& job, double at) {
-  const PlateOptions& options = job.options;
+double clear_of(const Shell& shell, double at, double saddle_height) {
+  const PlateOptions& options = shell.options;
   const double width = std::max(options.flanges.width, options.stiffeners ? options.stiffeners->width : 0.0);
-  const double high = width + options.flanges.gap - underside(job);
-  const auto [sine, cosine] = math::sine_cosine(job.track.at(at).slope_angle);
+  const double high =
+      width + options.flanges.gap + saddle_height - shell.lowest + std::max(0.0, -shell.lowest);
+  const auto [sine, cosine] = math::sine_cosine(shell.track.at(at).slope_angle);
   const double reach = (0.5 * options.supports->tube + high * std::fabs(sine)) / std::max(0.1, cosine);
   return std::max(kSaddleHalf, reach) + 10e-3;
 }
 
+/// A place for a trestle near another one, and half of the length of its saddles.
+struct TrestlePlace {
+  double at = 0.0;
+  double half = kSaddleHalf;
+};
+
+std::optional<TrestlePlace> free_place(const Shell& shell, double about, double clear) {
+  const Span whole = shell.whole;
+  if (shell.straights.empty()) {
+    const auto at = shell.taken.free_place(about, clear, whole);
+    if (!at) return std::nullopt;
+    return TrestlePlace{*at, kSaddleHalf};
+  }
+  // In the middle of what is straight, where that is shorter than a saddle.
+  constexpr double kLeastHalf = 20e-3;
+  constexpr double kOffBend = 1e-3;
+  std::optional<TrestlePlace> best;
+  for (const Straight& straight : shell.straights) {
+    const double half = std::min(kSaddleHalf, 0.5 * (straight.span.to - straight.span.from) - kOffBend);
+    if (half < kLeastHalf) continue;
+    const Span room{straight.span.from + kOffBend + half, straight.span.to - kOffBend - half};
+    constexpr int kPlaces = 20;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const double s = room.from + (room.to - room.from) * k / kPlaces;
+      if (best && std::fabs(best->at - about) <= std::fabs(s - about)) continue;
+      if (shell.taken.is_free(s, clear, whole)) best = TrestlePlace{s, half};
+    }
+  }
+  return best;
+}
+
+/// @throws InputError where the ground leaves no room
+void require_room_for_legs(const Trestle& trestle, const SupportOptions& supports) {
+  const double leg = trestle.leg(supports);
+  if (leg >= kLeastLeg) return;
+  const double under = trestle.beam + kSaddleLeast;
+  throw InputError({"supports.ground",
+                    "ground: at " + length_text(trestle.at, 3) + " along the track it lies " +
+                        length_text(std::fabs(under - trestle.ground), 3) +
+                        (under > trestle.ground ? " below" : " above") + " the underside of the track",
+                    "Saddle, beam, base plate and the least leg of " + length_text(kLeastLeg) + " take " +
+                        length_text(kSaddleLeast + supports.tube + kPlate + supports.grout + kLeastLeg, 3) +
+                        ".",
+                    "a lower ground, or a ground line that is lower there"});
+}
+
 }  // namespace
 
-void add_supports(const Fitting& fitting, std::vector<SettingOutPoint>& rows) {
-  const Job& job = fitting.job;
-  if (!job.options.supports) return;
-  const SupportOptions& supports = *job.options.supports;
-  const double whole = job.track.length();
+void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
+  if (!shell.options.supports) return;
+  const SupportOptions& supports = *shell.options.supports;
+  const double whole = shell.track.length();
   const double room = std::max(0.0, whole - 2.0 * kApart);
   const double gaps = std::max(1.0, std::ceil(room / supports.spacing - 1e-9));
   int number = 0;
+  bool flat_enough = false;
   for (double k = 0.0; k <= gaps; k += 1.0) {
     const double about = kApart + room * k / gaps;
-    const auto at = fitting.below.free_place(about, clear_of(job, about), {0.0, whole});
-    if (!at || job.track.at(*at).slope_angle > supports.steepest.radians()) continue;
-    const Trestle trestle = trestle_at(job, *at);
-    const double leg = trestle.leg(supports);
-    const double under = trestle.beam + kSaddleLeast;
-    if (leg < kLeastLeg) {
-      throw InputError(
-          {"supports.ground",
-           "ground: at " + length_text(*at, 3) + " along the track it lies " +
-               length_text(std::fabs(under - trestle.ground), 3) +
-               (under > trestle.ground ? " below" : " above") + " the underside of the track",
-           "Saddle, beam, base plate and the least leg of " + length_text(kLeastLeg) + " take " +
-               length_text(kSaddleLeast + supports.tube + kPlate + supports.grout + kLeastLeg, 3) + ".",
-           "a lower ground, or a ground line that is lower there"});
-    }
+    const double saddle_height = saddles_at(shell, about, 0.0).height[0];
+    const double clear = clear_of(shell, about, saddle_height);
+    const auto place = free_place(shell, about, clear);
+    if (!place || shell.track.at(place->at).slope_angle > supports.steepest.radians()) continue;
+    flat_enough = true;
+    const Saddles saddles = saddles_at(shell, place->at, place->half);
+    if (!seat_line(shell, place->at, place->half, saddles.height[0]) ||
+        !seat_line(shell, place->at, place->half, saddles.height[1]))
+      continue;
+    const Trestle trestle = trestle_at(shell, place->at, saddles);
+    require_room_for_legs(trestle, supports);
+    const Measures measures = measures_of(shell, saddles);
     const std::string text = std::to_string(++number);
-    add_saddles(fitting, trestle, text);
-    add_legs(fitting, trestle, text);
-    add_braces(fitting, trestle, text);
-    fitting.below.add(*at - clear_of(job, *at), *at + clear_of(job, *at));
-    rows.push_back(setting_out_point(job.track, {0.0, whole}, job.placement, "support " + text, *at));
+    add_saddles(shell, trestle, saddles, text);
+    add_legs(shell, trestle, measures, text);
+    add_braces(shell, trestle, measures, text);
+    shell.taken.add(place->at - clear, place->at + clear);
+    rows.push_back(
+        setting_out_point(shell.track, {0.0, whole}, shell.placement, "support " + text, place->at));
   }
-  if (number == 0) {
-    throw InputError({"supports.steepest",
-                      "steepest: the track is nowhere flatter than " + angle_text(supports.steepest, 3),
-                      "A trestle under a steeper track would carry nothing.",
-                      "a steepest above its least slope angle, or no supports"});
+  if (number > 0) return;
+  if (flat_enough) {
+    shell.workshop.notes.emplace_back("No trestle finds a place that is straight enough for its saddles.");
+    return;
   }
+  throw InputError({"supports.steepest",
+                    "steepest: the track is nowhere flatter than " + angle_text(supports.steepest, 3),
+                    "A trestle under a steeper track would carry nothing.",
+                    "a steepest above its least slope angle, or no supports"});
 }
 
 }  // namespace glissade::parts

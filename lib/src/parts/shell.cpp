@@ -1,0 +1,132 @@
+#include "parts/shell.hpp"
+
+#include "glissade/core/math.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/nearest_place.hpp"
+#include "parts/plate_unit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+const Straight* straight_at(const Shell& shell, double s) {
+  const Straight* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Straight& one : shell.straights) {
+    const double away = std::max({0.0, one.span.from - s, s - one.span.to});
+    if (away >= least) continue;
+    least = away;
+    nearest = &one;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+TrackFrame frame_of(const Shell& shell, double s) {
+  const Straight* const straight = straight_at(shell, s);
+  if (straight == nullptr) return frame_at(shell.track, s);
+  TrackFrame frame = straight->from;
+  frame.at = frame.at + (s - straight->span.from) * straight->stretch * frame.along;
+  return frame;
+}
+
+bool keeps_straight(const Shell& shell, double s, double half, double gap) {
+  if (const Straight* const straight = straight_at(shell, s))
+    return s - half >= straight->span.from && s + half <= straight->span.to;
+  // Above a hollow what lies within the same thickness is on a longer stretch of the track.
+  const double reach = 4.0 * half;
+  for (const TrackArc& arc : shell.track.arcs()) {
+    if (arc.curvature == 0.0 || arc.start > s + reach || arc.start + arc.length < s - reach) continue;
+    for (const double height : {shell.lowest, shell.highest}) {
+      const double radius = std::fabs(1.0 / arc.curvature - height);
+      if (radius <= half || radius - std::sqrt(radius * radius - half * half) > gap) return false;
+    }
+  }
+  return true;
+}
+
+std::optional<double> best_seat(const Shell& shell, const SeatNeed& need, const Span& within,
+                                const std::function<double(double)>& cost) {
+  constexpr int kPlaces = 800;
+  constexpr double kRounding = 1.5e-5;  // of parts that share a number [m]
+  const double gap = shell.options.flanges.gap + kRounding;
+  std::optional<double> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double s = within.from + (within.to - within.from) * k / kPlaces;
+    const double price = cost(s);
+    if (!(price < least) || !shell.taken.is_free(s, need.taken, within)) continue;
+    if (!keeps_straight(shell, s, need.straight, gap)) continue;
+    least = price;
+    best = s;
+  }
+  return best;
+}
+
+Span between_frames(const Shell& shell, const Span& unit) {
+  Span room{std::max(unit.from, shell.whole.from), std::min(unit.to, shell.whole.to)};
+  if (!shell.options.flanges.wanted) return room;
+  const double taken = shell.options.flanges.thickness + kAsideOfFrame;
+  return {std::max(room.from, beyond_frame(shell.track, taken, unit.from, 1.0, shell.highest)),
+          std::min(room.to, beyond_frame(shell.track, taken, unit.to, -1.0, shell.highest))};
+}
+
+std::string unit_suffix(const Shell& shell, std::size_t unit) {
+  return shell.units.size() > 1 ? "_" + std::to_string(unit + 1) : "";
+}
+
+ShopPart cross_plate(const Shell& shell, const std::string& name, const PlaneRegion& region, double thickness,
+                     double s) {
+  ShopPart part;
+  part.name = name;
+  part.material = shell.options.material.name;
+  part.density = shell.options.material.density;
+  part.thickness = thickness;
+  part.body = Prism{region, thickness};
+  const TrackFrame frame = frame_of(shell, s);
+  part.places = {{in_space(shell.placement, frame.at - 0.5 * thickness * frame.along),
+                  across(shell.placement), direction_in_space(shell.placement, frame.up),
+                  direction_in_space(shell.placement, frame.along)}};
+  FlatPattern pattern;
+  pattern.region = region;
+  part.pattern = std::move(pattern);
+  weigh(part);
+  return part;
+}
+
+void take_frames(const Shell& shell) {
+  const double frame = shell.options.flanges.wanted ? shell.options.flanges.thickness : 0.0;
+  for (const Span& unit : shell.units) {
+    shell.taken.add(unit.from, unit.from + frame);
+    shell.taken.add(unit.to - frame, unit.to);
+  }
+}
+
+std::vector<UnitMass> masses_of(const Workshop& workshop, const ArcSpline& track, const Placement& placement,
+                                const std::vector<Span>& units) {
+  std::vector<UnitMass> masses(units.size());
+  const Span whole{0.0, track.length()};
+  const Vec3 start = in_space(placement, {});
+  for (const ShopPart& part : workshop.parts) {
+    const BodyMoments body = moments(part.body);
+    for (const Frame& place : part.places) {
+      const Vec3 centre = place.to_space(body.centroid);
+      const Vec3 away = centre - start;
+      const double s = nearest_place(track, whole, {dot(away, along(placement)), away.z}).s;
+      std::size_t unit = 0;
+      while (unit + 1 < units.size() && s >= units[unit].to) ++unit;
+      masses[unit].mass += part.mass;
+      masses[unit].moment = masses[unit].moment + part.mass * centre;
+    }
+  }
+  return masses;
+}
+
+}  // namespace glissade::parts

@@ -1,0 +1,88 @@
+// Stiffeners of sections of any kind: plates across the track along the outside of the section, round what laps.
+
+#include "glissade/core/number_text.hpp"
+
+#include "parts/seams.hpp"
+#include "parts/shell.hpp"
+#include "parts/workshop_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kAside = 15e-3;     // of stiffeners from what else stands there, for welding [m]
+constexpr double kHalfGap = 0.5e-3;  // between the halves of one round a ring, for welding [m]
+
+PlaneRegion between(ArcPath outer, const ArcPath& inner) {
+  outer.vertices.back().bulge = 0.0;
+  for (const PathVertex& vertex : reversed(inner).vertices) outer.vertices.push_back(vertex);
+  outer.vertices.back().bulge = 0.0;
+  outer.closed = true;
+  return {outer, {}, {}};
+}
+
+/// @return none where laps leave no way round them
+std::optional<PlaneRegion> region_at(const Shell& shell, double s) {
+  const StiffenerOptions& stiffener = *shell.options.stiffeners;
+  const double gap = shell.options.flanges.gap;
+  if (shell.ring) {
+    const ArcPath line = shell.outside(s).line;
+    return between(left_half(moved_out(line, gap + stiffener.width), kHalfGap),
+                   left_half(moved_out(line, gap), kHalfGap));
+  }
+  const double rim = shell.options.rim ? shell.options.rim->thickness + gap : 0.0;
+  const SectionOutside outside = lowered(shell.outside(s), rim);
+  const auto inner = round_laps(outside, gap);
+  if (!inner) return std::nullopt;
+  return between(moved_out(outside.line, gap + stiffener.width), *inner);
+}
+
+/// The other half, turned about the upright.
+Frame turned(const Frame& place, double thickness) {
+  return {place.origin + thickness * place.z, -1.0 * place.x, place.y, -1.0 * place.z};
+}
+
+}  // namespace
+
+void add_stiffeners(const Shell& shell) {
+  if (!shell.options.stiffeners) return;
+  const StiffenerOptions& stiffener = *shell.options.stiffeners;
+  const double half = 0.5 * stiffener.thickness;
+  int wanted = 0;
+  int count = 0;
+  for (const Span& unit : shell.units) {
+    const double whole = unit.to - unit.from;
+    const double gaps = std::ceil(whole / stiffener.spacing - 1e-9);
+    const Span room = between_frames(shell, unit);
+    for (double k = 1.0; k < gaps; k += 1.0) {
+      ++wanted;
+      const double about = unit.from + whole * k / gaps;
+      const auto at =
+          best_seat(shell, {half + kAside, half}, room, [&](double s) { return std::fabs(s - about); });
+      if (!at || std::fabs(*at - about) > 0.5 * whole / gaps) continue;
+      const auto region = region_at(shell, *at);
+      if (!region) continue;
+      ShopPart part = cross_plate(shell, "stiffener", *region, stiffener.thickness, *at);
+      if (shell.ring) {
+        part.name = "stiffener_half";
+        part.places.push_back(turned(part.places.front(), stiffener.thickness));
+      }
+      for (ShopPart& piece : pieces_across(part, false, shell.options.split))
+        add_part(shell.workshop, std::move(piece), kFittingColour);
+      shell.taken.add(*at - half, *at + half);
+      ++count;
+    }
+  }
+  if (count < wanted) {
+    shell.workshop.notes.push_back(
+        std::to_string(wanted - count) + " of " + std::to_string(wanted) +
+        " stiffeners find no place: the plates bend within their thickness, or something else stands there.");
+  }
+}
+
+}  // namespace glissade::parts

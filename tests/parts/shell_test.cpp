@@ -1,0 +1,282 @@
+// What is set on sections of any kind: stiffeners, lugs, trestles. Every build proves that no two parts clash.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/parts/plates.hpp"
+
+#include "parts/brep_faults.hpp"
+#include "parts/chute_plates.hpp"
+#include "parts/section_outside.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+using namespace testing;
+
+struct NamedSection {
+  std::string name;
+  section::Measures measures;
+};
+
+section::Polygon block() {
+  section::Polygon polygon;
+  polygon.outline = {{0.2, 0.0},    {0.3, 0.15},  {0.4, 0.15},  {0.36, -0.1},
+                     {-0.36, -0.1}, {-0.4, 0.15}, {-0.3, 0.15}, {-0.2, 0.0}};
+  return polygon;
+}
+
+section::VChannel v_channel() {
+  section::VChannel channel;
+  channel.angle = Angle::from_degrees(100.0);
+  channel.wall_height = 0.3;
+  channel.bottom_radius = 0.12;
+  channel.thickness = 3e-3;
+  return channel;
+}
+
+/// One of each kind that is no rectangular channel.
+std::vector<NamedSection> sections() {
+  const WidthLaw widths(std::vector<WidthAt>{{0.0, 0.4}, {3.0, 0.4}, {6.0, 0.5}});
+  const Angle lean = Angle::from_degrees(25.0);
+  return {{"trapezoid", section::Trapezoid{WidthLaw(0.4), 0.25, lean, 4e-3}},
+          {"trapezoid of two widths", section::Trapezoid{widths, 0.25, lean, 4e-3}},
+          {"u-channel of two widths", section::UChannel{widths, 0.25, 4e-3}},
+          {"v-channel", v_channel()},
+          {"slab of two widths", section::Slab{widths, 5e-3, 0.0, 0.0}},
+          {"half-pipe", section::HalfPipe{0.4, 0.05, 4e-3}},
+          {"pipe", section::Pipe{0.4, 3e-3}},
+          {"block", block()}};
+}
+
+PlateOptions with_all(RoundMake round) {
+  PlateOptions options;
+  options.round = round;
+  options.split.longest = 2.9;
+  options.stave_tolerance = 5e-3;
+  options.stiffeners.emplace();
+  options.lifting.emplace();
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -6.5}};
+  return options;
+}
+
+std::size_t pieces(const WorkshopBuild& build, const std::string& word) {
+  std::size_t count = 0;
+  for (const ShopPart* part : named(build, word)) count += part->quantity();
+  return count;
+}
+
+void require_sound(const WorkshopBuild& build) {
+  for (const ShopPart& part : build.workshop.parts) {
+    INFO(part.name);
+    // Of what is round, volumes by chords say nothing.
+    const std::string fault = fault_of(part);
+    if (!fault.ends_with("do not look outwards")) CHECK(fault == "");
+    if (part.pattern) CHECK(faults_of(part.pattern->region).empty());
+  }
+}
+
+std::string refused(const section::Measures& measures, const PlateOptions& options) {
+  return refusal_of([&] { return plates_of(chute(), measures, options); });
+}
+
+}  // namespace
+
+TEST_CASE("shells: stiffeners, lugs and trestles stand on every section, as strips and mitred") {
+  for (const auto& [name, measures] : sections()) {
+    for (const RoundMake round : {RoundMake::staves, RoundMake::mitred}) {
+      const bool goes_round = std::holds_alternative<section::HalfPipe>(measures) ||
+                              std::holds_alternative<section::Pipe>(measures);
+      if (round == RoundMake::mitred && !goes_round) continue;
+      INFO(name << (round == RoundMake::mitred ? ", mitred" : ""));
+      const WorkshopBuild build = plates_of(chute(), measures, with_all(round));
+      require_sound(build);
+      const std::size_t units = build.joints.size() - 1;
+      CHECK(units >= 3);
+      const std::size_t halves = std::holds_alternative<section::Pipe>(measures) ? 2 : 1;
+      // 7.7 m in three units, no farther apart than 0.8 m: three each.
+      CHECK(pieces(build, "stiffener") >= 5 * halves);
+      CHECK(pieces(build, "stiffener") <= 3 * units * halves);
+      CHECK(pieces(build, "lug") == 2 * units);
+      const std::size_t saddles = pieces(build, "saddle");
+      CHECK(saddles >= 4);
+      CHECK(pieces(build, "base_plate") == saddles);
+      CHECK(pieces(build, "leg") == saddles);
+    }
+  }
+}
+
+TEST_CASE("shells: nothing stands nearer to the section than the gap, and stiffeners keep it all along") {
+  for (const auto& [name, measures] : sections()) {
+    INFO(name);
+    PlateOptions options;
+    options.round = RoundMake::staves;
+    options.stave_tolerance = 5e-3;
+    options.stiffeners.emplace();
+    options.flanges.gap = 1e-3;
+    const WorkshopBuild plain = plates_of(chute(), measures, [&] {
+      PlateOptions without = options;
+      without.stiffeners.reset();
+      return without;
+    }());
+    const WorkshopBuild build = plates_of(chute(), measures, options);
+    // They are not of the section: its own volume is what it was.
+    CHECK(build.proof.volume == Approx(plain.proof.volume).epsilon(1e-12));
+    double added = 0.0;
+    for (const ShopPart* part : named(build, "stiffener")) {
+      CHECK(part->thickness == 6e-3);
+      added += part->volume * static_cast<double>(part->quantity());
+      // Volume of a band of its width round the section, by the areas inside two moved outlines.
+      const AreaMoments flat = moments(part->pattern->region);
+      CHECK(part->volume == Approx(std::fabs(flat.area) * 6e-3).epsilon(1e-12));
+    }
+    CHECK(build.proof.added_volume == Approx(plain.proof.added_volume + added).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("shells: eyes of lugs stand plumb above the centre of gravity of their unit, above its tops") {
+  for (const auto& [name, measures] : sections()) {
+    INFO(name);
+    PlateOptions options;
+    options.round = RoundMake::staves;
+    options.stave_tolerance = 5e-3;
+    options.split.longest = 2.9;
+    options.lifting.emplace();
+    const WorkshopBuild build = plates_of(chute(), measures, options);
+    // Of the last unit, the flattest, by all parts that lie on it but its lugs.
+    Vec3 moment;
+    double mass = 0.0;
+    const CenterlinePoint joint = build.master.spline->at(build.joints[build.joints.size() - 2]);
+    const auto [sine, cosine] = math::sine_cosine(joint.slope_angle);
+    const auto beyond = [&, down = sine, ahead = cosine](Vec3 point) {
+      return (point.x - joint.x) * ahead - (point.z + joint.drop) * down > 0.0;
+    };
+    const ShopPart* lug = nullptr;
+    for (const ShopPart& part : build.workshop.parts) {
+      const bool is_lug = part.name.find("lug") != std::string::npos;
+      if (is_lug) lug = &part;
+      for (const Frame& place : part.places) {
+        const Vec3 local = part.places.front().to_space({});
+        const Vec3 away = part.centre_of_gravity - local;
+        const Frame& first = part.places.front();
+        const Vec3 own{dot(away, first.x), dot(away, first.y), dot(away, first.z)};
+        const Vec3 centre = place.to_space(own);
+        if (is_lug || !beyond(centre)) continue;
+        mass += part.mass;
+        moment = moment + part.mass * centre;
+      }
+    }
+    REQUIRE(lug != nullptr);
+    const Vec2 eye = std::get<Prism>(lug->body).region.holes.front().centre;
+    const Vec3 at = lug->places.back().to_space({eye.x, eye.y, 0.5 * lug->thickness});
+    const Vec3 centre = (1.0 / mass) * moment;
+    CHECK(std::fabs(at.x - centre.x) < 0.02);
+    CHECK(at.z > centre.z);
+  }
+}
+
+TEST_CASE("shells: saddles touch the section from below, by the outside of the plates as they are made") {
+  for (const auto& [name, measures] : sections()) {
+    INFO(name);
+    PlateOptions options;
+    options.round = RoundMake::staves;
+    options.stave_tolerance = 5e-3;
+    options.supports.emplace();
+    options.supports->ground = {{0.0, -7.0}};
+    const WorkshopBuild build = plates_of(chute(), measures, options);
+    const double drop = build.master.spline->at(build.master.spline->length()).drop;
+    for (const ShopPart* saddle : named(build, "saddle")) {
+      const Prism& body = std::get<Prism>(saddle->body);
+      CHECK(body.depth == 8e-3);
+      CHECK(bounds(body.region.outline).height() >= 30e-3 - 1e-9);
+    }
+    for (const ShopPart* plate : named(build, "base_plate")) {
+      for (const Frame& place : plate->places) CHECK(place.origin.z == Approx(-7.0 + 25e-3).margin(1e-9));
+    }
+    CHECK(drop < 7.0);
+    std::size_t set_out = 0;
+    for (const SettingOutPoint& row : build.workshop.setting_out)
+      set_out += row.what.starts_with("support") ? 1 : 0;
+    CHECK(2 * set_out == pieces(build, "saddle"));
+  }
+}
+
+TEST_CASE("shells: random sections with corners, rims, liners and all that is set on them do not clash") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  std::size_t set = 0;
+  for (int run = 0; run < 10; ++run) {
+    const double size = random.between(3.0, 8.0);
+    std::vector<ClothoidSegment> segments;
+    for (int i = random.integer(1, 3); i > 0; --i) {
+      const double curvature = random.between(-0.3, 0.9) / size;
+      segments.push_back({random.between(0.2, 0.5) * size, curvature, curvature});
+    }
+    const ClothoidSpline track(Angle::from_degrees(random.between(25.0, 50.0)), segments);
+    const double t = random.between(2e-3, 6e-3);
+    const double width = random.between(0.25, 0.6);
+    std::vector<section::Measures> kinds = {
+        section::Trapezoid{WidthLaw(width), random.between(0.12, 0.3),
+                           Angle::from_degrees(random.between(0.0, 50.0)), t},
+        section::HalfPipe{width, random.between(0.0, 0.1), t},
+        section::Pipe{width, t},
+        v_channel(),
+        block(),
+        section::Slab{WidthLaw(width), t, 0.0, 0.0}};
+    PlateOptions options;
+    const auto maybe = [&] { return random.integer(0, 1) == 0; };
+    options.floor = random.integer(0, 3) == 0 ? FloorMake::bent : FloorMake::rolled;
+    options.round = maybe() ? RoundMake::staves : RoundMake::as_fits;
+    options.stave_tolerance = 6e-3;
+    options.flanges.wanted = random.integer(0, 2) > 0;
+    options.flanges.bolt = 6;
+    options.split.longest = random.between(1.0, 3.0);
+    options.stiffeners.emplace();
+    options.stiffeners->width = random.between(40e-3, 70e-3);
+    options.lifting.emplace();
+    options.supports.emplace();
+    options.supports->ground = {{0.0, -2.0 * size}};
+    const section::Measures& measures = kinds[static_cast<std::size_t>(run) % kinds.size()];
+    const bool channel = std::holds_alternative<section::Trapezoid>(measures);
+    if (channel && options.floor == FloorMake::rolled) {
+      if (maybe()) options.corners.kind = maybe() ? CornerJoint::lap : CornerJoint::tab_and_slot;
+      if (maybe()) options.rim = RimOptions{};
+      if (maybe()) options.liner = LinerOptions{};
+    }
+    INFO("run " << run << ", kind " << measures.index());
+    const WorkshopBuild build = plates_of(track, measures, options);  // throws where parts clash
+    require_sound(build);
+    set += pieces(build, "stiffener") + pieces(build, "lug") + pieces(build, "saddle");
+  }
+  CHECK(set > 60);
+}
+
+TEST_CASE("shells: what no section holds is refused with place, value, bound and a way out") {
+  PlateOptions stiff;
+  stiff.stiffeners.emplace();
+  stiff.stiffeners->spacing = 20e-3;
+  CHECK(refused(section::Pipe{0.3, 3e-3}, stiff) ==
+        "stiffeners.spacing|spacing: 20 mm leaves no room to weld them|They are at least ten thicknesses "
+        "apart, 60 mm.|spacing: 800 mm\n");
+  PlateOptions bent;
+  bent.floor = FloorMake::bent;
+  bent.lifting.emplace();
+  const WidthLaw widths(std::vector<WidthAt>{{0.0, 0.4}, {3.0, 0.4}, {6.0, 0.5}});
+  const section::Trapezoid wider{widths, 0.25, Angle::from_degrees(20.0), 4e-3};
+  CHECK(refused(wider, bent)
+            .find("lifting|lifting: the sides of bent plates lean otherwise from flat to flat "
+                  "where the width changes|A plate square to the track fits one of them.|floor: "
+                  "rolled, or one width") == 0);
+  PlateOptions high;
+  high.supports.emplace();
+  high.supports->ground = {{0.0, -4.0}};
+  CHECK(refused(v_channel(), high).find("supports.ground|ground: at ") == 0);
+}
