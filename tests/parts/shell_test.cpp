@@ -280,3 +280,93 @@ TEST_CASE("shells: what no section holds is refused with place, value, bound and
   high.supports->ground = {{0.0, -4.0}};
   CHECK(refused(v_channel(), high).find("supports.ground|ground: at ") == 0);
 }
+
+TEST_CASE(
+    "openings: cut into the widest upright side, lids have the same holes, both differences are listed") {
+  const Angle lean = Angle::from_degrees(25.0);
+  for (const section::Measures& measures :
+       {section::Measures(section::Trapezoid{WidthLaw(0.4), 0.25, lean, 4e-3}),
+        section::Measures(v_channel()), section::Measures(section::HalfPipe{0.6, 0.2, 4e-3}),
+        section::Measures(section::Pipe{0.6, 3e-3}), section::Measures(block())}) {
+    INFO("kind " << measures.index());
+    PlateOptions options;
+    options.stave_tolerance = 12e-3;
+    options.stiffeners.emplace();
+    options.lifting.emplace();
+    options.inspection = {{2.2, 0.15, 0.08, 6}, {5.1, 0.2, 0.1, 6}};
+    const WorkshopBuild build = plates_of(chute(), measures, options);
+    require_sound(build);
+    const std::size_t lids = pieces(build, "lid");
+    CHECK(lids == 2);
+    std::size_t lid_holes = 0;
+    std::size_t cutouts = 0;
+    std::size_t side_holes = 0;
+    double opened = 0.0;
+    for (const ShopPart& part : build.workshop.parts) {
+      const PlaneRegion& flat = part.pattern->region;
+      const bool across =
+          part.name.find("frame") != std::string::npos || part.name.find("lug") != std::string::npos;
+      if (part.name.starts_with("lid")) {
+        lid_holes += part.quantity() * flat.holes.size();
+      } else if (!across) {
+        side_holes += part.quantity() * flat.holes.size();
+        cutouts += part.quantity() * flat.cutouts.size();
+        for (const ArcPath& cutout : flat.cutouts) {
+          opened += std::fabs(signed_area(cutout)) * part.thickness * static_cast<double>(part.quantity());
+        }
+      }
+    }
+    CHECK(cutouts == 2);
+    CHECK(lid_holes == side_holes);
+    CHECK(lid_holes >= 8);
+    double listed = 0.0;
+    for (const VolumeDifference& one : build.proof.differences) {
+      if (one.what == "openings") listed = one.volume;
+      if (one.what == "holes of lids") CHECK(one.volume < 0.0);
+    }
+    // On the flat in the middle of the thickness, where Pappus has the volume.
+    CHECK(-listed == Approx(opened).epsilon(1e-9));
+    for (const ShopPart* lid : named(build, "lid")) CHECK(lid->pattern->region.holes.size() >= 4);
+  }
+}
+
+TEST_CASE("openings: where none is to be had it is refused with place, value, bound and a way out") {
+  PlateOptions options;
+  options.inspection = {{2.0, 0.2, 0.3, 8}};
+  const section::Trapezoid trapezoid{WidthLaw(0.4), 0.25, Angle::from_degrees(25.0), 4e-3};
+  CHECK(refused(trapezoid, options) ==
+        "inspection|height: 300 mm leaves too little of the left_wall, 276 mm wide|Its lid laps over by 30 "
+        "mm all "
+        "round.|height: 216 mm\n");
+  options.inspection = {{9.0, 0.2, 0.1, 8}};
+  CHECK(refused(trapezoid, options).find("inspection|at: an opening at 9 m is not on the track|It is 7.7") ==
+        0);
+  options.inspection = {{2.0, 0.2, 0.1, 8}, {2.1, 0.2, 0.1, 8}};
+  CHECK(refused(trapezoid, options).find("inspection|at: openings at 2 m and 2.1 m are too close") == 0);
+  // Moved to one arc, a note tells it.
+  options.inspection = {{1.2, 0.2, 0.1, 8}, {4.0, 0.2, 0.1, 8}, {5.5, 0.2, 0.1, 8}};
+  const WorkshopBuild moved = plates_of(chute(), trapezoid, options);
+  CHECK(pieces(moved, "lid") == 3);
+  for (const std::string& note : moved.workshop.notes) {
+    if (note.starts_with("The opening")) CHECK(note.ends_with("on one arc of its plate."));
+  }
+  options.inspection = {{2.0, 1.5, 0.1, 8}};
+  CHECK(refused(trapezoid, options).find("inspection|at: an opening at 2 m ") == 0);
+  options.inspection = {{2.0, 0.2, 0.1, 8}};
+  options.floor = FloorMake::bent;
+  CHECK(refused(trapezoid, options).find("inspection|inspection: bends would run into openings") == 0);
+  PlateOptions round;
+  round.inspection = {{2.0, 0.2, 0.1, 8}};
+  round.round = RoundMake::mitred;
+  CHECK(refused(section::Pipe{0.5, 3e-3}, round).find("round: staves") != std::string::npos);
+}
+
+TEST_CASE("lugs: on walls without a rim they keep off stiffeners") {
+  PlateOptions options;
+  options.stiffeners.emplace();
+  options.stiffeners->spacing = 0.2;
+  options.lifting.emplace();
+  const WorkshopBuild build = plates(chute(), options);  // throws where parts clash
+  CHECK(pieces(build, "stiffener") > 20);
+  CHECK(pieces(build, "lug") >= 2);
+}

@@ -8,10 +8,11 @@
 #include "drawing/views.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace glissade::drawing {
 namespace {
@@ -101,20 +102,24 @@ void add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, con
 }
 
 /// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn. Of names
-/// that would lie across one another the first is told; the setting-out table has all.
+/// that would lie across one another the first is told, mitres last; the setting-out table has all.
 void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen) {
   const double per_paper = 1.0 / view.scale;
   constexpr double kBelow = 12.0;  // of the names, with room for a dimension above them, on paper [mm]
   constexpr double kApart = 3.5;   // names, on paper [mm]
   std::vector<MarkedPlace> places = marked_places(workshop, seen, eye);
-  std::stable_sort(places.begin(), places.end(),
-                   [](const auto& a, const auto& b) { return a.at.x < b.at.x; });
+  // Mitres, of which there are many, leave the room to all others.
+  const auto later = [](const MarkedPlace& place) { return place.what.starts_with("mitre"); };
+  std::stable_sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    return std::pair(later(a), a.at.x) < std::pair(later(b), b.at.x);
+  });
   const std::size_t layer = view.drawing.layer({"JOINTS", LineStyle::chain, 0.18, 1});
   const double low = seen.low.y - kBelow * per_paper;
-  double last = -std::numeric_limits<double>::infinity();
+  std::vector<double> taken;
   for (const MarkedPlace& place : places) {
-    if (place.at.x - last < kApart * per_paper) continue;
-    last = place.at.x;
+    const auto near = [&](double x) { return std::fabs(place.at.x - x) < kApart * per_paper; };
+    if (std::any_of(taken.begin(), taken.end(), near)) continue;
+    taken.push_back(place.at.x);
     view.drawing.line(layer, place.at, {place.at.x, low});
     DrawnText text;
     text.layer = layer;

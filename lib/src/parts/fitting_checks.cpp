@@ -125,12 +125,18 @@ void object_to_cover(const PlateOptions& options, Refusals& refusals) {
     refusals.add("cover", "cover: it is bolted to a rim, and there is none", "", "rim: {width: 40 mm}");
 }
 
-void object_to_openings(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
-  const double rim = options.rim ? options.rim->thickness + 2e-3 : 0.0;
+void object_to_opening_values(const PlateOptions& options, Refusals& refusals) {
   for (const InspectionOptions& opening : options.inspection) {
     refusals.positive(opening.length, "inspection", "length");
     refusals.positive(opening.height, "inspection", "height");
     refusals.bolt(opening.bolt, "inspection", "bolt");
+  }
+}
+
+void object_to_openings(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
+  const double rim = options.rim ? options.rim->thickness + 2e-3 : 0.0;
+  object_to_opening_values(options, refusals);
+  for (const InspectionOptions& opening : options.inspection) {
     const double most = channel.wall_height - rim - 2.0 * std::max(kLidLap, kLeastWeb);
     if (opening.height <= most) continue;
     refusals.add("inspection",
@@ -224,6 +230,12 @@ std::vector<Issue> set_on_problems(const PlateOptions& options) {
   Refusals refusals;
   const double lap = options.corners.kind != CornerJoint::butt ? options.corners.overlap : 0.0;
   object_to_what_is_set(options, lap, refusals);
+  return std::move(refusals).all();
+}
+
+std::vector<Issue> opening_value_problems(const PlateOptions& options) {
+  Refusals refusals;
+  object_to_opening_values(options, refusals);
   return std::move(refusals).all();
 }
 

@@ -413,22 +413,25 @@ void add_openings(const Fitting& fitting) {
 
 namespace {
 
-/// Where the wall's top stands plumb above a place, within a span; its nearer end where it does so nowhere.
-double above(const Job& job, Vec3 centre, const Span& within) {
+/// The free place at which the wall's top stands plumb above a point, within a span; the nearest where it does so nowhere.
+std::optional<double> above(const Fitting& fitting, Vec3 centre, const Span& within) {
+  const Job& job = fitting.job;
   const Vec3 run = along(job.placement);
   const Vec3 start = in_space(job.placement, {});
   const double x = dot(centre - start, run);
-  double best = within.from;
+  // On rims lugs stand beside whatever ends below them.
+  const bool beside = job.options.rim.has_value();
+  std::optional<double> best;
   double least = std::numeric_limits<double>::infinity();
   constexpr int kPlaces = 400;
   for (int k = 0; k <= kPlaces; ++k) {
     const double s = within.from + (within.to - within.from) * k / kPlaces;
     const TrackFrame frame = frame_at(job.track, s);
     const double miss = std::fabs(frame.at.x + job.channel.wall_height * frame.up.x - x);
-    if (miss < least) {
-      least = miss;
-      best = s;
-    }
+    constexpr double kAside = 10e-3;  // of a lug from a stiffener [m]
+    if (miss >= least || !(beside || fitting.below.is_free(s, kLugHalf + kAside, within))) continue;
+    least = miss;
+    best = s;
   }
   return best;
 }
@@ -447,7 +450,10 @@ void add_channel_lugs(const Fitting& fitting) {
   for (std::size_t i = 0; i < fitting.units.size(); ++i) {
     const Span room = between_frames(job, fitting.units[i].span);
     const Vec3 centre = (1.0 / masses[i].mass) * masses[i].moment;
-    const double at = above(job, centre, {room.from + 3.0 * kLugHalf, room.to - 3.0 * kLugHalf});
+    const Span within{room.from + 3.0 * kLugHalf, room.to - 3.0 * kLugHalf};
+    const auto place = above(fitting, centre, within);
+    if (!place) continue;
+    const double at = *place;
     // Where the top folds, no lug follows it.
     const auto outline = band(job.track, {at - kLugHalf, at + kLugHalf}, low, top + kLugHigh);
     if (!outline) continue;

@@ -41,6 +41,8 @@ inline constexpr double kAsideOfFrame = 1e-3;  ///< between a rim and the frame 
 
 /// What no shop can make of stiffeners, lugs and trestles, whatever they are set on.
 [[nodiscard]] std::vector<Issue> set_on_problems(const PlateOptions& options);
+/// What no shop can make of openings, but for their places.
+[[nodiscard]] std::vector<Issue> opening_value_problems(const PlateOptions& options);
 /// What no shop can make of tiles on a lane.
 /// @param lane  its width as `width`
 [[nodiscard]] std::vector<Issue> liner_problems(const ChannelMeasures& lane, const PlateOptions& options);

@@ -602,11 +602,12 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
                        units.size() - 1);
   measure_plates(options, workshop);
   measure_rolling(job.radius(), workshop.parts.front(), "every " + std::string(job.word()), workshop);
-  workshop.notes = {
+  workshop.notes.insert(
+      workshop.notes.begin(),
       side ? "Troughs are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
                  " over half a turn; their sides stay flat."
            : "Tubes are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
-                 " and welded along their seams, which lie 20 deg from the crown, to either side in turn."};
+                 " and welded along their seams, which lie 20 deg from the crown, to either side in turn.");
   build.proof = prove(job, units, workshop);
   return build;
 }
@@ -618,6 +619,9 @@ std::vector<Issue> mitred_problems(std::optional<double> side, const PlateOption
   };
   const std::string word = side ? "troughs" : "tubes";
   for (Issue& issue : set_on_problems(options)) issues.push_back(std::move(issue));
+  if (!options.inspection.empty())
+    add("inspection", "inspection: mitred " + word + " are cut from round to round, without openings",
+        "Lids would be saddles.", "round: staves");
   if (options.liner)
     add("liner", "liner: tiles are flat, mitred " + word + " are round inside",
         "They would touch along two lines.", "round: staves");

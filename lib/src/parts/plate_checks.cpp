@@ -153,15 +153,8 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
   object_to_split(options.split, objections);
   object_to_bolts(options, objections);
   object_to_step(options.joint_step, objections);
-  const auto only_on_channels = [&](bool wanted, const char* key) {
-    if (!wanted) return;
-    objections.add(key, std::string(key) + ": it goes with a flat floor of one width and upright walls alone",
-                   "Other sections have no place that it fits.",
-                   "a cross_section of kind: u-channel, of one width");
-  };
   objections.positive(options.stave_tolerance, "stave_tolerance");
   if (options.polygon_thickness) objections.positive(*options.polygon_thickness, "thickness");
-  only_on_channels(!options.inspection.empty(), "inspection");
   return std::move(objections).all();
 }
 

@@ -24,6 +24,7 @@
 #include "parts/setting_out.hpp"
 #include "parts/shell.hpp"
 #include "parts/strip_fittings.hpp"
+#include "parts/strip_openings.hpp"
 #include "parts/strip_shape.hpp"
 #include "parts/strip_shell.hpp"
 #include "parts/strips.hpp"
@@ -217,7 +218,8 @@ struct MitredRound {
 std::optional<MitredRound> mitred_round(const section::Measures& measures, const PlateOptions& options) {
   if (options.round == RoundMake::staves) return std::nullopt;
   // What staves alone can have.
-  const bool staves = options.liner || options.cover || options.corners.kind != CornerJoint::butt ||
+  const bool staves = options.liner || options.cover || !options.inspection.empty() ||
+                      options.corners.kind != CornerJoint::butt ||
                       (options.rim && std::holds_alternative<section::Pipe>(measures));
   if (staves && options.round == RoundMake::as_fits) return std::nullopt;
   if (const auto* const pipe = std::get_if<section::Pipe>(&measures)) return MitredRound{*pipe, std::nullopt};
@@ -318,8 +320,8 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
   if (const auto round = mitred_round(measures, options)) return mitred_problems(round->side, options);
   const auto section = plate_section(measures, options);
   if (!section) return width_changes();
-  for (const auto& problems :
-       {strip_problems, section_corner_problems, section_fitting_problems, strip_shell_problems}) {
+  for (const auto& problems : {strip_problems, section_corner_problems, section_fitting_problems,
+                               strip_shell_problems, strip_opening_problems}) {
     for (Issue& issue : problems(*section, options)) issues.push_back(std::move(issue));
   }
   return issues;

@@ -70,19 +70,6 @@ SectionPlate cover_on(const std::vector<SectionPlate>& rims, double thickness) {
   return {"cover", {left, low + thickness}, {right, low + thickness}, {left, low}, {right, low}};
 }
 
-/// What frames and folds leave of a unit to a plate.
-Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate) {
-  Span room = unit;
-  const double high = std::max(plate.face_from.y, plate.back_from.y);
-  if (job.options.flanges.wanted && job.section.convex) {
-    const double taken = job.options.flanges.thickness + kAsideOfFrame;
-    room = {beyond_frame(job.track, taken, unit.from, 1.0, high),
-            beyond_frame(job.track, taken, unit.to, -1.0, high)};
-  }
-  const Span whole = unfolded(job, plate);
-  return {std::max(room.from, whole.from), std::min(room.to, whole.to)};
-}
-
 std::string suffix(const std::vector<double>& joints, std::size_t unit) {
   return joints.size() > 2 ? "_" + std::to_string(unit + 1) : "";
 }
@@ -115,6 +102,18 @@ Covered covered(const StripJob& job, const Span& unit, const std::vector<Section
 }
 
 }  // namespace
+
+Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate) {
+  Span room = unit;
+  const double high = std::max(plate.face_from.y, plate.back_from.y);
+  if (job.options.flanges.wanted && job.section.convex) {
+    const double taken = job.options.flanges.thickness + kAsideOfFrame;
+    room = {beyond_frame(job.track, taken, unit.from, 1.0, high),
+            beyond_frame(job.track, taken, unit.to, -1.0, high)};
+  }
+  const Span whole = unfolded(job, plate);
+  return {std::max(room.from, whole.from), std::min(room.to, whole.to)};
+}
 
 ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickness, const Span& span,
                    const StockMaterial& material, const std::vector<Circle>& holes) {

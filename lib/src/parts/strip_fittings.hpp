@@ -15,6 +15,9 @@ namespace glissade::parts {
 /// What is set on sections whose plates are strips: rims along the tops of their outer sides, covers on them, tiles on the
 /// floor or, where there is none that is flat, on every plate.
 
+/// @return what frames and folds leave of a unit to a plate
+[[nodiscard]] Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate);
+
 /// The part of a plate that is not of the section itself, between two places.
 /// @param holes  (place along the track, y along its face); none where the width changes
 [[nodiscard]] ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickness,

@@ -170,6 +170,8 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
   VolumeDifference tabs{"tabs", 0.0};
   VolumeDifference slots{"slots", 0.0};
   VolumeDifference holes{"holes of the liner", 0.0};
+  VolumeDifference openings{"openings", 0.0};
+  VolumeDifference lids{"holes of lids", 0.0};
   const std::vector<CorneredPlate> edges = cornered(job.section, job.options);
   const double t = job.section.thickness;
   for (const Strip& strip : strips) {
@@ -197,12 +199,20 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
       }
     }
     if (const auto* const sheet = std::get_if<RolledSheet>(&strip.part.body)) {
-      for (const Bore& bore : bores_of(*sheet)) holes.volume -= drilled_by_layers(bore);
+      // Plates with openings have no tiles.
+      const bool opened = std::any_of(work.windows.begin(), work.windows.end(),
+                                      [&](const StripWindow& window) { return window.plate == strip.plate; });
+      for (const Bore& bore : bores_of(*sheet)) (opened ? lids : holes).volume -= drilled_by_layers(bore);
+    }
+    for (const StripWindow& window : work.windows) {
+      if (window.plate != strip.plate) continue;
+      openings.volume -= volume_along(
+          job, stretch_moments(plate, t, {window.across.from, 0.0}, {window.across.to, 0.0}), window.along);
     }
   }
   std::vector<VolumeDifference> all;
   constexpr double kRounding = 1e-13;  // [m^3]
-  for (const VolumeDifference& one : {ends, laps, tabs, slots, holes}) {
+  for (const VolumeDifference& one : {ends, laps, tabs, slots, holes, openings, lids}) {
     if (std::fabs(one.volume) > kRounding) all.push_back(one);
   }
   return all;

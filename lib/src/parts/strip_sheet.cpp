@@ -132,6 +132,9 @@ PlaneRegion sheet_region(const SheetCut& cut) {
                                          {tab.to + cut.slack - cut.span.from, above}));
     }
   }
+  for (const SheetOpening& opening : cut.openings)
+    region.cutouts.push_back(rectangle({opening.along.from - cut.span.from, opening.across.from},
+                                       {opening.along.to - cut.span.from, opening.across.to}));
   for (const Circle& hole : cut.holes)
     region.holes.push_back({hole.centre - Vec2{cut.span.from, 0.0}, hole.radius});
   return region;
@@ -146,6 +149,10 @@ std::vector<Bevel> bevels_of(const SheetCut& cut) {
     if (edge->meeting != Meeting::passes || cut.tabs.empty()) continue;
     all.push_back(edge->slot_near);
     all.push_back(edge->slot_far);
+  }
+  for (const SheetOpening& opening : cut.openings) {
+    all.push_back({opening.across.from, 0.0});
+    all.push_back({opening.across.to, 0.0});
   }
   std::sort(all.begin(), all.end(), [](const Bevel& a, const Bevel& b) { return a.at < b.at; });
   all.erase(std::unique(all.begin(), all.end(), [](const Bevel& a, const Bevel& b) { return a.at == b.at; }),

@@ -35,6 +35,12 @@ class StripFlat {
   double rise_ = 0.0;  ///< of it per y
 };
 
+/// A rectangle that is cut out square to the sheet.
+struct SheetOpening {
+  Span along;   ///< of the track, on one arc
+  Span across;  ///< y, ascending
+};
+
 /// What is cut from a plate of a section over a stretch.
 struct SheetCut {
   const SectionPlate* plate = nullptr;
@@ -46,6 +52,7 @@ struct SheetCut {
   std::vector<Span> tabs;     ///< along the track
   double slack = 0.0;         ///< by which slots are longer than tabs, at either end [m]
   std::vector<Circle> holes;  ///< (arc length of the track, y)
+  std::vector<SheetOpening> openings = {};
 };
 
 /// Its body, pattern, weight and place.

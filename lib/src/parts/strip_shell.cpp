@@ -42,8 +42,8 @@ std::vector<OutsideLap> laps_of(const PlateSection& section, const PlateOptions&
     const auto along = [&](Vec2 point) { return dot(point - plate.face_from, plate.way()); };
     const auto tip = [](const Bevel& out) { return out.at + out.below; };
     if (edges[i].to.meeting == CornerEdge::Meeting::passes)
-      laps.push_back({corner_at(plate.back_to), true, tip(edges[i].to.out) - along(plate.back_to),
-                      section.thickness});
+      laps.push_back(
+          {corner_at(plate.back_to), true, tip(edges[i].to.out) - along(plate.back_to), section.thickness});
     if (edges[i].from.meeting == CornerEdge::Meeting::passes)
       laps.push_back({corner_at(plate.back_from), false, along(plate.back_from) - tip(edges[i].from.out),
                       section.thickness});
@@ -99,6 +99,7 @@ Shell strip_shell(const StripJob& job, const std::optional<BentStrips>& bent,
     for (const TilePlace& tile : work.tiles) {
       for (const double s : tile.along) taken.add(s - kBoltHead, s + kBoltHead);
     }
+    for (const StripWindow& window : work.windows) taken.add(window.lid_along.from, window.lid_along.to);
   }
   return shell;
 }

@@ -135,15 +135,21 @@ UnitWork work_of(const StripJob& job, const Span& unit, std::size_t number, int&
     work.laps = laps_of(job, unit);
     if (has_tabs(job)) work.tabs = tabs_of(job, work.laps, number);
   }
-  if (!job.options.liner) return work;
   std::vector<double> breaks;
   for (const Span& tab : work.tabs)
     breaks.insert(breaks.end(), {tab.from - slack_of(job), tab.to + slack_of(job)});
   // Where laps begin and end, plates that pass others have steps.
   if (job.options.corners.kind != CornerJoint::butt)
     breaks.insert(breaks.end(), {work.laps.from, work.laps.to});
-  work.tiles = strip_tiles(job, unit, breaks, row);
-  work.holes = holes_below(job, work.tiles);
+  if (job.options.liner) {
+    work.tiles = strip_tiles(job, unit, breaks, row);
+    work.holes = holes_below(job, work.tiles);
+  }
+  work.windows = windows_of(job, unit, breaks);
+  for (const StripWindow& window : work.windows) {
+    for (const Vec2 bolt : window.bolts)
+      work.holes[window.plate].push_back({bolt, 0.5 * clearance_hole(window.bolt, HoleFit::medium)});
+  }
   return work;
 }
 
@@ -160,6 +166,9 @@ Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, con
   cut.tabs = work.tabs;
   cut.slack = slack_of(job);
   cut.holes = work.holes[index];
+  for (const StripWindow& window : work.windows) {
+    if (window.plate == index) cut.openings.push_back({window.along, window.across});
+  }
   double mismatch = 0.0;
   strip.part = sheet_part(job, cut, rolled_radii(job, plate, span, strip.steps), mismatch);
   strip.edge_mismatch = mismatch;
@@ -199,6 +208,7 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
 }  // namespace
 
 std::vector<UnitWork> works_between(const StripJob& job, const std::vector<double>& joints) {
+  require_openings_on_track(job);
   std::vector<UnitWork> works;
   int row = 0;
   for (std::size_t j = 0; j + 1 < joints.size(); ++j)

@@ -5,6 +5,7 @@
 #include "parts/bent_strips.hpp"
 #include "parts/liner_tiles.hpp"
 #include "parts/offset_line.hpp"
+#include "parts/strip_openings.hpp"
 #include "parts/strip_shape.hpp"
 
 #include <vector>
@@ -16,6 +17,7 @@ struct UnitWork {
   Span laps;               ///< where edges that pass reach out
   std::vector<Span> tabs;  ///< along the track
   std::vector<TilePlace> tiles;
+  std::vector<StripWindow> windows;
   std::vector<std::vector<Circle>> holes;  ///< a list a plate: (place along the track, y along its face)
 };
 

@@ -79,6 +79,7 @@ void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent,
     for (const UnitWork& work : works) tiles.insert(tiles.end(), work.tiles.begin(), work.tiles.end());
     add_strip_liner(job, tiles, workshop);
   }
+  for (const UnitWork& work : works) add_strip_lids(job, work.windows, workshop);
   workshop.setting_out = setting_out(job.track, joints, job.placement);
   TakenUp taken;
   const Shell shell = strip_shell(job, bent, joints, works, workshop, taken);

@@ -1,0 +1,244 @@
+// Inspection openings of strips: cut square into the widest side that stands upright on the left, with lids rolled as that side is.
+
+#include "parts/strip_openings.hpp"
+
+#include "glissade/core/number_text.hpp"
+
+#include "core/plane_geometry.hpp"
+#include "parts/bolts.hpp"
+#include "parts/fittings.hpp"
+#include "parts/strip_fittings.hpp"
+#include "parts/workshop_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace glissade::parts {
+namespace {
+
+constexpr double kOffRim = 2e-3;   // of a lid [m]
+constexpr double kPitch = 150e-3;  // of a lid's bolts [m]
+constexpr double kUpright = 0.5;   // height per width of a side that counts as one: 60 deg from upright
+constexpr double kOffJointOfOpening = 1e-3;  // of its edges from joints of arcs [m]
+constexpr double kOnSide = 1e-9;             // [m]
+
+/// Whether a plate is a side of the outside: of those inside an outline, not within its trough.
+bool is_outer(const PlateSection& section, const SectionPlate& plate) {
+  if (!section.inside_outline) return true;
+  const Vec2 middle = 0.5 * (plate.face_from + plate.face_to);
+  for (std::size_t i = 0; i + 1 < section.outside.size(); ++i) {
+    if (core::distance_to_segment(middle, section.outside[i], section.outside[i + 1]) < kOnSide) return true;
+  }
+  return false;
+}
+
+/// What of a plate a lid may take, along its face.
+Span room_across(const PlateSection& section, const SectionPlate& plate, const PlateOptions& options) {
+  Span room{0.0, norm(plate.face_to - plate.face_from)};
+  if (!options.rim || section.ring) return room;
+  const double taken = (options.rim->thickness + kOffRim) / std::fabs(plate.way().y);
+  const double top = section.outside.front().y;
+  if (plate.face_from.y > top - kOnSide) room.from += taken;
+  if (plate.face_to.y > top - kOnSide) room.to -= taken;
+  return room;
+}
+
+struct Side {
+  std::size_t plate = 0;
+  Span room;
+};
+
+std::optional<Side> side_for_openings(const PlateSection& section, const PlateOptions& options) {
+  std::optional<Side> best;
+  for (std::size_t i = 0; i < section.plates.size(); ++i) {
+    const SectionPlate& plate = section.plates[i];
+    const bool left = plate.face_from.x + plate.face_to.x > 0.0;
+    if (!left || std::fabs(plate.way().y) < kUpright || !is_outer(section, plate)) continue;
+    const bool lined = std::any_of(section.lined.begin(), section.lined.end(), [&](const LinedFace& face) {
+      return i >= face.plate && i < face.plate + face.strips;
+    });
+    if (lined) continue;
+    const Side side{i, room_across(section, plate, options)};
+    if (!best || side.room.to - side.room.from > best->room.to - best->room.from + kOnSide) best = side;
+  }
+  return best;
+}
+
+/// Heights of a plate and of the lid on it.
+Span heights_of(const PlateSection& section, const SectionPlate& plate) {
+  Span heights{plate.face_from.y, plate.face_from.y};
+  for (const Vec2 corner : {plate.face_from, plate.face_to, plate.back_from, plate.back_to}) {
+    heights.from = std::min(heights.from, corner.y - section.thickness);
+    heights.to = std::max(heights.to, corner.y + section.thickness);
+  }
+  return heights;
+}
+
+[[noreturn]] void refuse(std::string what, std::string why, std::string hint) {
+  throw InputError({"inspection", std::move(what), std::move(why), std::move(hint)});
+}
+
+/// Bolts in the middle of the lid's lap, below and above the opening, each on one arc.
+std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const StripWindow& window,
+                           std::vector<double> breaks) {
+  const double hole = clearance_hole(window.bolt, HoleFit::coarse);
+  breaks.insert(breaks.end(), {window.along.from, window.along.to});
+  const OnOneArc arcs(job.track, 0.5 * hole, heights_of(job.section, plate), breaks);
+  const double out = 0.5 * kLidLap;
+  const Span within{window.lid_along.from + 0.75 * hole, window.lid_along.to - 0.75 * hole};
+  std::vector<double> places;
+  for (const Vec2 at : evenly({window.along.from - out, 0.0}, {window.along.to + out, 0.0}, kPitch)) {
+    const auto place = arcs.nearest(at.x, within);
+    if (place && (places.empty() || *place - places.back() > 2.4 * hole)) places.push_back(*place);
+  }
+  std::vector<Vec2> bolts;
+  for (const double y : {window.across.from - out, window.across.to + out}) {
+    for (const double s : places) bolts.push_back({s, y});
+  }
+  return bolts;
+}
+
+StripWindow window_at(const Side& side, const InspectionOptions& opening, double at) {
+  const double middle = 0.5 * (side.room.from + side.room.to);
+  StripWindow window;
+  window.plate = side.plate;
+  window.along = {at - 0.5 * opening.length, at + 0.5 * opening.length};
+  window.across = {middle - 0.5 * opening.height, middle + 0.5 * opening.height};
+  window.lid_along = {window.along.from - kLidLap, window.along.to + kLidLap};
+  window.lid_across = {window.across.from - kLidLap, window.across.to + kLidLap};
+  window.bolt = opening.bolt;
+  window.asked = opening.at;
+  return window;
+}
+
+/// The lid as a plate of the section, against the outside of the plate with the opening.
+SectionPlate lid_plate(const PlateSection& section, const StripWindow& window) {
+  const SectionPlate& plate = section.plates[window.plate];
+  const Vec2 way = plate.way();
+  const Vec2 back = section.thickness * Vec2{-way.y, way.x};
+  // Of plates inside an outline the face is outside.
+  const Vec2 off = section.inside_outline ? -1.0 * back : back;
+  const Vec2 from = plate.face_from + window.lid_across.from * way + off;
+  const Vec2 to = plate.face_from + window.lid_across.to * way + off;
+  return {"lid", from, to, from + back, to + back};
+}
+
+}  // namespace
+
+std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
+                                    const std::vector<double>& breaks) {
+  std::vector<StripWindow> windows;
+  if (job.options.inspection.empty()) return windows;
+  const Side side = *side_for_openings(job.section, job.options);
+  const SectionPlate& plate = job.section.plates[side.plate];
+  const Span room = room_of(job, unit, plate);
+  for (const InspectionOptions& opening : job.options.inspection) {
+    const double reach = 0.5 * opening.length + kLidLap;
+    if (opening.at < unit.from || opening.at >= unit.to) continue;
+    const OnOneArc arcs(job.track, 0.5 * opening.length + kOffJointOfOpening, heights_of(job.section, plate));
+    const Span within{room.from + reach, room.to - reach};
+    // Of a span that is none no place lies in it.
+    const std::optional<double> at = arcs.nearest(opening.at, within);
+    const std::string where = "at: an opening at " + length_text(opening.at, 4);
+    if (!at) {
+      refuse(where + " finds no place in its unit",
+             "Units end at " + length_text(unit.from, 4) + " and " + length_text(unit.to, 4) + "; it is " +
+                 length_text(opening.length) + " long, its lid " + length_text(2.0 * reach) +
+                 ", and lies on one arc of the " + plate.name + ".",
+             "another at, or a smaller length");
+    }
+    // It may not be moved out of reach of what it is there for.
+    if (std::fabs(*at - opening.at) > 0.5 * opening.length + kLidLap) {
+      refuse(where + " lies across a change of radius, or the end of a unit",
+             "Openings lie on one arc of the " + plate.name + ", " + length_text(opening.length) +
+                 " long, with lids that lap over by " + length_text(kLidLap) + ".",
+             "at: " + length_text(*at, 4) + ", or a smaller length");
+    }
+    windows.push_back(window_at(side, opening, *at));
+    windows.back().bolts = bolts_of(job, plate, windows.back(), breaks);
+  }
+  return windows;
+}
+
+void require_openings_on_track(const StripJob& job) {
+  const std::vector<InspectionOptions>& all = job.options.inspection;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!(all[i].at > 0.0 && all[i].at < job.track.length())) {
+      refuse("at: an opening at " + length_text(all[i].at, 4) + " is not on the track",
+             "It is " + length_text(job.track.length(), 4) + " long.",
+             "at: " + length_text(0.5 * job.track.length(), 2));
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      // Either may be moved by as much as is allowed.
+      const double apart = std::fabs(all[i].at - all[k].at);
+      const double least = 2.0 * (0.5 * (all[i].length + all[k].length) + 2.0 * kLidLap);
+      if (apart >= least) continue;
+      refuse("at: openings at " + length_text(all[k].at, 4) + " and " + length_text(all[i].at, 4) +
+                 " are too close",
+             "With room to find one arc each they take " + length_text(least) + ".", "one of them");
+    }
+  }
+}
+
+void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows, Workshop& workshop) {
+  for (const StripWindow& window : windows) {
+    std::vector<Circle> holes;
+    for (const Vec2 bolt : window.bolts)
+      holes.push_back(
+          {{bolt.x, bolt.y - window.lid_across.from}, 0.5 * clearance_hole(window.bolt, HoleFit::coarse)});
+    add_part(workshop,
+             set_plate(job, lid_plate(job.section, window), job.section.thickness, window.lid_along,
+                       job.options.material, holes),
+             kFittingColour);
+    add_bolts(workshop, window.bolt, 2.0 * job.section.thickness, holes.size(), "lids");
+    const double at = 0.5 * (window.along.from + window.along.to);
+    constexpr double kTold = 0.5e-3;  // [m]
+    if (std::fabs(at - window.asked) < kTold) continue;
+    workshop.notes.push_back("The opening that is asked for at " + length_text(window.asked, 4) +
+                             " along the track is at " + length_text(at, 4) + ", on one arc of its plate.");
+  }
+}
+
+std::vector<Issue> strip_opening_problems(const PlateSection& section, const PlateOptions& options) {
+  std::vector<Issue> issues;
+  if (options.inspection.empty()) return issues;
+  const auto add = [&](std::string what, std::string why, std::string hint) {
+    issues.push_back({"inspection", "inspection: " + what, std::move(why), std::move(hint)});
+  };
+  if (options.floor == FloorMake::bent) {
+    add("bends would run into openings of sides that are bent", "", "floor: rolled");
+    return issues;
+  }
+  if (section.widths) {
+    add("sides beside a width that changes have no openings", "They lean, each ruling otherwise.",
+        "one width");
+    return issues;
+  }
+  const auto side = side_for_openings(section, options);
+  if (!side) {
+    add("no side on the left stands upright and bare",
+        "It is cut into one that leans no more than 60 deg, and that no tiles cover.",
+        "another cross_section, or no liner");
+    return issues;
+  }
+  const double wide = side->room.to - side->room.from;
+  for (Issue& issue : opening_value_problems(options)) issues.push_back(std::move(issue));
+  for (const InspectionOptions& opening : options.inspection) {
+    const double most = wide - 2.0 * kLidLap;
+    if (opening.height <= most) continue;
+    const std::string plate = section.plates[side->plate].name;
+    issues.push_back({"inspection",
+                      "height: " + length_text(opening.height) + " leaves too little of the " + plate + ", " +
+                          length_text(wide, 3) + " wide",
+                      "Its lid laps over by " + length_text(kLidLap) + " all round.",
+                      most > 0.0                ? "height: " + length_text(most, 3)
+                      : section.departure > 0.0 ? "a larger stave_tolerance, or no inspection"
+                                                : "no inspection, or higher sides"});
+  }
+  return issues;
+}
+
+}  // namespace glissade::parts
