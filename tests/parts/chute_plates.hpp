@@ -6,6 +6,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/parts/plates.hpp"
 
+#include "parts/refusals.hpp"
 #include "support/catch.hpp"
 
 #include <stdexcept>
@@ -32,20 +33,6 @@ inline glissade::WorkshopBuild plates_of(const glissade::Centerline& track,
                                          const glissade::section::Measures& measures,
                                          const glissade::PlateOptions& options = {}) {
   return make_plates(track, measures, {1e-4}, options, glissade::Placement(), {.friction = kFriction});
-}
-
-/// @return everything that making something is refused for, an issue a line; empty: it was made
-template <typename Make>
-std::string refusal_of(const Make& make) {
-  try {
-    (void)make();
-  } catch (const glissade::InputError& error) {
-    std::string text;
-    for (const glissade::Issue& issue : error.issues())
-      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
-    return text;
-  }
-  return "";
 }
 
 inline std::string refusal(const glissade::PlateOptions& options,

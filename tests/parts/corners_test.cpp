@@ -10,6 +10,7 @@
 #include "parts/body_geometry.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -126,14 +127,7 @@ TEST_CASE("corners: random tracks, seats and floors fit, add up and are closed")
   INFO("GLISSADE_SEED=" << random.seed());
   std::size_t tabs = 0;
   for (int run = 0; run < 12; ++run) {
-    const double size = random.between(2.0, 12.0);
-    std::vector<ClothoidSegment> segments;
-    for (int i = random.integer(1, 5); i > 0; --i) {
-      const double curvature = random.between(-0.8, 1.2) / size;
-      segments.push_back(
-          {random.between(0.1, 0.4) * size, curvature, random.integer(0, 1) == 0 ? curvature : 0.0});
-    }
-    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
+    const ClothoidSpline track = testing::random_track(random, {.smallest = 2.0, .bends = 5, .fading = true});
     const double t = random.between(1.5e-3, 8e-3);
     const ChannelMeasures channel{random.between(0.2, 0.8), random.between(0.1, 0.3), t};
     const bool bent = random.integer(0, 2) == 0;

@@ -11,6 +11,7 @@
 #include "parts/chute_plates.hpp"
 #include "parts/facets.hpp"
 #include "parts/offset_line.hpp"
+#include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -260,14 +261,7 @@ TEST_CASE("plates: random tracks and measures make plates that add up, with no c
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   for (int run = 0; run < 16; ++run) {
-    const double size = random.between(1.0, 12.0);
-    std::vector<ClothoidSegment> segments;
-    for (int i = random.integer(1, 5); i > 0; --i) {
-      const double curvature = random.between(-0.8, 1.2) / size;
-      segments.push_back(
-          {random.between(0.1, 0.4) * size, curvature, random.integer(0, 1) == 0 ? curvature : 0.0});
-    }
-    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
+    const ClothoidSpline track = testing::random_track(random, {.smallest = 1.0, .bends = 5, .fading = true});
     const double t = random.between(2e-3, 8e-3);
     const ChannelMeasures channel{random.between(0.2, 0.8), random.between(0.1, 0.3), t};
     PlateOptions options;

@@ -11,6 +11,7 @@
 #include "parts/joint_face.hpp"
 #include "parts/piece_mesh.hpp"
 #include "parts/print_pose.hpp"
+#include "parts/refusals.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shop_rules.hpp"
@@ -56,15 +57,7 @@ PrintOptions on_stands(double spacing) {
 }
 
 std::string refusal(const PrintOptions& options, const CrossSection& section) {
-  try {
-    (void)prints(run(), section, options);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const Issue& issue : error.issues())
-      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
-    return text;
-  }
-  return "";
+  return testing::refusal_of([&] { return prints(run(), section, options); });
 }
 
 Vec3 size_of(const TriangleMesh& mesh) {

@@ -11,6 +11,7 @@
 #include "parts/body_mesh.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -267,14 +268,14 @@ TEST_CASE("sections: random sections, corners and fittings add up, do not clash 
   INFO("GLISSADE_SEED=" << random.seed());
   std::size_t cutouts = 0;
   for (int run = 0; run < 8; ++run) {
-    const double size = random.between(2.0, 6.0);
-    std::vector<ClothoidSegment> segments;
-    for (int i = random.integer(1, 4); i > 0; --i) {
-      const double curvature = random.between(-0.6, 0.9) / size;
-      segments.push_back(
-          {random.between(0.2, 0.5) * size, curvature, random.integer(0, 1) == 0 ? curvature : 0.0});
-    }
-    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 55.0)), segments);
+    const ClothoidSpline track = testing::random_track(random, {.smallest = 2.0,
+                                                                .largest = 6.0,
+                                                                .crest = -0.6,
+                                                                .valley = 0.9,
+                                                                .shortest = 0.2,
+                                                                .longest = 0.5,
+                                                                .steepest = 55.0,
+                                                                .fading = true});
     const double t = random.between(2e-3, 6e-3);
     const section::Trapezoid channel{WidthLaw(random.between(0.25, 0.6)), random.between(0.12, 0.3),
                                      Angle::from_degrees(random.between(0.0, 50.0)), t};

@@ -9,6 +9,7 @@
 
 #include "parts/body_geometry.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -209,13 +210,7 @@ TEST_CASE("strips: random tracks and sections make plates that add up, with no c
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   for (int run = 0; run < 10; ++run) {
-    const double size = random.between(3.0, 12.0);
-    std::vector<ClothoidSegment> segments;
-    for (int i = random.integer(1, 4); i > 0; --i) {
-      const double curvature = random.between(-0.8, 1.2) / size;
-      segments.push_back({random.between(0.1, 0.4) * size, curvature, curvature});
-    }
-    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
+    const ClothoidSpline track = testing::random_track(random, {});
     const double t = random.between(2e-3, 8e-3);
     const double high = random.between(0.1, 0.3);
     const std::vector<section::Measures> kinds = {

@@ -7,6 +7,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
+#include "parts/refusals.hpp"
 #include "parts/timber_frame.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -48,15 +49,7 @@ WorkshopBuild timber(const Centerline& track, const TimberOptions& options = {},
 
 std::string refusal(const TimberOptions& options, const Centerline& track,
                     const section::Measures& measures = kRamp) {
-  try {
-    (void)timber(track, options, measures);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const Issue& issue : error.issues())
-      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
-    return text;
-  }
-  return "";
+  return testing::refusal_of([&] { return timber(track, options, measures); });
 }
 
 std::vector<const ShopPart*> named(const WorkshopBuild& build, const std::string& start) {

@@ -10,6 +10,7 @@
 #include "glissade/section/cross_section.hpp"
 
 #include "parts/body_geometry.hpp"
+#include "parts/refusals.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shop_rules.hpp"
@@ -53,15 +54,7 @@ WorkshopBuild timber(const Centerline& track, const section::Measures& measures,
 
 std::string refusal(const Centerline& track, const section::Measures& measures,
                     const TimberOptions& options = {}) {
-  try {
-    (void)timber(track, measures, options);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const Issue& issue : error.issues())
-      text += issue.where + "|" + issue.what + "|" + issue.why + "|" + issue.hint + "\n";
-    return text;
-  }
-  return "";
+  return testing::refusal_of([&] { return timber(track, measures, options); });
 }
 
 const ShopPart& part_of(const WorkshopBuild& build, const std::string& name) {

@@ -11,6 +11,7 @@
 #include "parts/body_geometry.hpp"
 #include "parts/body_mesh.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/temp_dir.hpp"
@@ -181,22 +182,8 @@ TEST_CASE("widths: random tracks and widths make plates that fit and add up") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   for (int run = 0; run < 12; ++run) {
-    const double size = random.between(3.0, 12.0);
-    std::vector<ClothoidSegment> segments;
-    for (int i = random.integer(1, 4); i > 0; --i) {
-      const double curvature = random.between(-0.5, 0.8) / size;
-      segments.push_back({random.between(0.1, 0.4) * size, curvature, curvature});
-    }
-    const ClothoidSpline track(Angle::from_degrees(random.between(30.0, 60.0)), segments);
-    std::vector<WidthAt> knots;
-    double at = random.between(0.0, 0.2) * track.length();
-    double width = random.between(0.3, 0.8);
-    for (int i = random.integer(2, 4); i > 0; --i) {
-      knots.push_back({at, width});
-      const double step = random.between(0.1, 0.3) * track.length();
-      at += step;
-      width = std::max(0.15, width + random.between(-0.15, 0.15) * step);
-    }
+    const ClothoidSpline track = testing::random_track(random, {.crest = -0.5, .valley = 0.8});
+    const std::vector<WidthAt> knots = testing::random_widths(random, track.length());
     const double t = random.between(2e-3, 8e-3);
     PlateOptions options;
     options.split.longest = random.between(0.8, 3.0);
