@@ -20,7 +20,7 @@ std::string arcs_text(const MasterCurve& master) {
          length_text(master.tolerance) + " (found: " + length_text(master.max_deviation, 3) + ")";
 }
 
-std::string pieces_text(const Workshop& workshop) {
+std::string pieces_text(const Workshop& workshop, const PartsProof& proof) {
   std::size_t pieces = 0;
   double mass = 0.0;
   for (const ShopPart& part : workshop.parts) {
@@ -28,7 +28,8 @@ std::string pieces_text(const Workshop& workshop) {
     mass += part.mass * static_cast<double>(part.quantity());
   }
   return counted(workshop.parts.size(), "part") + ", " + counted(pieces, "piece") + ", " +
-         rounded_text(mass, 4) + " kg; they add up to the solid, none clash";
+         rounded_text(mass, 4) + " kg; they add up to the solid, none clash" +
+         (proof.bolted > 0 ? ", " + counted(proof.bolted, "pair") + " of holes meet" : "");
 }
 
 std::string ride_text(const AsBuiltRide& ride) {
@@ -74,7 +75,7 @@ std::string checks_text(const std::vector<ShopCheck>& checks) {
 }  // namespace
 
 std::string parts_lines(const WorkshopBuild& build) {
-  return labelled("Master curve", arcs_text(build.master)) + labelled("Parts", pieces_text(build.workshop)) +
+  return labelled("Master curve", arcs_text(build.master)) + labelled("Parts", pieces_text(build.workshop, build.proof)) +
          labelled("As built", ride_text(build.ride)) + labelled("Shop", checks_text(build.workshop.checks));
 }
 

@@ -192,53 +192,6 @@ std::vector<Bore> bores_of(const RolledSheet& sheet) {
 
 namespace {
 
-std::vector<Bore> bores_in(const PartBody& body) {
-  if (const auto* const swept = std::get_if<SweptBody>(&body)) return bores_of(*swept);
-  if (const auto* const sheet = std::get_if<RolledSheet>(&body)) return bores_of(*sheet);
-  return {};
-}
-
-/// Where holes of parts begin or end, in space.
-std::vector<Vec3> mouths_of(const Workshop& workshop, const std::function<bool(const std::string&)>& wanted,
-                            bool back) {
-  std::vector<Vec3> places;
-  for (const ShopPart& part : workshop.parts) {
-    if (!wanted(part.name)) continue;
-    for (const Bore& bore : bores_in(part.body)) {
-      const Vec3 own = bore.centre + (back ? bore.depth : 0.0) * bore.into;
-      for (const Frame& place : part.places) places.push_back(place.to_space(own));
-    }
-  }
-  return places;
-}
-
-}  // namespace
-
-double bolt_mismatch(const Workshop& workshop, std::string_view upper,
-                     const std::function<bool(const std::string&)>& lower) {
-  const std::vector<Vec3> above = mouths_of(
-      workshop, [&](const std::string& name) { return name.find(upper) != std::string::npos; }, true);
-  const std::vector<Vec3> below = mouths_of(workshop, lower, false);
-  if (above.size() != below.size()) return std::numeric_limits<double>::infinity();
-  double most = 0.0;
-  std::vector<bool> taken(below.size(), false);
-  for (const Vec3 place : above) {
-    std::size_t nearest = below.size();
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      const double away = norm(below[i] - place);
-      if (taken[i] || !(away < least)) continue;
-      nearest = i;
-      least = away;
-    }
-    taken[nearest] = true;
-    most = std::max(most, least);
-  }
-  return most;
-}
-
-namespace {
-
 /// A closed edge round a hole's axis, counter-clockwise about it.
 std::size_t add_mouth(Brep& brep, const Bore& bore, double depth) {
   BrepEdge edge;

@@ -7,9 +7,6 @@
 #include "parts/brep.hpp"
 
 #include <cstddef>
-#include <functional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace glissade::parts {
@@ -64,13 +61,6 @@ struct BoreLine {
 /// @return the holes of a body; none of one that is drilled otherwise
 [[nodiscard]] std::vector<Bore> bores_of(const SweptBody& body);
 [[nodiscard]] std::vector<Bore> bores_of(const RolledSheet& sheet);
-
-/// Holds holes of plates that lie on others against those of the others, all of which they share.
-/// @param upper  a word in the names of the parts that lie on others
-/// @param lower  whether a name is of those others
-/// @return greatest distance between the ends of two holes that meet; infinity if their counts differ [m]
-[[nodiscard]] double bolt_mismatch(const Workshop& workshop, std::string_view upper,
-                                   const std::function<bool(const std::string&)>& lower);
 
 /// Adds the wall of a hole to a solid, in the solid's unit.
 /// @return its edges in the face where it begins and in the other one, as those faces use them

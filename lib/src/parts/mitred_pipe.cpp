@@ -6,8 +6,10 @@
 
 #include "parts/as_built.hpp"
 #include "parts/body_geometry.hpp"
+#include "parts/bolted.hpp"
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
+#include "parts/joint_steps.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
@@ -519,6 +521,7 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const W
     throw InternalError({"", "edges of tubes differ by " + length_text(proof.edge_mismatch, 3), "", ""});
   }
   proof.pairs = require_no_clash(workshop);
+  proof.bolted = require_bolts_meet(workshop).joined;
   if (job.options.flanges.wanted) proof.smallest_gap = job.options.flanges.gap;
   return proof;
 }
@@ -556,6 +559,43 @@ std::vector<double> on_track(const Facets& facets, const std::vector<double>& jo
   const double all = reached(facets).back();
   std::vector<double> places;
   for (const double joint : joints) places.push_back(length * (joint / all));
+  return places;
+}
+
+/// The flats of each unit.
+std::vector<Facets> cut_at(const Facets& facets, const std::vector<double>& joints) {
+  const std::vector<double> at = reached(facets);
+  std::vector<Facets> units;
+  for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
+    Facets unit;
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const double from = std::max(joints[j], at[i]);
+      const double to = std::min(joints[j + 1], at[i + 1]);
+      if (!(to - from > 1e-9)) continue;
+      const Vec2 way = (1.0 / (at[i + 1] - at[i])) * (facets.corners[i + 1] - facets.corners[i]);
+      if (unit.corners.empty())
+        unit.corners.push_back(facets.corners[i] + (from - at[i]) * way);
+      else
+        unit.kinks.push_back(facets.kinks[i - 1]);
+      unit.corners.push_back(facets.corners[i] + (to - at[i]) * way);
+    }
+    units.push_back(std::move(unit));
+  }
+  return units;
+}
+
+/// On the lowest lines of the tubes that meet at joints.
+std::vector<FacePlace> places_of(const PipeJob& job, const std::vector<GoreUnit>& units,
+                                 const std::vector<double>& joints) {
+  std::vector<FacePlace> places;
+  for (std::size_t i = 1; i < units.size(); ++i) {
+    const Gore& gore = units[i].gores.front();
+    const Vec2 up = up_of(gore.along);
+    places.push_back(
+        {std::string(job.word()) + " at the joint " + length_text(joints[i], 3) + " along the track",
+         in_space(job.placement, gore.from - job.radius() * up),
+         direction_in_space(job.placement, gore.along), direction_in_space(job.placement, up)});
+  }
   return places;
 }
 
@@ -598,8 +638,8 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   add_supports(shell, workshop.setting_out);
   for (SettingOutPoint& row : mitres(job, facets)) workshop.setting_out.push_back(std::move(row));
   in_order(workshop.setting_out);
-  build.ride = as_told(ride_facets({facets}, body, gravity, options.joint_step), design, facets.bends(),
-                       units.size() - 1);
+  build.ride = as_told(ride_facets(cut_at(facets, joints), body, gravity, options.joint_step), design,
+                       facets.bends(), units.size() - 1);
   measure_plates(options, workshop);
   measure_rolling(job.radius(), workshop.parts.front(), "every " + std::string(job.word()), workshop);
   workshop.notes.insert(
@@ -608,6 +648,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
                  " over half a turn; their sides stay flat."
            : "Tubes are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
                  " and welded along their seams, which lie 20 deg from the crown, to either side in turn.");
+  measure_steps(places_of(job, units, build.joints), options, build);
   build.proof = prove(job, units, workshop);
   return build;
 }

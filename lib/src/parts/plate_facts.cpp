@@ -90,18 +90,10 @@ void measure_rolling(double radius, const ShopPart& part, const std::string& whe
 
 void measure_floor(const Job& job, const std::vector<Unit>& units, Workshop& workshop) {
   ShopFacts facts(workshop);
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    const Unit& unit = units[i];
+  for (const Unit& unit : units) {
     measure_arcs(unit, job.channel.thickness, facts, workshop);
     if (unit.face.facets && unit.face.facets->bends() > 0)
       facts.of(unit.floor, "bend_radius_thicknesses", bend_radius(job), job.channel.thickness);
-    if (i == 0) continue;
-    // The end of the floor above the joint and the start of the one below it, as they are made.
-    const FloorFace& before = units[i - 1].face;
-    const Vec2 end = before.origin + before.line.path().vertices.back().at;
-    const double slope = unit.face.line.slope_angle(0.0);
-    const Vec2 up{math::sin(slope), math::cos(slope)};
-    facts.at(on_floor(unit, 0.0), "step_up", dot(unit.face.origin - end, up) - job.options.joint_step);
   }
 }
 

@@ -8,15 +8,14 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/body_geometry.hpp"
+#include "parts/bolted.hpp"
 #include "parts/bores.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
-#include "parts/equal_parts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -268,30 +267,6 @@ double largest_edge_mismatch(const Job& job, const std::vector<Unit>& units) {
 
 }  // namespace
 
-void require_bolts_meet(const Workshop& workshop) {
-  // Pieces that get one number differ by what no machine cuts.
-  constexpr double kSame = 4.0 * kSamePart;
-  const auto has = [](const std::string& name, const char* word) {
-    return name.find(word) != std::string::npos;
-  };
-  const auto is_rim = [&](const std::string& name) { return has(name, "rim"); };
-  const auto is_lined = [&](const std::string& name) {
-    return !has(name, "tile") && !has(name, "cover") && !has(name, "rim");
-  };
-  const auto hold = [&](const char* upper, const std::function<bool(const std::string&)>& lower) {
-    const bool there = std::any_of(workshop.parts.begin(), workshop.parts.end(),
-                                   [&](const ShopPart& part) { return has(part.name, upper); });
-    const double mismatch = there ? bolt_mismatch(workshop, upper, lower) : 0.0;
-    if (mismatch <= kSame) return;
-    throw InternalError({"",
-                         "holes of each " + std::string(upper) +
-                             " and what is below do not meet: " + length_text(mismatch, 3),
-                         "", ""});
-  };
-  hold("tile", is_lined);
-  hold("cover", is_rim);
-}
-
 PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop& workshop) {
   PartsProof proof;
   for (std::size_t i = 0; i < units.size(); ++i) {
@@ -315,7 +290,7 @@ PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop&
                          "", ""});
   }
   proof.pairs = require_no_clash(workshop);
-  require_bolts_meet(workshop);
+  proof.bolted = require_bolts_meet(workshop).joined;
   if (job.options.flanges.wanted) proof.smallest_gap = least_frame_gap(job, units);
   if (has_tabs(job)) {
     const double slack = 0.5 * job.options.corners.clearance;

@@ -11,7 +11,4 @@ namespace glissade::parts {
 /// @throws InternalError if plates do not add up, parts clash or edges differ
 [[nodiscard]] PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop& workshop);
 
-/// @throws InternalError if holes of tiles and floors, or of covers and rims, are not the same
-void require_bolts_meet(const Workshop& workshop);
-
 }  // namespace glissade::parts

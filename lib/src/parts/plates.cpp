@@ -13,6 +13,7 @@
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
+#include "parts/joint_steps.hpp"
 #include "parts/mitred_pipe.hpp"
 #include "parts/plate_checks.hpp"
 #include "parts/plate_facts.hpp"
@@ -189,6 +190,7 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   measure_plates(options, workshop);
   measure_floor(job, units, workshop);
   measure_corners(job, units, workshop);
+  measure_steps(channel_places(job, build.joints), options, build);
   build.proof = prove(job, units, workshop);
   add_corner_note(job, workshop);
   note_differences(build.proof, "the plain channel", workshop);

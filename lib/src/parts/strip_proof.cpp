@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/body_geometry.hpp"
+#include "parts/bolted.hpp"
 #include "parts/bores.hpp"
 #include "parts/plate_proof.hpp"
 #include "parts/section_corners.hpp"
@@ -249,7 +250,7 @@ PartsProof prove_strips(const StripJob& job, const std::optional<BentStrips>& be
     throw InternalError({"", "edges differ by " + length_text(proof.edge_mismatch, 3), "", ""});
   }
   proof.pairs = require_no_clash(workshop);
-  require_bolts_meet(workshop);
+  proof.bolted = require_bolts_meet(workshop).joined;
   if (job.options.flanges.wanted) proof.smallest_gap = job.options.flanges.gap;
   if (has_tabs(job)) {
     const double slack = slack_of(job);

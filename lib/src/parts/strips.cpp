@@ -8,6 +8,7 @@
 #include "core/plane_geometry.hpp"
 #include "parts/as_built.hpp"
 #include "parts/bent_strips.hpp"
+#include "parts/joint_steps.hpp"
 #include "parts/plate_checks.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
@@ -177,6 +178,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   else
     measure_strips(strips, workshop);
   measure_tabs(job, build.joints, works, workshop);
+  measure_steps(section_places(job, build.joints), options, build);
   const std::vector<VolumeDifference> cut =
       bent ? std::vector<VolumeDifference>() : cut_differences(job, strips, build.joints, works);
   build.proof = prove_strips(job, bent, strips, cut, workshop);

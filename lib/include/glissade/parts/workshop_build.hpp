@@ -19,6 +19,9 @@ struct AsBuiltRide {
   double design_exit_speed = 0.0;
   std::size_t bends = 0;   ///< kinks of the floor
   std::size_t joints = 0;  ///< between units
+  double joint_step = 0.0;    ///< by which the floor drops at each of them, as asked for [m]
+  double highest_step = 0.0;  ///< greatest rise of a face at one, as the parts lie, before that drop [m]
+  double joint_play = 0.0;    ///< by which the bolts of one let its units shift either way: to be held flush [m]
   /// The highest load on the floor, between kinks [m/s^2].
   double highest_load = 0.0;
   std::size_t hops = 0;      ///< off the floor and down on it again, where the load is all but nothing
@@ -41,6 +44,7 @@ struct PartsProof {
   double added_volume = 0.0;   ///< of flanges and what else is not of the channel, holes taken off [m^3]
   double smallest_gap = 0.0;   ///< between parts that do not touch by design [m]
   std::size_t pairs = 0;       ///< of parts that were held against each other
+  std::size_t bolted = 0;      ///< pairs of holes that one bolt goes through, each about one axis
   double edge_mismatch = 0.0;  ///< greatest difference of lengths between flat and finished edges [m]
 };
 

@@ -30,6 +30,9 @@ Json ride_json(const AsBuiltRide& ride) {
                {"exit_speed_change", nullptr},
                {"bends", ride.bends},
                {"joints", ride.joints},
+               {"joint_step_m", ride.joint_step},
+               {"highest_step_m", ride.highest_step},
+               {"joint_play_m", ride.joint_play},
                {"highest_load_m_per_s2", nullptr},
                {"hops", ride.hops},
                {"highest_hop_m", ride.highest_hop},
@@ -64,7 +67,7 @@ Json shop_checks_json(const std::vector<ShopCheck>& checks) {
 
 void add_parts(Json& json, const WorkshopBuild* build) {
   for (const char* const key : {"master_curve", "parts", "items", "as_built", "shop_checks",
-                                "parts_volume_m3", "channel_volume_m3", "joints_m"}) {
+                                "parts_volume_m3", "channel_volume_m3", "bolted_holes", "joints_m"}) {
     json[key] = nullptr;
   }
   if (build == nullptr) return;
@@ -83,6 +86,7 @@ void add_parts(Json& json, const WorkshopBuild* build) {
   json["shop_checks"] = shop_checks_json(workshop.checks);
   json["parts_volume_m3"] = build->proof.volume + build->proof.added_volume;
   json["channel_volume_m3"] = build->proof.volume;
+  json["bolted_holes"] = build->proof.bolted;
   json["joints_m"] = build->joints;
 }
 

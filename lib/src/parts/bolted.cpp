@@ -1,0 +1,307 @@
+#include "parts/bolted.hpp"
+
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/bolts.hpp"
+#include "parts/bores.hpp"
+#include "parts/equal_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace glissade::parts {
+namespace {
+
+// Pieces that get one number differ by what no machine cuts.
+constexpr double kSame = 4.0 * kSamePart;
+constexpr double kTouch = 0.2e-3;  // pieces nearer than this lie on each other [m]
+
+/// A round hole, or a slot with round ends, in the frame of its part.
+struct Hole {
+  Vec3 begin;  ///< centre of its first end
+  Vec3 into;   ///< unit
+  double depth = 0.0;
+  double radius = 0.0;
+  Vec3 reach;  ///< from a slot's centre to that of its end; 0 of a hole that is round
+};
+
+/// A slot between two half circles; none if the path is another figure.
+std::vector<Hole> slots_of(const Prism& prism) {
+  std::vector<Hole> slots;
+  for (const ArcPath& cutout : prism.region.cutouts) {
+    constexpr double kHalfCircle = 1e-9;
+    const auto& at = cutout.vertices;
+    if (at.size() != 4) continue;
+    const std::size_t first = at[0].bulge == 0.0 ? 1 : 0;
+    const auto is_end = [&](std::size_t k) { return std::fabs(std::fabs(at[k].bulge) - 1.0) < kHalfCircle; };
+    if (!is_end(first) || !is_end(first + 2) || at[1 - first].bulge != 0.0 || at[3 - first].bulge != 0.0)
+      continue;
+    const Vec2 one = 0.5 * (at[first].at + at[first + 1].at);
+    const Vec2 other = 0.5 * (at[first + 2].at + at[(first + 3) % 4].at);
+    const Vec2 middle = 0.5 * (one + other);
+    const Vec2 reach = 0.5 * (other - one);
+    slots.push_back({{middle.x, middle.y, 0.0},
+                     {0.0, 0.0, 1.0},
+                     prism.depth,
+                     0.5 * norm(at[first + 1].at - at[first].at),
+                     {reach.x, reach.y, 0.0}});
+  }
+  return slots;
+}
+
+std::vector<Hole> from_bores(const std::vector<Bore>& bores) {
+  std::vector<Hole> holes;
+  for (const Bore& bore : bores) holes.push_back({bore.centre, bore.into, bore.depth, bore.radius, {}});
+  return holes;
+}
+
+std::vector<Hole> holes_of(const PartBody& body) {
+  if (const auto* const swept = std::get_if<SweptBody>(&body)) return from_bores(bores_of(*swept));
+  if (const auto* const sheet = std::get_if<RolledSheet>(&body)) return from_bores(bores_of(*sheet));
+  const auto* const prism = std::get_if<Prism>(&body);
+  if (prism == nullptr) return {};
+  std::vector<Hole> holes = slots_of(*prism);
+  for (const Circle& hole : prism->region.holes)
+    holes.push_back({{hole.centre.x, hole.centre.y, 0.0}, {0.0, 0.0, 1.0}, prism->depth, hole.radius, {}});
+  return holes;
+}
+
+Vec3 turned(const Frame& place, Vec3 direction) {
+  return direction.x * place.x + direction.y * place.y + direction.z * place.z;
+}
+
+Vec3 in_own(const Frame& place, Vec3 point) {
+  const Vec3 from = point - place.origin;
+  return {dot(from, place.x), dot(from, place.y), dot(from, place.z)};
+}
+
+/// A piece as it lies in the assembly.
+struct Piece {
+  const ShopPart* part = nullptr;
+  Frame place;
+  Vec3 own_low;  ///< of the box round it in its own frame
+  Vec3 own_high;
+};
+
+/// One end of a hole of a piece.
+struct Mouth {
+  std::size_t piece = 0;
+  Vec3 at;
+  Vec3 out;  ///< unit, away from the plate
+  double depth = 0.0;
+  double radius = 0.0;
+  Vec3 reach;  ///< of a slot
+};
+
+/// Smallest box round the edges of a body, with what lies between them on arcs.
+std::pair<Vec3, Vec3> box_of(const PartBody& body) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Vec3 low{kInf, kInf, kInf};
+  Vec3 high{-kInf, -kInf, -kInf};
+  for (const Vec3 point : edge_points(body, 0.0)) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
+  }
+  return {low, high};
+}
+
+struct Pieces {
+  std::vector<Piece> all;
+  std::vector<Mouth> mouths;  ///< by ascending x
+};
+
+Pieces pieces_of(const Workshop& workshop) {
+  Pieces pieces;
+  for (const ShopPart& part : workshop.parts) {
+    const std::vector<Hole> holes = part.bought_in ? std::vector<Hole>() : holes_of(part.body);
+    const auto [low, high] = box_of(part.body);
+    for (const Frame& place : part.places) {
+      for (const Hole& hole : holes) {
+        const Vec3 begin = place.to_space(hole.begin);
+        const Vec3 into = turned(place, hole.into);
+        const Vec3 reach = turned(place, hole.reach);
+        pieces.mouths.push_back({pieces.all.size(), begin, -1.0 * into, hole.depth, hole.radius, reach});
+        pieces.mouths.push_back(
+            {pieces.all.size(), begin + hole.depth * into, into, hole.depth, hole.radius, reach});
+      }
+      pieces.all.push_back({&part, place, low, high});
+    }
+  }
+  std::stable_sort(pieces.mouths.begin(), pieces.mouths.end(),
+                   [](const Mouth& a, const Mouth& b) { return a.at.x < b.at.x; });
+  return pieces;
+}
+
+/// How far a mouth's axis is from what a bolt through another one takes: its axis, or that of a slot anywhere along it.
+double off_axis(const Mouth& mouth, const Mouth& other) {
+  Vec3 aside = other.at - mouth.at;
+  aside = aside - dot(aside, mouth.out) * mouth.out;
+  for (const Vec3 reach : {mouth.reach, other.reach}) {
+    const double half = norm(reach);
+    if (half > 0.0) aside = aside - std::clamp(dot(aside, reach) / half, -half, half) / half * reach;
+  }
+  // Axes that lean to each other part within the plates.
+  return norm(aside) + norm(cross(mouth.out, other.out)) * std::max(mouth.depth, other.depth);
+}
+
+/// Whether two pieces touch where both have a hole, or most of one.
+bool meet(const Mouth& mouth, const Mouth& other) {
+  if (mouth.piece == other.piece || dot(mouth.out, other.out) > -0.9) return false;
+  const Vec3 away = other.at - mouth.at;
+  const double apart = dot(away, mouth.out);
+  const double aside = norm(away - apart * mouth.out);
+  return std::fabs(apart) < kTouch &&
+         aside < mouth.radius + other.radius + norm(mouth.reach) + norm(other.reach);
+}
+
+bool one_bolt_fits(double radius, double other) {
+  const auto fits = [](const Bolt& bolt, double r) {
+    const auto is = [&](double diameter) { return std::fabs(2.0 * r - diameter) < kSame; };
+    return is(bolt.fine) || is(bolt.medium) || is(bolt.coarse);
+  };
+  if (std::fabs(radius - other) < kSame) return true;
+  const auto sizes = bolt_sizes();
+  return std::any_of(sizes.begin(), sizes.end(),
+                     [&](int size) { return fits(bolt_of(size), radius) && fits(bolt_of(size), other); });
+}
+
+[[noreturn]] void tell(const Piece& piece, const Mouth& mouth, const std::string& what) {
+  throw InternalError({"",
+                       "the hole of " + length_text(2.0 * mouth.radius) + " in " + piece.part->name +
+                           " at (" + length_text(mouth.at.x, 5) + ", " + length_text(mouth.at.y, 5) + ", " +
+                           length_text(mouth.at.z, 5) + ") " + what,
+                       "", "another design, and a report of this one"});
+}
+
+/// A piece other than its own, and other than that of the hole that it meets, covers a mouth.
+bool covers(const Piece& piece, const Mouth& mouth) {
+  const Vec3 before = in_own(piece.place, mouth.at + kTouch * mouth.out);
+  const double room = mouth.radius + norm(mouth.reach);
+  const auto beyond = [&](double value, double low, double high) {
+    return value < low - room || value > high + room;
+  };
+  if (beyond(before.x, piece.own_low.x, piece.own_high.x) ||
+      beyond(before.y, piece.own_low.y, piece.own_high.y) ||
+      beyond(before.z, piece.own_low.z, piece.own_high.z)) {
+    return false;
+  }
+  const double depth = depth_inside(piece.part->body, before);
+  if (depth > 0.0 || norm(mouth.reach) > 0.0) return depth > 0.0;
+  if (depth < -mouth.radius) return false;
+  constexpr int kRound = 12;
+  constexpr double kInside =
+      0.95;  // of the radius: what just touches the edge of a hole lets the bolt through
+  const Vec3 out = in_own(piece.place, piece.place.origin + mouth.out);
+  const Vec3 least = std::fabs(out.x) < 0.6 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};
+  const Vec3 square = cross(out, least);
+  const Vec3 one = (kInside * mouth.radius / norm(square)) * square;
+  const Vec3 other = cross(out, one);
+  for (int k = 0; k < kRound; ++k) {
+    const auto [sine, cosine] = math::sine_cosine(2.0 * std::numbers::pi * k / kRound);
+    if (depth_inside(piece.part->body, before + cosine * one + sine * other) > 0.0) return true;
+  }
+  return false;
+}
+
+/// The mouth of another piece that lies nearest on this one; none.
+const Mouth* partner_of(const Pieces& pieces, std::size_t index, double reach) {
+  const Mouth& mouth = pieces.mouths[index];
+  const Mouth* nearest = nullptr;
+  const auto see = [&](const Mouth& other) {
+    if (meet(mouth, other) && (nearest == nullptr || off_axis(mouth, other) < off_axis(mouth, *nearest)))
+      nearest = &other;
+  };
+  for (std::size_t k = index; k-- > 0 && mouth.at.x - pieces.mouths[k].at.x <= reach;) see(pieces.mouths[k]);
+  for (std::size_t k = index + 1; k < pieces.mouths.size() && pieces.mouths[k].at.x - mouth.at.x <= reach;
+       ++k)
+    see(pieces.mouths[k]);
+  return nearest;
+}
+
+/// Pieces by the stretch of x that they take, for mouths in the order of theirs.
+class Sweep {
+ public:
+  explicit Sweep(const std::vector<Piece>& pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Piece& piece = pieces[i];
+      const Vec3 middle = piece.place.to_space(0.5 * (piece.own_low + piece.own_high));
+      const Vec3 half = 0.5 * (piece.own_high - piece.own_low);
+      const double reach = std::fabs(piece.place.x.x) * half.x + std::fabs(piece.place.y.x) * half.y +
+                           std::fabs(piece.place.z.x) * half.z;
+      spans_.push_back({middle.x - reach, middle.x + reach, i});
+    }
+    std::stable_sort(spans_.begin(), spans_.end(),
+                     [](const Span& a, const Span& b) { return a.low < b.low; });
+  }
+
+  /// @return indices of the pieces about x; x ascends from call to call
+  const std::vector<std::size_t>& about(double x, double room) {
+    while (next_ < spans_.size() && spans_[next_].low <= x + room) open_.push_back(spans_[next_++]);
+    open_.erase(
+        std::remove_if(open_.begin(), open_.end(), [&](const Span& span) { return span.high < x - room; }),
+        open_.end());
+    found_.clear();
+    for (const Span& span : open_) found_.push_back(span.piece);
+    return found_;
+  }
+
+ private:
+  struct Span {
+    double low;
+    double high;
+    std::size_t piece;
+  };
+  std::vector<Span> spans_;
+  std::vector<Span> open_;
+  std::vector<std::size_t> found_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+BoltedHoles require_bolts_meet(const Workshop& workshop) {
+  const Pieces pieces = pieces_of(workshop);
+  BoltedHoles facts;
+  double widest = 0.0;
+  for (const Mouth& mouth : pieces.mouths) widest = std::max(widest, mouth.radius + norm(mouth.reach));
+  Sweep sweep(pieces.all);
+  for (std::size_t i = 0; i < pieces.mouths.size(); ++i) {
+    const Mouth& mouth = pieces.mouths[i];
+    const Piece& own = pieces.all[mouth.piece];
+    const Mouth* const partner = partner_of(pieces, i, 2.0 * widest + kTouch);
+    if (partner != nullptr) {
+      const std::string& name = pieces.all[partner->piece].part->name;
+      const double off = off_axis(mouth, *partner);
+      if (!(off <= kSame)) tell(own, mouth, "is " + length_text(off, 3) + " off the axis of that in " + name);
+      if (!one_bolt_fits(mouth.radius, partner->radius)) {
+        tell(own, mouth,
+             "meets one of " + length_text(2.0 * partner->radius) + " in " + name +
+                 ", and no bolt goes with both");
+      }
+      facts.off_axis = std::max(facts.off_axis, off);
+      facts.joined += 1;
+    } else {
+      facts.open += 1;
+    }
+    for (const std::size_t k : sweep.about(mouth.at.x, widest + kTouch)) {
+      const Piece& piece = pieces.all[k];
+      if (k == mouth.piece || (partner != nullptr && k == partner->piece) || piece.part->bought_in) continue;
+      if (covers(piece, mouth))
+        tell(own, mouth, "is covered by " + piece.part->name + ", which has none there");
+    }
+  }
+  facts.joined /= 2;
+  return facts;
+}
+
+}  // namespace glissade::parts
