@@ -25,42 +25,60 @@ Vec3 in_own(const Frame& place, Vec3 point) {
   return {dot(from, place.x), dot(from, place.y), dot(from, place.z)};
 }
 
+/// A piece as it lies, and the box round its edges in its own frame.
+struct Piece {
+  const ShopPart* part = nullptr;
+  Frame place;
+  Vec3 low;
+  Vec3 high;
+};
+
+std::vector<Piece> pieces_of(const Workshop& workshop) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::vector<Piece> pieces;
+  for (const ShopPart& part : workshop.parts) {
+    if (part.stands || part.bought_in) continue;
+    Piece piece{&part, {}, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+    for (const Vec3 point : edge_points(part.body, 0.0)) {
+      piece.low = {std::min(piece.low.x, point.x), std::min(piece.low.y, point.y),
+                   std::min(piece.low.z, point.z)};
+      piece.high = {std::max(piece.high.x, point.x), std::max(piece.high.y, point.y),
+                    std::max(piece.high.z, point.z)};
+    }
+    for (const Frame& place : part.places) {
+      piece.place = place;
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
 /// The pieces about a place.
 class Solid {
  public:
-  Solid(const Workshop& workshop, Vec3 about) {
+  Solid(const std::vector<Piece>& pieces, Vec3 about) {
     constexpr double kRoom = 60e-3;
-    for (const ShopPart& part : workshop.parts) {
-      if (part.stands || part.bought_in) continue;
-      Vec3 low{kFar, kFar, kFar};
-      Vec3 high{-kFar, -kFar, -kFar};
-      bool known = false;
-      for (const Frame& place : part.places) {
-        if (!known) {
-          for (const Vec3 point : edge_points(part.body, 0.0)) {
-            low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
-            high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
-          }
-          known = true;
-        }
-        const Vec3 own = in_own(place, about);
-        const bool near = own.x > low.x - kRoom && own.x < high.x + kRoom && own.y > low.y - kRoom &&
-                          own.y < high.y + kRoom && own.z > low.z - kRoom && own.z < high.z + kRoom;
-        if (near) pieces_.push_back({&part, place});
+    const auto within = [](double value, double low, double high) {
+      return value > low - kRoom && value < high + kRoom;
+    };
+    for (const Piece& piece : pieces) {
+      const Vec3 own = in_own(piece.place, about);
+      if (within(own.x, piece.low.x, piece.high.x) && within(own.y, piece.low.y, piece.high.y) &&
+          within(own.z, piece.low.z, piece.high.z)) {
+        pieces_.push_back(&piece);
       }
     }
   }
 
   [[nodiscard]] double depth(Vec3 point) const {
-    double deepest = -kFar;
-    for (const auto& [part, place] : pieces_)
-      deepest = std::max(deepest, depth_inside(part->body, in_own(place, point)));
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (const Piece* const piece : pieces_)
+      deepest = std::max(deepest, depth_inside(piece->part->body, in_own(piece->place, point)));
     return deepest;
   }
 
  private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::vector<std::pair<const ShopPart*, Frame>> pieces_;
+  std::vector<const Piece*> pieces_;
 };
 
 /// How far out the uppermost face stands.
@@ -118,20 +136,25 @@ std::string at_joint(const std::string& what, double s) {
   return what + " at the joint " + length_text(s, 3) + " along the track";
 }
 
-}  // namespace
-
-std::optional<double> step_at(const Workshop& workshop, const FacePlace& place) {
-  const Solid solid(workshop, place.at);
+std::optional<double> step_between(const std::vector<Piece>& pieces, const FacePlace& place) {
+  const Solid solid(pieces, place.at);
   const auto before = face_at_joint(solid, place, -1.0);
   const auto after = face_at_joint(solid, place, 1.0);
   if (!before || !after) return std::nullopt;
   return *after - *before;
 }
 
+}  // namespace
+
+std::optional<double> step_at(const Workshop& workshop, const FacePlace& place) {
+  return step_between(pieces_of(workshop), place);
+}
+
 void measure_steps(const std::vector<FacePlace>& places, const PlateOptions& options, WorkshopBuild& build) {
   ShopFacts facts(build.workshop);
+  const std::vector<Piece> pieces = places.empty() ? std::vector<Piece>() : pieces_of(build.workshop);
   for (const FacePlace& place : places) {
-    auto step = step_at(build.workshop, place);
+    auto step = step_between(pieces, place);
     if (!step) continue;
     // What no gauge sees is rounding of places.
     if (std::fabs(*step) < kSamePart) step = 0.0;
