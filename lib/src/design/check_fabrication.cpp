@@ -86,6 +86,11 @@ void check_liner(const Design& design, const LinerOptions& liner, Collected& fin
 void check_process(const Design& design, const PlateOptions& plate, Collected& findings) {
   check_bend(plate.bend, findings);
   if (plate.liner) check_liner(design, *plate.liner, findings);
+  if (!plate.hood && !design.hood) {
+    report(findings, {"fabrication.hood"},
+           {"", "hood: no, of a design without a hood", "It leaves the hood of a transfer a solid alone.",
+            "fabrication without hood"});
+  }
   report_all(plate_problems(*design.cross_section, plate), findings);
 }
 

@@ -242,6 +242,7 @@ PlateOptions read_plate(MapReader& map, Findings& findings) {
   set_length(map, "stave_tolerance", plate.stave_tolerance);
   plate.polygon_thickness = map.quantity("thickness", Dimension::length);
   read_fittings(map, plate, findings);
+  if (const auto hood = map.find("hood")) plate.hood = as_flag(*hood, findings).value_or(true);
   plate.joint_step = map.quantity("joint_step", Dimension::length).value_or(plate.joint_step);
   return plate;
 }

@@ -154,6 +154,7 @@ void add_process(Group& group, const PlateOptions& plate) {
   if (!plate.inspection.empty()) group.add("inspection", list_of(plate.inspection, opening));
   if (plate.lifting) group.add("lifting", lifting(*plate.lifting));
   if (plate.supports) group.add("supports", supports(*plate.supports));
+  if (!plate.hood) group.add("hood", "false");
   group.add("joint_step", plate.joint_step, Dimension::length);
 }
 

@@ -117,9 +117,18 @@ bool is_point(const ArcPath& path) {
   return box.width() < kNothing && box.height() < kNothing;
 }
 
+/// An end of the track among the rows that are set out; none where nothing is.
+const SettingOutPoint* end_of_track(const Workshop& workshop, std::string_view what) {
+  const auto found = std::find_if(workshop.setting_out.begin(), workshop.setting_out.end(),
+                                  [&](const SettingOutPoint& point) { return point.what == what; });
+  return found == workshop.setting_out.end() ? nullptr : &*found;
+}
+
 Vec3 level_direction(const Workshop& workshop) {
-  if (workshop.setting_out.size() < 2) return {1.0, 0.0, 0.0};
-  const Vec3 run = workshop.setting_out.back().site - workshop.setting_out.front().site;
+  const SettingOutPoint* const start = end_of_track(workshop, "start");
+  const SettingOutPoint* const finish = end_of_track(workshop, "finish");
+  if (start == nullptr || finish == nullptr) return {1.0, 0.0, 0.0};
+  const Vec3 run = finish->site - start->site;
   const double size = math::hypot(run.x, run.y);
   return size > 0.0 ? Vec3{run.x / size, run.y / size, 0.0} : Vec3{1.0, 0.0, 0.0};
 }
@@ -127,8 +136,9 @@ Vec3 level_direction(const Workshop& workshop) {
 /// @return where the track starts in the frame of the parts: at its origin, or where the site has it; whichever lies closer
 ///         to what is seen [m]
 Vec3 start_of(const Workshop& workshop, const PlaneBox& seen, const Eye& eye) {
-  if (workshop.setting_out.empty()) return {};
-  const Vec3 on_site = workshop.setting_out.front().site;
+  const SettingOutPoint* const start = end_of_track(workshop, "start");
+  if (start == nullptr) return {};
+  const Vec3 on_site = start->site;
   const auto away = [&](Vec3 place) {
     const Vec2 at = kMillimetres * eye.see(place);
     return math::hypot(std::max({seen.low.x - at.x, at.x - seen.high.x, 0.0}),
@@ -276,7 +286,7 @@ std::vector<MarkedPlace> marked_places(const Workshop& workshop, const PlaneBox&
     const Vec2 at = start + kMillimetres * Vec2{point.x, point.z};
     const bool near = at.x >= seen.low.x - reach && at.x <= seen.high.x + reach &&
                       at.y >= seen.low.y - reach && at.y <= seen.high.y + reach;
-    if (point.what != "station" && near) places.push_back({point.what, at});
+    if (!point.what.ends_with("station") && near) places.push_back({point.what, at});
   }
   return places;
 }

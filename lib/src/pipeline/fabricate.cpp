@@ -10,6 +10,7 @@
 
 #include "parts/shop_facts.hpp"
 #include "pipeline/body.hpp"
+#include "pipeline/hood_parts.hpp"
 #include "pipeline/located.hpp"
 #include "pipeline/parts_clearance.hpp"
 #include "pipeline/workshop_files.hpp"
@@ -61,8 +62,11 @@ void tell_wear(const Design& design, const Track& track, PlateOptions& options) 
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PlateOptions options) {
   tell_wear(design, track, options);
   if (options.supports) options.supports->ground = in_plane(design.track, options.supports->ground);
-  return make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
-                     frame, body_of(design), design.gravity);
+  WorkshopBuild build =
+      make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options, frame,
+                  body_of(design), design.gravity);
+  if (design.hood && options.hood) add_hood_parts(design, track, frame, options, build);
+  return build;
 }
 
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PrintOptions options) {
@@ -100,6 +104,9 @@ std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track
                       design.fabrication->process);
   });
   build.workshop.name = design.name;
+  const auto* const plate = std::get_if<PlateOptions>(&design.fabrication->process);
+  if (design.hood && (plate == nullptr || !plate->hood))
+    build.workshop.notes.emplace_back("The hood is a solid alone: these are the parts of the track.");
   measure_clearances(design, frame, build.workshop);
   build.workshop.checks = judge_shop(design.fabrication->rules.in_force, build.workshop);
   // Parts lie in the frame of the mesh files, what is set out on site in that of the site.

@@ -220,6 +220,7 @@ struct PlateOptions {
   /// By ascending places; asked for by a liner with `worn` or `life`, which a stream alone has. No option: whoever knows the
   /// stream fills it in, and the liner's `life` from its `tonnage`.
   std::vector<FloorWear> floor_wear;
+  bool hood = true;         ///< of a track below a hood: that becomes plates, too
   double joint_step = 0.0;  ///< by which the floor may drop at a joint, downstream [m]; >= 0
   ShopLeast shop;           ///< no option: whoever knows the shop's rules fills it in
 
