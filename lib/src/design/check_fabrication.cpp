@@ -88,7 +88,7 @@ void check_process(const Design& design, const PlateOptions& plate, Collected& f
   if (plate.liner) check_liner(design, *plate.liner, findings);
   if (!plate.hood && !design.hood) {
     report(findings, {"fabrication.hood"},
-           {"", "hood: no, of a design without a hood", "It leaves the hood of a transfer a solid alone.",
+           {"", "hood: false, of a design without a hood", "It leaves the hood of a transfer a solid alone.",
             "fabrication without hood"});
   }
   report_all(plate_problems(*design.cross_section, plate), findings);

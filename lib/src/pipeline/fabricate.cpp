@@ -63,8 +63,8 @@ WorkshopBuild make(const Design& design, const Track& track, const Placement& fr
   tell_wear(design, track, options);
   if (options.supports) options.supports->ground = in_plane(design.track, options.supports->ground);
   WorkshopBuild build =
-      make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options, frame,
-                  body_of(design), design.gravity);
+      make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
+                  frame, body_of(design), design.gravity);
   if (design.hood && options.hood) add_hood_parts(design, track, frame, options, build);
   return build;
 }

@@ -40,7 +40,8 @@ PlateOptions options_of_hood(PlateOptions options) {
 /// The section at the start of the track, left and right exchanged: turning over exchanges them again.
 section::Measures section_of_hood(const Design& design) {
   section::Measures measures = *design.cross_section;
-  if (const auto width = section::width_law(measures)) measures = section::with_width(measures, width->at(0.0));
+  if (const auto width = section::width_law(measures))
+    measures = section::with_width(measures, width->at(0.0));
   if (auto* const polygon = std::get_if<section::Polygon>(&measures)) {
     for (Vec2& corner : polygon->outline) corner.x = 0.0 - corner.x;
     std::reverse(polygon->outline.begin(), polygon->outline.end());
@@ -117,8 +118,10 @@ void join_proofs(const PartsProof& hood, PartsProof& all) {
   all.added_volume += hood.added_volume;
   all.edge_mismatch = std::max(all.edge_mismatch, hood.edge_mismatch);
   if (hood.smallest_gap > 0.0)
-    all.smallest_gap = all.smallest_gap > 0.0 ? std::min(all.smallest_gap, hood.smallest_gap) : hood.smallest_gap;
-  for (const VolumeDifference& one : hood.differences) all.differences.push_back({one.what + ", hood", one.volume});
+    all.smallest_gap =
+        all.smallest_gap > 0.0 ? std::min(all.smallest_gap, hood.smallest_gap) : hood.smallest_gap;
+  for (const VolumeDifference& one : hood.differences)
+    all.differences.push_back({one.what + ", hood", one.volume});
 }
 
 }  // namespace
@@ -142,9 +145,10 @@ void add_hood_parts(const Design& design, const Track& track, const Placement& f
     build.proof.pairs = parts::require_no_clash(build.workshop);
   } catch (const InternalError& error) {
     // Each of them alone has none.
-    throw InputError({design.where("hood"), "hood and track do not go together: " + error.issues().front().what,
-                      "Their plates, frames and rims take room beside the stream.",
-                      "a larger drop, narrower or no flanges, another radius, or hood: no in fabrication"});
+    throw InputError(
+        {design.where("hood"), "hood and track do not go together: " + error.issues().front().what,
+         "Their plates, frames and rims take room beside the stream.",
+         "a larger drop, narrower or no flanges, another radius, or hood: false in fabrication"});
   }
 }
 
