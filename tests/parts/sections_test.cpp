@@ -326,8 +326,10 @@ TEST_CASE("sections: what geometry forbids is refused with place, value, bound a
                    "stave_tolerance, or a larger radius") != std::string::npos);
   PlateOptions bent;
   bent.rim.emplace();
+  bent.cover.emplace();
   bent.floor = FloorMake::bent;
-  CHECK(refused(trapezoid(), bent).find("rim|rim: it would follow the bends of plates that are bent") == 0);
+  CHECK(refused(trapezoid(), bent).find("cover|cover: it would follow the bends of plates that are bent") ==
+        0);
   PlateOptions wide;
   wide.corners.kind = CornerJoint::lap;
   const WidthLaw widths(std::vector<WidthAt>{{0.0, 0.4}, {3.0, 0.4}, {6.0, 0.5}});

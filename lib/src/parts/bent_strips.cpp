@@ -56,12 +56,12 @@ double leaning(const SectionPlate& plate) {
   return across.x / across.y;
 }
 
-double inner_radius(const StripJob& job) {
-  return job.options.bend.inner_radius.value_or(job.section.thickness);
+double inner_radius(const StripJob& job, double thickness) {
+  return job.options.bend.inner_radius.value_or(thickness);
 }
 
-double neutral(const StripJob& job) {
-  return job.options.bend.k_factor.value_or(k_factor(inner_radius(job), job.section.thickness));
+double neutral(const StripJob& job, double thickness) {
+  return job.options.bend.k_factor.value_or(k_factor(inner_radius(job, thickness), thickness));
 }
 
 }  // namespace
@@ -214,8 +214,8 @@ BentStrips::Stretch BentStrips::stretch_of(const SectionPlate& plate, const Stre
   return found;
 }
 
-std::vector<BentStrips::Bend> BentStrips::bends_of(const SectionPlate& plate, const Stretch& stretch) const {
-  const double thickness = job_.section.thickness;
+std::vector<BentStrips::Bend> BentStrips::bends_of(const SectionPlate& plate, double thickness,
+                                                   const Stretch& stretch) const {
   const auto middle = [&](std::size_t i, bool from) {
     return place(stations_[i], from ? plate.middle_from() : plate.middle_to());
   };
@@ -241,13 +241,13 @@ std::vector<BentStrips::Bend> BentStrips::bends_of(const SectionPlate& plate, co
   }
   // Plates that hardly turn take their form by themselves.
   if (!(tightest < kElastic * thickness)) return bends;
-  const double radius = inner_radius(job_);
+  const double radius = inner_radius(job_, thickness);
   for (std::size_t i = 1; i + 1 < bends.size(); ++i) {
     const double angle = std::fabs(bends[i].angle);
     if (stations_[stretch.first + i].kink == 0.0 || angle <= kNoFold) continue;
     bends[i].pressed = true;
-    bends[i].cut =
-        2.0 * (radius + 0.5 * thickness) * tan_half(angle) - (radius + neutral(job_) * thickness) * angle;
+    bends[i].cut = 2.0 * (radius + 0.5 * thickness) * tan_half(angle) -
+                   (radius + neutral(job_, thickness) * thickness) * angle;
   }
   return bends;
 }
@@ -297,9 +297,10 @@ BentStrips::Quad BentStrips::quad(const SectionPlate& plate, std::size_t i, doub
   return {{norm(along) - cut, 0.0}, {norm(along + across_to - across_from) - cut, 0.0}, from_angle, to_angle};
 }
 
-void BentStrips::develop(const SectionPlate& plate, const Stretch& stretch, Strip& strip) const {
-  const std::vector<Bend> bends = bends_of(plate, stretch);
-  const double radius = inner_radius(job_);
+void BentStrips::develop(const SectionPlate& plate, double thickness, const Stretch& stretch,
+                         Strip& strip) const {
+  const std::vector<Bend> bends = bends_of(plate, thickness, stretch);
+  const double radius = inner_radius(job_, thickness);
   Development flat;
   Vec2 at;
   double ruling = 0.0;  // heading of it on the flat
@@ -334,10 +335,8 @@ void BentStrips::develop(const SectionPlate& plate, const Stretch& stretch, Stri
   strip.part.pattern = pattern_of(flat, {});
 }
 
-Strip BentStrips::strip_of(std::size_t index, const Stretch& stretch) const {
-  const SectionPlate& plate = job_.section.plates[index];
+Strip BentStrips::strip_of(const SectionPlate& plate, double thickness, const Stretch& stretch) const {
   Strip strip;
-  strip.plate = index;
   strip.first = stretch.first;
   strip.last = stretch.last;
   strip.span = {stations_[stretch.first].s, stations_[stretch.last].s};
@@ -345,12 +344,12 @@ Strip BentStrips::strip_of(std::size_t index, const Stretch& stretch) const {
   part.name = plate.name;
   part.material = job_.options.material.name;
   part.density = job_.options.material.density;
-  part.thickness = job_.section.thickness;
+  part.thickness = thickness;
   part.body = body_of(plate, stretch);
   part.places = {plane_of_track(job_.placement, stations_[stretch.first].at, 0.0,
                                 -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
-  develop(plate, stretch, strip);
+  develop(plate, thickness, stretch, strip);
   return strip;
 }
 
@@ -360,9 +359,69 @@ std::vector<Strip> BentStrips::strips() const {
     for (std::size_t u = 0; u < units_.size(); ++u) {
       const Stretch stretch = stretch_of(job_.section.plates[p], units_[u]);
       if (stretch.first >= stretch.last) continue;
-      strips.push_back(strip_of(p, stretch));
+      strips.push_back(strip_of(job_.section.plates[p], job_.section.thickness, stretch));
+      strips.back().plate = p;
       if (units_.size() > 1) strips.back().part.name += "_" + std::to_string(u + 1);
     }
+  }
+  return strips;
+}
+
+std::optional<BentStrips::SquareEnd> BentStrips::square_end(const SectionPlate& plate, double taken,
+                                                            const SideOfUnit& side) const {
+  constexpr double kShort = 5e-3;  // of what is left of a flat [m]
+  const auto next = [&](std::size_t i) { return side.downstream ? i + 1 : i - 1; };
+  const Station& joint = stations_[side.joint];
+  const Vec2 in = stations_[next(side.joint)].at - joint.at;
+  const Vec2 inwards = (1.0 / norm(in)) * in;
+  for (std::size_t i = side.from; i != side.to; i = next(i)) {
+    const Station& a = stations_[i];
+    const Station& b = stations_[next(i)];
+    const double whole = norm(b.at - a.at);
+    const Vec2 way = (1.0 / whole) * (b.at - a.at);
+    const Vec2 up = side.downstream ? Vec2{-way.y, way.x} : Vec2{way.y, -way.x};
+    if (!(dot(way, inwards) > 0.0)) continue;
+    double move = 0.0;
+    double room = whole;
+    for (const double height : {lowest_of(plate), highest_of(plate)}) {
+      const double beyond = dot(a.at + height * up - joint.at, inwards);
+      move = std::max({move, (taken - beyond) / dot(way, inwards), height * dot(a.rise, way)});
+      room = std::min(room, dot(b.at + height * b.rise - a.at, way));
+    }
+    if (room - move < kShort) continue;
+    const double share = move / whole;
+    return SquareEnd{{a.s + share * (b.s - a.s), a.at + move * way, up, 0.0, 0.0,
+                      a.wide + share * (b.wide - a.wide), a.lean + share * (b.lean - a.lean)},
+                     i};
+  }
+  return std::nullopt;
+}
+
+std::optional<BentStrips::Stretch> BentStrips::trimmed(const SectionPlate& plate, const Stretch& unit,
+                                                       double taken) {
+  // Where the plates below it begin, beyond a hollow that is tighter than they are high.
+  const Stretch whole = stretch_of(plate, unit);
+  if (whole.first >= whole.last) return std::nullopt;
+  if (!(taken > 0.0)) return whole;
+  const auto from = square_end(plate, taken, {unit.first, whole.first, whole.last, true});
+  if (!from) return std::nullopt;
+  const auto to = square_end(plate, taken, {unit.last, whole.last, from->flat, false});
+  if (!to || !(to->station.s > from->station.s)) return std::nullopt;
+  std::vector<Station> own = {from->station};
+  for (std::size_t i = from->flat + 1; i < to->flat; ++i) own.push_back(stations_[i]);
+  own.push_back(to->station);
+  const std::size_t first = stations_.size();
+  stations_.insert(stations_.end(), own.begin(), own.end());
+  return Stretch{first, stations_.size() - 1};
+}
+
+std::vector<Strip> BentStrips::set(const SectionPlate& plate, double thickness, double taken) {
+  std::vector<Strip> strips;
+  for (std::size_t u = 0; u < units_.size(); ++u) {
+    const auto stretch = trimmed(plate, units_[u], taken);
+    if (!stretch) continue;
+    strips.push_back(strip_of(plate, thickness, *stretch));
+    if (units_.size() > 1) strips.back().part.name += "_" + std::to_string(u + 1);
   }
   return strips;
 }
@@ -379,7 +438,7 @@ BentStrips::Expected BentStrips::expected(const Strip& strip) const {
     moment += cross(a, b) * (a.y + b.y) / 6.0;
   }
   const double sense = area < 0.0 ? -1.0 : 1.0;
-  const std::vector<Bend> bends = bends_of(plate, {strip.first, strip.last});
+  const std::vector<Bend> bends = bends_of(plate, job_.section.thickness, {strip.first, strip.last});
   Expected all;
   for (std::size_t i = strip.first; i < strip.last; ++i) {
     all.volume += sense * (area * flat(i) - moment * narrowing(i)) + widened_volume(plate, i);

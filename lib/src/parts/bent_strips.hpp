@@ -48,6 +48,11 @@ class BentStrips {
 
   /// @throws InputError where a plate is higher than flats of a hollow are long: the place, a height that would do
   [[nodiscard]] std::vector<Strip> strips() const;
+  /// Plates set on the section, unit by unit: they follow its flats and bends.
+  /// @param thickness  of their stock [m]
+  /// @param taken      by frames, from the planes of each unit's ends on [m]
+  /// @throws InputError as strips()
+  [[nodiscard]] std::vector<Strip> set(const SectionPlate& plate, double thickness, double taken);
   /// @return out per height where a unit begins or ends
   [[nodiscard]] double lean_at(double s) const;
   [[nodiscard]] const std::vector<Facets>& facets() const { return facets_; }
@@ -103,13 +108,31 @@ class BentStrips {
   [[nodiscard]] double narrowing(std::size_t i) const;
   [[nodiscard]] Vec3 place(const Station& station, Vec2 corner) const;
   [[nodiscard]] Stretch stretch_of(const SectionPlate& plate, const Stretch& unit) const;
-  [[nodiscard]] std::vector<Bend> bends_of(const SectionPlate& plate, const Stretch& stretch) const;
-  [[nodiscard]] Strip strip_of(std::size_t plate, const Stretch& stretch) const;
+  /// The flats of a unit from one of its ends on.
+  struct SideOfUnit {
+    std::size_t joint = 0;  ///< the station of that end
+    std::size_t from = 0;   ///< where a plate begins, and where it ends at the latest
+    std::size_t to = 0;
+    bool downstream = true;  ///< the way from the end on
+  };
+  /// An end that stands square on a flat, clear of the frame.
+  struct SquareEnd {
+    Station station;
+    std::size_t flat = 0;  ///< the station from which that flat leads on
+  };
+  /// @param taken  by the frame, from the joint's plane on [m]
+  [[nodiscard]] std::optional<SquareEnd> square_end(const SectionPlate& plate, double taken,
+                                                    const SideOfUnit& side) const;
+  /// @return a unit without its ends, as stations of its own; none where nothing is left
+  [[nodiscard]] std::optional<Stretch> trimmed(const SectionPlate& plate, const Stretch& unit, double taken);
+  [[nodiscard]] std::vector<Bend> bends_of(const SectionPlate& plate, double thickness,
+                                           const Stretch& stretch) const;
+  [[nodiscard]] Strip strip_of(const SectionPlate& plate, double thickness, const Stretch& stretch) const;
   [[nodiscard]] FoldedPlate body_of(const SectionPlate& plate, const Stretch& stretch) const;
   /// @param cut_from,cut_to  by its bends
   [[nodiscard]] Quad quad(const SectionPlate& plate, std::size_t i, double cut_from, double cut_to) const;
   [[nodiscard]] double widened_volume(const SectionPlate& plate, std::size_t i) const;
-  void develop(const SectionPlate& plate, const Stretch& stretch, Strip& strip) const;
+  void develop(const SectionPlate& plate, double thickness, const Stretch& stretch, Strip& strip) const;
 
   const StripJob& job_;
   std::vector<Facets> facets_;

@@ -7,6 +7,7 @@
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
 #include "parts/offset_line.hpp"
+#include "parts/plate_checks.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -138,6 +139,27 @@ ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickn
   part.pattern = pattern_of(developed(job, plate, span), {});
   weigh(part);
   return part;
+}
+
+std::vector<Strip> add_bent_rims(const StripJob& job, const BentStrips& bent, Workshop& workshop) {
+  std::vector<Strip> listed;
+  if (!job.options.rim) return listed;
+  const bool frames = job.options.flanges.wanted && job.section.convex;
+  const double taken = frames ? job.options.flanges.thickness + kAsideOfFrame : 0.0;
+  for (const SectionPlate& rim : rims_of(job)) {
+    BentStrips own = bent;
+    for (Strip& strip : own.set(rim, job.options.rim->thickness, taken)) {
+      const std::size_t before = workshop.parts.size();
+      const int number = add_part(workshop, strip.part, kFittingColour);
+      if (workshop.parts.size() == before) continue;
+      for (BendStep step : strip.steps) {
+        step.part = number;
+        workshop.bends.push_back(step);
+      }
+      listed.push_back(std::move(strip));
+    }
+  }
+  return listed;
 }
 
 void add_strip_rims(const StripJob& job, const std::vector<double>& joints, Workshop& workshop) {
@@ -374,8 +396,11 @@ std::vector<Issue> section_fitting_problems(const PlateSection& section, const P
                "It is rolled along arcs of the track.", "floor: rolled");
     return true;
   };
-  if (options.rim && !on_bends(true, "rim")) object_to_rims(section, *options.rim, issues);
-  if (options.cover) {
+  if (options.rim) object_to_rims(section, *options.rim, issues);
+  if (options.rim && bent) {
+    if (auto tight = too_tight_a_bend(options.rim->thickness, options)) issues.add({std::move(*tight)});
+  }
+  if (options.cover && !on_bends(true, "cover")) {
     issues.add(cover_problems(options));
     if (section.widths)
       issues.add("cover", "cover: its bolts and those of the rim do not meet beside a width that changes", "",

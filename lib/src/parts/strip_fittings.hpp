@@ -24,6 +24,9 @@ namespace glissade::parts {
                                  const Span& span, const StockMaterial& material,
                                  const std::vector<Circle>& holes);
 
+/// Rims of plates that are bent: flats between bends as theirs.
+/// @return what was listed
+std::vector<Strip> add_bent_rims(const StripJob& job, const BentStrips& bent, Workshop& workshop);
 void add_strip_rims(const StripJob& job, const std::vector<double>& joints, Workshop& workshop);
 void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Workshop& workshop);
 

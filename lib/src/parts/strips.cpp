@@ -73,7 +73,10 @@ void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent,
   PlateOptions framed = job.options;
   if (!bent) framed.flanges = frames_that_clear(job, joints, strips);
   add_strip_frames({job.track, job.section, framed, job.placement}, bent, joints, workshop);
-  add_strip_rims(job, joints, workshop);
+  if (bent)
+    measure_bends(add_bent_rims(job, *bent, workshop), job.options, workshop);
+  else
+    add_strip_rims(job, joints, workshop);
   add_strip_covers(job, joints, workshop);
   if (job.options.liner) {
     std::vector<TilePlace> tiles;
