@@ -21,10 +21,6 @@ Vec2 direction_of(double heading) {
   return {cosine, sine};
 }
 
-Vec2 left_of(Vec2 along) {
-  return {-along.y, along.x};
-}
-
 double ArcAt::distance(Vec2 point) const {
   return distance_from(from, direction_of(heading), curvature, point);
 }

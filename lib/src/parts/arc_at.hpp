@@ -35,7 +35,9 @@ struct ArcAt {
 /// @return an angle within half a turn of 0
 [[nodiscard]] double wrapped(double angle);
 [[nodiscard]] Vec2 direction_of(double heading);
-[[nodiscard]] Vec2 left_of(Vec2 along);
+[[nodiscard]] constexpr Vec2 left_of(Vec2 along) {
+  return {-along.y, along.x};
+}
 
 /// An arc from the end of one leg that touches the circle of another.
 struct Touching {

@@ -74,14 +74,18 @@ double curvature_to(const State& state, Vec2 point) {
   return 2.0 * cross(state.along, away) / dot(away, away);
 }
 
-/// The state of an arc beside a point.
+/// The state of an arc beside a point: its distance is that of distance_from().
 State foot(const State& state, double curvature, Vec2 point) {
   const Vec2 away = point - state.at;
-  const Vec2 across = (1.0 - curvature * cross(state.along, away)) * left_of(state.along) -
-                      curvature * dot(state.along, away) * state.along;
-  const Vec2 normal = (1.0 / norm(across)) * across;
-  return {
-      point - distance_from(state.at, state.along, curvature, point) * normal, {normal.y, -normal.x}, 0, -1};
+  const double u = dot(state.along, away);
+  const double v = cross(state.along, away);
+  const double left = 1.0 - curvature * v;
+  const double back = curvature * u;
+  const double grade = std::sqrt(back * back + left * left);
+  const double distance = 2.0 * (v - 0.5 * curvature * (u * u + v * v)) / (1.0 + grade);
+  const double unit = 1.0 / grade;
+  const Vec2 normal = (unit * left) * left_of(state.along) - (unit * back) * state.along;
+  return {point - distance * normal, {normal.y, -normal.x}, 0, -1};
 }
 
 double heading_of(Vec2 along) {

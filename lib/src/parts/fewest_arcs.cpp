@@ -190,8 +190,13 @@ ArcChain fewest_arcs(const Centerline& track, const TrackSamples& samples, const
   };
   const Band inside = {inside_of(band.left), inside_of(band.right)};
   for (std::size_t steps = even ? kSteps : kFinerSteps; steps <= kFinestSteps; steps *= 2) {
-    auto found = search_chain(track, samples, reaching(samples, stretch, inside), inside, steps);
-    if (!found || found->chain.deviation > band.half_width()) continue;
+    const Stretch within = reaching(samples, stretch, inside);
+    auto found = search_chain(track, samples, within, inside, steps);
+    if (!found) continue;
+    // Between gates it strays: joints that move a little are far cheaper than gates that stand closer.
+    const bool strays = found->chain.deviation > band.half_width();
+    if (strays && even) found->chain = fit_chain(samples, within, found->joints, kFitted * band.half_width());
+    if (found->chain.deviation > band.half_width()) continue;
     if (!even) return std::move(found->chain);
     return Fewer(track, samples, stretch, band, std::move(*found)).run();
   }
