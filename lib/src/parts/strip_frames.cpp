@@ -131,13 +131,16 @@ FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& 
   if (!flange.wanted || !job.section.convex) return flange;
   double most = 0.0;
   double where = 0.0;
+  std::vector<PlacedFacets> plates;
+  plates.reserve(strips.size());
+  for (const Strip& strip : strips) plates.push_back(placed_facets(strip.part));
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.ring};
     for (const double shift : {0.0, -flange.thickness}) {
       if (shift == 0.0 ? i + 1 == joints.size() : i == 0) continue;
       const Frame place = place_of_frame(job, joints[i], shift);
-      for (const Strip& strip : strips) {
-        const double out = standing_out(strip.part, opening, place, flange.thickness, 0.5 * flange.width);
+      for (const PlacedFacets& plate : plates) {
+        const double out = standing_out(plate, opening, place, flange.thickness, 0.5 * flange.width);
         if (out > most) where = joints[i];
         most = std::max(most, out);
       }
