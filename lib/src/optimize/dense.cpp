@@ -208,6 +208,21 @@ void ShiftedCholesky::backward(double* x) const {
   }
 }
 
+void ShiftedCholesky::forward(Matrix& rows) const {
+  std::size_t first = 0;
+  for (; first + kAtOnce <= rows.rows(); first += kAtOnce) {
+    double* const x[kAtOnce] = {rows.row(first), rows.row(first + 1), rows.row(first + 2),
+                                rows.row(first + 3)};
+    const double* const given[kAtOnce] = {x[0], x[1], x[2], x[3]};
+    for (std::size_t i = 0; i < lower_.columns(); ++i) {
+      double sums[kAtOnce];
+      four_dots(given, lower_.row(i), i, sums);
+      for (std::size_t k = 0; k < kAtOnce; ++k) x[k][i] = (x[k][i] - sums[k]) * inverse_[i];
+    }
+  }
+  for (; first < rows.rows(); ++first) forward(rows.row(first));
+}
+
 void ShiftedCholesky::forward(double* x) const {
   for (std::size_t i = 0; i < lower_.columns(); ++i) x[i] = (x[i] - dot(lower_.row(i), x, i)) * inverse_[i];
 }

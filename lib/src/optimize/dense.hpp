@@ -55,6 +55,8 @@ class ShiftedCholesky {
   void backward(double* x) const;
   /// x := L^-1 x: a gradient from original to scaled variables
   void forward(double* x) const;
+  /// The same of each row of a matrix, to the same bits.
+  void forward(Matrix& rows) const;
 
  private:
   [[nodiscard]] bool factor(const Matrix& symmetric, const Vector& diagonal);

@@ -110,23 +110,30 @@ Kink::Kink(const Vector& knots, const FoundSlope& found, std::size_t first, std:
 }
 
 Kink::Fit Kink::fit(double at) const {
-  Matrix normal(kTerms, kTerms);
+  std::array<std::array<double, kTerms>, kTerms> sums{};
   Vector factors(kTerms, 0.0);
   for (const Point& point : points_) {
     const auto term = terms(point.sigma, at);
     for (std::size_t j = 0; j < kTerms; ++j) {
-      add_scaled(normal.row(j), point.weight * term[j], term.data(), kTerms);
-      factors[j] += point.weight * term[j] * point.zeta;
+      const double weighed = point.weight * term[j];
+      for (std::size_t k = 0; k < kTerms; ++k) sums[j][k] += weighed * term[k];
+      factors[j] += weighed * point.zeta;
     }
   }
+  Matrix normal(kTerms, kTerms);
   Vector diagonal(kTerms);
-  for (std::size_t j = 0; j < kTerms; ++j) diagonal[j] = normal(j, j);
+  for (std::size_t j = 0; j < kTerms; ++j) {
+    std::copy(sums[j].begin(), sums[j].end(), normal.row(j));
+    diagonal[j] = normal(j, j);
+  }
   const ShiftedCholesky cholesky(normal, diagonal);
   cholesky.forward(factors.data());
   cholesky.backward(factors.data());
   double squares = 0.0;
   for (const Point& point : points_) {
-    const double miss = dot(terms(point.sigma, at).data(), factors.data(), kTerms) - point.zeta;
+    const auto term = terms(point.sigma, at);
+    double miss = -point.zeta;
+    for (std::size_t j = 0; j < kTerms; ++j) miss += term[j] * factors[j];
     squares += point.weight * miss * miss;
   }
   return {std::sqrt(squares), factors[3] / unit()};

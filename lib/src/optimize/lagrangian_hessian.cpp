@@ -1,5 +1,5 @@
 // The Hessian of a Lagrangian over the stations of a transcription: what each section adds is gathered over the
-// five vectors that its stations share, and spread over all unknowns once a section.
+// five vectors that its stations share, and told over those of the section before it, up to the start.
 
 #include "optimize/quadrature.hpp"
 #include "optimize/transcription.hpp"
@@ -28,6 +28,32 @@ void Transcription::add_pair(LocalMatrix& matrix, double factor, const LocalRow&
   }
 }
 
+void Transcription::add_turning(LocalMatrix& matrix, double square, double with_length, const LocalRow& dz) {
+  const double first = dz[kFirst];
+  const double second = dz[kSecond];
+  matrix[kZeta][kZeta] += square;
+  matrix[kFirst][kZeta] += square * first;
+  matrix[kFirst][kFirst] += square * first * first;
+  matrix[kSecond][kZeta] += square * second;
+  matrix[kSecond][kFirst] += square * first * second;
+  matrix[kSecond][kSecond] += square * second * second;
+  matrix[kLength][kZeta] += with_length;
+  matrix[kLength][kFirst] += with_length * first;
+  matrix[kLength][kSecond] += with_length * second;
+}
+
+void Transcription::add_terms(LocalMatrix& matrix, const StationTerms& terms, const LocalRow& dv,
+                              const LocalRow& dz) {
+  // All that goes together with dv in one go.
+  LocalRow with_v = dv;
+  for (double& entry : with_v) entry *= 0.5 * terms.v_v;
+  for (const std::size_t j : {kZeta, kFirst, kSecond}) with_v[j] += terms.v_zeta * dz[j];
+  with_v[kLength] += terms.v_length;
+  add_pair(matrix, 1.0, dv, with_v);
+  add_turning(matrix, terms.zeta_zeta, terms.zeta_length, dz);
+  matrix[kLength][kLength] += terms.length_length;
+}
+
 void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
                                     std::vector<LocalMatrix>& parts) const {
   const PanelRule& rule = panel_rule();
@@ -51,10 +77,8 @@ void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const S
       }
       sum_x *= panel.ds[k];
       sum_y *= panel.ds[k];
-      const LocalRow& dz = local_dzeta_[at];
-      add_square(part, -scale * (shape.cos[at] * sum_x + shape.sin[at] * sum_y), dz);
-      if (panel.by_length == 0.0) continue;
-      add_pair(part, panel.by_length * (-shape.sin[at] * sum_x + shape.cos[at] * sum_y), kOfLength, dz);
+      add_turning(part, -scale * (shape.cos[at] * sum_x + shape.sin[at] * sum_y),
+                  panel.by_length * (-shape.sin[at] * sum_x + shape.cos[at] * sum_y), local_dzeta_[at]);
     }
     for (std::size_t q = 0; q < kNodes; ++q) {
       later_x += weights.x[panel.first + q];
@@ -63,17 +87,15 @@ void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const S
   }
 }
 
-void Transcription::add_exponent(LocalMatrix& part, double mu, const Ride& ride, const Flow& flow,
+void Transcription::add_exponent(StationTerms& terms, double mu, const Ride& ride, const Flow& flow,
                                  std::size_t station, double by_v) const {
-  const LocalRow& dv = flow.dv.local[station];
-  const LocalRow& dz = local_dzeta_[station];
-  add_pair(part, 2.0 * mu * by_v, dz, dv);
-  add_square(part, -4.0 * mu * mu * by_v * flow.v[station], dz);
+  terms.v_zeta += 2.0 * mu * by_v;
+  terms.zeta_zeta -= 4.0 * mu * mu * by_v * flow.v[station];
   if (ride.drag == 0.0) return;
   const double reach = 2.0 * ride.drag * stations_[station].by_length;
-  add_pair(part, -reach * by_v, kOfLength, dv);
-  add_pair(part, 2.0 * mu * reach * by_v * flow.v[station], kOfLength, dz);
-  add_square(part, -reach * reach * by_v * flow.v[station], kOfLength);
+  terms.v_length -= reach * by_v;
+  terms.zeta_length += 2.0 * mu * reach * by_v * flow.v[station];
+  terms.length_length -= reach * reach * by_v * flow.v[station];
 }
 
 // v = e^phi w with phi = 2 mu zeta - 2 k s, w' = drive e^-phi. phi is linear in the unknowns:
@@ -92,25 +114,25 @@ void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ri
     const double scale = panel.scale(length);
     const double mu = ride.friction_in(panel.zone);
     double by_v_at_end = 0.0;
+    std::array<StationTerms, kNodes + 1> terms{};
     if (p + 1 < panels_.size() && panels_[p + 1].zone != panel.zone) {
       const double behind = ride.friction_in(panels_[p + 1].zone);
-      add_exponent(part, behind, ride, flow, panel.first + kNodes, -later);
+      add_exponent(terms[kNodes], behind, ride, flow, panel.first + kNodes, -later);
       by_v_at_end = std::exchange(later, 0.0);
     }
     double by_w[kNodes + 1] = {};  // w as counted from the start of the panel
     for (std::size_t q = 0; q <= kNodes; ++q) {
       const std::size_t at = panel.first + q;
       double by_v = weights.v[index][at] + (q == kNodes ? by_v_at_end : 0.0);
-      const LocalRow& dv = flow.dv.local[at];
       if (q < kNodes && weights.time[index] != 0.0) {
         const Slowness slow = slowness(flow.v[at], slowest(ride, at));
         const double timed = weights.time[index] * rule.weight[q] * panel.ds[q];
         by_v += scale * timed * slow.first;
-        add_square(part, scale * timed * slow.second, dv);
-        if (panel.by_length != 0.0) add_pair(part, panel.by_length * timed * slow.first, kOfLength, dv);
+        terms[q].v_v += scale * timed * slow.second;
+        terms[q].v_length += panel.by_length * timed * slow.first;
       }
       if (by_v == 0.0) continue;
-      add_exponent(part, mu, ride, flow, at, by_v);
+      add_exponent(terms[q], mu, ride, flow, at, by_v);
       by_w[q] = by_v * flow.growth[at];
     }
     later = later * flow.growth[panel.first + kNodes] + by_w[kNodes];
@@ -120,16 +142,17 @@ void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ri
       for (std::size_t q = 0; q < kNodes; ++q) sum += rule.to_node[q][k] * by_w[q];
       if (sum == 0.0) continue;
       sum *= panel.ds[k] / flow.growth[at];
-      const LocalRow& dz = local_dzeta_[at];
       const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
       const double drive1 = 2.0 * (shape.cos[at] + mu * shape.sin[at]);
       const double f1 = drive1 - 2.0 * mu * drive;
-      add_square(part, scale * sum * (-drive - 4.0 * mu * drive1 + 4.0 * mu * mu * drive), dz);
+      terms[k].zeta_zeta += scale * sum * (-drive - 4.0 * mu * drive1 + 4.0 * mu * mu * drive);
       const double reach = 2.0 * drag * stations_[at].by_length;
       const double own = panel.by_length;
-      add_pair(part, sum * f1 * (own + scale * reach), kOfLength, dz);
-      add_square(part, 2.0 * sum * drive * reach * (own + 0.5 * scale * reach), kOfLength);
+      terms[k].zeta_length += sum * f1 * (own + scale * reach);
+      terms[k].length_length += 2.0 * sum * drive * reach * (own + 0.5 * scale * reach);
     }
+    for (std::size_t q = 0; q <= kNodes; ++q)
+      add_terms(part, terms[q], flow.dv.local[panel.first + q], local_dzeta_[panel.first + q]);
     for (std::size_t q = 0; q < kNodes; ++q) later += by_w[q];
   }
   // What the body brings along: w = v_0 e^(-2 mu zeta_0).
@@ -137,35 +160,114 @@ void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ri
   add_square(parts[stations_[0].section], later * 4.0 * mu * mu * ride.entry_speed2, local_dzeta_[0]);
 }
 
-void Transcription::expand(const LocalMatrix& matrix, std::size_t section, const double* own,
-                           Matrix& hessian) const {
-  const std::size_t n = layout_.size();
-  const std::size_t piece = sections_[section].piece;
-  const double* zeta = dzeta_starts_.row(section);
-  const auto entry = [&](std::size_t i, std::size_t j) { return i >= j ? matrix[i][j] : matrix[j][i]; };
-  Vector product(n);
-  const auto times = [&](std::size_t i) {
-    std::fill(product.begin(), product.end(), 0.0);
-    LocalRow row{};
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = entry(i, j);
-    expand(row, section, own, product.data());
-  };
-  const auto add_outer = [&](const double* vector) {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (vector[i] != 0.0) add_scaled(hessian.row(i), vector[i], product.data(), i + 1);
+/// What sections add to a Hessian, gathered from the last one to the first. Where a section begins, all behind it is
+/// told by a form over three vectors, those of its quantity, of the slope angle and of the length, and by how the unknowns
+/// behind go together with them: as these three are sums of the same of the section before, each section costs no more
+/// than one row of the Hessian.
+class Transcription::LaterSections {
+ public:
+  LaterSections(std::size_t unknowns, Matrix& upper) : upper_(upper) {
+    for (Vector& cross : cross_) cross.assign(unknowns, 0.0);
+  }
+
+  /// What is told over the vectors of a section is told over those of the section before it.
+  /// @param own,zeta    where the section ends, over the vectors of the section before
+  /// @param first       the unknown of the turning rate at the first knot of the section before
+  /// @param behind,end  unknowns [behind, end) are the turning rates that the sections so far depend on
+  void tell_by(const LocalRow& own, const LocalRow& zeta, std::size_t first, std::size_t behind,
+               std::size_t end) {
+    const std::array<LocalRow, 3> by = {own, zeta, kOfLength};
+    LocalMatrix before{};
+    for (std::size_t i = 0; i < kShared; ++i) {
+      for (std::size_t j = 0; j < kShared; ++j) {
+        const double factor = form_[i >= j ? i : j][i >= j ? j : i];
+        for (std::size_t a = 0; a < own.size(); ++a) {
+          for (std::size_t b = 0; b <= a; ++b) before[a][b] += factor * by[i][a] * by[j][b];
+        }
+      }
     }
-  };
-  if (own != nullptr) {
-    times(kOwn);
-    add_outer(own);
+    for (std::size_t j = behind; j < end; ++j) {
+      const double of_own = cross_[0][j];
+      const double of_zeta = cross_[1][j];
+      const double to_first = of_own * own[kFirst] + of_zeta * zeta[kFirst];
+      const double to_second = of_own * own[kSecond] + of_zeta * zeta[kSecond];
+      cross_[0][j] = of_own * own[kOwn];
+      cross_[1][j] = of_own * own[kZeta] + of_zeta * zeta[kZeta];
+      cross_[2][j] += of_own * own[kLength] + of_zeta * zeta[kLength];
+      add(first, j, to_first);
+      add(first + 1, j, to_second);
+    }
+    form_ = {};
+    add_section(before, first);
   }
-  times(kZeta);
-  add_outer(zeta);
-  const std::size_t unknown[] = {layout_.turn(piece), layout_.turn(piece + 1), layout_.length()};
-  for (std::size_t k = 0; k < 3; ++k) {
-    times(kFirst + k);
-    add_scaled(hessian.row(unknown[k]), 1.0, product.data(), unknown[k] + 1);
+
+  /// Adds what a section that begins here adds itself.
+  void add_section(const LocalMatrix& part, std::size_t first) {
+    upper_(first, first) += part[kFirst][kFirst];
+    upper_(first, first + 1) += part[kSecond][kFirst];
+    upper_(first + 1, first + 1) += part[kSecond][kSecond];
+    for (std::size_t i = 0; i < kShared; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) form_[i][j] += part[kVector[i]][kVector[j]];
+      cross_[i][first] += entry(part, kFirst, kVector[i]);
+      cross_[i][first + 1] += entry(part, kSecond, kVector[i]);
+    }
   }
+
+  /// Where the track begins.
+  /// @param vectors  that of the quantity, that of the slope angle, and the unit vector of the length
+  void add_start(const std::array<const double*, 3>& vectors) {
+    const std::size_t n = upper_.columns();
+    Vector product(n);
+    for (std::size_t i = 0; i < kShared; ++i) {
+      // Half of the form, and all that goes together with the unknowns: both are added to either side.
+      product = cross_[i];
+      for (std::size_t j = 0; j < kShared; ++j)
+        add_scaled(product.data(), 0.5 * form_[i >= j ? i : j][i >= j ? j : i], vectors[j], n);
+      for (std::size_t k = 0; k < n; ++k) {
+        const double share = vectors[i][k];
+        if (share == 0.0) continue;
+        for (std::size_t j = 0; j < n; ++j) add(k, j, share * product[j]);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kShared = 3;
+  static constexpr std::array<std::size_t, kShared> kVector = {kOwn, kZeta, kLength};
+
+  [[nodiscard]] static double entry(const LocalMatrix& matrix, std::size_t i, std::size_t j) {
+    return i >= j ? matrix[i][j] : matrix[j][i];
+  }
+  /// + value (e_i e_j^T + e_j e_i^T)
+  void add(std::size_t i, std::size_t j, double value) {
+    upper_(std::min(i, j), std::max(i, j)) += i == j ? 2.0 * value : value;
+  }
+
+  std::array<LocalRow, kShared> form_{};  ///< lower triangle
+  std::array<Vector, kShared> cross_;     ///< by unknown
+  Matrix& upper_;
+};
+
+void Transcription::expand(const std::vector<LocalMatrix>& parts, const Derivatives* own,
+                           Matrix& upper) const {
+  const std::size_t n = layout_.size();
+  LaterSections later(n, upper);
+  std::vector<std::size_t> ends(sections_.size(), 0);
+  for (std::size_t i = 0; i < stations_.size(); ++i) ends[stations_[i].section] = i;
+  const std::size_t end = layout_.turn(layout_.knots);
+  for (std::size_t s = sections_.size(); s-- > 0;) {
+    const std::size_t first = layout_.turn(sections_[s].piece);
+    if (s + 1 < sections_.size()) {
+      const LocalRow by_own = own != nullptr ? own->local[ends[s]] : LocalRow{};
+      later.tell_by(by_own, local_dzeta_[ends[s]], first, layout_.turn(sections_[s + 1].piece), end);
+    }
+    later.add_section(parts[s], first);
+  }
+  Vector of_length(n, 0.0);
+  of_length[layout_.length()] = 1.0;
+  const Vector none(n, 0.0);
+  later.add_start(
+      {own != nullptr ? own->starts.row(0) : none.data(), dzeta_starts_.row(0), of_length.data()});
 }
 
 Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
@@ -179,7 +281,7 @@ Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::ve
       add_shape_parts(z, shape, weights, parts);
       for (std::size_t i = 0; i < stations_.size(); ++i) {
         if (weights.zeta_zeta[i] == 0.0) continue;
-        add_square(parts[stations_[i].section], weights.zeta_zeta[i], local_dzeta_[i]);
+        add_turning(parts[stations_[i].section], weights.zeta_zeta[i], 0.0, local_dzeta_[i]);
       }
     }
     const Flow& flow = flows[r];
@@ -192,10 +294,10 @@ Matrix Transcription::hessian(const Vector& z, const Shape& shape, const std::ve
     } else {
       add_law_parts(z, shape, rides[r], flow, weights, r, parts);
     }
-    for (std::size_t s = 0; s < sections_.size(); ++s) expand(parts[s], s, flow.dv.starts.row(s), h);
+    expand(parts, &flow.dv, h);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < i; ++j) h(j, i) = h(i, j);
+    for (std::size_t j = 0; j < i; ++j) h(i, j) = h(j, i);
   }
   return h;
 }
@@ -205,11 +307,11 @@ Matrix Transcription::gram_of_dzeta(const Vector& weights) const {
   Matrix gram(n, n);
   std::vector<LocalMatrix> parts(sections_.size(), LocalMatrix{});
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    add_square(parts[stations_[i].section], weights[i], local_dzeta_[i]);
+    add_turning(parts[stations_[i].section], weights[i], 0.0, local_dzeta_[i]);
   }
-  for (std::size_t s = 0; s < sections_.size(); ++s) expand(parts[s], s, nullptr, gram);
+  expand(parts, nullptr, gram);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < i; ++j) gram(j, i) = gram(i, j);
+    for (std::size_t j = 0; j < i; ++j) gram(i, j) = gram(j, i);
   }
   return gram;
 }

@@ -27,6 +27,9 @@ class MovedPrograms {
   MovedPrograms(const ScaledProblem& problem, const Found& found)
       : problem_(problem), found_(found), rows_(*found.rows), state_(rows_.state(found.z, true)) {
     set_ = rows_.candidates(state_, kTight);
+    for (const Row& row : found.active) {
+      if (std::find(set_.begin(), set_.end(), row) == set_.end()) set_.push_back(row);
+    }
   }
 
   /// Whether a row is tight and carries nothing: else the multipliers are unique.

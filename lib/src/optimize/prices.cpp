@@ -64,9 +64,11 @@ bool same_prices(const Vector& a, const Vector& b) {
   return true;
 }
 
-/// An optimum again on a finer mesh. @return none where it does not arrive there
+/// What limits carry at the optimum on a finer mesh. @return none where it does not arrive there
 std::optional<Found> on_finer_mesh(const ScaledProblem& problem, const Found& found, const MeshTrack& finer,
                                    const OptimizeOptions& options, SearchControl& control) {
+  if (auto near = approximated(problem, finer.mesh, finer.z, found.rows->margins(), control, found))
+    return near;
   control.tolerance = kAimed * options.tolerance;
   control.most_rounds = 0;
   Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control, &found);

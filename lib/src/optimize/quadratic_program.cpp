@@ -29,12 +29,12 @@ class ActiveBasis {
     double rest_norm = 0.0;
     bool dependent = false;
   };
-  [[nodiscard]] Split split(const Vector& row) const {
+  [[nodiscard]] Split split(const Vector& row) const { return split(row.data(), row.size()); }
+  [[nodiscard]] Split split(const double* row, std::size_t n) const {
     Split split;
     split.along.assign(size(), 0.0);
-    split.rest = row;
-    const std::size_t n = row.size();
-    const double whole = norm(row);
+    split.rest.assign(row, row + n);
+    const double whole = norm(split.rest);
     split.rest_norm = whole;
     std::vector<const double*> basis;
     for (const Vector& q : q_) basis.push_back(q.data());
@@ -202,9 +202,14 @@ class DualMethod {
       const double left = dot(program_.equality.row(i), d.data(), d.size()) + program_.equality_value[i];
       if (std::fabs(left) > kDependent * (1.0 + std::fabs(program_.equality_value[i]))) return false;
     }
-    for (const std::size_t i : likely) {
+    Matrix rows(likely.size(), gradient_.size());
+    for (std::size_t k = 0; k < likely.size(); ++k)
+      std::copy_n(program_.inequality.row(likely[k]), gradient_.size(), rows.row(k));
+    metric_.forward(rows);
+    for (std::size_t k = 0; k < likely.size(); ++k) {
+      const std::size_t i = likely[k];
       if (is_active_[i]) continue;
-      const ActiveBasis::Split split = basis_.split(in_metric(program_.inequality.row(i)));
+      const ActiveBasis::Split split = basis_.split(rows.row(k), gradient_.size());
       if (split.dependent) continue;
       enter(split, i, program_.inequality_value[i]);
       is_active_[i] = true;

@@ -225,7 +225,7 @@ double Rows::place(const State& state, const Row& row) const {
   return limit.measure->place(at(state, limit, row));
 }
 
-std::vector<Row> Rows::candidates(const State& state, double band) const {
+std::vector<Row> Rows::candidates(const State& state, double band, Vector* values) const {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < problem_.limits.size(); ++i) {
     const LimitSpec& limit = problem_.limits[i];
@@ -234,7 +234,13 @@ std::vector<Row> Rows::candidates(const State& state, double band) const {
     first.limit = i;
     limit.measure->add_rows(at(state, limit, first), rows);
   }
-  std::erase_if(rows, [&](const Row& row) { return !(value(state, row) > -band); });
+  if (values != nullptr) values->clear();
+  std::erase_if(rows, [&](const Row& row) {
+    const double there = value(state, row);
+    const bool is_near = there > -band;
+    if (is_near && values != nullptr) values->push_back(there);
+    return !is_near;
+  });
   return rows;
 }
 

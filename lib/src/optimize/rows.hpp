@@ -65,7 +65,8 @@ class Rows {
   [[nodiscard]] const std::size_t* limit_of_equality(std::size_t row) const;
 
   /// Every inequality row there is, that is within `band` of its bound or beyond it.
-  [[nodiscard]] std::vector<Row> candidates(const State& state, double band) const;
+  /// @param values  theirs, where asked for
+  [[nodiscard]] std::vector<Row> candidates(const State& state, double band, Vector* values = nullptr) const;
   [[nodiscard]] double value(const State& state, const Row& row) const;
   void gradient(const State& state, const Row& row, double* out) const;
   /// arc length of the row's place

@@ -18,6 +18,8 @@ constexpr double kMultiplierAccuracy = 1e-15;  // rounding
 // their bound, and ...
 constexpr std::size_t kCoarse = 18;  // budget: a round of SLSQP costs the cube of rows and unknowns
 constexpr double kMayMatter = 0.05;  // taste
+// A step as short as this leads to no other rows than those.
+constexpr double kShortest = 0.01;  // taste
 // ... those that a round without them broke by this much.
 constexpr double kBroken = 0.01;  // taste
 // Finer meshes than this are left to our own steps, ...
@@ -86,14 +88,44 @@ class Minimiser {
     return found;
   }
 
+  /// Programs in turn, without a look back: none where their steps do not shrink at once.
+  [[nodiscard]] std::optional<Found> approximate(const Vector& start, const Found& known) {
+    constexpr int kMostSteps = 3;     // budget
+    constexpr double kClose = 2e-5;   // accuracy: far below that of a price
+    constexpr double kFast = 1e-3;    // taste: from as close as this the metric of the step before will do
+    constexpr double kShrinks = 0.5;  // taste
+    begin(start, &known);
+    for (int step = 0; solved(point_); ++step) {
+      Vector z = point_.state.z;
+      add_scaled(z.data(), 1.0, point_.solution.step.data(), n_);
+      if (!track_->is_track(z)) break;
+      if (point_.distance <= kClose) return at_end_of_step(std::move(z));
+      if (step == kMostSteps || control_.stop()) break;
+      ++control_.evaluations;
+      Point next = linearised(rows_->state(z, true));
+      if (point_.distance < kFast) {
+        next.metric = std::move(point_.metric);
+      } else {
+        set_metric(next, point_.next);
+      }
+      set_solution(next, point_.next);
+      if (next.distance > kShrinks * point_.distance) break;
+      point_ = std::move(next);
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] Outlook look(const Vector& start, const Found& known) {
     Outlook outlook;
-    // The multipliers of the coarser mesh tell which rows to begin with. For the curvature they are not good enough:
-    // where they leave it indefinite, the step would be shortened, and less promised than there is.
     point_ = linearised(rows_->state(start, true));
-    set_metric(point_, Multipliers{});
-    set_solution(point_, carried_over(known));
-    renew(point_);
+    const Multipliers carried = carried_over(known);
+    set_metric(point_, carried);
+    const bool is_convex = point_.metric.shift() == 0.0;
+    // The multipliers of the coarser mesh tell which rows to begin with. For the curvature they may not be good enough:
+    // where they leave it indefinite, the step would be shortened, and less promised than there is.
+    if (!is_convex) set_metric(point_, Multipliers{});
+    set_solution(point_, carried);
+    if (!is_convex) renew(point_);
     outlook.step = point_.solution.step;
     outlook.force.assign(n_, 0.0);
     if (!solved(point_)) return outlook;
@@ -129,6 +161,20 @@ class Minimiser {
     Multipliers next;       ///< of the solution
     double distance = 0.0;  ///< length of the step over that of the gradient, in the metric
   };
+
+  /// The optimum as the point's program has it.
+  [[nodiscard]] Found at_end_of_step(Vector z) const {
+    Found found;
+    found.track = track_;
+    found.rows = rows_;
+    found.objective = rows_->objective(point_.state);
+    found.residual = point_.distance;
+    found.z = std::move(z);
+    found.equality = point_.next.equality;
+    found.active = point_.next.active;
+    found.inequality = point_.next.inequality;
+    return found;
+  }
 
   void begin(const Vector& start, const Found* known) {
     is_guessed_ = known != nullptr;
@@ -218,13 +264,13 @@ class Minimiser {
     return point;
   }
 
-  [[nodiscard]] Point linearised(State state) const {
+  /// @param band  rows that close to their bounds take part
+  [[nodiscard]] Point linearised(State state, double band = kBand) const {
     Point point;
     QuadraticProgram& program = point.program;
     program.gradient = rows_->objective_gradient(state);
     rows_->equalities(state, program.equality_value, program.equality);
-    point.set = rows_->candidates(state, kBand);
-    program.inequality_value = values_of(*rows_, state, point.set);
+    point.set = rows_->candidates(state, band, &program.inequality_value);
     program.inequality = jacobian_of(*rows_, state, point.set, n_);
     point.state = std::move(state);
     return point;
@@ -365,12 +411,22 @@ class Minimiser {
     // A metric that makes the steps this much shorter is kept: another would cost more than a step.
     constexpr double kFast = 0.1;    // taste
     constexpr double kClose = 1e-3;  // taste
+    constexpr double kShort = 0.05;  // taste
     for (const double part : kParts) {
       Vector z = point_.state.z;
       add_scaled(z.data(), part, point_.solution.step.data(), n_);
       if (!track_->is_track(z)) continue;
       ++control_.evaluations;
-      Point next = linearised(rows_->state(z, true));
+      Point next = linearised(rows_->state(z, true), point_.distance < kShortest ? kMayMatter : kBand);
+      if (part == 1.0 && point_.distance < kShort && point_.distance >= kClose) {
+        // In a metric of its own the next step is most often shorter, too, and then the next but one begins there.
+        set_metric(next, point_.next);
+        set_solution(next, point_.next);
+        if (solved(next) && next.distance <= (1.0 - kShorter) * point_.distance) {
+          point_ = std::move(next);
+          return true;
+        }
+      }
       next.metric = point_.metric;
       set_solution(next, point_.next);
       if (!solved(next)) continue;
@@ -518,6 +574,11 @@ class Minimiser {
 Found minimise(const ScaledProblem& problem, const Mesh& mesh, const Vector& start, const Vector& margins,
                SearchControl& control, const Found* known) {
   return Minimiser(problem, mesh, margins, control).run(start, known);
+}
+
+std::optional<Found> approximated(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
+                                  const Vector& margins, SearchControl& control, const Found& known) {
+  return Minimiser(problem, mesh, margins, control).approximate(z, known);
 }
 
 Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z, const Vector& margins,

@@ -280,6 +280,17 @@ class Transcription {
   static void add_square(LocalMatrix& matrix, double factor, const LocalRow& a);
   /// + factor (a b^T + b a^T)
   static void add_pair(LocalMatrix& matrix, double factor, const LocalRow& a, const LocalRow& b);
+  /// + square dz dz^T + with_length (dz e^T + e dz^T), e the unit vector of the length: dz begins with the slope angle of
+  /// its section, and knows nothing of the length.
+  static void add_turning(LocalMatrix& matrix, double square, double with_length, const LocalRow& dz);
+  /// What a station adds, as factors of products of dv, dzeta and e, the unit vector of the length; of two different ones
+  /// both orders count.
+  struct StationTerms {
+    double v_v = 0.0, v_zeta = 0.0, v_length = 0.0;
+    double zeta_zeta = 0.0, zeta_length = 0.0, length_length = 0.0;
+  };
+  static void add_terms(LocalMatrix& matrix, const StationTerms& terms, const LocalRow& dv,
+                        const LocalRow& dz);
 
   void differentiate_shape(const Vector& z, std::size_t panel, Shape& out) const;
   /// One panel of a sliding point's flow.
@@ -308,9 +319,10 @@ class Transcription {
   void add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
                       const StationWeights& weights, std::size_t index,
                       std::vector<LocalMatrix>& parts) const;
-  /// The lower triangle of what one section adds to a Hessian.
-  /// @param own  the vector behind kOwn; none where it has no part
-  void expand(const LocalMatrix& matrix, std::size_t section, const double* own, Matrix& hessian) const;
+  class LaterSections;
+  /// The upper triangle of what the sections add to a Hessian.
+  /// @param own  the quantity behind kOwn; none where it has no part
+  void expand(const std::vector<LocalMatrix>& parts, const Derivatives* own, Matrix& upper) const;
   /// out += the vector behind a LocalRow
   void expand(const LocalRow& row, std::size_t section, const double* own, double* out) const;
 
@@ -336,7 +348,7 @@ class Transcription {
   [[nodiscard]] std::size_t zone_at(double arc_length) const;
   /// Adds what a sliding point's exponent 2 mu zeta - 2 k s of one friction does at a station.
   /// @param by_v  dL/dv there
-  void add_exponent(LocalMatrix& part, double mu, const Ride& ride, const Flow& flow, std::size_t station,
+  void add_exponent(StationTerms& terms, double mu, const Ride& ride, const Flow& flow, std::size_t station,
                     double by_v) const;
   void add_fine_knots();
   void add_sections();
