@@ -157,6 +157,40 @@ TEST_CASE("quadratic program: rows given twice, and rows that others imply, chan
   }
 }
 
+TEST_CASE(
+    "quadratic program: with other values of its rows, one begun once has the solution of one begun anew") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 50; ++i) {
+    const auto n = static_cast<std::size_t>(random.between(4.0, 20.0));
+    QuadraticProgram program = random_program(random, n, 2, 60);
+    // An equality row that the first implies: other values may contradict it.
+    Matrix equality(3, n);
+    for (std::size_t row = 0; row < 3; ++row)
+      add_scaled(equality.row(row), row == 2 ? 2.0 : 1.0, program.equality.row(row % 2), n);
+    program.equality = equality;
+    program.equality_value.push_back(2.0 * program.equality_value[0]);
+    const Matrix hessian = random_hessian(random, n);
+    const ShiftedCholesky metric(hessian, diagonal_of(hessian));
+    const QuadraticSolution first = solve(program, metric);
+    REQUIRE(first.status == QuadraticSolution::Status::solved);
+    const BegunProgram begun(program, metric, first.active);
+    for (int move = 0; move < 3; ++move) {
+      for (double& value : program.inequality_value) value += random.between(-1e-3, 1e-4);
+      program.equality_value[1] += random.between(-1e-3, 1e-3);
+      if (move == 2) program.equality_value[2] += 1.0;
+      const QuadraticSolution anew = solve(program, metric, first.active);
+      const QuadraticSolution again = begun.solve(program.equality_value, program.inequality_value);
+      CAPTURE(i, move, n);
+      CHECK(again.status == anew.status);
+      CHECK((again.status == QuadraticSolution::Status::contradictory) == (move == 2));
+      CHECK(again.step == anew.step);
+      CHECK(again.inequality == anew.inequality);
+      CHECK(again.equality == anew.equality);
+    }
+  }
+}
+
 TEST_CASE("quadratic program: more tight rows than unknowns at one corner") {
   // All edges of a pyramid with 40 sides meet at its top, the minimum of -z + (x^2 + y^2 + z^2)/2 within it.
   constexpr std::size_t kSides = 40;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -61,28 +62,30 @@ class MovedPrograms {
     const Matrix carrying = jacobian_of(rows_, state_, found_.active, n);
     metric_ = metric_of(rows_.hessian(state_, found_.equality, found_.active, found_.inequality, 1.0),
                         program_.equality, carrying);
+    std::vector<std::size_t> likely;
     for (std::size_t i = 0; i < set_.size(); ++i) {
-      if (carries(set_[i])) likely_.push_back(i);
+      if (carries(set_[i])) likely.push_back(i);
     }
+    begun_.emplace(program_, metric_, likely);
   }
 
   /// Of one limit's rows that are kept on one side, together; or of a value to be met exactly, whose sign tells which way
   /// wins. Infinite where no step keeps all rows.
   /// @param move  by which its first row is tightened, or its value lowered, in scales
   [[nodiscard]] double carried(const LimitName& name, double move) const {
-    QuadraticProgram moved = program_;
+    Vector equality_value = program_.equality_value;
+    Vector inequality_value = program_.inequality_value;
     double first = 0.0;
     const auto add_move = [&](std::size_t limit, double& value) {
       if (problem_.limits[limit].name != name) return;
       if (first == 0.0) first = per_si(limit);
       value += move * per_si(limit) / first;
     };
-    for (std::size_t i = 0; i < set_.size(); ++i) add_move(set_[i].limit, moved.inequality_value[i]);
-    for (std::size_t i = 0; i < moved.equality_value.size(); ++i) {
-      if (const std::size_t* const limit = rows_.limit_of_equality(i))
-        add_move(*limit, moved.equality_value[i]);
+    for (std::size_t i = 0; i < set_.size(); ++i) add_move(set_[i].limit, inequality_value[i]);
+    for (std::size_t i = 0; i < equality_value.size(); ++i) {
+      if (const std::size_t* const limit = rows_.limit_of_equality(i)) add_move(*limit, equality_value[i]);
     }
-    const QuadraticSolution solution = solve(moved, metric_, likely_);
+    const QuadraticSolution solution = begun_->solve(equality_value, inequality_value);
     using Status = QuadraticSolution::Status;
     if (solution.status == Status::contradictory) return std::copysign(kInfinity, move);
     if (solution.status != Status::solved) return std::numeric_limits<double>::quiet_NaN();
@@ -128,7 +131,7 @@ class MovedPrograms {
   std::vector<Row> set_;
   QuadraticProgram program_;
   ShiftedCholesky metric_;
-  std::vector<std::size_t> likely_;
+  std::optional<BegunProgram> begun_;
 };
 
 }  // namespace

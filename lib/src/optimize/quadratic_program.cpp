@@ -36,8 +36,7 @@ class ActiveBasis {
     split.rest.assign(row, row + n);
     const double whole = norm(split.rest);
     split.rest_norm = whole;
-    std::vector<const double*> basis;
-    for (const Vector& q : q_) basis.push_back(q.data());
+    const std::vector<const double*> basis = columns();
     // Twice is enough, and once where little is taken away.
     for (int pass = 0; pass < 2 && size() > 0; ++pass) {
       Vector along(size());
@@ -95,6 +94,17 @@ class ActiveBasis {
     return value;
   }
 
+  /// The shortest y with which the first rows have the values `wanted`, as many as there are of these.
+  [[nodiscard]] Vector shortest(const Vector& wanted, std::size_t n) const {
+    Vector along(wanted.size());
+    Vector y(n, 0.0);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      along[i] = (wanted[i] - dot(r_[i].data(), along.data(), i)) / r_[i][i];
+      add_scaled(y.data(), along[i], q_[i].data(), n);
+    }
+    return y;
+  }
+
   /// The minimum of g.y + |y|^2/2 where every active row has the value `wanted`, and its multipliers.
   void minimum(const Vector& gradient, const Vector& wanted, Vector& y, Vector& multipliers) const {
     const std::size_t n = gradient.size();
@@ -102,14 +112,19 @@ class ActiveBasis {
     Vector along = solve_transposed(wanted);
     y.assign(n, 0.0);
     add_scaled(y.data(), -1.0, free.rest.data(), n);
-    for (std::size_t j = 0; j < size(); ++j) {
-      add_scaled(y.data(), along[j], q_[j].data(), n);
-      along[j] = -along[j] - free.along[j];
-    }
+    add_scaled_rows(y.data(), along, columns(), n);
+    for (std::size_t j = 0; j < size(); ++j) along[j] = -along[j] - free.along[j];
     multipliers = solve(std::move(along));
   }
 
  private:
+  [[nodiscard]] std::vector<const double*> columns() const {
+    std::vector<const double*> columns;
+    columns.reserve(size());
+    for (const Vector& q : q_) columns.push_back(q.data());
+    return columns;
+  }
+
   static void rotate(double& a, double& b, double cosine, double sine) {
     const double first = cosine * a + sine * b;
     b = cosine * b - sine * a;
@@ -132,10 +147,41 @@ class DualMethod {
     is_active_.assign(program.inequality.rows(), false);
   }
 
-  [[nodiscard]] QuadraticSolution run(const std::vector<std::size_t>& likely) {
+  /// Enters the equality rows and those likely to hold, whatever their values.
+  void begin(const std::vector<std::size_t>& likely) {
+    for (std::size_t i = 0; i < program_.equality.rows(); ++i) {
+      const ActiveBasis::Split split = basis_.split(in_metric(program_.equality.row(i)));
+      if (split.dependent) {
+        depending_.push_back(i);
+      } else {
+        enter(split, i);
+      }
+    }
+    fixed_ = source_.size();
+    Matrix rows(likely.size(), gradient_.size());
+    for (std::size_t k = 0; k < likely.size(); ++k)
+      std::copy_n(program_.inequality.row(likely[k]), gradient_.size(), rows.row(k));
+    metric_.forward(rows);
+    for (std::size_t k = 0; k < likely.size(); ++k) {
+      const std::size_t i = likely[k];
+      if (is_active_[i]) continue;
+      const ActiveBasis::Split split = basis_.split(rows.row(k), gradient_.size());
+      if (split.dependent) continue;
+      enter(split, i);
+      is_active_[i] = true;
+      ++changes_;
+    }
+  }
+
+  /// To the solution from there.
+  [[nodiscard]] QuadraticSolution run(const Vector& equality_value, const Vector& inequality_value) {
+    equality_value_ = &equality_value;
+    inequality_value_ = &inequality_value;
+    for (std::size_t i = 0; i < source_.size(); ++i)
+      wanted_.push_back(-(i < fixed_ ? equality_value : inequality_value)[source_[i]]);
     QuadraticSolution solution;
-    solution.status = begin(likely) ? enter_broken_rows() : QuadraticSolution::Status::contradictory;
-    if (solution.status != QuadraticSolution::Status::contradictory) refresh();
+    refresh();
+    solution.status = keeps_depending_rows() ? from_likely_rows() : QuadraticSolution::Status::contradictory;
     solution.step = step();
     solution.length = norm(y_);
     solution.equality.assign(program_.equality.rows(), 0.0);
@@ -168,10 +214,9 @@ class DualMethod {
   /// y and the multipliers anew from the active set alone: steps leave rounding behind.
   void refresh() { basis_.minimum(gradient_, wanted_, y_, multipliers_); }
 
-  void enter(const ActiveBasis::Split& split, std::size_t row, double value) {
+  void enter(const ActiveBasis::Split& split, std::size_t row) {
     basis_.append(split);
     source_.push_back(row);
-    wanted_.push_back(-value);
   }
 
   void leave(std::size_t index) {
@@ -185,43 +230,31 @@ class DualMethod {
   }
 
   /// @return false if the equality rows contradict each other
-  [[nodiscard]] bool begin(const std::vector<std::size_t>& likely) {
-    std::vector<std::size_t> depending;
-    for (std::size_t i = 0; i < program_.equality.rows(); ++i) {
-      const ActiveBasis::Split split = basis_.split(in_metric(program_.equality.row(i)));
-      if (split.dependent) {
-        depending.push_back(i);
-      } else {
-        enter(split, i, program_.equality_value[i]);
-      }
-    }
-    fixed_ = source_.size();
-    refresh();
-    const Vector d = step();
-    for (const std::size_t i : depending) {
-      const double left = dot(program_.equality.row(i), d.data(), d.size()) + program_.equality_value[i];
-      if (std::fabs(left) > kDependent * (1.0 + std::fabs(program_.equality_value[i]))) return false;
-    }
-    Matrix rows(likely.size(), gradient_.size());
-    for (std::size_t k = 0; k < likely.size(); ++k)
-      std::copy_n(program_.inequality.row(likely[k]), gradient_.size(), rows.row(k));
-    metric_.forward(rows);
-    for (std::size_t k = 0; k < likely.size(); ++k) {
-      const std::size_t i = likely[k];
-      if (is_active_[i]) continue;
-      const ActiveBasis::Split split = basis_.split(rows.row(k), gradient_.size());
-      if (split.dependent) continue;
-      enter(split, i, program_.inequality_value[i]);
-      is_active_[i] = true;
-      ++changes_;
-    }
+  [[nodiscard]] bool keeps_depending_rows() const {
+    if (depending_.empty()) return true;
+    const auto end = wanted_.begin() + static_cast<std::ptrdiff_t>(fixed_);
+    Vector d = basis_.shortest(Vector(wanted_.begin(), end), gradient_.size());
+    metric_.backward(d.data());
+    return std::all_of(depending_.begin(), depending_.end(), [&](std::size_t i) {
+      const double value = (*equality_value_)[i];
+      const double left = dot(program_.equality.row(i), d.data(), d.size()) + value;
+      return std::fabs(left) <= kDependent * (1.0 + std::fabs(value));
+    });
+  }
+
+  /// Rows whose multipliers are negative leave, and those that are broken enter.
+  [[nodiscard]] QuadraticSolution::Status from_likely_rows() {
     for (;;) {
-      refresh();
       const auto first = multipliers_.begin() + static_cast<std::ptrdiff_t>(fixed_);
       const auto least = std::min_element(first, multipliers_.end());
-      if (least == multipliers_.end() || *least >= 0.0) return true;
+      if (least == multipliers_.end() || *least >= 0.0) break;
       leave(static_cast<std::size_t>(least - multipliers_.begin()));
+      refresh();
     }
+    const int before = changes_;
+    const QuadraticSolution::Status status = enter_broken_rows();
+    if (status != QuadraticSolution::Status::contradictory && changes_ != before) refresh();
+    return status;
   }
 
   /// Rows outside the active ones that a step breaks.
@@ -238,7 +271,7 @@ class DualMethod {
     for (std::size_t k = 0; k < among.size(); ++k) {
       const std::size_t i = among[k];
       if (is_active_[i]) continue;
-      const double there = along[k] + program_.inequality_value[i];
+      const double there = along[k] + (*inequality_value_)[i];
       if (!(there > program_.tolerance)) continue;
       rows.push_back(i);
       if (there <= value) continue;
@@ -296,7 +329,8 @@ class DualMethod {
         value -= taken * split.rest_norm * split.rest_norm;
       }
       if (full_step <= dual_step) {
-        enter(split, row, program_.inequality_value[row]);
+        enter(split, row);
+        wanted_.push_back(-(*inequality_value_)[row]);
         multipliers_.push_back(multiplier);
         is_active_[row] = true;
         return Status::solved;
@@ -315,6 +349,9 @@ class DualMethod {
   std::size_t fixed_ = 0;            ///< so many of `source_` are equality rows
   Vector wanted_;
   Vector multipliers_;
+  std::vector<std::size_t> depending_;  ///< equality rows that depend on those before them
+  const Vector* equality_value_ = nullptr;
+  const Vector* inequality_value_ = nullptr;
   std::vector<bool> is_active_;
   Vector y_;
   int changes_ = 0;
@@ -324,7 +361,28 @@ class DualMethod {
 
 QuadraticSolution solve(const QuadraticProgram& program, const ShiftedCholesky& metric,
                         const std::vector<std::size_t>& likely) {
-  return DualMethod(program, metric).run(likely);
+  DualMethod method(program, metric);
+  method.begin(likely);
+  return method.run(program.equality_value, program.inequality_value);
+}
+
+struct BegunProgram::Method : DualMethod {
+  using DualMethod::DualMethod;
+};
+
+BegunProgram::BegunProgram(const QuadraticProgram& program, const ShiftedCholesky& metric,
+                           const std::vector<std::size_t>& likely)
+    : method_(std::make_unique<Method>(program, metric)) {
+  method_->begin(likely);
+}
+
+BegunProgram::BegunProgram(BegunProgram&&) noexcept = default;
+BegunProgram& BegunProgram::operator=(BegunProgram&&) noexcept = default;
+BegunProgram::~BegunProgram() = default;
+
+QuadraticSolution BegunProgram::solve(const Vector& equality_value, const Vector& inequality_value) const {
+  Method method = *method_;
+  return method.run(equality_value, inequality_value);
 }
 
 }  // namespace glissade::optimizer

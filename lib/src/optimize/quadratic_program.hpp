@@ -3,6 +3,7 @@
 #include "optimize/dense.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -45,5 +46,23 @@ struct QuadraticSolution {
 ///                negative are left out again
 [[nodiscard]] QuadraticSolution solve(const QuadraticProgram& program, const ShiftedCholesky& metric,
                                       const std::vector<std::size_t>& likely = {});
+
+/// The same program with other values of its rows, again and again: what depends on the rows alone is done once.
+class BegunProgram {
+ public:
+  /// As solve(). `program` and `metric` are to outlive it.
+  BegunProgram(const QuadraticProgram& program, const ShiftedCholesky& metric,
+               const std::vector<std::size_t>& likely);
+  BegunProgram(BegunProgram&&) noexcept;
+  BegunProgram& operator=(BegunProgram&&) noexcept;
+  ~BegunProgram();
+
+  /// @param equality_value,inequality_value  in place of those of the program
+  [[nodiscard]] QuadraticSolution solve(const Vector& equality_value, const Vector& inequality_value) const;
+
+ private:
+  struct Method;
+  std::unique_ptr<Method> method_;
+};
 
 }  // namespace glissade::optimizer

@@ -411,22 +411,12 @@ class Minimiser {
     // A metric that makes the steps this much shorter is kept: another would cost more than a step.
     constexpr double kFast = 0.1;    // taste
     constexpr double kClose = 1e-3;  // taste
-    constexpr double kShort = 0.05;  // taste
     for (const double part : kParts) {
       Vector z = point_.state.z;
       add_scaled(z.data(), part, point_.solution.step.data(), n_);
       if (!track_->is_track(z)) continue;
       ++control_.evaluations;
       Point next = linearised(rows_->state(z, true), point_.distance < kShortest ? kMayMatter : kBand);
-      if (part == 1.0 && point_.distance < kShort && point_.distance >= kClose) {
-        // In a metric of its own the next step is most often shorter, too, and then the next but one begins there.
-        set_metric(next, point_.next);
-        set_solution(next, point_.next);
-        if (solved(next) && next.distance <= (1.0 - kShorter) * point_.distance) {
-          point_ = std::move(next);
-          return true;
-        }
-      }
       next.metric = point_.metric;
       set_solution(next, point_.next);
       if (!solved(next)) continue;
