@@ -71,7 +71,9 @@ std::optional<Found> on_finer_mesh(const ScaledProblem& problem, const Found& fo
     return near;
   control.tolerance = kAimed * options.tolerance;
   control.most_rounds = 0;
+  control.is_close = true;
   Found next = minimise(problem, finer.mesh, finer.z, found.rows->margins(), control, &found);
+  control.is_close = false;
   const bool use =
       !next.stopped && next.residual <= options.tolerance && next.feasible(options.limit_tolerance);
   return use ? std::optional(std::move(next)) : std::nullopt;

@@ -3,6 +3,7 @@
 #include "optimize/elastic_descent.hpp"
 #include "optimize/programs.hpp"
 #include "optimize/quadratic_program.hpp"
+#include "optimize/switches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -188,22 +189,64 @@ class Minimiser {
     renew(point_);
   }
 
-  /// The multipliers of an optimum on another mesh, at the rows closest to theirs.
+  /// The multipliers of an optimum on another mesh, at the rows closest to theirs. Where this mesh is twice as fine, a limit
+  /// that binds all along most likely binds halfway between, too: such rows are named, without a multiplier.
   [[nodiscard]] Multipliers carried_over(const Found& known) const {
     Multipliers multipliers{known.equality, {}, {}};
-    for (std::size_t i = 0; i < known.active.size(); ++i) {
-      if (!(known.inequality[i] > 0.0)) continue;
-      const Row row = counterpart(known, known.active[i]);
+    const auto add = [&](const Row& row, double value) {
       const auto same = std::find(multipliers.active.begin(), multipliers.active.end(), row);
       if (same == multipliers.active.end()) {
         multipliers.active.push_back(row);
-        multipliers.inequality.push_back(known.inequality[i]);
+        multipliers.inequality.push_back(value);
       } else {
-        multipliers.inequality[static_cast<std::size_t>(same - multipliers.active.begin())] +=
-            known.inequality[i];
+        multipliers.inequality[static_cast<std::size_t>(same - multipliers.active.begin())] += value;
       }
+    };
+    std::vector<Row> carrying;
+    for (std::size_t i = 0; i < known.active.size(); ++i) {
+      if (!(known.inequality[i] > 0.0)) continue;
+      add(counterpart(known, known.active[i]), known.inequality[i]);
+      carrying.push_back(known.active[i]);
+    }
+    std::sort(carrying.begin(), carrying.end());
+    for (std::size_t i = 0; i < carrying.size(); ++i) {
+      for (const Row& row : within(known, carrying[i])) add(row, 0.0);
+      if (i + 1 == carrying.size()) break;
+      if (const std::optional<Row> row = halfway(known, carrying[i], carrying[i + 1])) add(*row, 0.0);
     }
     return multipliers;
+  }
+
+  /// The row at the knot of this mesh halfway between two of another that follow each other, where this one is about twice as
+  /// fine.
+  [[nodiscard]] std::optional<Row> halfway(const Found& known, const Row& before, const Row& behind) const {
+    constexpr double kFiner = 1.7;  // taste
+    Row row = before;
+    row.place = behind.place;
+    const bool follow = row == behind && behind.place == before.place + 1;
+    if (!follow || before.foot || problem_.limits[before.limit].measure != Measure::curvature)
+      return std::nullopt;
+    const double from = knot_at(*known.track, before.place);
+    const double to = knot_at(*known.track, behind.place);
+    const Vector& knots = track_->mesh().knots;
+    if (!(count_pieces(knots, to) - count_pieces(knots, from) > kFiner)) return std::nullopt;
+    row.place = nearest_knot(0.5 * (from + to));
+    return row;
+  }
+
+  /// Of a row on a piece of another mesh those on all pieces of this one that lie within.
+  [[nodiscard]] std::vector<Row> within(const Found& known, Row row) const {
+    std::vector<Row> rows;
+    if (row.foot || problem_.limits[row.limit].measure != Measure::curvature_rate) return rows;
+    const Vector& before = known.track->mesh().knots;
+    const Vector& knots = track_->mesh().knots;
+    const double from = before[row.place];
+    const double to = before[row.place + 1];
+    for (row.place = 0; row.place + 1 < knots.size(); ++row.place) {
+      const double middle = 0.5 * (knots[row.place] + knots[row.place + 1]);
+      if (middle > from && middle < to) rows.push_back(row);
+    }
+    return rows;
   }
 
   /// The row of this mesh that lies closest to one of another.
@@ -219,7 +262,7 @@ class Minimiser {
       const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, middle);
       row.place = static_cast<std::size_t>(above - knots.begin()) - 1;
     } else {
-      row.place = nearest_station(known.track->stations()[row.place]);
+      row.place = nearest_station(known.track->stations()[row.place].arc_length(track_->mesh().core_length));
     }
     return row;
   }
@@ -240,10 +283,9 @@ class Minimiser {
   }
 
   /// Of those at which limits are held.
-  [[nodiscard]] std::size_t nearest_station(const Station& station) const {
+  [[nodiscard]] std::size_t nearest_station(double s) const {
     const std::vector<Station>& stations = track_->stations();
     const double unit = track_->mesh().core_length;
-    const double s = station.arc_length(unit);
     const auto above =
         std::lower_bound(stations.begin(), stations.end(), s,
                          [&](const Station& at, double to) { return at.arc_length(unit) < to; });
@@ -350,7 +392,7 @@ class Minimiser {
       }
     }
     point_ = begun;
-    if (has_tried_elastic_) return;
+    if (has_tried_elastic_ || control_.is_close) return;
     has_tried_elastic_ = true;
     take_elastic_steps();
     if (!has_arrived(point_) && !(solved(point_) && is_progress(begun))) point_ = begun;

@@ -19,6 +19,7 @@ struct SearchControl {
   double limit_tolerance = 1e-8;  ///< of every row
   int most_rounds = 12;
   bool any_track = false;  ///< the first track that keeps all limits ends the search, however slow it is
+  bool is_close = false;   ///< Newton steps from where it begins get there, or nothing does
   std::function<bool()> stop = [] { return false; };
   int evaluations = 0;  ///< counted up
   int rounds = 0;       ///< counted up
