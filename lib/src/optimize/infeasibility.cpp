@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 namespace glissade::optimizer {
@@ -205,6 +204,14 @@ Elastic alone_of(const std::vector<LimitSpec>& limits, const LimitName& name) {
   return elastic;
 }
 
+std::vector<std::shared_ptr<ScaledProblem>> roughly_scaled_ways(const Problem& problem,
+                                                                const std::vector<Passages>& passages) {
+  std::vector<std::shared_ptr<ScaledProblem>> ways;
+  for (const Passages& way : passages)
+    ways.push_back(std::make_shared<ScaledProblem>(roughly_scaled(problem, way)));
+  return ways;
+}
+
 using Curves = std::vector<GuessCurve> (*)(const ScaledProblem&);
 
 /// The tracks that have one limit alone give way, from curves of every kind and on every way past the keep-outs. What
@@ -219,7 +226,11 @@ class Winding {
   void descend_all() {
     for (std::size_t way = 0; way < ways_.size(); ++way) {
       const std::vector<GuessCurve> curves = curves_on(way);
-      for (std::size_t curve = 0; curve < curves.size(); ++curve) descend({way, curve}, curves[curve]);
+      for (std::size_t curve = 0; curve < curves.size(); ++curve) {
+        // Clipped slopes are often the unclipped ones.
+        const auto here = curves.begin() + static_cast<std::ptrdiff_t>(curve);
+        if (std::find(curves.begin(), here, *here) == here) descend({way, curve, limit_}, *here);
+      }
     }
     sort();
     constexpr std::size_t kFollowed = 2;  // budget
@@ -322,10 +333,7 @@ class LeastViolation {
  public:
   LeastViolation(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
                  SearchControl& control)
-      : leads_(leads), control_(control) {
-    for (const Passages& way : passages)
-      ways_.push_back(std::make_shared<ScaledProblem>(roughly_scaled(problem, way)));
-  }
+      : leads_(leads), control_(control), ways_(roughly_scaled_ways(problem, passages)) {}
 
   /// @return whether a track was found that keeps all limits
   bool from(Curves curves_of, StepModel model = StepModel::curved) {
@@ -347,7 +355,7 @@ class LeastViolation {
     attempt.problem = ways_[way];
     attempt.mesh = mesh;
     attempt.relaxed = all_relaxed(*ways_[way], mesh, curve, control_, model);
-    if (attempt.relaxed.t < kNearly) follow(attempt, control_);
+    if (attempt.relaxed.t < kNearly && is_new(way, attempt.relaxed)) follow(attempt, control_);
     return ends_at(way, std::move(attempt));
   }
 
@@ -390,9 +398,28 @@ class LeastViolation {
     return found_;
   }
 
+  /// An end that nearly kept all limits on its first mesh: what it comes to on finer ones is known.
+  struct NearEnd {
+    std::size_t way = 0;
+    double t = 0.0;
+    double objective = 0.0;
+  };
+  [[nodiscard]] bool is_new(std::size_t way, const Relaxed& relaxed) {
+    constexpr double kSame = 1e-4;  // taste
+    const NearEnd end{way, relaxed.t, relaxed.found.objective};
+    const auto same = [&](const NearEnd& known) {
+      return known.way == end.way && std::fabs(known.t - end.t) <= kSame * known.t &&
+             std::fabs(known.objective - end.objective) <= kSame * std::fabs(known.objective);
+    };
+    if (std::any_of(near_ends_.begin(), near_ends_.end(), same)) return false;
+    near_ends_.push_back(end);
+    return true;
+  }
+
   const Leads& leads_;
   SearchControl& control_;
   std::vector<std::shared_ptr<ScaledProblem>> ways_;
+  std::vector<NearEnd> near_ends_;
   std::optional<Attempt> best_;
   std::size_t way_ = 0;
   bool found_ = false;
@@ -512,11 +539,11 @@ std::optional<std::string> too_fast(const Problem& problem) {
 class Footing {
  public:
   Footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
-          SearchControl& control, const std::vector<Beginning>& likely = {})
-      : search_(problem, passages, leads, control), likely_(likely) {
+          SearchControl& control, bool bends)
+      : search_(problem, passages, leads, control) {
     found_ = search_.from(&starts) || (!control.stop() && search_.closely()) ||
              search_.from(&constant_speed_starts);
-    if (!found_ && !control.stop()) wind(leads, control);
+    if (!found_ && bends && !control.stop()) wind(leads, control);
   }
 
   [[nodiscard]] bool found() const { return found_ || search_.found(); }
@@ -531,14 +558,6 @@ class Footing {
     if (!asking) return;
     asks_for_bends_ = true;
     const LimitName name = search_.best().problem->limits[*asking].name;
-    if (!likely_.empty()) {
-      for (const Beginning& beginning : likely_) {
-        Winding one(search_.ways(), name, control);
-        found_ = one.descend_from(beginning) && leads(one.footholds());
-        if (found_ || control.stop()) return;
-      }
-      return;
-    }
     Winding winding(search_.ways(), name, control);
     winding.descend_all();
     // Of several the best one counts; where none of the best leads somewhere, any other.
@@ -583,28 +602,51 @@ class Enough {
         resolve_(resolve),
         control_(control) {}
 
-  /// The least bound for which a track is found again, as far as that takes no longer than for a looser one: tracks
+  /// The least bound for which a track is found again, as far as that takes hardly longer than for a looser one: tracks
   /// that have a bound hardly give way are found at ten times the cost of others, if at all.
   [[nodiscard]] std::optional<Relaxation> of(const GivingWay& way) const {
-    constexpr double kBeyond[] = {1e-2, 5e-2};               // taste: tried in turn
-    constexpr double kBeyondWinding[] = {1e-3, 1e-2, 5e-2};  // taste: tried in turn
-    constexpr double kClosely = 1e-4;                        // taste
-    constexpr int kAllowance = 20;                           // budget: as often as the looser one took
-    const std::span<const double> beyonds = winding_ ? std::span<const double>(kBeyondWinding) : kBeyond;
-    std::optional<double> found;
-    const int before = control_.evaluations;
-    for (auto beyond = beyonds.begin(); !found && beyond != beyonds.end(); ++beyond) {
-      found = tried(way, *beyond, std::numeric_limits<int>::max());
-    }
-    if (!found) return std::nullopt;
-    const int allowance = kAllowance * (control_.evaluations - before);
-    const auto closer = winding_ ? std::nullopt : tried(way, kClosely, allowance);
-    const LimitSpec& limit = limits_[way.limit];
-    return Relaxation{limit.name, limit.bound_si, closer.value_or(*found)};
+    return winding_ ? among_bends(way) : among_others(way);
   }
 
  private:
-  [[nodiscard]] std::optional<double> tried(const GivingWay& way, double beyond, int allowance) const {
+  static constexpr int kMost = 1500;      // budget: three times what most take
+  static constexpr double kLoose = 5e-2;  // taste
+
+  [[nodiscard]] std::optional<Relaxation> among_others(const GivingWay& way) const {
+    constexpr double kUsual = 1e-2;    // taste
+    constexpr double kClosely = 1e-4;  // taste
+    const int before = control_.evaluations;
+    std::optional<double> found = tried(way, kUsual, kMost);
+    if (!found) found = tried(way, kLoose, kMost);
+    if (!found) return std::nullopt;
+    return told(way, *found, tried(way, kClosely, more_than(before)));
+  }
+
+  /// Where the loosest does not do, those between it and the least are not tried.
+  [[nodiscard]] std::optional<Relaxation> among_bends(const GivingWay& way) const {
+    constexpr double kClosely = 1e-3;  // taste
+    constexpr double kUsual = 1e-2;    // taste
+    if (const auto closely = tried(way, kClosely, kMost)) return told(way, *closely, std::nullopt);
+    const int before = control_.evaluations;
+    const auto found = tried(way, kLoose, kMost);
+    if (!found) return std::nullopt;
+    return told(way, *found, tried(way, kUsual, more_than(before)));
+  }
+
+  /// What a closer bound may take: hardly more than one that was found.
+  [[nodiscard]] int more_than(int before) const {
+    constexpr int kTimes = 2;      // budget
+    constexpr int kAtLeast = 300;  // budget
+    return kTimes * (control_.evaluations - before) + kAtLeast;
+  }
+
+  [[nodiscard]] Relaxation told(const GivingWay& way, double found, std::optional<double> closer) const {
+    const LimitSpec& limit = limits_[way.limit];
+    return {limit.name, limit.bound_si, closer.value_or(found)};
+  }
+
+  /// @param most  evaluations
+  [[nodiscard]] std::optional<double> tried(const GivingWay& way, double beyond, int most) const {
     if (control_.stop()) return std::nullopt;
     const LimitSpec& limit = limits_[way.limit];
     const auto least = needed_bound(limit, way.limit, way.alone, beyond, winding_);
@@ -613,9 +655,9 @@ class Enough {
     const auto changed = with_bound(problem_, limit.name, needed);
     // What is told can be put in.
     if (!changed || !limit_faults(changed->limits).empty()) return std::nullopt;
-    // Where tracks wind, most fail from the one that has the limit give way least; all have to be found anew.
-    if (winding_ && !resolve_.from(*changed, way.foothold)) return std::nullopt;
-    return resolve_.anew(*changed, allowance, likely_) ? std::optional(needed) : std::nullopt;
+    // What keeps the bound already tells soonest where there is nothing to be found; all has to be found anew.
+    if (!resolve_.from(*changed, way.foothold)) return std::nullopt;
+    return resolve_.anew(*changed, most, likely_) ? std::optional(needed) : std::nullopt;
   }
 
   const Problem& problem_;
@@ -643,15 +685,26 @@ Opposition opposition_of(Footing& footing, SearchControl& control) {
 
 }  // namespace
 
+bool has_likely_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                        SearchControl& control, const std::vector<Beginning>& likely) {
+  const std::vector<std::shared_ptr<ScaledProblem>> ways = roughly_scaled_ways(problem, passages);
+  for (const Beginning& beginning : likely) {
+    Winding one(ways, beginning.limit, control);
+    if (one.descend_from(beginning) && leads(one.footholds())) return true;
+    if (control.stop()) return false;
+  }
+  return false;
+}
+
 bool has_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
-                 SearchControl& control, const std::vector<Beginning>& likely) {
-  return Footing(problem, passages, leads, control, likely).found();
+                 SearchControl& control, bool bends) {
+  return Footing(problem, passages, leads, control, bends).found();
 }
 
 Explanation explain(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
                     const Resolve& resolve, SearchControl& control) {
   Explanation explanation;
-  Footing footing(problem, passages, leads, control);
+  Footing footing(problem, passages, leads, control, true);
   if (footing.found() || control.stop()) return explanation;
   LeastViolation& search = footing.search();
   // Before limits are said to contradict each other a search of another kind, from other starts, has to fail too.
@@ -671,7 +724,8 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   }
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
-  explanation.certain = !conflict.limits.empty() && (proof || (settled && !footing.asks_for_bends()));
+  const bool bends = footing.asks_for_bends() || asking_for_bends(search.best());
+  explanation.certain = !conflict.limits.empty() && (proof || (settled && !bends));
   if (proof) conflict.why = *proof;
   if (explanation.certain) conflict.text = conflict_text(conflict);
   return explanation;

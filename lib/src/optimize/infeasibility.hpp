@@ -26,12 +26,13 @@ struct Foothold {
 struct Beginning {
   std::size_t passages = 0;
   std::size_t curve = 0;
+  LimitName limit;  ///< that asks for bends, and gives way alone
 };
 
 /// How a problem with another bound is solved: what is said to be enough has to be.
 struct Resolve {
-  /// From the search's own starts; where bends are looked for, from the likely ones alone if there are any. It ends
-  /// after so many evaluations more, whatever is found by then.
+  /// From the search's own starts; where bends are looked for, from the likely ones alone if there are any, and from these
+  /// before all others. It ends after so many evaluations more, whatever is found by then.
   std::function<bool(const Problem&, int most_evaluations, const std::vector<Beginning>& likely)> anew;
   std::function<bool(const Problem&, const Foothold&)> from;
 };
@@ -47,11 +48,15 @@ struct Explanation {
   bool certain = false;
 };
 
-/// Looks for tracks that keep all limits, from starts of every kind.
-/// @param likely  where bends are looked for: what to begin with, instead of every curve if there are any
+/// Looks for tracks that keep all limits where bends are looked for, from likely beginnings.
 /// @return whether one led somewhere
+bool has_likely_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                        SearchControl& control, const std::vector<Beginning>& likely);
+
+/// The same from starts of every kind.
+/// @param bends  whether they are looked for
 bool has_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
-                 SearchControl& control, const std::vector<Beginning>& likely);
+                 SearchControl& control, bool bends);
 
 /// The same, and from starts of no kind; where none leads somewhere, what stands in the way.
 [[nodiscard]] Explanation explain(const Problem& problem, const std::vector<Passages>& passages,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace glissade::optimizer {
 namespace {
@@ -20,8 +21,14 @@ constexpr double kNone = 1e-9;  // accuracy: a hundredth of that of a limit
 constexpr double kFirmer[] = {0.1, 1e-2, 1e-4, 1e-7};  // taste
 // What is kept has to be broken by this much less each time.
 constexpr double kFalls = 0.8;  // taste
+// Where they are broken by less the end of the path is near.
+constexpr double kNear = 1e-4;  // taste
 // A step whose model promises less, at the price 1 on the change of shape, is none.
 constexpr double kSettled = 1e-9;  // accuracy: a hundredth of that of a limit
+// So is one that promises less than this share of the violation, ...
+constexpr double kShare = 1e-5;  // accuracy: far below what tells one track from another
+// ... and on the way to what is asked for this one: the path there need not be followed closely.
+constexpr double kShareOnTheWay = 1e-3;  // taste
 
 class Search {
  public:
@@ -48,12 +55,14 @@ class Search {
       weight_ = weight;
       t_ = violation(state_);
       linearise();
-      relaxed.settled = settle();
+      const bool last = all_give_way() || weight == std::end(kFirmer)[-1];
+      relaxed.settled = settle(last ? kShare : kShareOnTheWay);
       const double kept = kept_violation();
       // Where the others cannot be kept however far the elastic ones give way, the path leads nowhere.
       const bool hopeless = kept > kFalls * kept_before;
       kept_before = kept;
       if (t_ <= kNone || all_give_way() || hopeless || control_.stop()) break;
+      if (kept <= kNear && arrive()) break;
     }
     describe(relaxed);
     return relaxed;
@@ -76,8 +85,8 @@ class Search {
     return gives_way(row) ? 1.0 : weight_;
   }
 
-  /// Steps until none lowers t. @return false if it ended before
-  [[nodiscard]] bool settle() {
+  /// Steps until none lowers t by more than a share of it. @return false if it ended before
+  [[nodiscard]] bool settle(double share) {
     constexpr int kMostSteps = 60;         // budget
     constexpr double kHighestPrice = 1e9;  // taste
     price_ = 1.0;
@@ -86,10 +95,62 @@ class Search {
       if (t_ <= kNone) return false;
       if (control_.stop()) return false;
       const double promised = propose();
-      if (promised * std::max(price_, 1.0) <= kSettled * (1.0 + t_ / kNone * 1e-5)) return true;
+      if (promised * std::max(price_, 1.0) <= kSettled + share * t_) return true;
       if (!advance(promised) && price_ > kHighestPrice) return false;
     }
     return false;
+  }
+
+  /// The shortest steps to where the rows that are to be kept are kept: the rest of the path at once. What t might fall
+  /// by on a longer one is not worth that.
+  /// @return false, and nothing has moved, where they do not lead there
+  [[nodiscard]] bool arrive() {
+    constexpr int kMostSteps = 6;      // budget
+    constexpr double kCloser = 0.3;    // theory: below 1
+    constexpr double kKept = 1e-10;    // accuracy: a thousandth of that of a limit
+    constexpr double kMostOfT = 1.1;   // taste: further away is another valley
+    constexpr double kStiffest = 1e3;  // taste: the price on the change of shape
+    const Vector z_before = z_;
+    const double t_before = t_;
+    const double weight_before = weight_;
+    const std::vector<std::size_t> likely_before = likely_;
+    weight_ = 0.0;
+    price_ = kStiffest;
+    double kept = kept_violation();
+    for (int step = 0; step < kMostSteps && kept > kKept; ++step) {
+      t_ = elastic_violation();
+      linearise();
+      (void)propose();
+      Vector z = z_;
+      add_scaled(z.data(), 1.0, solution_.step.data(), n_);
+      if (solution_.status != QuadraticSolution::Status::solved || !track_->is_track(z)) break;
+      z_ = std::move(z);
+      state_ = rows_->state(z_, true);
+      ++control_.evaluations;
+      const double before = kept;
+      kept = kept_violation();
+      if (kept > std::max(kCloser * before, kKept)) break;
+    }
+    t_ = elastic_violation();
+    if (kept <= kKept && t_ <= kMostOfT * t_before) return true;
+    weight_ = weight_before;
+    likely_ = likely_before;
+    z_ = z_before;
+    state_ = rows_->state(z_, true);
+    return false;
+  }
+
+  /// What the elastic rows give way by at the point.
+  [[nodiscard]] double elastic_violation() const {
+    double t = 0.0;
+    const Vector equality = rows_->equality_values(state_);
+    for (std::size_t i = 0; i < equality.size(); ++i) {
+      if (gives_way(i)) t = std::max(t, std::fabs(equality[i]));
+    }
+    for (const Row& row : rows_->candidates(state_, 0.0)) {
+      if (gives_way(row)) t = std::max(t, rows_->value(state_, row));
+    }
+    return t;
   }
 
   /// The t by which the rows would have to give way at a state; 0 if all are kept.
@@ -179,10 +240,12 @@ class Search {
     curvature_ = rows_->hessian(state_, equality_, active_, inequality_, 0.0);
   }
 
-  /// The factor of price x shape + curvature; a higher price where that is not convex.
+  /// The factor of price x shape + curvature; where that is not convex, with a penalty on leaving the rows that held t
+  /// up, which is without effect where they go on doing so, and then with a higher price.
   void factor() {
-    constexpr double kHigher = 4.0;  // taste
-    constexpr int kMostTries = 20;   // budget
+    constexpr double kHigher = 4.0;                           // taste
+    constexpr int kMostTries = 20;                            // budget
+    constexpr double kPenalties[] = {0.0, 1.0, 10.0, 100.0};  // taste
     Vector diagonal(n_ + 1, 0.0);
     for (int tries = 0; tries < kMostTries; ++tries, price_ *= kHigher) {
       Matrix hessian(n_ + 1, n_ + 1);
@@ -193,8 +256,21 @@ class Search {
         diagonal[i] = price_ * shape_metric_(i, i);
       }
       hessian(n_, n_) = diagonal[n_] = kOwnCurvature / std::max(1.0, t_);
-      metric_ = ShiftedCholesky(hessian, diagonal);
-      if (metric_.shift() == 0.0) return;
+      double penalty = 0.0;
+      for (const double next : kPenalties) {
+        if (next > 0.0 && likely_.empty()) break;
+        for (const std::size_t row : likely_) {
+          if (next == 0.0) break;
+          const double* const gradient = program_.inequality.row(row);
+          for (std::size_t i = 0; i <= n_; ++i) {
+            if (gradient[i] != 0.0)
+              add_scaled(hessian.row(i), (next - penalty) * gradient[i], gradient, n_ + 1);
+          }
+        }
+        penalty = next;
+        metric_ = ShiftedCholesky(hessian, diagonal, 0.0);
+        if (metric_.shift() == 0.0) return;
+      }
     }
   }
 

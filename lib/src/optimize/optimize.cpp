@@ -131,10 +131,16 @@ class Course {
     }
   }
 
-  /// Where the limits lead none of the starts to a track that keeps them: tracks that do, if there are any.
-  void from_footholds(const std::vector<Beginning>& likely) {
+  /// Where bends are looked for.
+  void from_likely(const std::vector<Beginning>& likely) {
     control_.most_rounds = kFarRounds;
-    (void)has_footing(problem_, ways_, leads(), control_, likely);
+    (void)has_likely_footing(problem_, ways_, leads(), control_, likely);
+  }
+
+  /// Where the limits lead none of the starts to a track that keeps them: tracks that do, if there are any.
+  void from_footholds(bool bends) {
+    control_.most_rounds = kFarRounds;
+    (void)has_footing(problem_, ways_, leads(), control_, bends);
   }
 
   /// @return what stands in the way, if no track keeps all limits
@@ -189,8 +195,9 @@ Resolve resolve_with(const OptimizeOptions& options, SearchControl& control) {
     control.stop = [&, stop] { return control.evaluations - before > most_evaluations || stop(); };
     control.any_track = true;
     Course course(problem, options, control, quiet);
-    course.from_starts();
-    if (!course.kept() && !course.stopped()) course.from_footholds(likely);
+    course.from_likely(likely);
+    if (!course.kept() && !course.stopped()) course.from_starts();
+    if (!course.kept() && !course.stopped()) course.from_footholds(likely.empty());
     control.any_track = false;
     control.stop = stop;
     return course.kept();
