@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace glissade::optimizer {
 namespace {
@@ -25,10 +24,8 @@ constexpr double kFalls = 0.8;  // taste
 constexpr double kNear = 1e-4;  // taste
 // A step whose model promises less, at the price 1 on the change of shape, is none.
 constexpr double kSettled = 1e-9;  // accuracy: a hundredth of that of a limit
-// So is one that promises less than this share of the violation, ...
+// So is one that promises less than this share of the violation.
 constexpr double kShare = 1e-5;  // accuracy: far below what tells one track from another
-// ... and on the way to what is asked for this one: the path there need not be followed closely.
-constexpr double kShareOnTheWay = 1e-3;  // taste
 
 class Search {
  public:
@@ -55,8 +52,7 @@ class Search {
       weight_ = weight;
       t_ = violation(state_);
       linearise();
-      const bool last = all_give_way() || weight == std::end(kFirmer)[-1];
-      relaxed.settled = settle(last ? kShare : kShareOnTheWay);
+      relaxed.settled = settle();
       const double kept = kept_violation();
       // Where the others cannot be kept however far the elastic ones give way, the path leads nowhere.
       const bool hopeless = kept > kFalls * kept_before;
@@ -86,7 +82,7 @@ class Search {
   }
 
   /// Steps until none lowers t by more than a share of it. @return false if it ended before
-  [[nodiscard]] bool settle(double share) {
+  [[nodiscard]] bool settle() {
     constexpr int kMostSteps = 60;         // budget
     constexpr double kHighestPrice = 1e9;  // taste
     price_ = 1.0;
@@ -95,7 +91,7 @@ class Search {
       if (t_ <= kNone) return false;
       if (control_.stop()) return false;
       const double promised = propose();
-      if (promised * std::max(price_, 1.0) <= kSettled + share * t_) return true;
+      if (promised * std::max(price_, 1.0) <= kSettled + kShare * t_) return true;
       if (!advance(promised) && price_ > kHighestPrice) return false;
     }
     return false;
@@ -240,12 +236,24 @@ class Search {
     curvature_ = rows_->hessian(state_, equality_, active_, inequality_, 0.0);
   }
 
+  /// Of the rows that held t up in the last program those that still do: with other weights others do.
+  [[nodiscard]] std::vector<std::size_t> holding_t_up() const {
+    constexpr double kNearBound = 0.1;  // taste: of what t gives a row
+    std::vector<std::size_t> holding;
+    for (const std::size_t row : likely_) {
+      const double given = -program_.inequality(row, n_) * t_;
+      if (program_.inequality_value[row] >= -kNearBound * given) holding.push_back(row);
+    }
+    return holding;
+  }
+
   /// The factor of price x shape + curvature; where that is not convex, with a penalty on leaving the rows that held t
   /// up, which is without effect where they go on doing so, and then with a higher price.
   void factor() {
     constexpr double kHigher = 4.0;                           // taste
     constexpr int kMostTries = 20;                            // budget
     constexpr double kPenalties[] = {0.0, 1.0, 10.0, 100.0};  // taste
+    const std::vector<std::size_t> holding = holding_t_up();
     Vector diagonal(n_ + 1, 0.0);
     for (int tries = 0; tries < kMostTries; ++tries, price_ *= kHigher) {
       Matrix hessian(n_ + 1, n_ + 1);
@@ -258,11 +266,10 @@ class Search {
       hessian(n_, n_) = diagonal[n_] = kOwnCurvature / std::max(1.0, t_);
       double penalty = 0.0;
       for (const double next : kPenalties) {
-        if (next > 0.0 && likely_.empty()) break;
-        for (const std::size_t row : likely_) {
-          if (next == 0.0) break;
+        if (next > 0.0 && holding.empty()) break;
+        for (const std::size_t row : holding) {
           const double* const gradient = program_.inequality.row(row);
-          for (std::size_t i = 0; i <= n_; ++i) {
+          for (std::size_t i = 0; i <= n_ && next > 0.0; ++i) {
             if (gradient[i] != 0.0)
               add_scaled(hessian.row(i), (next - penalty) * gradient[i], gradient, n_ + 1);
           }
