@@ -75,7 +75,8 @@ std::string checks_text(const std::vector<ShopCheck>& checks) {
 }  // namespace
 
 std::string parts_lines(const WorkshopBuild& build) {
-  return labelled("Master curve", arcs_text(build.master)) + labelled("Parts", pieces_text(build.workshop, build.proof)) +
+  return labelled("Master curve", arcs_text(build.master)) +
+         labelled("Parts", pieces_text(build.workshop, build.proof)) +
          labelled("As built", ride_text(build.ride)) + labelled("Shop", checks_text(build.workshop.checks));
 }
 
