@@ -118,15 +118,12 @@ class Minimiser {
 
   [[nodiscard]] Outlook look(const Vector& start, const Found& known) {
     Outlook outlook;
-    point_ = linearised(rows_->state(start, true));
-    const Multipliers carried = carried_over(known);
-    set_metric(point_, carried);
-    const bool is_convex = point_.metric.shift() == 0.0;
-    // The multipliers of the coarser mesh tell which rows to begin with. For the curvature they may not be good enough:
+    // The multipliers of the coarser mesh tell which rows to begin with. For the curvature they are not good enough:
     // where they leave it indefinite, the step would be shortened, and less promised than there is.
-    if (!is_convex) set_metric(point_, Multipliers{});
-    set_solution(point_, carried);
-    if (!is_convex) renew(point_);
+    point_ = linearised(rows_->state(start, true));
+    set_metric(point_, Multipliers{});
+    set_solution(point_, carried_over(known));
+    renew(point_);
     outlook.step = point_.solution.step;
     outlook.force.assign(n_, 0.0);
     if (!solved(point_)) return outlook;
