@@ -166,6 +166,18 @@ TEST_CASE("build makes a valid solid of the fastest track within limits") {
   CHECK(built["search"]["status"] == "optimal");
 }
 
+TEST_CASE("a limit that is missed by a hair is told with the digits that show it") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 3 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2}\ncenterline: {kind: straight}\n"
+      "limits: {slope_angle: {highest: 33.69 deg}, speed: {highest: 5.2407 m/s}}\n");
+  const Outcome outcome = solve(file);
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.errors, Contains("slope_angle.highest 33.69 deg is broken by") &&
+                                 Contains("(33.6901 deg after 0 m)") &&
+                                 Contains("speed.highest 5.2407 m/s is broken by"));
+}
+
 TEST_CASE("a track of another kind is held against the limits, and a broken one has exit code 3") {
   const DesignFile file(kInrun);
   const Outcome outcome = solve(file, {"--set", "centerline.kind=straight", "--json"});

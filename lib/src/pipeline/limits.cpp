@@ -209,14 +209,17 @@ std::string closest_text(const Design& design, const EnvelopePlace& place) {
 
 std::string broken_text(const Design& design, const LimitCheck& check) {
   const Dimension dimension = check.limit.dimension();
-  std::string text = check.limit.key() + " " + quantity_text(check.value, dimension) + " is broken";
+  const auto [bound, reached] =
+      texts_apart(check.value, check.reached,
+                  [dimension](double value, int digits) { return quantity_text(value, dimension, digits); });
+  std::string text = check.limit.key() + " " + bound + " is broken";
   if (std::isfinite(check.violation)) text += " by " + quantity_text(check.violation, dimension);
   text += " (";
   // Less than nothing is no clearance: the solid reaches into the obstacle.
   if (check.closest && check.reached < 0.0) {
     text += "reaches in by " + quantity_text(-check.reached, dimension);
   } else {
-    text += quantity_text(check.reached, dimension);
+    text += reached;
   }
   if (check.closest) text += " " + closest_text(design, *check.closest) + ",";
   return text + " after " + length_text(check.where) + ")";
