@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -149,6 +150,30 @@ TEST_CASE("an independent search finds no room for a whole solid where clearance
   }
   CAPTURE(infeasible);
   CHECK(infeasible > 0);
+}
+
+TEST_CASE(
+    "drawn problems whose limits leave little room are solved, and in a valley that is known to be good") {
+  // Where bends wear the energy down, the way there is found by how the limits bend: steps that are too short for it
+  // ended without a track, or in a valley some percents slower.
+  struct Drawn {
+    std::uint64_t seed;
+    int index;
+    double objective;  // at most: time, or exit speed with the other sign
+  };
+  constexpr Drawn kDrawn[] = {{1, 88, 5.50}, {3, 30, -80.6}};
+  for (const Drawn& drawn : kDrawn) {
+    testing::Random random(drawn.seed);
+    Problem problem = random_limited(random);
+    for (int i = 0; i < drawn.index; ++i) problem = random_limited(random);
+    const Optimum optimum = optimize(problem);
+    CAPTURE(drawn.seed, drawn.index, optimum.report.message);
+    REQUIRE(optimum.centerline);
+    const OptimizeReport& report = optimum.report;
+    const bool speed = problem.objective.kind == ObjectiveKind::exit_speed;
+    const double objective = speed ? -report.exit_speed : report.travel_time;
+    CHECK(objective <= drawn.objective);
+  }
 }
 
 TEST_CASE("the independent search does find tracks where there are some") {
