@@ -373,6 +373,35 @@ void add_lid(const Fitting& fitting, const InspectionOptions& opening, const Spa
 
 }  // namespace
 
+namespace {
+
+/// Whether a lid, which is straight, keeps off the frames at both ends of its unit.
+bool lid_keeps_off(const Job& job, const Span& unit, double at, double reach, const Span& heights) {
+  const double taken = (job.options.flanges.wanted ? job.options.flanges.thickness : 0.0) + kAsideOfFrame;
+  for (const PathVertex& corner : window(job.track, at, reach, heights).vertices) {
+    for (const double sense : {1.0, -1.0}) {
+      const TrackFrame end = frame_at(job.track, sense > 0.0 ? unit.from : unit.to);
+      if (sense * dot(corner.at - end.at, end.along) < taken) return false;
+    }
+  }
+  return true;
+}
+
+/// The place nearest to one that is asked for at which a lid does so; none if there is none.
+std::optional<double> place_of_lid(const Job& job, const Span& unit, double about, double reach,
+                                   const Span& heights) {
+  std::optional<double> best;
+  constexpr int kPlaces = 200;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double at = unit.from + (unit.to - unit.from) * k / kPlaces;
+    if (best && std::fabs(at - about) >= std::fabs(*best - about)) continue;
+    if (lid_keeps_off(job, unit, at, reach, heights)) best = at;
+  }
+  return best;
+}
+
+}  // namespace
+
 void add_openings(const Fitting& fitting) {
   const Job& job = fitting.job;
   for (const InspectionOptions& opening : job.options.inspection) {
@@ -386,15 +415,16 @@ void add_openings(const Fitting& fitting) {
     for (const InspectionOptions& opening : job.options.inspection) {
       const double reach = 0.5 * opening.length + kLidLap;
       if (opening.at + reach <= unit.span.from || opening.at - reach >= unit.span.to) continue;
-      const Span room = between_frames(job, unit.span);
-      if (opening.at - reach < room.from || opening.at + reach > room.to) {
+      const Span lid = lid_heights(job, opening);
+      if (opening.at < unit.span.from + reach || opening.at > unit.span.to - reach ||
+          !lid_keeps_off(job, unit.span, opening.at, reach, lid)) {
+        const auto place = place_of_lid(job, unit.span, opening.at, reach, lid);
         refuse("inspection",
                "at: an opening at " + length_text(opening.at, 4) + " reaches over the end of a unit",
                "Units end at " + length_text(unit.span.from, 4) + " and " + length_text(unit.span.to, 4) +
                    "; with its lid it is " + length_text(2.0 * reach) + " long.",
-               "at: " + length_text(std::clamp(opening.at, room.from + reach, room.to - reach), 4));
+               place ? "at: " + length_text(*place, 4) : "a smaller length, or longer units");
       }
-      const Span lid = lid_heights(job, opening);
       const Span heights{lid.from + kLidLap, lid.to - kLidLap};
       if (job.track.at(opening.at).curvature * (heights.to + kLidLap) > 0.9) {
         refuse("inspection", "at: the track bends too tightly at " + length_text(opening.at, 4), "",

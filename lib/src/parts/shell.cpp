@@ -15,16 +15,18 @@
 namespace glissade::parts {
 namespace {
 
+/// The one in which a place lies deepest, or nearest to: flats of a hollow are longer than the track that they touch, so that
+/// their stretches overlap.
 const Straight* straight_at(const Shell& shell, double s) {
-  const Straight* nearest = nullptr;
-  double least = std::numeric_limits<double>::infinity();
+  const Straight* best = nullptr;
+  double deepest = -std::numeric_limits<double>::infinity();
   for (const Straight& one : shell.straights) {
-    const double away = std::max({0.0, one.span.from - s, s - one.span.to});
-    if (away >= least) continue;
-    least = away;
-    nearest = &one;
+    const double deep = std::min(s - one.span.from, one.span.to - s);
+    if (deep <= deepest) continue;
+    deepest = deep;
+    best = &one;
   }
-  return nearest;
+  return best;
 }
 
 }  // namespace

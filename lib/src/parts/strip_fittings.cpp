@@ -342,7 +342,7 @@ void object_to_rims(const PlateSection& section, const RimOptions& rim, Issues& 
       issues.add("rim.thickness",
                  "thickness: " + length_text(rim.thickness) + " is more than half the section, " +
                      length_text(high, 3),
-                 "The rim lies against its sides.", "thickness: 5 mm");
+                 "The rim lies against its sides.", "thickness: " + length_text(0.4 * high, 2));
       return;
     }
   }

@@ -71,7 +71,8 @@ void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent,
                    const std::vector<double>& joints, const std::vector<Strip>& strips,
                    const std::vector<UnitWork>& works, Workshop& workshop) {
   PlateOptions framed = job.options;
-  if (!bent) framed.flanges = frames_that_clear(job, joints, strips);
+  // Frames know how bent plates lean beside a width that changes.
+  if (!bent || !job.widens()) framed.flanges = frames_that_clear(job, joints, strips);
   add_strip_frames({job.track, job.section, framed, job.placement}, bent, joints, workshop);
   if (bent)
     measure_bends(add_bent_rims(job, *bent, workshop), job.options, workshop);

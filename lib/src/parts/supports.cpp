@@ -136,9 +136,12 @@ Trestle trestle_at(const Shell& shell, double at, const Saddles& saddles) {
   const TrackFrame frame = frame_of(shell, at);
   trestle.x = (frame.at + height * frame.up).x;
   // Lines that are lower than the saddles' lie above the beam from another stretch of the track.
-  const double reach = saddles.half + std::fabs(height - shell.lowest);
+  constexpr double kLeastLevel = 0.2;  // cosine of the steepest slope that is looked at
+  const double reach =
+      saddles.half + (std::fabs((height - shell.lowest) * frame.along.y) + kSaddleHalf + supports.tube) /
+                         std::max(kLeastLevel, frame.along.x);
   double low = std::min({below(at - saddles.half).y, below(at).y, below(at + saddles.half).y});
-  constexpr int kPlaces = 40;
+  constexpr int kPlaces = 100;
   for (int k = -kPlaces; k <= kPlaces && height > shell.lowest; ++k) {
     const double s = std::clamp(at + reach * k / kPlaces, 0.0, shell.track.length());
     const Vec2 point = below(s);
@@ -213,10 +216,10 @@ Measures measures_of(const Shell& shell, const Saddles& saddles) {
 std::optional<ArcPath> seat_line(const Shell& shell, double at, double half, double height) {
   if (shell.straights.empty()) return offset_line(shell.track, {at - half, at + half}, height);
   ArcPath line;
-  for (const double s : {at - half, at + half}) {
-    const TrackFrame frame = frame_of(shell, s);
-    line.vertices.push_back({frame.at + height * frame.up, 0.0});
-  }
+  // Along the flat or tube on which its middle stands.
+  const TrackFrame frame = frame_of(shell, at);
+  for (const double reach : {-half, half})
+    line.vertices.push_back({frame.at + reach * frame.along + height * frame.up, 0.0});
   return line;
 }
 
