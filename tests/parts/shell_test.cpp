@@ -370,3 +370,46 @@ TEST_CASE("lugs: on walls without a rim they keep off stiffeners") {
   CHECK(pieces(build, "stiffener") > 20);
   CHECK(pieces(build, "lug") >= 2);
 }
+
+TEST_CASE(
+    "trestles: saddles stand on one flat each, and beams below the lowest corners of steep bent plates") {
+  // Each ended as a clash: flats overlap as stretches of the track, and a steep bottom lies above a beam far from its saddles.
+  const ClothoidSpline shallow(
+      Angle::from_degrees(31.88),
+      {{1.196, 1.0 / 13.7052, 1.0 / 13.7052}, {0.5433, 1.0 / 6.226, 1.0 / 6.226}, {1.9141, 0.0, 0.0}});
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  options.supports.emplace();
+  options.supports->spacing = 0.9;
+  options.supports->ground = {{0.0, -7.9}};
+  CHECK(pieces(plates(shallow, options, {0.699, 0.327, 6e-3}), "saddle") >= 4);
+  const CoulombBrachistochrone steep({5.7, 4.879}, Friction::from_angle(Angle::from_degrees(23.06)));
+  section::VChannel wide;
+  wide.angle = Angle::from_degrees(132.7);
+  wide.bottom_radius = 0.1883;
+  wide.wall_height = 0.2476;
+  wide.thickness = 3e-3;
+  options.split.longest = 2.105;
+  options.split.sheet = {6.0, 2.0};
+  options.stave_tolerance = 3.278e-3;
+  options.supports->spacing = 0.94;
+  CHECK(pieces(plates_of(steep, wide, options), "saddle") >= 4);
+}
+
+TEST_CASE("lids: a straight one beside the frame of a hollow is refused with the place that would do") {
+  const ClothoidSpline hollow(Angle::from_degrees(58.09), {{1.1253, 1.0 / 8.5933, 1.0 / 8.5933},
+                                                           {1.2273, 1.0 / 14.064, 1.0 / 14.064},
+                                                           {1.2807, 1.0 / 4.6291, 1.0 / 4.6291}});
+  PlateOptions options;
+  options.split.longest = 2.174;
+  options.split.sheet = {6.0, 2.0};
+  options.inspection = {{3.49, 0.20889, 0.0432, 8}};
+  const ChannelMeasures channel{0.5037, 0.2978, 2e-3};
+  const std::string text = refusal_of([&] { return plates(hollow, options, channel); });
+  CHECK(text.find("inspection|at: an opening at 3.49 m reaches over the end of a unit|") == 0);
+  const std::size_t at = text.find("|at: ", 20);
+  REQUIRE(at != std::string::npos);
+  options.inspection.front().at = std::stod(text.substr(at + 5));
+  CHECK(std::fabs(options.inspection.front().at - 3.49) < 0.2);
+  CHECK(pieces(plates(hollow, options, channel), "lid") == 1);
+}
