@@ -7,7 +7,7 @@
 
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
-#include "parts/section_outside.hpp"
+#include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -142,6 +142,34 @@ TEST_CASE("shells: nothing stands nearer to the section than the gap, and stiffe
   }
 }
 
+TEST_CASE(
+    "shells: stiffeners are bands of their width, by closed forms of a ring in halves and of a trapezoid") {
+  constexpr double kPi = 3.14159265358979323846;
+  PlateOptions options;
+  options.round = RoundMake::mitred;
+  options.stiffeners.emplace();
+  options.flanges.gap = 1e-3;
+  const WorkshopBuild pipe = plates_of(chute(), section::Pipe{0.4, 3e-3}, options);
+  const double inner = 0.2 + 3e-3 + 1e-3;
+  const double outer = inner + 40e-3;
+  // Less a slit of 1 mm at the top and one at the bottom, whose ends are round.
+  const double ring = kPi * (outer * outer - inner * inner) - 2.0 * 1e-3 * (outer - inner);
+  CHECK(2.0 * part_of(pipe, "stiffener_half").volume == Approx(6e-3 * ring).epsilon(1e-6));
+  options.round = RoundMake::as_fits;
+  const double lean = 25.0 * kPi / 180.0;
+  const WorkshopBuild trough = plates_of(
+      chute(), section::Trapezoid{WidthLaw(0.4), 0.25, Angle::from_degrees(lean * 180.0 / kPi), 4e-3},
+      options);
+  // What a line moved out by d encloses up to the walls' tops, doubled: both halves lean alike.
+  const auto within = [&](double d) {
+    const double foot = 0.2 + d * (1.0 - std::sin(lean)) / std::cos(lean);
+    const double high = 0.25 + d;
+    return high * (2.0 * foot + high * std::tan(lean));
+  };
+  CHECK(part_of(trough, "stiffener").volume ==
+        Approx(6e-3 * (within(4e-3 + 1e-3 + 40e-3) - within(4e-3 + 1e-3))).epsilon(1e-9));
+}
+
 TEST_CASE("shells: eyes of lugs stand plumb above the centre of gravity of their unit, above its tops") {
   for (const auto& [name, measures] : sections()) {
     INFO(name);
@@ -214,13 +242,7 @@ TEST_CASE("shells: random sections with corners, rims, liners and all that is se
   INFO("GLISSADE_SEED=" << random.seed());
   std::size_t set = 0;
   for (int run = 0; run < 10; ++run) {
-    const double size = random.between(3.0, 8.0);
-    std::vector<ClothoidSegment> segments;
-    for (int i = random.integer(1, 3); i > 0; --i) {
-      const double curvature = random.between(-0.3, 0.9) / size;
-      segments.push_back({random.between(0.2, 0.5) * size, curvature, curvature});
-    }
-    const ClothoidSpline track(Angle::from_degrees(random.between(25.0, 50.0)), segments);
+    const ClothoidSpline track = random_track(random, {3.0, 8.0, 3, -0.3, 0.9, 0.2, 0.5, 50.0});
     const double t = random.between(2e-3, 6e-3);
     const double width = random.between(0.25, 0.6);
     std::vector<section::Measures> kinds = {
@@ -243,7 +265,7 @@ TEST_CASE("shells: random sections with corners, rims, liners and all that is se
     options.stiffeners->width = random.between(40e-3, 70e-3);
     options.lifting.emplace();
     options.supports.emplace();
-    options.supports->ground = {{0.0, -2.0 * size}};
+    options.supports->ground = {{0.0, -16.0}};
     const section::Measures& measures = kinds[static_cast<std::size_t>(run) % kinds.size()];
     const bool channel = std::holds_alternative<section::Trapezoid>(measures);
     if (channel && options.floor == FloorMake::rolled) {
