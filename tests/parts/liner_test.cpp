@@ -173,3 +173,34 @@ TEST_CASE(
     CHECK(over.time == Approx(upright.time).epsilon(0.1 * std::sqrt(beyond) + 1e-4));
   }
 }
+
+TEST_CASE(
+    "liner: holes of tiles keep the distances that the rules of the shop ask for, in tiles of every size") {
+  for (const double length : {0.07, 0.13, 0.3}) {
+    PlateOptions options;
+    options.liner.emplace();
+    options.liner->tile_length = length;
+    options.liner->tile_width = 0.2;
+    options.split.longest = 2.5;
+    for (const bool own : {false, true}) {
+      if (own) options.shop = {.hole_edge_diameters = 2.5, .hole_pitch_diameters = 4.0};
+      const WorkshopBuild build = plates(chute(), options);
+      INFO("tiles of " << length << (own ? ", own rules" : ""));
+      for (const ShopPart* tile : named(build, "tile_")) {
+        const PlaneBox box = bounds(tile->pattern->region.outline);
+        const std::vector<Circle>& holes = tile->pattern->region.holes;
+        REQUIRE(!holes.empty());
+        for (const Circle& hole : holes) {
+          const double edge = std::min({hole.centre.x - box.low.x, box.high.x - hole.centre.x,
+                                        hole.centre.y - box.low.y, box.high.y - hole.centre.y});
+          // A floor of arcs is a little longer at its middle than on its face.
+          CHECK(edge > 0.995 * options.shop.hole_edge_diameters * 2.0 * hole.radius);
+          for (const Circle& other : holes) {
+            if (&other == &hole) continue;
+            CHECK(norm(other.centre - hole.centre) > 0.995 * options.shop.hole_pitch_diameters * 12e-3);
+          }
+        }
+      }
+    }
+  }
+}

@@ -91,7 +91,7 @@ std::vector<Span> taken_of_floor(const Job& job) {
   if (!job.options.liner) return taken;
   const double off = kOffHole * clearance_hole(job.options.liner->bolt, HoleFit::coarse);
   const double lane = 0.5 * (width - job.channel.width);
-  for (const double y : bolts_across(*job.options.liner, job.channel.width))
+  for (const double y : bolts_across(job.options, job.channel.width))
     taken.push_back({lane + y - off, lane + y + off});
   return taken;
 }

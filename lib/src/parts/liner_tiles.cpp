@@ -84,47 +84,65 @@ double courses_in(const PlateOptions& options, const std::vector<double>& lanes,
   return std::max(1.0, std::ceil((span.to - span.from) / std::min(liner.tile_length, heavy) - 1e-9));
 }
 
+/// How holes stand on a tile and on the plate below it.
+struct TileHoles {
+  double hole = 0.0;     ///< of the tile [m]
+  double edge = 0.0;     ///< least, from its middle to an edge, as the shop's rules have it [m]
+  double pitch = 0.0;    ///< least, between middles, where the wider ones of the plate below are [m]
+  double for_two = 0.0;  ///< tiles shorter or narrower than this have one in their middle [m]
+};
+
+TileHoles tile_holes(const PlateOptions& options) {
+  TileHoles holes;
+  holes.hole = clearance_hole(options.liner->bolt, HoleFit::medium);
+  holes.edge = options.shop.hole_edge_diameters * holes.hole;
+  holes.pitch = options.shop.hole_pitch_diameters * clearance_hole(options.liner->bolt, HoleFit::coarse);
+  constexpr double kForTwo = 6.0;  // holes, where the rules let them stand as close
+  holes.for_two = std::max(kForTwo * holes.hole, 2.0 * holes.edge + holes.pitch);
+  return holes;
+}
+
 /// Where bolts stand across a tile, from its left edge.
-std::vector<double> across_tile(const LinerOptions& liner, double width) {
-  const double hole = clearance_hole(liner.bolt, HoleFit::medium);
-  if (width < 6.0 * hole) return {0.5 * width};
-  const double side = std::min(3.0 * hole, 0.25 * width);
+std::vector<double> across_tile(const PlateOptions& options, double width) {
+  const TileHoles holes = tile_holes(options);
+  if (width < holes.for_two) return {0.5 * width};
+  const double side = std::max(holes.edge, std::min(3.0 * holes.hole, 0.25 * width));
   return {side, width - side};
 }
 
 /// Where the bolts of a tile stand: places along the track, and across from its left edge [m].
-void set_bolts(const LinerOptions& liner, const OnOneArc& arcs, TilePlace& tile) {
+void set_bolts(const PlateOptions& options, const OnOneArc& arcs, TilePlace& tile) {
   const Span& span = tile.span;
-  const double hole = clearance_hole(liner.bolt, HoleFit::medium);
-  const double edge = std::min(4.0 * hole, 0.25 * (span.to - span.from));
+  const double whole = span.to - span.from;
+  const TileHoles holes = tile_holes(options);
+  const double edge = std::max(holes.edge, std::min(4.0 * holes.hole, 0.25 * whole));
   std::vector<double> wanted = {span.from + edge, span.to - edge};
-  if (span.to - span.from < 6.0 * hole) wanted = {0.5 * (span.from + span.to)};
-  const double least = std::min(1.2 * hole, 0.5 * (span.to - span.from));
+  if (whole < holes.for_two) wanted = {0.5 * (span.from + span.to)};
+  const double least = std::min(holes.edge, 0.5 * whole);
   for (const double about : wanted) {
     const auto place = arcs.nearest(about, {span.from + least, span.to - least});
-    constexpr double kLeastPitch = 2.4;  // hole diameters
-    if (place && (tile.along.empty() || *place - tile.along.back() >= kLeastPitch * hole))
+    if (place && (tile.along.empty() || *place - tile.along.back() >= holes.pitch))
       tile.along.push_back(*place);
   }
   if (tile.along.empty()) {
     throw InputError({"liner.bolt",
-                      "bolt: holes for M" + std::to_string(liner.bolt) + " find no place between " +
+                      "bolt: holes for M" + std::to_string(options.liner->bolt) + " find no place between " +
                           length_text(span.from, 3) + " and " + length_text(span.to, 3) + " along the track",
                       "They lie on one arc of the floor each, and none there is as long as a hole is wide, " +
-                          length_text(hole) + ".",
+                          length_text(holes.hole) + ".",
                       "a smaller bolt, a longer tile_length, or a larger arc_tolerance"});
   }
-  tile.across = across_tile(liner, tile.width);
+  tile.across = across_tile(options, tile.width);
 }
 
 }  // namespace
 
-std::vector<double> bolts_across(const LinerOptions& liner, double lane) {
+std::vector<double> bolts_across(const PlateOptions& options, double lane) {
   std::vector<double> places;
   for (const bool odd : {false, true}) {
-    const Course course = course_of(liner, lane, odd);
+    const Course course = course_of(*options.liner, lane, odd);
     for (std::size_t i = 0; i < course.widths.size(); ++i) {
-      for (const double y : across_tile(liner, course.widths[i])) places.push_back(course.edges[i] + y);
+      for (const double y : across_tile(options, course.widths[i])) places.push_back(course.edges[i] + y);
     }
   }
   return places;
@@ -144,7 +162,7 @@ std::vector<TilePlace> tile_places(const PlateOptions& options, const std::vecto
         TilePlace tile{
             span, row + 1, lane, course.edges[i], course.widths[i], course.widths[i] < 0.9 * course.full,
             {},   {}};
-        set_bolts(liner, arcs, tile);
+        set_bolts(options, arcs, tile);
         tiles.push_back(std::move(tile));
       }
     }

@@ -37,7 +37,7 @@ struct TilePlace {
                                                  const OnOneArc& arcs, int& row);
 
 /// @return where the bolts of tiles stand across a lane, in courses of both kinds: from its left edge [m]
-[[nodiscard]] std::vector<double> bolts_across(const LinerOptions& liner, double lane);
+[[nodiscard]] std::vector<double> bolts_across(const PlateOptions& options, double lane);
 
 /// A tile with its holes, but for its name.
 using MakeTile = std::function<ShopPart(const TilePlace&, const StockMaterial&)>;

@@ -49,7 +49,7 @@ std::vector<double> even_seams(const PlateSection& section, std::size_t index, c
     const Lane lane = lane_of(section, face);
     const double from = lane.low - dot(plate.face_from - face.from, plate.way());
     const double room = kOffHole * clearance_hole(options.liner->bolt, HoleFit::coarse);
-    for (const double y : bolts_across(*options.liner, lane.width))
+    for (const double y : bolts_across(options, lane.width))
       taken.push_back({from + y - room, from + y + room});
   }
   return seams_across(plate.name, across, is_level(plate), taken, options.split, 0.0);
