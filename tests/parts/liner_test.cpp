@@ -182,6 +182,7 @@ TEST_CASE(
     options.liner->tile_length = length;
     options.liner->tile_width = 0.2;
     options.split.longest = 2.5;
+    options.flanges.width = 0.07;
     for (const bool own : {false, true}) {
       if (own) options.shop = {.hole_edge_diameters = 2.5, .hole_pitch_diameters = 4.0};
       const WorkshopBuild build = plates(chute(), options);

@@ -366,6 +366,48 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("prints: dovetails of pieces that stand go into notches under a roof that the printer holds up") {
+  const CrossSection channel = CrossSection::u_channel(30e-3, 15e-3, 9e-3);
+  for (const double overhang : {45.0, 30.0}) {
+    PrintOptions options;
+    options.joint = PrintJoint::dovetail;
+    options.overhang = Angle::from_degrees(overhang);
+    options.number_depth = 0.0;
+    options.ease = 0.0;
+    options.tongue.chamfer = 0.0;
+    options.tongue.depth = 2e-3;
+    options.tongue.height = 4e-3;
+    const WorkshopBuild build = prints(run(), channel, options);
+    const auto joints = static_cast<double>(build.joints.size() - 2);
+    REQUIRE(joints >= 1.0);
+    const double flare = std::tan(Angle::from_degrees(10.0).radians());
+    const double width = 48e-3;
+    const double head = 4e-3 - 2e-3 * flare;
+    // 0.2 mm wider both ways at the root and 0.2 mm deeper; above that the roof, down to 1 mm that is bridged.
+    const double mouth = 4e-3 - 4e-3 * flare + 0.4e-3;
+    const double top = mouth + 2.0 * 2.2e-3 * flare;
+    const double roof = 0.5 * (top - 1e-3) / std::tan(options.overhang.radians());
+    const double notch = 2.2e-3 * 0.5 * (mouth + top) + roof * 0.5 * (top + 1e-3);
+    CHECK(build.proof.added_volume == Approx(joints * width * (2e-3 * head - notch)).epsilon(1e-6));
+    CHECK(build.proof.smallest_gap == Approx(0.2e-3 / std::hypot(1.0, flare)).epsilon(1e-9));
+    double bridged = 0.0;
+    for (const PrintPiece& piece : build.prints) {
+      CHECK(measure(piece.mesh).valid());
+      for (const auto& triangle : piece.mesh.triangles) {
+        const Vec3 a = piece.mesh.vertices[triangle[0]];
+        const Vec3 b = piece.mesh.vertices[triangle[1]];
+        const Vec3 c = piece.mesh.vertices[triangle[2]];
+        if (std::max({a.z, b.z, c.z}) < 1e-7) continue;
+        const Vec3 square = cross(b - a, c - a);
+        // What hangs over by more than the printer holds up.
+        if (-square.z > (std::sin(options.overhang.radians()) + 1e-6) * norm(square))
+          bridged += 0.5 * norm(square);
+      }
+    }
+    CHECK(bridged <= joints * width * 1e-3 * (1.0 + 1e-6));
+  }
+}
+
 TEST_CASE("prints: numbers go into any flat outside that holds them, and leave a wall behind") {
   const auto deepest_y = [](const WorkshopBuild& build, double side) {
     // Vertices that lie the depth of a number within a side.
@@ -413,9 +455,15 @@ TEST_CASE("prints: tongues are refused where a section has no place for them, wi
                          "side over 3 mm|With walls of 0.9 mm and its fit it takes 4.2 mm.|"));
   CHECK(refusal(options, CrossSection::pipe(20e-3, 3e-3))
             .starts_with("joint|joint: this section has no place for a dovetail"));
+  options.pose = PrintPose::flat;
+  CHECK(refusal(options, groove()).starts_with("pose|pose: a dovetail would overhang in pieces that lie as"));
+  CHECK(refusal(options, groove()).ends_with("|pose: side or end, or joint: tongue, which tapers then\n"));
   options.pose = PrintPose::end;
-  CHECK(refusal(options, groove()).starts_with("pose|pose: a dovetail would overhang"));
-  CHECK(refusal(options, groove()).ends_with("|pose: side, or joint: tongue, which tapers then\n"));
+  options.overhang = Angle::from_degrees(8.0);
+  CHECK(refusal(options, groove())
+            .starts_with("tongue.flare|flare: 10 deg overhangs in pieces that stand on a joint face|No more "
+                         "than 8 deg from upright prints without supports.|flare: 8 deg, or pose: side"));
+  options.overhang = PrintOptions().overhang;
   options.pose = PrintPose::automatic;
   options.dowels.fit = 0.3e-3;
   CHECK(refusal(options, groove()).starts_with("dowels|dowels: the joints have tongues"));
@@ -425,11 +473,12 @@ TEST_CASE("prints: tongues are refused where a section has no place for them, wi
   options.tongue.height.reset();
   options.tongue.depth = 90e-3;
   CHECK(refusal(options, groove()).starts_with("tongue.depth|depth: a dovetail of 90 mm leaves a wall of "));
-  // A U-channel with a thick floor has the place; on its side it overhangs.
+  // A U-channel with a thick floor has the place; on its side it overhangs, so that it stands.
   options.tongue.depth.reset();
-  CHECK(
-      refusal(options, CrossSection::u_channel(30e-3, 15e-3, 6e-3))
-          .starts_with("joint|joint: dovetails go with pieces on their side, where this section overhangs"));
+  options.tongue.flare = Angle::from_degrees(44.0);
+  options.overhang = Angle::from_degrees(40.0);
+  CHECK(refusal(options, CrossSection::u_channel(30e-3, 15e-3, 8e-3))
+            .starts_with("tongue.flare|flare: 44 deg"));
   PrintOptions pinned;
   pinned.tongue.fit = 0.3e-3;
   CHECK(refusal(pinned, groove()).starts_with("tongue|tongue: the joints have pins"));

@@ -45,8 +45,11 @@ bool fits(const PrintJob& job, PrintPose kind, const Span& span) {
   bed.gap += 1e-4 + (kind == PrintPose::end ? 0.0 : 0.5 * reach);
   if (kind == PrintPose::end) bed.z -= reach;
   const std::vector<Vec3> points = outline_points(job.track, span, job.face);
+  // Flanks of a dovetail lean farther out than the piece that it stands on.
+  const double flare = job.options.joint == PrintJoint::dovetail ? job.options.tongue.flare.radians() : 0.0;
+  const double steepest = job.options.overhang.radians() - flare;
   for (const Pose& pose : poses_of(kind, job.track, span, job.face, job.options.layer)) {
-    const bool hangs = kind == PrintPose::end && pose.overhang > job.options.overhang.radians();
+    const bool hangs = kind == PrintPose::end && pose.overhang > steepest;
     if (!hangs && stands_well(job, pose, span) && turned_to_fit(pose, points, bed)) return true;
   }
   return false;
@@ -209,16 +212,13 @@ InputError thin_wall(const PrintJob& job, const std::vector<double>& joints, Dow
                      "a smaller " + key + ", a thicker section, or dowels: none"});
 }
 
-/// Pieces with tongues lie on their side where that has no overhang; else those that taper stand on their upstream face.
+/// Pieces with tongues lie on their side where that has no overhang; else they stand on their upstream face, or, with tongues
+/// that taper, lie as they are used.
 std::vector<PrintPose> kinds_for_tongues(const PrintJob& job, double overhang) {
   if (overhang <= job.options.overhang.radians() + 1e-9) return {PrintPose::side};
   if (job.options.joint == PrintJoint::tongue) return {PrintPose::end, PrintPose::flat};
-  throw InputError(
-      {"joint",
-       "joint: dovetails go with pieces on their side, where this section overhangs by " +
-           angle_text(Angle::from_radians(overhang), 3),
-       "No more than " + angle_text(job.options.overhang) + " from upright prints without supports.",
-       "joint: tongue, joint: dowels, or pose: side, with supports"});
+  if (auto issue = flare_problem(job.options)) throw InputError({std::move(*issue)});
+  return {PrintPose::end};
 }
 
 }  // namespace

@@ -241,11 +241,12 @@ double mismatch(const CrossSection& section, const std::vector<Vec2>& face) {
   return most;
 }
 
-/// @return whether a point, from the joint, lies within a tongue's notch or on its edge
+/// @return whether a point, from the joint, lies between the flanks of a tongue's notch or on them
 bool in_notch(const std::vector<Vec2>& notch, double along, double height) {
   const double share = along / notch[1].x;
   const double low = notch[0].y + share * (notch[1].y - notch[0].y);
-  const double high = notch[3].y + share * (notch[2].y - notch[3].y);
+  const Vec2 bottom = notch[notch.size() - 2];
+  const double high = notch.back().y + share * (bottom.y - notch.back().y);
   return along >= -kSameFace && along <= notch[1].x + kSameFace && height >= low - kSameFace &&
          height <= high + kSameFace;
 }

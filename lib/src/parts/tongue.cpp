@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -80,6 +81,7 @@ Tongue tongue_of(const PrintOptions& options, PrintPose kind, const LevelBand& b
   tongue.high = middle + 0.5 * head - tongue.spread;
   tongue.depth = depth;
   tongue.fit = options.tongue.fit;
+  if (options.joint == PrintJoint::dovetail && kind == PrintPose::end) tongue.roof = taper_of(options);
   tongue.chamfer = std::min({options.tongue.chamfer, 0.25 * head, 0.25 * depth});
   return tongue;
 }
@@ -109,12 +111,21 @@ std::string word_of(PrintJoint joint) {
   return joint == PrintJoint::dovetail ? "dovetail" : "tongue";
 }
 
-/// A corner of the edge round a flat face, found by a pair of vertices that follow one another.
-std::size_t place_in(const std::vector<std::uint32_t>& loop, std::uint32_t from, std::uint32_t to) {
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    if (loop[i] == from && loop[(i + 1) % loop.size()] == to) return i;
+/// The edge round a flat face from one of its vertices to another and back, without what lay between them: corners of levels
+/// of the sweep that the first way passes.
+std::vector<std::uint32_t> without_between(const std::vector<std::uint32_t>& loop, std::uint32_t from,
+                                           std::uint32_t to) {
+  const auto first = std::find(loop.begin(), loop.end(), from);
+  const auto last = std::find(loop.begin(), loop.end(), to);
+  if (first == loop.end() || last == loop.end())
+    throw InternalError({"", "a side of a piece is not flat to its end", "", ""});
+  std::vector<std::uint32_t> rest;
+  for (auto at = last; at != first;) {
+    rest.push_back(*at);
+    if (++at == loop.end()) at = loop.begin();
   }
-  throw InternalError({"", "a side of a piece is not flat to its end", "", ""});
+  rest.push_back(from);
+  return rest;
 }
 
 void fill(TriangleMesh& mesh, const FacePlane& plane, const std::vector<std::uint32_t>& loop) {
@@ -128,26 +139,38 @@ void fill(TriangleMesh& mesh, const FacePlane& plane, const std::vector<std::uin
 /// Where the edge of an end face runs up its right side and down its left one, past the heights of a profile.
 struct EndEdge {
   std::vector<std::uint32_t> loop;
-  std::size_t right = 0;  ///< loop[right] is below, the next one above
-  std::size_t left = 0;   ///< loop[left] is above, the next one below
+  std::size_t right_low = 0;  ///< places in the loop: below the profile, and the next one above it
+  std::size_t right_high = 0;
+  std::size_t left_high = 0;
+  std::size_t left_low = 0;
 };
 
 EndEdge end_edge(const TriangleMesh& mesh, const FacePlane& end, std::vector<std::uint32_t> loop, double low,
                  double high) {
-  EndEdge edge{std::move(loop), 0, 0};
+  EndEdge edge{std::move(loop), 0, 0, 0, 0};
   double most = 0.0;
   double least = 0.0;
   for (const std::uint32_t vertex : edge.loop) {
     most = std::max(most, end.see(mesh.vertices[vertex]).x);
     least = std::min(least, end.see(mesh.vertices[vertex]).x);
   }
+  const std::size_t count = edge.loop.size();
+  const auto seen = [&](std::size_t i) { return end.see(mesh.vertices[edge.loop[i % count]]); };
+  // From a corner on one side past the heights between; levels of the sweep may have corners there.
+  const auto past = [&](std::size_t from, double x, double bottom, double top,
+                        double sense) -> std::optional<std::size_t> {
+    const auto on = [&](std::size_t i) { return std::fabs(seen(i).x - x) < kOnSide; };
+    if (!on(from) || !(sense * seen(from).y < sense * bottom)) return std::nullopt;
+    for (std::size_t k = from + 1; k < from + count && on(k); ++k) {
+      if (sense * seen(k).y > sense * top) return k % count;
+      if (sense * seen(k).y < sense * bottom) return std::nullopt;
+    }
+    return std::nullopt;
+  };
   int found = 0;
-  for (std::size_t i = 0; i < edge.loop.size(); ++i) {
-    const Vec2 a = end.see(mesh.vertices[edge.loop[i]]);
-    const Vec2 b = end.see(mesh.vertices[edge.loop[(i + 1) % edge.loop.size()]]);
-    const auto on = [&](double x) { return std::fabs(a.x - x) < kOnSide && std::fabs(b.x - x) < kOnSide; };
-    if (on(most) && a.y < low && b.y > high) edge.right = i, ++found;
-    if (on(least) && a.y > high && b.y < low) edge.left = i, ++found;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const auto to = past(i, most, low, high, 1.0)) edge.right_low = i, edge.right_high = *to, ++found;
+    if (const auto to = past(i, least, high, low, -1.0)) edge.left_high = i, edge.left_low = *to, ++found;
   }
   if (found != 2) throw InternalError({"", "an end face has no upright sides where its tongue is", "", ""});
   return edge;
@@ -162,7 +185,7 @@ std::vector<std::uint32_t> stretch(const std::vector<std::uint32_t>& loop, std::
   }
 }
 
-/// Gives the flat side of a piece an edge that follows a profile between two of its corners.
+/// Gives the flat side of a piece an edge that follows a profile from one of its corners to another.
 /// @param corners  of the profile, in the order of the side's edge
 void reshape_side(TriangleMesh& mesh, const FacePlane& side, std::uint32_t from, std::uint32_t to,
                   const std::vector<std::uint32_t>& corners) {
@@ -172,8 +195,8 @@ void reshape_side(TriangleMesh& mesh, const FacePlane& side, std::uint32_t from,
       fill(mesh, side, loop);
       continue;
     }
-    const auto at = static_cast<std::ptrdiff_t>(place_in(loop, from, to));
-    loop.insert(loop.begin() + at + 1, corners.begin(), corners.end());
+    loop = without_between(loop, from, to);
+    loop.insert(loop.end(), corners.begin(), corners.end());
     fill(mesh, side, loop);
   }
 }
@@ -211,23 +234,46 @@ std::vector<Vec2> Tongue::profile() const {
   return points;
 }
 
+double Tongue::reach() const {
+  const double bottom = depth + fit;
+  const double half = 0.5 * (high - low) + fit + spread / depth * bottom;
+  return roof > 0.0 ? bottom + std::max(0.0, half - 0.5 * kBridge) / roof : bottom;
+}
+
 std::vector<Vec2> Tongue::notch() const {
   const double slope = spread / depth;
   const double bottom = depth + fit;
-  return {{0.0, low - fit},
-          {bottom, low - fit - slope * bottom},
-          {bottom, high + fit + slope * bottom},
-          {0.0, high + fit}};
+  std::vector<Vec2> points = {{0.0, low - fit}, {bottom, low - fit - slope * bottom}};
+  if (reach() > bottom) {
+    const double middle = 0.5 * (low + high);
+    points.push_back({reach(), middle - 0.5 * kBridge});
+    points.push_back({reach(), middle + 0.5 * kBridge});
+  }
+  points.push_back({bottom, high + fit + slope * bottom});
+  points.push_back({0.0, high + fit});
+  return points;
+}
+
+std::optional<Issue> flare_problem(const PrintOptions& options) {
+  const Angle flare = options.tongue.flare;
+  if (flare.radians() <= options.overhang.radians() + 1e-9) return std::nullopt;
+  return Issue{"tongue.flare",
+               "flare: " + angle_text(flare) + " overhangs in pieces that stand on a joint face",
+               "No more than " + angle_text(options.overhang) + " from upright prints without supports.",
+               "flare: " + angle_text(options.overhang) + ", or pose: side"};
 }
 
 std::vector<Issue> tongue_problems(const CrossSection& section, const PrintOptions& options) {
   if (options.joint == PrintJoint::dowels) return {};
   const std::string word = word_of(options.joint);
-  if (options.joint == PrintJoint::dovetail &&
-      (options.pose == PrintPose::end || options.pose == PrintPose::flat)) {
-    return {{"pose", "pose: a dovetail would overhang",
-             "It goes from side to side, wider at its head, and is printed in pieces on their side.",
-             "pose: side, or joint: tongue, which tapers then"}};
+  if (options.joint == PrintJoint::dovetail && options.pose == PrintPose::flat) {
+    return {
+        {"pose", "pose: a dovetail would overhang in pieces that lie as they are used",
+         "It goes from side to side, wider at its head: the lower edge of the head would begin in the air.",
+         "pose: side or end, or joint: tongue, which tapers then"}};
+  }
+  if (options.joint == PrintJoint::dovetail && options.pose == PrintPose::end) {
+    if (auto issue = flare_problem(options)) return {std::move(*issue)};
   }
   const auto band = level_band(FaceOutline(section));
   if (!band) {
@@ -280,12 +326,20 @@ std::optional<Tongue> place_tongue(const PrintJob& job, const PrintPlan& plan) {
       if (wall < tongue.wall) tongue.wall = wall, where = joints[i];
     }
     const bool neck = tongue.high - tongue.low >= options.wall;
-    const bool room = 2.0 * tongue.depth < shortest - options.wall;
+    const bool room = tongue.depth + tongue.reach() - tongue.fit < shortest - options.wall;
     thinnest = tongue.wall;
     if (neck && room && tongue.wall >= options.wall * (1.0 - 1e-9)) return tongue;
     if (options.tongue.depth) break;
   }
   const std::string word = word_of(options.joint);
+  if (thinnest >= options.wall) {
+    throw InputError({options.tongue.depth ? "tongue.depth" : "joint",
+                      (options.tongue.depth ? "depth: a " : "joint: a ") + word + " of " +
+                          length_text(wanted, 3) + " finds no room in pieces of " + length_text(shortest, 3),
+                      "Tongue and notch leave the printer's least wall between them, " +
+                          length_text(options.wall) + ", and a root as thick.",
+                      "a larger overhang or bed, another pose, a smaller depth, or joint: dowels"});
+  }
   throw InputError(
       {options.tongue.depth ? "tongue.depth" : "joint",
        (options.tongue.depth ? "depth: a " + word + " of " + length_text(wanted, 3) : "joint: a " + word) +
@@ -302,7 +356,6 @@ std::array<std::vector<Vec2>, 2> shape_end(TriangleMesh& mesh, const FacePlane& 
   std::vector<std::vector<std::uint32_t>> loops = take_flat_face(mesh, end);
   if (loops.size() != 1) throw InternalError({"", "an end face with a tongue has a hole", "", ""});
   const EndEdge edge = end_edge(mesh, end, std::move(loops.front()), profile.front().y, profile.back().y);
-  const std::size_t count = edge.loop.size();
   const auto corners_at = [&](std::uint32_t on_side) {
     const double x = end.see(mesh.vertices[on_side]).x;
     std::vector<std::uint32_t> corners;
@@ -312,16 +365,16 @@ std::array<std::vector<Vec2>, 2> shape_end(TriangleMesh& mesh, const FacePlane& 
     }
     return corners;
   };
-  const std::uint32_t right_low = edge.loop[edge.right];
-  const std::uint32_t right_high = edge.loop[(edge.right + 1) % count];
-  const std::uint32_t left_high = edge.loop[edge.left];
-  const std::uint32_t left_low = edge.loop[(edge.left + 1) % count];
+  const std::uint32_t right_low = edge.loop[edge.right_low];
+  const std::uint32_t right_high = edge.loop[edge.right_high];
+  const std::uint32_t left_high = edge.loop[edge.left_high];
+  const std::uint32_t left_low = edge.loop[edge.left_low];
   std::vector<std::uint32_t> right = corners_at(right_low);
   const std::vector<std::uint32_t> left = corners_at(left_low);
-  std::vector<std::uint32_t> lower = stretch(edge.loop, edge.left + 1, edge.right);
+  std::vector<std::uint32_t> lower = stretch(edge.loop, edge.left_low, edge.right_low);
   lower.push_back(right.front());
   lower.push_back(left.front());
-  std::vector<std::uint32_t> upper = stretch(edge.loop, edge.right + 1, edge.left);
+  std::vector<std::uint32_t> upper = stretch(edge.loop, edge.right_high, edge.left_high);
   upper.push_back(left.back());
   upper.push_back(right.back());
   fill(mesh, end, lower);

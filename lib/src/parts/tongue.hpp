@@ -22,7 +22,8 @@ struct LevelBand {
 
 /// A strip from side to side that the upstream piece has beyond the joint, and the notch for it in the downstream piece. Both
 /// lie in the plane of the track: printed on their side, no layer overhangs the one below. Of pieces that stand on their upstream
-/// face, or lie as they are used, strips taper towards the head by what overhangs without support.
+/// face, or lie as they are used, strips taper towards the head by what overhangs without support; a dovetail of pieces that
+/// stand keeps its form, and its notch, open below, closes in a roof as steep.
 struct Tongue {
   LevelBand band;
   double low = 0.0;      ///< lower edge of the root, in the frame of the section [m]
@@ -32,7 +33,10 @@ struct Tongue {
   double chamfer = 0.0;  ///< of the head's edges [m]
   double fit = 0.0;      ///< by which the notch is wider below and above, and deeper [m]
   double wall = 0.0;     ///< least one left below and above the notch [m]
+  double roof = 0.0;     ///< slope of the notch's roof, across per depth; 0: its bottom is flat
 
+  /// @return how deep the notch goes [m]
+  [[nodiscard]] double reach() const;
   /// @return (along the track, height) from the lower root over the head to the upper one
   [[nodiscard]] std::vector<Vec2> profile() const;
   [[nodiscard]] std::vector<Vec2> notch() const;
@@ -41,6 +45,9 @@ struct Tongue {
 /// What speaks against tongues whatever the track is.
 /// @return issues whose `where` is the key
 [[nodiscard]] std::vector<Issue> tongue_problems(const CrossSection& section, const PrintOptions& options);
+
+/// What speaks against dovetails of pieces that stand on a joint face: flanks that overhang.
+[[nodiscard]] std::optional<Issue> flare_problem(const PrintOptions& options);
 
 /// The tongue of every joint; its depth is that of the design, or the greatest up to three quarters of its height that leaves
 /// the walls.
