@@ -93,6 +93,29 @@ TEST_CASE("random parts are nested apart, inside their sheets, as often as order
   }
 }
 
+TEST_CASE("parts whose thicknesses differ by rounding share a sheet, and no two sheets share a name") {
+  Workshop workshop;
+  workshop.parts = {flat_part(1, plate(1.2, 0.9), 3, 5e-3),
+                    flat_part(2, plate(1.2, 0.9), 3, 0.0050000000000000044),
+                    flat_part(3, plate(0.3, 0.3), 1, 5e-3 + 1e-9), flat_part(4, plate(0.3, 0.3), 1, 6e-3)};
+  const std::vector<NestedSheet> sheets = nest(workshop, NestStock{});
+  std::vector<std::string> names;
+  std::size_t mixed = 0;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    names.push_back(nest_stem(sheets, i));
+    bool one = false;
+    bool other = false;
+    for (const NestedPiece& piece : sheets[i].pieces) {
+      one = one || piece.part == 0;
+      other = other || piece.part == 1;
+    }
+    if (one && other) ++mixed;
+  }
+  CHECK(mixed > 0);
+  std::sort(names.begin(), names.end());
+  CHECK(std::unique(names.begin(), names.end()) == names.end());
+}
+
 TEST_CASE("rectangles that fill a sheet fill it") {
   Workshop workshop;
   // Three rows of two, 0.9 m x 0.4 m, on 2 m x 1.5 m with 10 mm margin and spacing.

@@ -319,11 +319,15 @@ Vec2 place_for_number(const PlaneRegion& region) {
   return centre;
 }
 
+/// Thicknesses that are one stock [m].
+constexpr double kSameStock = 1e-9;
+
 }  // namespace
 
 std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock) {
   require_stock(stock);
   const double column = column_of(stock);
+  // By nanometres: what measures add up to is off by rounding.
   std::map<std::pair<std::string, double>, std::vector<Piece>> groups;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
@@ -332,7 +336,7 @@ std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock) 
     const Piece piece = piece_of(part, i, column);
     SheetInWork fresh = fresh_sheet(part, stock, column);
     if (!lay(fresh, piece)) issues.push_back(too_large(part, piece, stock));
-    auto& group = groups[{part.material, part.thickness}];
+    auto& group = groups[{part.material, std::nearbyint(part.thickness / kSameStock)}];
     group.insert(group.end(), part.quantity(), piece);
   }
   if (!issues.empty()) throw InputError(std::move(issues));
@@ -371,8 +375,10 @@ Drawing nest_drawing(const Workshop& workshop, const NestedSheet& sheet) {
 
 std::string nest_stem(const std::vector<NestedSheet>& sheets, std::size_t index) {
   const NestedSheet& sheet = sheets[index];
+  const auto shown = [](double thickness) { return rounded_text(kMillimetres * thickness, 6); };
+  // By what the name says: no two sheets are one file.
   const auto alike = [&](const NestedSheet& other) {
-    return other.material == sheet.material && other.thickness == sheet.thickness;
+    return other.material == sheet.material && shown(other.thickness) == shown(sheet.thickness);
   };
   const auto here = sheets.begin() + static_cast<std::ptrdiff_t>(index);
   const auto count = std::count_if(sheets.begin(), sheets.end(), alike);
@@ -383,8 +389,8 @@ std::string nest_stem(const std::vector<NestedSheet>& sheets, std::size_t index)
         (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '.' || c == '-';
     material += plain ? c : '-';
   }
-  return "nest_" + material + "_" + rounded_text(kMillimetres * sheet.thickness, 6) + "mm_" +
-         std::to_string(number) + "_of_" + std::to_string(count);
+  return "nest_" + material + "_" + shown(sheet.thickness) + "mm_" + std::to_string(number) + "_of_" +
+         std::to_string(count);
 }
 
 }  // namespace glissade

@@ -198,6 +198,7 @@ void add_rims(const Fitting& fitting) {
     auto part = along_track(job, span, {top - rim.thickness, top}, rim.width,
                             {-outside(job) - rim.width, outside(job)});
     if (!part) continue;
+    part->thickness = rim.thickness;
     part->name = "rim" + suffix(fitting, i);
     if (job.options.cover) {
       const double whole = bounds(part->pattern->region.outline).width();
@@ -278,6 +279,7 @@ void add_covers(const Fitting& fitting) {
     const Span span = rim_room(job, fitting.units[i].span);
     auto part = along_track(job, span, {top, top + cover.thickness}, 2.0 * half, {-half});
     if (!part) continue;
+    part->thickness = cover.thickness;
     part->name = "cover" + suffix(fitting, i);
     const double whole = bounds(part->pattern->region.outline).width();
     const double radius = 0.5 * clearance_hole(cover.bolt, HoleFit::coarse);
