@@ -287,6 +287,12 @@ TEST_CASE(
     "refused") {
   const CoulombBrachistochrone steep{{3.5, 2.6}, kFriction};
   const section::Measures pipe = section::Pipe{0.411, 3e-3};
+  // The section bends out of the usual gap within the frame at the start.
+  const CoulombBrachistochrone tight{{3.5, 2.6}, Friction::from_angle(Angle::from_degrees(10.0))};
+  PlateOptions usual;
+  usual.round = RoundMake::staves;
+  usual.stave_tolerance = 19e-3;
+  CHECK(named(plates_of(tight, pipe, usual), "end_frame").size() >= 2);
   for (const double tolerance : {0.010, 0.019, 0.025}) {
     INFO("staves to " << tolerance << " m");
     PlateOptions options;

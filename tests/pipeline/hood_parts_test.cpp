@@ -119,7 +119,7 @@ TEST_CASE("hood parts: floor and walls are the solid of the hood, where the stre
   const Vec2 centre = centre_of(all);
   std::size_t rows = 0;
   for (const SettingOutPoint& point : all.workshop().setting_out) {
-    if (!point.what.starts_with("hood, ")) continue;
+    if (!point.what.starts_with("hood ")) continue;
     ++rows;
     CHECK(norm(Vec2{point.x, point.z} - centre) == Approx(kRadius).epsilon(1e-6));
     CHECK(norm(Vec2{point.site.x - 2.0, point.site.z - 3.0} - Vec2{point.x, point.z}) < 1e-9);

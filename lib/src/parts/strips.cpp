@@ -166,7 +166,8 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
     }
     return std::nullopt;
   });
-  if (!bent && section.convex) {
+  // Usual frames get the gap that they need (frames_that_clear()).
+  if (!bent && section.convex && options.flanges != FlangeOptions()) {
     require_frame_room(track, build.joints, options.flanges, section.lowest,
                        section.ring ? std::optional(section.highest) : std::nullopt);
   }

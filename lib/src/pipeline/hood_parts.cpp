@@ -68,7 +68,7 @@ class TurnedOver {
 
 /// @param entry  where the feed meets the hood, seen from the start of the track: run and height [m]
 SettingOutPoint hanging(SettingOutPoint point, Vec2 entry, const TurnedOver& turned) {
-  point.what = "hood, " + point.what;
+  point.what = "hood " + point.what;
   point.x += entry.x;
   point.z = entry.y - point.z;
   point.site = turned(point.site);
