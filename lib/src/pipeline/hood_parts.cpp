@@ -116,6 +116,7 @@ void join_proofs(const PartsProof& hood, PartsProof& all) {
   all.volume += hood.volume;
   all.exact_volume += hood.exact_volume;
   all.added_volume += hood.added_volume;
+  all.bolted += hood.bolted;
   all.edge_mismatch = std::max(all.edge_mismatch, hood.edge_mismatch);
   if (hood.smallest_gap > 0.0)
     all.smallest_gap =
