@@ -131,7 +131,8 @@ const std::vector<std::vector<std::string>>& builds() {
 
 }  // namespace
 
-TEST_CASE("SIGTERM and, but for a search, Ctrl-C end a build in any step within 0.2 s and leave nothing behind") {
+TEST_CASE(
+    "SIGTERM and, but for a search, Ctrl-C end a build in any step within 0.2 s and leave nothing behind") {
   // Outside continuous integration one of the two in each step, by turns.
   std::size_t turn = 0;
   for (const std::vector<std::string>& arguments : builds()) {

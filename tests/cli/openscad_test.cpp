@@ -26,9 +26,9 @@ std::string text_of(const fs::path& file) {
 /// Builds a design so coarse that OpenSCAD's exact arithmetic does not take minutes for it: end faces and trims stay.
 /// @return where its OFF file lies
 fs::path built(const fs::path& design, const fs::path& folder, const std::vector<std::string>& options) {
-  std::vector<std::string> arguments{"build", design.string(),        "-q",    "-o",
-                                     ".",     "--no-report",          "--set", "mesh.tolerance=20mm",
-                                     "--set", "export=[stl, off, scad]"};
+  std::vector<std::string> arguments{
+      "build", design.string(),          "-q", "-o", ".", "--no-report", "--set", "mesh.tolerance=20mm",
+      "--set", "export=[stl, off, scad]"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const Outcome outcome = glissade_run(arguments, {folder, {}, {}});
   INFO(design.stem().string());
