@@ -8,11 +8,11 @@
 #include "parts/bolts.hpp"
 #include "parts/bores.hpp"
 #include "parts/equal_parts.hpp"
+#include "parts/placed_piece.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -80,19 +80,6 @@ Vec3 turned(const Frame& place, Vec3 direction) {
   return direction.x * place.x + direction.y * place.y + direction.z * place.z;
 }
 
-Vec3 in_own(const Frame& place, Vec3 point) {
-  const Vec3 from = point - place.origin;
-  return {dot(from, place.x), dot(from, place.y), dot(from, place.z)};
-}
-
-/// A piece as it lies in the assembly.
-struct Piece {
-  const ShopPart* part = nullptr;
-  Frame place;
-  Vec3 own_low;  ///< of the box round it in its own frame
-  Vec3 own_high;
-};
-
 /// One end of a hole of a piece.
 struct Mouth {
   std::size_t piece = 0;
@@ -103,38 +90,27 @@ struct Mouth {
   Vec3 reach;  ///< of a slot
 };
 
-/// Smallest box round the edges of a body, with what lies between them on arcs.
-std::pair<Vec3, Vec3> box_of(const PartBody& body) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  Vec3 low{kInf, kInf, kInf};
-  Vec3 high{-kInf, -kInf, -kInf};
-  for (const Vec3 point : edge_points(body, 0.0)) {
-    low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
-    high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
-  }
-  return {low, high};
-}
-
 struct Pieces {
-  std::vector<Piece> all;
+  std::vector<PlacedPiece> all;
   std::vector<Mouth> mouths;  ///< by ascending x
 };
 
 Pieces pieces_of(const Workshop& workshop) {
-  Pieces pieces;
-  for (const ShopPart& part : workshop.parts) {
-    const std::vector<Hole> holes = part.bought_in ? std::vector<Hole>() : holes_of(part.body);
-    const auto [low, high] = box_of(part.body);
-    for (const Frame& place : part.places) {
-      for (const Hole& hole : holes) {
-        const Vec3 begin = place.to_space(hole.begin);
-        const Vec3 into = turned(place, hole.into);
-        const Vec3 reach = turned(place, hole.reach);
-        pieces.mouths.push_back({pieces.all.size(), begin, -1.0 * into, hole.depth, hole.radius, reach});
-        pieces.mouths.push_back(
-            {pieces.all.size(), begin + hole.depth * into, into, hole.depth, hole.radius, reach});
-      }
-      pieces.all.push_back({&part, place, low, high});
+  Pieces pieces{placed_pieces(workshop), {}};
+  std::vector<Hole> holes;
+  const ShopPart* part = nullptr;
+  for (std::size_t i = 0; i < pieces.all.size(); ++i) {
+    const Frame& place = pieces.all[i].place;
+    if (pieces.all[i].part != part) {
+      part = pieces.all[i].part;
+      holes = part->bought_in ? std::vector<Hole>() : holes_of(part->body);
+    }
+    for (const Hole& hole : holes) {
+      const Vec3 begin = place.to_space(hole.begin);
+      const Vec3 into = turned(place, hole.into);
+      const Vec3 reach = turned(place, hole.reach);
+      pieces.mouths.push_back({i, begin, -1.0 * into, hole.depth, hole.radius, reach});
+      pieces.mouths.push_back({i, begin + hole.depth * into, into, hole.depth, hole.radius, reach});
     }
   }
   std::stable_sort(pieces.mouths.begin(), pieces.mouths.end(),
@@ -175,7 +151,7 @@ bool one_bolt_fits(double radius, double other) {
                      [&](int size) { return fits(bolt_of(size), radius) && fits(bolt_of(size), other); });
 }
 
-[[noreturn]] void tell(const Piece& piece, const Mouth& mouth, const std::string& what) {
+[[noreturn]] void tell(const PlacedPiece& piece, const Mouth& mouth, const std::string& what) {
   throw InternalError({"",
                        "the hole of " + length_text(2.0 * mouth.radius) + " in " + piece.part->name +
                            " at (" + length_text(mouth.at.x, 5) + ", " + length_text(mouth.at.y, 5) + ", " +
@@ -184,17 +160,10 @@ bool one_bolt_fits(double radius, double other) {
 }
 
 /// A piece other than its own, and other than that of the hole that it meets, covers a mouth.
-bool covers(const Piece& piece, const Mouth& mouth) {
+bool covers(const PlacedPiece& piece, const Mouth& mouth) {
   const Vec3 before = in_own(piece.place, mouth.at + kTouch * mouth.out);
   const double room = mouth.radius + norm(mouth.reach);
-  const auto beyond = [&](double value, double low, double high) {
-    return value < low - room || value > high + room;
-  };
-  if (beyond(before.x, piece.own_low.x, piece.own_high.x) ||
-      beyond(before.y, piece.own_low.y, piece.own_high.y) ||
-      beyond(before.z, piece.own_low.z, piece.own_high.z)) {
-    return false;
-  }
+  if (!piece.near(before, room)) return false;
   const double depth = depth_inside(piece.part->body, before);
   if (depth > 0.0 || norm(mouth.reach) > 0.0) return depth > 0.0;
   if (depth < -mouth.radius) return false;
@@ -231,11 +200,11 @@ const Mouth* partner_of(const Pieces& pieces, std::size_t index, double reach) {
 /// Pieces by the stretch of x that they take, for mouths in the order of theirs.
 class Sweep {
  public:
-  explicit Sweep(const std::vector<Piece>& pieces) {
+  explicit Sweep(const std::vector<PlacedPiece>& pieces) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const Piece& piece = pieces[i];
-      const Vec3 middle = piece.place.to_space(0.5 * (piece.own_low + piece.own_high));
-      const Vec3 half = 0.5 * (piece.own_high - piece.own_low);
+      const PlacedPiece& piece = pieces[i];
+      const Vec3 middle = piece.place.to_space(0.5 * (piece.low + piece.high));
+      const Vec3 half = 0.5 * (piece.high - piece.low);
       const double reach = std::fabs(piece.place.x.x) * half.x + std::fabs(piece.place.y.x) * half.y +
                            std::fabs(piece.place.z.x) * half.z;
       spans_.push_back({middle.x - reach, middle.x + reach, i});
@@ -277,7 +246,7 @@ BoltedHoles require_bolts_meet(const Workshop& workshop) {
   Sweep sweep(pieces.all);
   for (std::size_t i = 0; i < pieces.mouths.size(); ++i) {
     const Mouth& mouth = pieces.mouths[i];
-    const Piece& own = pieces.all[mouth.piece];
+    const PlacedPiece& own = pieces.all[mouth.piece];
     const Mouth* const partner = partner_of(pieces, i, 2.0 * widest + kTouch);
     if (partner != nullptr) {
       const std::string& name = pieces.all[partner->piece].part->name;
@@ -294,7 +263,7 @@ BoltedHoles require_bolts_meet(const Workshop& workshop) {
       facts.open += 1;
     }
     for (const std::size_t k : sweep.about(mouth.at.x, widest + kTouch)) {
-      const Piece& piece = pieces.all[k];
+      const PlacedPiece& piece = pieces.all[k];
       if (k == mouth.piece || (partner != nullptr && k == partner->piece) || piece.part->bought_in) continue;
       if (covers(piece, mouth))
         tell(own, mouth, "is covered by " + piece.part->name + ", which has none there");

@@ -1,6 +1,7 @@
 #include "parts/frame_room.hpp"
 
 #include "parts/body_mesh.hpp"
+#include "parts/placed_piece.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +22,6 @@ double outside_of(const FrameOpening& opening, Vec2 point) {
     if (norm(along) > 0.0) most = std::max(most, cross(along, point - from) / norm(along));
   }
   return most;
-}
-
-Vec3 in_own(const Frame& place, Vec3 point) {
-  const Vec3 from = point - place.origin;
-  return {dot(from, place.x), dot(from, place.y), dot(from, place.z)};
 }
 
 }  // namespace

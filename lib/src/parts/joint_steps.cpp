@@ -5,6 +5,7 @@
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/equal_parts.hpp"
+#include "parts/placed_piece.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/shop_facts.hpp"
 
@@ -20,65 +21,26 @@ namespace {
 constexpr double kBeside = 0.5e-3;  // from a joint to where faces are felt for [m]
 constexpr double kAbove = 5e-3;
 
-Vec3 in_own(const Frame& place, Vec3 point) {
-  const Vec3 from = point - place.origin;
-  return {dot(from, place.x), dot(from, place.y), dot(from, place.z)};
-}
-
-/// A piece as it lies, and the box round its edges in its own frame.
-struct Piece {
-  const ShopPart* part = nullptr;
-  Frame place;
-  Vec3 low;
-  Vec3 high;
-};
-
-std::vector<Piece> pieces_of(const Workshop& workshop) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::vector<Piece> pieces;
-  for (const ShopPart& part : workshop.parts) {
-    if (part.stands || part.bought_in) continue;
-    Piece piece{&part, {}, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-    for (const Vec3 point : edge_points(part.body, 0.0)) {
-      piece.low = {std::min(piece.low.x, point.x), std::min(piece.low.y, point.y),
-                   std::min(piece.low.z, point.z)};
-      piece.high = {std::max(piece.high.x, point.x), std::max(piece.high.y, point.y),
-                    std::max(piece.high.z, point.z)};
-    }
-    for (const Frame& place : part.places) {
-      piece.place = place;
-      pieces.push_back(piece);
-    }
-  }
-  return pieces;
-}
-
 /// The pieces about a place.
 class Solid {
  public:
-  Solid(const std::vector<Piece>& pieces, Vec3 about) {
+  Solid(const std::vector<PlacedPiece>& pieces, Vec3 about) {
     constexpr double kRoom = 60e-3;
-    const auto within = [](double value, double low, double high) {
-      return value > low - kRoom && value < high + kRoom;
-    };
-    for (const Piece& piece : pieces) {
-      const Vec3 own = in_own(piece.place, about);
-      if (within(own.x, piece.low.x, piece.high.x) && within(own.y, piece.low.y, piece.high.y) &&
-          within(own.z, piece.low.z, piece.high.z)) {
-        pieces_.push_back(&piece);
-      }
+    for (const PlacedPiece& piece : pieces) {
+      if (piece.part->stands || piece.part->bought_in) continue;
+      if (piece.near(in_own(piece.place, about), kRoom)) pieces_.push_back(&piece);
     }
   }
 
   [[nodiscard]] double depth(Vec3 point) const {
     double deepest = -std::numeric_limits<double>::infinity();
-    for (const Piece* const piece : pieces_)
+    for (const PlacedPiece* const piece : pieces_)
       deepest = std::max(deepest, depth_inside(piece->part->body, in_own(piece->place, point)));
     return deepest;
   }
 
  private:
-  std::vector<const Piece*> pieces_;
+  std::vector<const PlacedPiece*> pieces_;
 };
 
 /// How far out the uppermost face stands.
@@ -136,7 +98,7 @@ std::string at_joint(const std::string& what, double s) {
   return what + " at the joint " + length_text(s, 3) + " along the track";
 }
 
-std::optional<double> step_between(const std::vector<Piece>& pieces, const FacePlace& place) {
+std::optional<double> step_between(const std::vector<PlacedPiece>& pieces, const FacePlace& place) {
   const Solid solid(pieces, place.at);
   const auto before = face_at_joint(solid, place, -1.0);
   const auto after = face_at_joint(solid, place, 1.0);
@@ -147,12 +109,13 @@ std::optional<double> step_between(const std::vector<Piece>& pieces, const FaceP
 }  // namespace
 
 std::optional<double> step_at(const Workshop& workshop, const FacePlace& place) {
-  return step_between(pieces_of(workshop), place);
+  return step_between(placed_pieces(workshop), place);
 }
 
 void measure_steps(const std::vector<FacePlace>& places, const PlateOptions& options, WorkshopBuild& build) {
   ShopFacts facts(build.workshop);
-  const std::vector<Piece> pieces = places.empty() ? std::vector<Piece>() : pieces_of(build.workshop);
+  const std::vector<PlacedPiece> pieces =
+      places.empty() ? std::vector<PlacedPiece>() : placed_pieces(build.workshop);
   for (const FacePlace& place : places) {
     auto step = step_between(pieces, place);
     if (!step) continue;
