@@ -232,8 +232,8 @@ class Transcription::LaterSections {
   }
 
  private:
-  static constexpr std::size_t kShared = 3;
-  static constexpr std::array<std::size_t, kShared> kVector = {kOwn, kZeta, kLength};
+  static constexpr std::size_t kShared = 3;  // theory: as told above
+  static constexpr std::array<std::size_t, kShared> kVector = {kOwn, kZeta, kLength};  // theory
 
   [[nodiscard]] static double entry(const LocalMatrix& matrix, std::size_t i, std::size_t j) {
     return i >= j ? matrix[i][j] : matrix[j][i];

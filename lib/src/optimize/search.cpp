@@ -318,8 +318,12 @@ class Minimiser {
   void set_metric(Point& point, const Multipliers& known) const {
     Vector equality = known.equality;
     equality.resize(point.program.equality_value.size(), 0.0);
+    std::vector<Row> carrying;
+    for (std::size_t i = 0; i < known.active.size(); ++i) {
+      if (known.inequality[i] > 0.0) carrying.push_back(known.active[i]);
+    }
     point.metric = metric_of(rows_->hessian(point.state, equality, known.active, known.inequality, 1.0),
-                             point.program.equality, jacobian_of(*rows_, point.state, known.active, n_));
+                             point.program.equality, jacobian_of(*rows_, point.state, carrying, n_));
   }
 
   void set_solution(Point& point, const Multipliers& known) const {
