@@ -149,6 +149,23 @@ TEST_CASE("seams: units that are welded end to end have their seams 200 mm apart
   }
 }
 
+TEST_CASE("seams: narrow strips are staggered by half a strip, and every seam lies on the plate") {
+  PlateOptions options;
+  options.flanges.wanted = false;
+  options.corners.kind = CornerJoint::tab_and_slot;
+  options.split.longest = 1.5;
+  for (const double widest : {0.06, 0.1, 0.15, 0.2268, 0.3}) {
+    INFO("strips of " << widest);
+    options.split.widest = widest;
+    const WorkshopBuild build = plates(chute(), options, {0.75, 0.11, 5e-3});
+    require_strips(build, options);
+    for (const ShopPart* const floor : named(build, "floor")) {
+      CHECK(floor->volume > 0.0);
+      CHECK(box_of(*floor).height() <= widest + 1e-9);
+    }
+  }
+}
+
 TEST_CASE("seams: of a floor that widens the strip in the middle takes the change") {
   section::UChannel channel;
   channel.width = WidthLaw({{1.0, 3.5}, {4.0, 3.1}});

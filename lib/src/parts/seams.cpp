@@ -17,13 +17,14 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kOfSheet = 0.95;   // of a sheet that curved strips may take: their pattern needs more
-constexpr double kStep = 1e-3;      // in which seams move off what is taken [m]
-constexpr int kMoreStrips = 10;     // than an even division asks for
-constexpr double kTouch = 1e-9;     // [m]
-constexpr int kMostPieces = 20;     // of a plate across the track
-constexpr double kOffHole = 3.0;    // radii of a hole from its middle to a cut
-constexpr double kStagger = 60e-3;  // of cuts in two plates that meet, from the even places [m]
+constexpr double kOfSheet = 0.95;      // of a sheet that curved strips may take: their pattern needs more
+constexpr double kStep = 1e-3;         // in which seams move off what is taken [m]
+constexpr double kMostStagger = 0.25;  // of a strip
+constexpr int kMoreStrips = 10;        // than an even division asks for
+constexpr double kTouch = 1e-9;        // [m]
+constexpr int kMostPieces = 20;        // of a plate across the track
+constexpr double kOffHole = 3.0;       // radii of a hole from its middle to a cut
+constexpr double kStagger = 60e-3;     // of cuts in two plates that meet, from the even places [m]
 
 /// The place nearest to one that lies in nothing that is taken.
 std::optional<double> free_place(double about, double room, const std::vector<Span>& taken) {
@@ -42,10 +43,12 @@ std::optional<double> free_place(double about, double room, const std::vector<Sp
 std::optional<std::vector<double>> even_seams(const Span& across, std::size_t strips,
                                               const std::vector<Span>& taken, double stagger) {
   const double step = (across.to - across.from) / static_cast<double>(strips);
+  const double aside = std::clamp(stagger, -kMostStagger * step, kMostStagger * step);
   std::vector<double> seams;
   for (std::size_t k = 1; k < strips; ++k) {
-    const auto place = free_place(across.from + static_cast<double>(k) * step + stagger, 0.4 * step, taken);
-    if (!place) return std::nullopt;
+    const auto place = free_place(across.from + static_cast<double>(k) * step + aside, 0.4 * step, taken);
+    const double before = seams.empty() ? across.from : seams.back();
+    if (!place || !(*place > before && *place < across.to)) return std::nullopt;
     seams.push_back(*place);
   }
   return seams;

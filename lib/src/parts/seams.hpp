@@ -21,7 +21,7 @@ namespace glissade::parts {
 /// @param across    the plate from edge to edge
 /// @param straight  as above
 /// @param taken     stretches that no seam may lie in
-/// @param stagger   by which seams lie off even places [m]
+/// @param stagger   by which seams lie off even places, at most a quarter of a strip [m]
 /// @return ascending places; none of a plate that goes in one piece
 /// @throws InputError where no seams keep off what is taken: the widest strip, and a way out
 [[nodiscard]] std::vector<double> seams_across(const std::string& plate, const Span& across, bool straight,
