@@ -335,4 +335,8 @@ TEST_CASE("sections: what geometry forbids is refused with place, value, bound a
   const WidthLaw widths(std::vector<WidthAt>{{0.0, 0.4}, {3.0, 0.4}, {6.0, 0.5}});
   CHECK(refused(section::Trapezoid{widths, 0.25, Angle::from_degrees(20.0), 4e-3}, wide)
             .find("corners|corners: plates beside a width that changes meet edge against face") == 0);
+  PlateOptions tiles;
+  tiles.liner.emplace();
+  CHECK(refused(section::Trapezoid{widths, 0.25, Angle::from_degrees(20.0), 4e-3}, tiles)
+            .find("liner|liner: tiles of one width leave gaps beside a width that changes") == 0);
 }

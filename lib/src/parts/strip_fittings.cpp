@@ -350,7 +350,7 @@ void object_to_rims(const PlateSection& section, const RimOptions& rim, Issues& 
 
 void object_to_tiles(const PlateSection& section, const PlateOptions& options, Issues& issues) {
   const LinerOptions& liner = *options.liner;
-  if (section.lined.empty()) {
+  if (section.lined.empty() || section.widths) {
     issues.add("liner",
                section.widths ? "liner: tiles of one width leave gaps beside a width that changes"
                               : "liner: this section has no floor that tiles could lie on",
