@@ -24,6 +24,9 @@ namespace {
 
 constexpr std::size_t kFirstSamples = 2048;
 constexpr std::size_t kSamplesPerArc = 96;
+// Of the lower bound, and more: arcs with common tangents to separate ones, those that two ends cost.
+constexpr double kTangentShare = 1.16;
+constexpr double kEndArcs = 2.0;
 constexpr double kSameArc = 1e-10;   // relative difference of curvatures within one arc of the track
 constexpr double kSameLine = 1e-12;  // the same of straight lines, times the length of the track
 
@@ -225,13 +228,19 @@ void require_fine(const Centerline& track, double tolerance) {
        "0.1 mm for plates, 0.02 mm for prints, 1 mm for timber"});
 }
 
-}  // namespace
+/// Arcs that no tolerance tells from a straight line left out: lines all of whose points lie within it of them.
+std::vector<Kept> without_flat_arcs(std::vector<Kept> kept, double tolerance) {
+  std::erase_if(kept, [&](const Kept& piece) {
+    const double length = piece.to - piece.from;
+    const double sagitta = 0.125 * std::fabs(piece.curvature) * length * length;
+    return piece.curvature != 0.0 && sagitta <= 2.0 * tolerance;
+  });
+  return kept;
+}
 
-MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options) {
-  require_fine(track, options.tolerance);
+MasterCurve fitted(const Centerline& track, const TrackSamples& samples, const MasterCurveOptions& options,
+                   const std::vector<Kept>& kept) {
   const Band band = band_of(options.side, options.tolerance);
-  const TrackSamples samples = close_samples(track, band.half_width());
-  const std::vector<Kept> kept = kept_pieces(track, options.tolerance);
   MasterCurve master;
   master.tolerance = options.tolerance;
   master.kept = kept.size();
@@ -252,6 +261,23 @@ MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options)
   }
   throw ConvergenceError(
       {"", "arcs depart from the track by " + length_text(master.max_deviation, 3), "", ""});
+}
+
+}  // namespace
+
+MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options) {
+  require_fine(track, options.tolerance);
+  const TrackSamples samples = close_samples(track, band_of(options.side, options.tolerance).half_width());
+  const std::vector<Kept> kept = kept_pieces(track, options.tolerance);
+  MasterCurve master = fitted(track, samples, options, kept);
+  if (static_cast<double>(master.arcs) <=
+      std::ceil(kTangentShare * static_cast<double>(master.lower_bound)) + kEndArcs)
+    return master;
+  // A search that just touches a limit on the radius leaves short arcs, each of which costs several more.
+  const std::vector<Kept> seen = without_flat_arcs(kept, options.tolerance);
+  if (seen.size() == kept.size()) return master;
+  MasterCurve other = fitted(track, samples, options, seen);
+  return other.arcs < master.arcs ? other : master;
 }
 
 }  // namespace glissade

@@ -36,7 +36,8 @@ struct MasterCurve {
 /// Puts lines and arcs in place of a track.
 ///
 /// Curve: straight lines and arcs of the track are kept on their lines and circles, from end to end; where the tolerance
-///   allows they reach on into what lies beside them. In between, dynamic programming over places and headings within
+///   allows they reach on into what lies beside them. Arcs that lie within the tolerance of a line go where that saves
+///   some and the chain would have more than 1.16 times the lower bound and two. In between, dynamic programming over places and headings within
 ///   the band finds a chain of few arcs, and moving its joints finds those with fewer. Start and finish are those of the
 ///   track; the tangent there may turn by some 16 tolerances a length of the arc.
 /// Source: docs/fabrication.md. |dkappa/ds| h^3/192 is the error of separate arcs of length h, h^3/124.7 that of arcs
