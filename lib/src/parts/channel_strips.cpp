@@ -19,28 +19,9 @@ constexpr double kOffRim = 10e-3;    // [m]
 constexpr double kStagger = 100e-3;  // of seams from even places, where units are welded end to end [m]
 
 /// What of a sheet lies between two lines along it, whose ends alone they cross.
-ArcPath between(const ArcPath& outline, const Span& strip) {
-  const auto beyond = [](const ArcPath& path, double y, double sense) {
-    ArcPath part;
-    part.closed = true;
-    const std::size_t count = path.vertices.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec2 a = path.vertices[i].at;
-      const Vec2 b = path.vertices[(i + 1) % count].at;
-      const double from = sense * (a.y - y);
-      const double to = sense * (b.y - y);
-      if (from >= 0.0) part.vertices.push_back({a, 0.0});
-      if ((from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0))
-        part.vertices.push_back({{a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)), y}, 0.0});
-    }
-    return part;
-  };
-  return beyond(beyond(outline, strip.from, 1.0), strip.to, -1.0);
-}
-
 PlaneRegion between(const PlaneRegion& region, const Span& strip) {
   PlaneRegion part;
-  part.outline = between(region.outline, strip);
+  part.outline = part_beyond(part_beyond(region.outline, {0.0, 1.0}, strip.from), {0.0, -1.0}, -strip.to);
   const auto inside = [&](double y) { return y > strip.from && y < strip.to; };
   for (const ArcPath& cutout : region.cutouts) {
     if (inside(cutout.vertices.front().at.y)) part.cutouts.push_back(cutout);

@@ -111,23 +111,25 @@ std::string strip_letter(std::size_t strip, std::size_t strips) {
   return "_" + letters;
 }
 
-namespace {
-
-/// What of a region of straight edges lies to one side of an upright line.
-ArcPath on_side(const ArcPath& outline, double x, double sense) {
-  const auto beyond = [&](Vec2 point) { return sense * (point.x - x); };
+ArcPath part_beyond(const ArcPath& outline, Vec2 normal, double from) {
   ArcPath part;
   part.closed = true;
   const std::size_t count = outline.vertices.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 a = outline.vertices[i].at;
     const Vec2 b = outline.vertices[(i + 1) % count].at;
-    if (beyond(a) >= 0.0) part.vertices.push_back({a, 0.0});
-    if ((beyond(a) > 0.0 && beyond(b) < 0.0) || (beyond(a) < 0.0 && beyond(b) > 0.0))
-      part.vertices.push_back({{x, a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x))}, 0.0});
+    const double at_a = dot(a, normal) - from;
+    const double at_b = dot(b, normal) - from;
+    if (at_a >= 0.0) part.vertices.push_back({a, 0.0});
+    if (!((at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0))) continue;
+    const Vec2 met = a + at_a / (at_a - at_b) * (b - a);
+    // To the last bit on the line: the part beyond it has the same corner.
+    part.vertices.push_back({met + (from - dot(met, normal)) * normal, 0.0});
   }
   return part;
 }
+
+namespace {
 
 /// Whether an upright line crosses an outline once, from one edge to another, off its corners.
 bool cuts_once(const ArcPath& outline, double x) {
@@ -158,7 +160,7 @@ std::optional<double> cut_near(const PlaneRegion& region, double about, double r
 ShopPart piece_of(const ShopPart& plate, const Span& span, std::size_t index, std::size_t count) {
   const PlaneRegion& whole = plate.pattern->region;
   PlaneRegion region;
-  region.outline = on_side(on_side(whole.outline, span.from, 1.0), span.to, -1.0);
+  region.outline = part_beyond(part_beyond(whole.outline, {1.0, 0.0}, span.from), {-1.0, 0.0}, -span.to);
   for (const Circle& hole : whole.holes) {
     if (hole.centre.x > span.from && hole.centre.x < span.to) region.holes.push_back(hole);
   }

@@ -34,6 +34,11 @@ namespace glissade::parts {
 /// @return "_a", "_b", ... of a strip's name; nothing where there is one
 [[nodiscard]] std::string strip_letter(std::size_t strip, std::size_t strips);
 
+/// @param outline  of straight edges
+/// @param normal   a unit vector
+/// @return what of a region lies where a point's share along the normal is no less than `from`
+[[nodiscard]] ArcPath part_beyond(const ArcPath& outline, Vec2 normal, double from);
+
 /// A plate that stands across the track, in pieces that fit the sheet: cut upright where that crosses it once, off its holes.
 /// @param staggered  cuts lie elsewhere: of one of two plates that meet
 /// @return the plate alone where it fits, or where no such cuts are to be had
