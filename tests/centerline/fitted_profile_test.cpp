@@ -277,11 +277,12 @@ TEST_CASE(
           const double away = place.drop + points.front().y - wave(x);
           off = std::max(off, std::fabs(away) * std::cos(place.slope_angle));
         }
-        CHECK(off <= (each < 8 ? 0.15 : 0.03) * kHeight);
-        // The points of some cells are more than the knots: there the points themselves are missed by more.
+        // Where points are more than the knots, a miss is told.
+        const bool enough_knots = count <= kMostProfileKnots;
+        CHECK((off <= (each < 8 ? 0.15 : 0.03) * kHeight || (!enough_knots && profile.leaves_gaps())));
         CHECK(off <= 4.0 * profile.between_points() + profile.max_deviation());
         if (each <= 6) CHECK(profile.leaves_gaps());
-        if (each >= 12) CHECK_FALSE(profile.leaves_gaps());
+        if (each >= 12 && enough_knots) CHECK_FALSE(profile.leaves_gaps());
       }
     }
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -42,19 +43,44 @@ double giving_way(const ActiveLimit& active) {
   return shrinks ? -1.0 : 1.0;
 }
 
+/// The polynomial through the chosen ones of some values (by Lagrange), between them.
+double through(const std::array<double, 7>& values, unsigned chosen, double at) {
+  double sum = 0.0;
+  for (unsigned i = 0; i < values.size(); ++i) {
+    if ((chosen >> i & 1U) == 0) continue;
+    double weight = 1.0;
+    for (unsigned k = 0; k < values.size(); ++k) {
+      if (k != i && (chosen >> k & 1U) != 0) weight *= (at - k) / (static_cast<double>(i) - k);
+    }
+    sum += weight * values[i];
+  }
+  return sum;
+}
+
 /// What is won for each unit by which a bound gives way, between six problems whose bounds lie one step apart, the
 /// problem's own in their middle.
 struct Differences {
   std::array<double, 6> steps{};
   double noise = 0.0;  ///< of each
 
-  /// At the bound itself: a parabola through the means over both sides at half a step, one and a half, and two and a half,
-  /// by least squares. One search that ends beside its neighbours hardly moves it, nor does a price that changes fast.
+  /// At the bound itself: the slope of the cubic through four of the seven objectives that all of them lie closest to, by the
+  /// sum of distances. A search that ends beside its neighbours does not move it, nor does a price that changes fast.
   [[nodiscard]] double central() const {
-    const double near = (steps[2] + steps[3]) / 2.0;
-    const double further = (steps[1] + steps[4]) / 2.0;
-    const double furthest = (steps[0] + steps[5]) / 2.0;
-    return (12.0 * near + 7.0 * further - 3.0 * furthest) / 16.0;
+    std::array<double, 7> won{};
+    for (std::size_t k = 0; k < steps.size(); ++k) won[k + 1] = won[k] + steps[k];
+    double least = std::numeric_limits<double>::infinity();
+    double slope = 0.0;
+    for (unsigned chosen = 0; chosen < 1U << won.size(); ++chosen) {
+      if (std::popcount(chosen) != 4) continue;
+      const auto cubic = [&](double at) { return through(won, chosen, at); };
+      double apart = 0.0;
+      for (std::size_t k = 0; k < won.size(); ++k) apart += std::fabs(won[k] - cubic(static_cast<double>(k)));
+      if (apart >= least) continue;
+      least = apart;
+      // Of a cubic this is its slope in the middle.
+      slope = (8.0 * (cubic(3.5) - cubic(2.5)) - (cubic(4.0) - cubic(2.0))) / 6.0;
+    }
+    return slope;
   }
   /// On the side where the bound is tighter, and where it is looser.
   [[nodiscard]] double tighter() const { return (steps[0] + steps[1] + steps[2]) / 3.0; }
