@@ -214,3 +214,33 @@ TEST_CASE(
   problem.limits.speed.highest = needed;
   CHECK(optimize(problem).centerline);
 }
+
+TEST_CASE("slope angles that leave out the mean slope are told by it, by however little they do") {
+  testing::Random random = testing::seeded_random();
+  for (int i = 0; i < 8; ++i) {
+    Problem problem;
+    problem.endpoints = {random.between(2.0, 40.0), 0.0};
+    problem.endpoints.drop = problem.endpoints.run * random.between(0.3, 1.2);
+    problem.body.friction = Friction::from_coefficient(random.between(0.0, 0.2));
+    const double mean = std::atan2(problem.endpoints.drop, problem.endpoints.run);
+    const double miss = std::pow(10.0, random.between(-6.5, -1.5));
+    const bool flat = i % 2 == 0;
+    Range& slope = problem.limits.slope_angle;
+    (flat ? slope.highest : slope.lowest) = flat ? mean - miss : mean + miss;
+    INFO("problem " << i << ", mean slope " << mean << ", missed by " << miss);
+    const Optimum optimum = optimize(problem);
+    CHECK(optimum.report.status == OptimizeStatus::infeasible);
+    CHECK(optimum.centerline == nullptr);
+    CHECK(optimum.report.message.find(flat ? "slope_angle.highest" : "slope_angle.lowest") == 0);
+    CHECK(optimum.report.message.find(" cannot be met; it would take slope_angle.") != std::string::npos);
+    CHECK(optimum.report.conflict.why.find("mean value theorem") != std::string::npos);
+    REQUIRE(optimum.report.conflict.relaxations.size() == 1);
+    const Relaxation& told = optimum.report.conflict.relaxations.front();
+    CHECK(std::fabs(told.needed - mean) < 0.02);
+    (flat ? slope.highest : slope.lowest) = told.needed;
+    CHECK(optimize(problem).report.status == OptimizeStatus::optimal);
+    // The straight line has the mean slope alone.
+    (flat ? slope.highest : slope.lowest) = mean;
+    CHECK(optimize(problem).centerline != nullptr);
+  }
+}

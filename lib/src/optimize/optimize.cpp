@@ -10,6 +10,7 @@
 #include "optimize/infeasibility.hpp"
 #include "optimize/least_bound.hpp"
 #include "optimize/least_peak.hpp"
+#include "optimize/mean_slope.hpp"
 #include "optimize/passages.hpp"
 #include "optimize/patience.hpp"
 #include "optimize/prices.hpp"
@@ -267,15 +268,15 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   report.unlimited_travel_time = unlimited_travel_time(problem);
 
   std::optional<Conflict> at_once = beyond_reach(problem);
-  if (!at_once) {
-    // What would do at one end has to do along the whole track.
-    const Resolve resolve = resolve_with(options, control);
-    at_once = too_close_at_an_end(problem, [&](const LimitName& limit, double value) {
-      const auto changed = with_bound(problem, limit, value);
-      return !changed || (!too_close_at_an_end(*changed, {}) &&
-                          resolve.anew(*changed, std::numeric_limits<int>::max(), {}));
-    });
-  }
+  // What would do at one end, or for one theorem, has to do along the whole track.
+  const Resolve resolve = resolve_with(options, control);
+  const auto would_do = [&](const LimitName& limit, double value) {
+    const auto changed = with_bound(problem, limit, value);
+    return !changed || (!too_close_at_an_end(*changed, {}) &&
+                        resolve.anew(*changed, std::numeric_limits<int>::max(), {}));
+  };
+  if (!at_once) at_once = beside_mean_slope(problem, options.limit_tolerance, would_do);
+  if (!at_once) at_once = too_close_at_an_end(problem, would_do);
   if (at_once) {
     tell_none(*std::move(at_once), true, false, report);
     return optimum;

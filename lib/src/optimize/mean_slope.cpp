@@ -1,0 +1,51 @@
+#include "optimize/mean_slope.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace glissade::optimizer {
+namespace {
+
+// What the bound that would do leaves beside the mean slope; the straight line alone has just that [deg].
+constexpr double kRoom[] = {0.002, 0.05, 0.5};  // taste
+constexpr double kRounded = 100.0;              // taste: told to hundredths of a degree
+
+/// A bound a little beyond the mean slope, a round number of degrees.
+double beyond(Angle mean, double room, Bound bound) {
+  const double degrees = bound == Bound::highest ? std::ceil((mean.degrees() + room) * kRounded)
+                                                 : std::floor((mean.degrees() - room) * kRounded);
+  return Angle::from_degrees(degrees / kRounded).radians();
+}
+
+}  // namespace
+
+std::optional<Conflict> beside_mean_slope(const Problem& problem, double tolerance,
+                                          const std::function<bool(const LimitName&, double)>& would_do) {
+  if (problem.finish.kind != FinishKind::point) return std::nullopt;
+  const Angle mean =
+      Angle::from_radians(math::atan2(problem.endpoints.drop, std::fabs(problem.endpoints.run)));
+  const Range& allowed = problem.limits.slope_angle;
+  const bool too_flat = allowed.highest && *allowed.highest < mean.radians() - tolerance;
+  const bool too_steep = allowed.lowest && *allowed.lowest > mean.radians() + tolerance;
+  if (!too_flat && !too_steep) return std::nullopt;
+  const LimitName limit{LimitId::slope_angle, too_flat ? Bound::highest : Bound::lowest};
+  const double asked = too_flat ? *allowed.highest : *allowed.lowest;
+  Conflict conflict;
+  conflict.limits = {{limit, asked}};
+  for (const double room : kRoom) {
+    const double needed = beyond(mean, room, limit.bound);
+    if (!would_do || !would_do(limit, needed)) continue;
+    conflict.relaxations.push_back({limit, asked, needed});
+    break;
+  }
+  conflict.text = conflict_text(conflict);
+  conflict.why = "The mean slope from start to finish is " + angle_text(mean, 7) +
+                 ", and every track has that slope somewhere (mean value theorem).";
+  return conflict;
+}
+
+}  // namespace glissade::optimizer
