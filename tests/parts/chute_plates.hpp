@@ -23,6 +23,15 @@ inline glissade::CoulombBrachistochrone chute() {
   return {{5.4, 5.1}, kFriction};
 }
 
+inline glissade::section::VChannel v_channel() {
+  glissade::section::VChannel channel;
+  channel.angle = glissade::Angle::from_degrees(100.0);
+  channel.wall_height = 0.3;
+  channel.bottom_radius = 0.12;
+  channel.thickness = 3e-3;
+  return channel;
+}
+
 inline glissade::WorkshopBuild plates(const glissade::Centerline& track,
                                       const glissade::PlateOptions& options = {},
                                       const glissade::ChannelMeasures& channel = kChannel) {

@@ -30,15 +30,6 @@ section::Trapezoid trapezoid(double lean_deg = 25.0) {
   return {WidthLaw(0.4), 0.25, Angle::from_degrees(lean_deg), 4e-3};
 }
 
-section::VChannel v_channel() {
-  section::VChannel channel;
-  channel.angle = Angle::from_degrees(100.0);
-  channel.wall_height = 0.3;
-  channel.bottom_radius = 0.12;
-  channel.thickness = 3e-3;
-  return channel;
-}
-
 /// A block with a trough between its sides, the floor of which carries.
 section::Polygon block() {
   section::Polygon polygon;

@@ -33,15 +33,6 @@ section::Polygon block() {
   return polygon;
 }
 
-section::VChannel v_channel() {
-  section::VChannel channel;
-  channel.angle = Angle::from_degrees(100.0);
-  channel.wall_height = 0.3;
-  channel.bottom_radius = 0.12;
-  channel.thickness = 3e-3;
-  return channel;
-}
-
 /// One of each kind that is no rectangular channel.
 std::vector<NamedSection> sections() {
   const WidthLaw widths(std::vector<WidthAt>{{0.0, 0.4}, {3.0, 0.4}, {6.0, 0.5}});

@@ -24,9 +24,9 @@ namespace {
 
 constexpr std::size_t kFirstSamples = 2048;
 constexpr std::size_t kSamplesPerArc = 96;
-// Of the lower bound, and more: arcs with common tangents to separate ones, those that two ends cost.
-constexpr double kTangentShare = 1.16;
-constexpr double kEndArcs = 2.0;
+// What is to be expected of a track whose own arcs do not stand in the way: this share of the lower bound, and so many more.
+constexpr double kExpectedShare = 1.16;
+constexpr double kExpectedMore = 2.0;
 constexpr double kSameArc = 1e-10;   // relative difference of curvatures within one arc of the track
 constexpr double kSameLine = 1e-12;  // the same of straight lines, times the length of the track
 
@@ -271,7 +271,7 @@ MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options)
   const std::vector<Kept> kept = kept_pieces(track, options.tolerance);
   MasterCurve master = fitted(track, samples, options, kept);
   if (static_cast<double>(master.arcs) <=
-      std::ceil(kTangentShare * static_cast<double>(master.lower_bound)) + kEndArcs)
+      std::ceil(kExpectedShare * static_cast<double>(master.lower_bound)) + kExpectedMore)
     return master;
   // A search that just touches a limit on the radius leaves short arcs, each of which costs several more.
   const std::vector<Kept> seen = without_flat_arcs(kept, options.tolerance);
