@@ -3,15 +3,14 @@
 // tell each one's relative excess over the exact optimum.
 
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
-#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/ore.hpp"
 #include "optimize/random_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <memory>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -53,20 +52,12 @@ void five_limits(benchmark::State& state) {
 }
 BENCHMARK(five_limits)->Unit(benchmark::kMillisecond);
 
-/// 650 t/h of ore down 4.3 m and 5.9 m at 24 to 31 deg of friction: law, range and limits of a chute.
+/// Ore down 4.3 m and 5.9 m at 24 to 31 deg of friction: law, range and limits of a chute.
 void stream(benchmark::State& state) {
-  StreamShape shape;
-  shape.mass_flow = 650.0 / 3.6;
-  shape.bulk_density = 1600.0;
-  shape.width = 0.8;
-  shape.wall_height = 0.5;
-  Problem problem;
-  problem.endpoints = {4.3, 5.9};
+  Problem problem = testing_problems::ore(4.3, 5.9, 2.5);
   problem.body.friction = Friction::from_angle(Angle::from_degrees(27.0));
   problem.low_friction = Friction::from_angle(Angle::from_degrees(24.0));
   problem.high_friction = Friction::from_angle(Angle::from_degrees(31.0));
-  problem.body.entry_speed = 2.5;
-  problem.body.law = std::make_shared<const BulkStream>(shape);
   problem.limits.lowest_slope_margin = Angle::from_degrees(5.0).radians();
   problem.limits.smallest_valley_radius = 1.5;
   problem.limits.smallest_crest_radius = 1.5;
