@@ -7,9 +7,9 @@
 #include "optimize/random_limits.hpp"
 #include "optimize/variations.hpp"
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -93,15 +93,18 @@ TEST_CASE("mirrored, of another size and elsewhere clearances of a whole solid h
 }
 
 TEST_CASE(
-    "what a cap lets through behind a lift-off, and rounding next to a crest, end no search elsewhere") {
+    "neither a lift-off, nor rounding next to a crest, nor a jump beside its knots makes a search end "
+    "elsewhere") {
   struct Known {
     int seed;
     int index;
     const char* change;
   };
-  constexpr std::array<Known, 2> kKnown{
-      {{3, 257, "wider smallest_valley_radius"}, {5, 25, "wider entry_slope_angle.lowest"}}};
-  for (const Known& known : kKnown) {
+  std::vector<Known> all{{3, 257, "wider smallest_valley_radius"},
+                         {5, 25, "wider entry_slope_angle.lowest"},
+                         {5, 105, "wider highest_normal_load"}};
+  if (testing::thorough()) all.push_back({3, 298, "without exit_slope_angle.highest"});
+  for (const Known& known : all) {
     std::size_t draw = 0;
     const Problem problem =
         testing_problems::problem_to_vary(static_cast<std::uint64_t>(known.seed), known.index, draw);

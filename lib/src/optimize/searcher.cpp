@@ -3,6 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 
 #include "optimize/least_violation.hpp"
+#include "optimize/moved_knots.hpp"
 #include "optimize/refined_knots.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/starts.hpp"
@@ -22,6 +23,8 @@ constexpr std::size_t kFinerPieces = 24;   // taste
 constexpr std::size_t kMovedLevels = 4;    // budget
 // By such a share a smoother track may be slower.
 constexpr double kDearer = 1e-7;  // accuracy: below that of a time
+// By more than such a share a track that follows a load more closely is another one.
+constexpr double kElsewhere = 1e-5;  // accuracy: ten times that of a time
 // By less of a share nothing is won.
 constexpr double kWithoutEffect = 1e-8;  // accuracy: a hundredth of that of a time
 // Pieces of the mesh on which a track is looked for that keeps the limits at all.
@@ -32,12 +35,12 @@ constexpr double kNearlyFeasible = 1e-3;  // taste
 // The lowest load is kept this far above its bound, in g: a body that weighs nothing at all has left the
 // track.
 constexpr double kContactMargin = 1e-6;  // accuracy: ten times that of a limit
-constexpr int kTighteningRounds = 16;    // budget
+constexpr int kTighteningRounds = 20;    // budget
 // So many of them, short ones, once the search has been asked to end.
 constexpr int kGraceRounds = 6;  // budget
 constexpr int kGraceEffort = 2;  // budget
 // In the first of them limits are held at the places that the referee names; later they are tightened.
-constexpr int kHoldingRounds = 4;  // taste
+constexpr int kHoldingRounds = 8;  // taste
 // In so many a curvature that follows the load more closely is tried where a body lifts off.
 constexpr int kFollowingRounds = 3;  // budget
 // A track that then still breaks a limit at a station by more than kHopeless is given up: tighter limits are no
@@ -354,8 +357,19 @@ void Searcher::settle(Candidate& candidate, Found found) {
   finer_mesh_wins_.reset();
   multipliers_ahead_.clear();
   if (!found.stopped) found = followed(problem, std::move(found));
-  if (!found.stopped) found = laid_anew(problem, halved(problem, std::move(found)));
-  mend(candidate, std::move(found));
+  if (!found.stopped) found = halved(problem, std::move(found));
+  std::optional<Found> moved;
+  if (is_optimum(found) && !is_smooth(problem))
+    moved = with_moved_knots(problem, found, options_.tolerance, control_);
+  const auto mend_on = [&](Found end) {
+    if (!end.stopped) end = laid_anew(problem, std::move(end));
+    mend(candidate, std::move(end));
+  };
+  mend_on(std::move(found));
+  if (!moved || candidate.stopped) return;
+  // What it wins a limit between its stations may take again: the better one counts.
+  begin_margins(problem);
+  mend_on(followed(problem, *std::move(moved)));
 }
 
 Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
@@ -597,10 +611,18 @@ std::optional<Found> Searcher::following_closely(const ScaledProblem& problem, c
   for (const LiftOff& lift : lifts) lifting.push_back(lift.sigma);
   const std::optional<Mesh> closer = following_loads(problem, found, lifting);
   if (!closer || closer->fine.size() <= found.track->mesh().fine.size()) return std::nullopt;
-  aim_at(kAimed * options_.tolerance, 10);
-  Found next = minimise(problem, *closer, found.z, margins_, control_, &found);
-  if (!next.feasible(options_.limit_tolerance)) return std::nullopt;
-  return next;
+  // Steps of our own stay in the valley; a descent may leave it for a dearer one, for which the load is no reason.
+  constexpr int kRounds[] = {0, 10};  // budget
+  for (const int rounds : kRounds) {
+    aim_at(kAimed * options_.tolerance, rounds);
+    Found next = minimise(problem, *closer, found.z, margins_, control_, &found);
+    const bool stays = next.objective <= found.objective + kElsewhere * std::fabs(found.objective);
+    const bool ends = next.residual <= options_.tolerance || rounds > 0;
+    if (next.stopped || (stays && ends && next.feasible(options_.limit_tolerance))) {
+      return next.feasible(options_.limit_tolerance) ? std::optional(std::move(next)) : std::nullopt;
+    }
+  }
+  return std::nullopt;
 }
 
 void Searcher::tighten(const ScaledProblem& problem, const referee::Judgement& judgement,

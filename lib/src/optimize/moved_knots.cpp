@@ -1,0 +1,304 @@
+#include "optimize/moved_knots.hpp"
+
+#include "optimize/programs.hpp"
+#include "optimize/switches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace glissade::optimizer {
+namespace {
+
+// A step through all the room would win less than this share of the objective, ...
+constexpr double kAtRest = 1e-5;  // accuracy: ten times that of a time
+// ... and a step wins less than this.
+constexpr double kPays = 5e-7;  // accuracy: half that of a time
+
+/// Knots that move together: one, or those around a jump.
+struct Group {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+bool lies_at_change(const Mesh& mesh, const Group& group) {
+  return std::any_of(mesh.change_knots.begin(), mesh.change_knots.end(), [&](const ChangeKnots& change) {
+    return mesh.knots[group.first] <= change.to && mesh.knots[group.last] >= change.from;
+  });
+}
+
+/// Whether curvature jumps or bends at a group: where it goes on in a line the place of a knot is nothing.
+bool bends_at(const Found& found, const Group& group) {
+  constexpr double kBend = 0.05;  // taste: of the greatest turning rate
+  if (group.first != group.last) return true;
+  const Layout& layout = found.track->layout();
+  const Vector& knots = found.track->mesh().knots;
+  const std::size_t k = group.first;
+  const auto rate = [&](std::size_t i) {
+    return (found.z[layout.turn(i + 1)] - found.z[layout.turn(i)]) / (knots[i + 1] - knots[i]);
+  };
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < layout.knots; ++i) {
+    greatest = std::max(greatest, std::fabs(found.z[layout.turn(i)]));
+  }
+  const double room = std::min(knots[k] - knots[k - 1], knots[k + 1] - knots[k]);
+  return std::fabs(rate(k) - rate(k - 1)) * room > kBend * greatest;
+}
+
+/// Those that may move: not the ends, nor what stands at a change of friction.
+std::vector<Group> groups_of(const Found& found) {
+  const Mesh& mesh = found.track->mesh();
+  const std::size_t count = mesh.knots.size();
+  std::vector<Group> groups;
+  for (std::size_t k = 0; k < count;) {
+    Group group{k, k};
+    while (group.last + 1 < count && mesh.knots[group.last + 1] - mesh.knots[group.last] < 2.0 * kPair)
+      ++group.last;
+    k = group.last + 1;
+    if (group.first == 0 || group.last + 1 == count || lies_at_change(mesh, group)) continue;
+    if (bends_at(found, group)) groups.push_back(group);
+  }
+  return groups;
+}
+
+/// Where places of a mesh go with the groups in it: what lies between two of them, or up to an end or a change of
+/// friction, is stretched.
+class Map {
+ public:
+  Map(const Mesh& mesh, const std::vector<Group>& groups) : mesh_(mesh), groups_(groups) {
+    for (const ChangeKnots& change : mesh.change_knots) {
+      held_.push_back(change.from);
+      held_.push_back(change.to);
+    }
+    held_.push_back(0.0);
+    held_.push_back(1.0);
+    std::sort(held_.begin(), held_.end());
+  }
+
+  /// Half the way up to where the next group, or what is held, lies.
+  [[nodiscard]] double room(std::size_t group) const {
+    const double from = mesh_.knots[groups_[group].first];
+    const double to = mesh_.knots[groups_[group].last];
+    double before = held_before(from);
+    double behind = held_behind(to);
+    if (group > 0) before = std::max(before, mesh_.knots[groups_[group - 1].last]);
+    if (group + 1 < groups_.size()) behind = std::min(behind, mesh_.knots[groups_[group + 1].first]);
+    return 0.5 * std::min(from - before, behind - to);
+  }
+
+  [[nodiscard]] Mesh moved(const Vector& by) const {
+    Mesh result = mesh_;
+    for (double& knot : result.knots) knot = image(knot, by);
+    for (double& sigma : result.fine) sigma = image(sigma, by);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double held_before(double sigma) const {
+    return *(std::upper_bound(held_.begin(), held_.end(), sigma) - 1);
+  }
+  [[nodiscard]] double held_behind(double sigma) const {
+    return *std::min(std::lower_bound(held_.begin(), held_.end(), sigma), held_.end() - 1);
+  }
+  [[nodiscard]] double image(double sigma, const Vector& by) const {
+    double before = held_before(sigma);
+    double behind = held_behind(sigma);
+    if (before == behind) return sigma;
+    double moved_before = before;
+    double moved_behind = behind;
+    for (std::size_t j = 0; j < groups_.size(); ++j) {
+      const double from = mesh_.knots[groups_[j].first];
+      const double to = mesh_.knots[groups_[j].last];
+      if (sigma >= from && sigma <= to) return sigma + by[j];
+      if (to < sigma && to > before) {
+        before = to;
+        moved_before = to + by[j];
+      } else if (from > sigma && from < behind) {
+        behind = from;
+        moved_behind = from + by[j];
+      }
+    }
+    return moved_before + (sigma - before) / (behind - before) * (moved_behind - moved_before);
+  }
+
+  const Mesh& mesh_;
+  const std::vector<Group>& groups_;
+  Vector held_;
+};
+
+/// On another mesh, all else fixed. @return none where it has other rows
+std::optional<double> lagrangian_on(const ScaledProblem& problem, const Mesh& mesh, const Found& found) {
+  const Transcription track(mesh);
+  if (track.stations().size() != found.track->stations().size()) return std::nullopt;
+  Rows rows(problem, track);
+  rows.set_margins(found.rows->margins());
+  const State state = rows.state(found.z, false);
+  double sum = rows.objective(state);
+  const Vector equality = rows.equality_values(state);
+  for (std::size_t i = 0; i < equality.size(); ++i) sum += found.equality[i] * equality[i];
+  for (std::size_t i = 0; i < found.active.size(); ++i) {
+    if (found.inequality[i] > 0.0) sum += found.inequality[i] * rows.value(state, found.active[i]);
+  }
+  return sum;
+}
+
+/// By which the optimum changes with the place of each group.
+Vector slopes_of(const ScaledProblem& problem, const Found& found, const std::vector<Group>& groups) {
+  constexpr double kStep = 1e-4;  // rounding: of the room
+  const Map map(found.track->mesh(), groups);
+  Vector slopes(groups.size(), 0.0);
+  for (std::size_t j = 0; j < groups.size(); ++j) {
+    const double step = kStep * map.room(j);
+    Vector by(groups.size(), 0.0);
+    by[j] = step;
+    const auto behind = lagrangian_on(problem, map.moved(by), found);
+    by[j] = -step;
+    const auto before = lagrangian_on(problem, map.moved(by), found);
+    if (behind && before) slopes[j] = (*behind - *before) / (2.0 * step);
+  }
+  return slopes;
+}
+
+/// Inverse of the second derivative, as learnt from the steps.
+/// Source: J. Nocedal, S. Wright, "Numerical Optimization" (2006), (6.17).
+class InverseCurvature {
+ public:
+  explicit InverseCurvature(std::size_t n) : inverse_(n, n) {}
+
+  void begin(double size) {
+    for (std::size_t i = 0; i < inverse_.rows(); ++i) {
+      for (std::size_t j = 0; j < inverse_.rows(); ++j) inverse_(i, j) = i == j ? size : 0.0;
+    }
+  }
+  [[nodiscard]] Vector step_against(const Vector& slopes) const {
+    Vector step(slopes.size(), 0.0);
+    for (std::size_t i = 0; i < step.size(); ++i) step[i] = -dot(inverse_.row(i), slopes.data(), step.size());
+    return step;
+  }
+  void learn(const Vector& step, const Vector& change) {
+    const std::size_t n = step.size();
+    const double along = dot(step.data(), change.data(), n);
+    const double size = dot(change.data(), change.data(), n);
+    if (!(along > 0.0)) return;
+    if (std::exchange(is_new_, false)) begin(along / size);
+    Vector turned(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) turned[i] = dot(inverse_.row(i), change.data(), n);
+    const double both = dot(turned.data(), change.data(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        inverse_(i, j) += (1.0 + both / along) * step[i] * step[j] / along -
+                          (turned[i] * step[j] + step[i] * turned[j]) / along;
+      }
+    }
+  }
+
+ private:
+  Matrix inverse_;
+  bool is_new_ = true;
+};
+
+Vector rooms_of(const Found& found, const std::vector<Group>& groups) {
+  const Map map(found.track->mesh(), groups);
+  Vector rooms;
+  for (std::size_t j = 0; j < groups.size(); ++j) rooms.push_back(map.room(j));
+  return rooms;
+}
+
+/// Of two vectors, element by element.
+Vector times(const Vector& a, const Vector& b, double factor = 1.0) {
+  Vector product(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) product[i] = factor * a[i] * b[i];
+  return product;
+}
+
+/// Whether a jump of the curvature lies so far from where it belongs that it is worth more than the mesh costs.
+bool is_worth_moving(const ScaledProblem& problem, const Found& found) {
+  constexpr double kWorth = 3e-5;  // taste: of the objective, for half the way to what stands next
+  std::vector<Group> jumps = groups_of(found);
+  std::erase_if(jumps, [](const Group& group) { return group.first == group.last; });
+  const Vector slopes = times(slopes_of(problem, found, jumps), rooms_of(found, jumps));
+  return greatest_size(slopes) > kWorth * std::fabs(found.objective);
+}
+
+class KnotMover {
+ public:
+  KnotMover(const ScaledProblem& problem, const Found& begun, double tolerance, SearchControl& control)
+      : problem_(problem),
+        tolerance_(tolerance),
+        control_(control),
+        best_(begun),
+        groups_(groups_of(begun)),
+        unit_(rooms_of(begun, groups_)),
+        curvature_(groups_.size()) {}
+
+  void run() {
+    constexpr int kMostSteps = 12;       // budget
+    constexpr double kFirstStep = 0.05;  // of the room; taste
+    const double size = std::fabs(best_.objective);
+    Vector slopes = slopes_here();
+    curvature_.begin(kFirstStep / std::max(greatest_size(slopes), kAtRest * size));
+    for (int round = 0; round < kMostSteps && greatest_size(slopes) > kAtRest * size; ++round) {
+      const double before = best_.objective;
+      const Vector step = advance(curvature_.step_against(slopes));
+      if (step.empty() || before - best_.objective < kPays * size) break;
+      Vector change = slopes_here();
+      const Vector after = change;
+      add_scaled(change.data(), -1.0, slopes.data(), change.size());
+      curvature_.learn(step, change);
+      slopes = after;
+    }
+  }
+  [[nodiscard]] const Found& best() const { return best_; }
+
+ private:
+  [[nodiscard]] Vector slopes_here() const { return times(slopes_of(problem_, best_, groups_), unit_); }
+
+  /// As much of a step as there is room for, less where that wins nothing. @return what was gone; empty if nothing was
+  [[nodiscard]] Vector advance(Vector step) {
+    constexpr double kLongest = 0.7;   // of the room; taste
+    constexpr int kMostShorter = 3;    // budget
+    constexpr double kShorter = 0.25;  // taste
+    const Vector room = rooms_of(best_, groups_);
+    double part = 1.0;
+    for (std::size_t j = 0; j < step.size(); ++j) {
+      const double way = std::fabs(step[j]) * unit_[j];
+      if (part * way > kLongest * room[j]) part = kLongest * room[j] / way;
+    }
+    for (int shorter = 0; shorter <= kMostShorter && !control_.stop(); ++shorter, part *= kShorter) {
+      const Mesh mesh = Map(best_.track->mesh(), groups_).moved(times(step, unit_, part));
+      control_.tolerance = kAimed * tolerance_;
+      control_.most_rounds = 0;
+      Found trial = minimise(problem_, mesh, best_.z, best_.rows->margins(), control_, &best_);
+      const bool does = !trial.stopped && trial.residual <= tolerance_ &&
+                        trial.feasible(control_.limit_tolerance) && trial.objective < best_.objective;
+      if (!does) continue;
+      best_ = std::move(trial);
+      for (double& way : step) way *= part;
+      return step;
+    }
+    return {};
+  }
+
+  const ScaledProblem& problem_;
+  double tolerance_;
+  SearchControl& control_;
+  Found best_;
+  std::vector<Group> groups_;
+  Vector unit_;  ///< of the steps: the rooms at the beginning
+  InverseCurvature curvature_;
+};
+
+}  // namespace
+
+std::optional<Found> with_moved_knots(const ScaledProblem& problem, const Found& begun, double tolerance,
+                                      SearchControl& control) {
+  if (!is_worth_moving(problem, begun)) return std::nullopt;
+  KnotMover mover(problem, begun, tolerance, control);
+  mover.run();
+  if (!(mover.best().objective < begun.objective)) return std::nullopt;
+  return mover.best();
+}
+
+}  // namespace glissade::optimizer
