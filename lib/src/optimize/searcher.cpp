@@ -361,15 +361,22 @@ void Searcher::settle(Candidate& candidate, Found found) {
   std::optional<Found> moved;
   if (is_optimum(found) && !is_smooth(problem))
     moved = with_moved_knots(problem, found, options_.tolerance, control_);
-  const auto mend_on = [&](Found end) {
+  const auto mend_on = [&](Candidate& end_of, Found end) {
     if (!end.stopped) end = laid_anew(problem, std::move(end));
-    mend(candidate, std::move(end));
+    mend(end_of, std::move(end));
   };
-  mend_on(std::move(found));
+  mend_on(candidate, std::move(found));
   if (!moved || candidate.stopped) return;
-  // What it wins a limit between its stations may take again: the better one counts.
+  // What it wins a limit between its stations may take again, or the last digits: the better optimum counts.
   begin_margins(problem);
-  mend_on(followed(problem, *std::move(moved)));
+  Candidate other;
+  other.problem = candidate.problem;
+  other.rough = candidate.rough;
+  mend_on(other, followed(problem, *std::move(moved)));
+  candidate.stopped = other.stopped;
+  const bool takes = other.kept && is_optimum(*other.found) &&
+                     (!candidate.kept || other.found->objective < candidate.found->objective);
+  if (takes) candidate = std::move(other);
 }
 
 Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
