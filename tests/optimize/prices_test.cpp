@@ -2,132 +2,25 @@
 
 #include "optimize/changed_bound.hpp"
 #include "optimize/drawn_problems.hpp"
+#include "optimize/price_differences.hpp"
 #include "optimize/random_limits.hpp"
 #include "support/catch.hpp"
 #include "support/thorough.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <optional>
 #include <string>
 
 using Catch::Matchers::Contains;
 using namespace glissade;
+using testing_problems::kPriceAccuracy;
 
 namespace {
 
-// What a price may miss of what re-solves win.
-constexpr double kAccuracy = 0.02;
-// By so much of the objective two searches of neighbouring problems may end apart.
-constexpr double kSearchNoise = 5e-7;
-// A step is to win this share of the objective, ...
-constexpr double kShare = 2e-4;
-// ... but to change its bound by no more than this share.
-constexpr double kLongestStep = 0.01;
-// Prices below this many times the noise of such a difference are not compared.
-constexpr double kTells = 50.0;
-// Nor are those for which re-solves contradict each other by more than this share of the price.
+// Prices are not compared for which re-solves contradict each other by more than this share of the price.
 constexpr double kContradiction = 0.1;
-
-double objective_of(const Problem& problem, const OptimizeReport& report) {
-  return problem.objective.kind == ObjectiveKind::exit_speed ? -report.exit_speed : report.travel_time;
-}
-
-/// Which way a bound gives way; an exact one is moved towards larger values.
-double giving_way(const ActiveLimit& active) {
-  const bool shrinks = active.limit.bound == Bound::lowest;
-  return shrinks ? -1.0 : 1.0;
-}
-
-/// The polynomial through the chosen ones of some values (by Lagrange), between them.
-double through(const std::array<double, 7>& values, unsigned chosen, double at) {
-  double sum = 0.0;
-  for (unsigned i = 0; i < values.size(); ++i) {
-    if ((chosen >> i & 1U) == 0) continue;
-    double weight = 1.0;
-    for (unsigned k = 0; k < values.size(); ++k) {
-      if (k != i && (chosen >> k & 1U) != 0) weight *= (at - k) / (static_cast<double>(i) - k);
-    }
-    sum += weight * values[i];
-  }
-  return sum;
-}
-
-/// What is won for each unit by which a bound gives way, between six problems whose bounds lie one step apart, the
-/// problem's own in their middle.
-struct Differences {
-  std::array<double, 6> steps{};
-  double noise = 0.0;  ///< of each
-
-  /// At the bound itself: the slope of the cubic through four of the seven objectives that all of them lie closest to, by the
-  /// sum of distances. A search that ends beside its neighbours does not move it, nor does a price that changes fast.
-  [[nodiscard]] double central() const {
-    std::array<double, 7> won{};
-    for (std::size_t k = 0; k < steps.size(); ++k) won[k + 1] = won[k] + steps[k];
-    double least = std::numeric_limits<double>::infinity();
-    double slope = 0.0;
-    for (unsigned chosen = 0; chosen < 1U << won.size(); ++chosen) {
-      if (std::popcount(chosen) != 4) continue;
-      const auto cubic = [&](double at) { return through(won, chosen, at); };
-      double apart = 0.0;
-      for (std::size_t k = 0; k < won.size(); ++k) apart += std::fabs(won[k] - cubic(static_cast<double>(k)));
-      if (apart >= least) continue;
-      least = apart;
-      // Of a cubic this is its slope in the middle.
-      slope = (8.0 * (cubic(3.5) - cubic(2.5)) - (cubic(4.0) - cubic(2.0))) / 6.0;
-    }
-    return slope;
-  }
-  /// On the side where the bound is tighter, and where it is looser.
-  [[nodiscard]] double tighter() const { return (steps[0] + steps[1] + steps[2]) / 3.0; }
-  [[nodiscard]] double looser() const { return (steps[3] + steps[4] + steps[5]) / 3.0; }
-  /// How far steps on one side lie from each other, over what a smooth change between the sides explains.
-  [[nodiscard]] double scatter() const {
-    const double change = std::fabs(looser() - tighter());
-    double most = 0.0;
-    for (const std::size_t side : {std::size_t{0}, std::size_t{3}}) {
-      const auto [low, high] = std::minmax({steps[side], steps[side + 1], steps[side + 2]});
-      most = std::max(most, high - low - change);
-    }
-    return std::max(most, 0.0);
-  }
-  /// Whether the price is told between two that differ: the bound lies where another limit begins to bind.
-  [[nodiscard]] bool has_kink_at(double price) const {
-    const auto [low, high] = std::minmax(tighter(), looser());
-    return high - low > 2.0 * kAccuracy * high && price > low - noise && price < high + noise;
-  }
-};
-
-/// @return none where no difference tells, or a neighbour has no track
-std::optional<Differences> differences_of(const Problem& problem, const OptimizeReport& report,
-                                          const ActiveLimit& active) {
-  const double objective = objective_of(problem, report);
-  const double wanted = kShare * std::fabs(objective) / active.price;
-  const double step = std::min(wanted, kLongestStep * std::fabs(active.value));
-  const double noise = kSearchNoise * std::fabs(objective) / step;
-  if (!(active.price > kTells * noise)) return std::nullopt;
-  std::array<double, 7> objectives{};
-  for (int k = -3; k <= 3; ++k) {
-    const auto changed =
-        optimizer::with_bound(problem, active.limit, active.value + k * step * giving_way(active));
-    if (!changed) return std::nullopt;
-    const OptimizeReport there = k == 0 ? report : optimize(*changed).report;
-    if (there.status != OptimizeStatus::optimal) return std::nullopt;
-    objectives[static_cast<std::size_t>(k + 3)] = objective_of(*changed, there);
-  }
-  const double sign =
-      active.limit.bound == Bound::exactly && objectives.back() > objectives.front() ? -1.0 : 1.0;
-  Differences differences;
-  differences.noise = noise;
-  for (std::size_t k = 0; k < differences.steps.size(); ++k) {
-    differences.steps[k] = sign * (objectives[k] - objectives[k + 1]) / step;
-  }
-  return differences;
-}
 
 const ActiveLimit& active_of(const OptimizeReport& report, const std::string& key) {
   const auto found = std::find_if(report.active.begin(), report.active.end(),
@@ -227,6 +120,30 @@ TEST_CASE("a place in the way that is named twice wins nothing by one name, and 
   CHECK(compared >= 5);
 }
 
+TEST_CASE("straight ends are priced, also where friction changes along the track") {
+  Problem problem;
+  problem.endpoints = {12.0, 7.0};
+  problem.body.friction = Friction::from_coefficient(0.15);
+  problem.body.friction_changes = {{6.0, Friction::from_coefficient(0.25)}};
+  problem.limits.smallest_valley_radius = 5.0;
+  problem.limits.lead_in = 1.2;
+  problem.limits.lead_out = 1.5;
+  const OptimizeReport report = optimize(problem).report;
+  REQUIRE(report.status == OptimizeStatus::optimal);
+  for (const char* key : {"lead_in", "lead_out"}) {
+    INFO(key);
+    const ActiveLimit& active = active_of(report, key);
+    const double step = 0.01;
+    const double shorter = won_by(problem, report, active.limit, active.value, -step);
+    const double longer = won_by(problem, report, active.limit, active.value, step);
+    CHECK(active.price == Approx(0.5 * (shorter - longer)).epsilon(kPriceAccuracy));
+    CHECK(price_text(active, problem.objective).ends_with(" s per m"));
+    REQUIRE(active.where.size() == 1);
+    CHECK(active.where[0].to - active.where[0].from == Approx(active.value));
+  }
+  CHECK(active_of(report, "lead_in").where[0].from == 0.0);
+}
+
 TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   testing::Random random = testing::seeded_random(20250305);
   INFO("GLISSADE_SEED=" << random.seed());
@@ -239,16 +156,12 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   int kinks = 0;
   int unclear = 0;
   for (int i = 0; i < problems; ++i) {
-    Problem problem = testing_problems::drawn(random);
-    for (HalfPlane& plane : problem.limits.half_planes) {
-      // A clearance that can give way.
-      plane.clearance = 0.05 * std::hypot(problem.endpoints.run, problem.endpoints.drop);
-      plane.point.y += plane.clearance;
-    }
-    const OptimizeReport report = optimize(problem).report;
-    if (report.status != OptimizeStatus::optimal) continue;
-    for (const ActiveLimit& active : report.active) {
-      const auto differences = differences_of(problem, report, active);
+    const Problem problem = testing_problems::with_room_to_give_way(testing_problems::drawn(random));
+    const Optimum optimum = optimize(problem);
+    if (optimum.report.status != OptimizeStatus::optimal) continue;
+    for (const ActiveLimit& active : optimum.report.active) {
+      const auto differences = testing_problems::differences_of(problem, optimum, active.limit, active.value,
+                                                                active.price, std::fabs(active.value));
       if (!differences) continue;
       // Searches of neighbouring problems that end in different valleys tell nothing of a price.
       if (differences->scatter() > kContradiction * active.price) {
@@ -258,7 +171,7 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
       ++compared;
       CAPTURE(i, active.limit.key(), active.price, differences->steps);
       if (std::fabs(active.price - differences->central()) <=
-          kAccuracy * differences->central() + differences->noise) {
+          kPriceAccuracy * differences->central() + differences->noise) {
         continue;
       }
       CHECK(differences->has_kink_at(active.price));

@@ -208,7 +208,7 @@ class LeastPeak {
     ScaledProblem problem = *end.problem;
     problem.time_weight = 1.0;
     problem.time = end.bound;
-    std::vector<ActiveLimit> active = active_limits(problem, end.relaxed.found);
+    std::vector<ActiveLimit> active = active_limits(problem, end.relaxed.found, 0.0);
     std::erase_if(active, [](const ActiveLimit& limit) { return limit.limit == wear_limit(); });
     return active;
   }

@@ -1,5 +1,6 @@
 #include "optimize/prices.hpp"
 
+#include "optimize/lead_prices.hpp"
 #include "optimize/one_sided_prices.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/switches.hpp"
@@ -124,8 +125,23 @@ double objective_unit(const ScaledProblem& problem) {
   return problem.time_weight > 0.0 ? problem.time : length_or_speed;
 }
 
+/// Straight ends that cost something.
+void add_leads(const ScaledProblem& problem, const Found& found, double objective,
+               std::vector<ActiveLimit>& limits) {
+  const double length = problem.lead_in + found.track->core_length(found.z) + problem.lead_out;
+  for (const LeadPrice& lead : lead_prices(problem, found, objective)) {
+    ActiveLimit active;
+    active.limit = lead.limit;
+    active.value = lead.length * problem.chord;
+    const double from = lead.limit.id == LimitId::lead_in ? 0.0 : length - lead.length;
+    active.where.push_back({from * problem.chord, (from + lead.length) * problem.chord});
+    active.price = lead.price / problem.chord * objective_unit(problem);
+    limits.push_back(std::move(active));
+  }
+}
+
 /// Each limit that carries something, or binds without.
-std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Found& found) {
+std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Found& found, double objective) {
   std::vector<ActiveLimit> result;
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
@@ -149,6 +165,7 @@ std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Foun
     same->price += active.price;
     same->where = joined(std::move(same->where), active.where);
   }
+  add_leads(problem, found, objective, result);
   return result;
 }
 
@@ -163,12 +180,12 @@ std::vector<ActiveLimit> told(std::vector<ActiveLimit> limits) {
 
 }  // namespace
 
-std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found) {
-  return told(binding_limits(problem, found));
+std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found, double objective) {
+  return told(binding_limits(problem, found, objective));
 }
 
 std::vector<ActiveLimit> active_limits_to_either_side(const ScaledProblem& problem, const Found& found) {
-  std::vector<ActiveLimit> limits = binding_limits(problem, found);
+  std::vector<ActiveLimit> limits = binding_limits(problem, found, 1.0);
   for (const OneSidedPrice& price : one_sided_prices(problem, found)) {
     for (ActiveLimit& active : limits) {
       if (active.limit != price.limit) continue;

@@ -17,8 +17,11 @@ namespace glissade::optimizer {
 [[nodiscard]] Found priced(const ScaledProblem& problem, Found found, const Vector& ahead,
                            const OptimizeOptions& options, SearchControl& control);
 
-/// The limits that carry multipliers, each with where it binds and its price, in the order of their keys.
-[[nodiscard]] std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found);
+/// The limits that carry multipliers, and straight ends that cost something, each with where it binds and its price, in
+/// the order of their keys.
+/// @param objective  multiplier of the objective: 1; 0 where a row alone is made least
+[[nodiscard]] std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found,
+                                                     double objective);
 
 /// The same of an optimum, with the prices to either side where they differ (one_sided_prices()).
 [[nodiscard]] std::vector<ActiveLimit> active_limits_to_either_side(const ScaledProblem& problem,

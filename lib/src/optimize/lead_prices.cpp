@@ -1,0 +1,113 @@
+#include "optimize/lead_prices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace glissade::optimizer {
+namespace {
+
+// Truncation goes with the square of a step, rounding of quadratures with its inverse.
+constexpr double kStep = 1e-4;       // rounding: [chords]
+constexpr double kShortStep = 0.01;  // taste: of the length itself
+// By less of the objective for each chord nothing is won.
+constexpr double kNothing = 1e-6;  // accuracy: that of a time
+
+/// Where a longer straight start leaves the changes of friction: sigma of the core as laid, in that of another start.
+class MovedCore {
+ public:
+  MovedCore(const Mesh& mesh, double by) : by_(by / mesh.core_length) {
+    for (const ChangeKnots& change : mesh.change_knots) fixed_.push_back(change.sigma);
+  }
+
+  /// Each change keeps its arc length, the ends of the core are its ends; in between all is stretched alike.
+  [[nodiscard]] double operator()(double sigma) const {
+    const auto above = std::upper_bound(fixed_.begin(), fixed_.end(), sigma);
+    const bool last = above == fixed_.end();
+    const double from = above == fixed_.begin() ? 0.0 : *(above - 1);
+    const double to = last ? 1.0 : *above;
+    const double from_there = above == fixed_.begin() ? 0.0 : from - by_;
+    const double to_there = last ? 1.0 : to - by_;
+    return from_there + (sigma - from) / (to - from) * (to_there - from_there);
+  }
+
+ private:
+  double by_;
+  Vector fixed_;
+};
+
+/// The same knots on a core that begins later by so much.
+Mesh begun_later(const ScaledProblem& problem, Mesh mesh, double by) {
+  const MovedCore moved(mesh, by);
+  const double watched_from = (problem.lowest_speed_from - mesh.lead_in) / mesh.core_length;
+  mesh.lead_in += by;
+  for (double& sigma : mesh.extra_breaks) {
+    constexpr double kSame = 1e-9;  // rounding
+    sigma = std::fabs(sigma - watched_from) < kSame ? sigma - by / mesh.core_length : moved(sigma);
+  }
+  for (Vector* const places : {&mesh.knots, &mesh.fine}) {
+    for (double& sigma : *places) sigma = moved(sigma);
+  }
+  for (ChangeKnots& change : mesh.change_knots) {
+    change.from = moved(change.from);
+    change.to = moved(change.to);
+    change.sigma = moved(change.sigma);
+  }
+  return mesh;
+}
+
+/// The Lagrangian of an optimum's unknowns, rows and multipliers with other straight ends; none where its rows have no
+/// counterparts there.
+std::optional<double> lagrangian(const ScaledProblem& problem, const Found& found, double objective,
+                                 double later, double longer_end) {
+  ScaledProblem changed = problem;
+  changed.lead_in += later;
+  changed.lead_out += longer_end;
+  Mesh mesh = later == 0.0 ? found.track->mesh() : begun_later(problem, found.track->mesh(), later);
+  mesh.lead_out += longer_end;
+  const Transcription track(mesh);
+  if (track.stations().size() != found.track->stations().size()) return std::nullopt;
+  Rows rows(changed, track);
+  rows.set_margins(found.rows->margins());
+  const State state = rows.state(found.z, false);
+  double sum = objective * rows.objective(state);
+  const Vector equality = rows.equality_values(state);
+  for (std::size_t i = 0; i < equality.size(); ++i) sum += found.equality[i] * equality[i];
+  for (std::size_t i = 0; i < found.active.size(); ++i) {
+    if (found.inequality[i] > 0.0) sum += found.inequality[i] * rows.value(state, found.active[i]);
+  }
+  return sum;
+}
+
+/// Whether the track is straight for longer than it has to be: then a straight end holds nothing back.
+bool is_straight_beyond(const Found& found, LimitId end) {
+  constexpr double kStraight = 1e-7;  // accuracy: that of a limit [rad]
+  const Layout& layout = found.track->layout();
+  const std::size_t next = end == LimitId::lead_in ? 1 : layout.knots - 2;
+  return std::fabs(found.z[layout.turn(next)]) < kStraight;
+}
+
+}  // namespace
+
+std::vector<LeadPrice> lead_prices(const ScaledProblem& problem, const Found& found, double objective) {
+  std::vector<LeadPrice> prices;
+  if (found.equality.size() != found.rows->equality_count()) return prices;
+  for (const LimitId id : {LimitId::lead_in, LimitId::lead_out}) {
+    const double length = id == LimitId::lead_in ? problem.lead_in : problem.lead_out;
+    if (!(length > 0.0) || is_straight_beyond(found, id)) continue;
+    const double step = std::min(kStep, kShortStep * length);
+    const auto at = [&](double by) {
+      const bool start = id == LimitId::lead_in;
+      return lagrangian(problem, found, objective, start ? by : 0.0, start ? 0.0 : by);
+    };
+    const std::optional<double> longer = at(step);
+    const std::optional<double> shorter = at(-step);
+    if (!longer || !shorter) continue;
+    const double price = (*longer - *shorter) / (2.0 * step);
+    const double size = objective > 0.0 ? std::fabs(found.objective) : 1.0;
+    if (price > kNothing * size) prices.push_back({{id, entry_of(id).bound}, length, price});
+  }
+  return prices;
+}
+
+}  // namespace glissade::optimizer
