@@ -315,12 +315,14 @@ TEST_CASE("sections: what geometry forbids is refused with place, value, bound a
   CHECK(stave.find("liner.bolt|bolt: tiles on the stave_") == 0);
   CHECK(stave.find("of room|Holes for M10 take 30.4 mm with their edges and gaps.|a smaller bolt, a larger "
                    "stave_tolerance, or a larger radius") != std::string::npos);
-  PlateOptions bent;
-  bent.rim.emplace();
-  bent.cover.emplace();
-  bent.floor = FloorMake::bent;
-  CHECK(refused(trapezoid(), bent).find("cover|cover: it would follow the bends of plates that are bent") ==
-        0);
+  PlateOptions level;
+  level.rim.emplace();
+  level.cover.emplace();
+  const section::Polygon block{{{0.2, 0.0}, {-0.2, 0.0}, {-0.25, -0.15}, {0.25, -0.15}}};
+  CHECK(refused(block, level)
+            .find("cover|cover: it would lie on the floor|The tops of this section are no "
+                  "higher than that.|no cover, or a cross_section with sides above the "
+                  "floor") == 0);
   PlateOptions wide;
   wide.corners.kind = CornerJoint::lap;
   const WidthLaw widths(std::vector<WidthAt>{{0.0, 0.4}, {3.0, 0.4}, {6.0, 0.5}});

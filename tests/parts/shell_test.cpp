@@ -365,9 +365,15 @@ TEST_CASE("openings: where none is to be had it is refused with place, value, bo
   }
   options.inspection = {{2.0, 1.5, 0.1, 8}};
   CHECK(refused(trapezoid, options).find("inspection|at: an opening at 2 m ") == 0);
-  options.inspection = {{2.0, 0.2, 0.1, 8}};
+  // Openings in bent sides go across bends.
   options.floor = FloorMake::bent;
-  CHECK(refused(trapezoid, options).find("inspection|inspection: bends would run into openings") == 0);
+  CHECK(pieces(plates_of(chute(), trapezoid, options), "lid") == 1);
+  options.inspection = {{0.01, 0.2, 0.1, 8}};
+  const std::string across = refused(trapezoid, options);
+  CHECK(across.find("inspection|at: an opening at 10 mm finds no place in its unit|Units end at 0 m and ") ==
+        0);
+  CHECK(across.find("and their ends lie off the bends of the left_wall.|another at, or a smaller length") !=
+        std::string::npos);
   PlateOptions round;
   round.inspection = {{2.0, 0.2, 0.1, 8}};
   round.round = RoundMake::mitred;

@@ -30,7 +30,7 @@ std::string joint_text(std::size_t joint) {
 
 }  // namespace
 
-ArcSpline::ArcSpline(ArcPath path) : path_(std::move(path)) {
+ArcSpline::ArcSpline(ArcPath path, double largest_kink) : path_(std::move(path)) {
   const std::vector<PathVertex>& vertices = path_.vertices;
   if (vertices.size() < 2) throw InputError({"", "arc spline: fewer than two vertices", "", ""});
   if (vertices.front().at != Vec2{})
@@ -46,10 +46,10 @@ ArcSpline::ArcSpline(ArcPath path) : path_(std::move(path)) {
     const double half = 2.0 * math::atan(vertices[i].bulge);
     const double own = math::atan2(chord.y, chord.x) - half;
     const double kink = wrapped(own - heading);
-    if (i > 0 && std::fabs(kink) > kArcSplineKink) {
+    if (i > 0 && std::fabs(kink) > largest_kink) {
       throw InputError(
           {"", "arc spline: a kink of " + angle_text(Angle::from_radians(kink)) + " at " + joint_text(i),
-           "Its pieces share a tangent to " + rounded_text(kArcSplineKink, 3) + " rad.", ""});
+           "Its pieces share a tangent to " + rounded_text(largest_kink, 3) + " rad.", ""});
     }
     heading = i == 0 ? own : heading + kink;
     const double length = distance / sinc(half);

@@ -22,8 +22,6 @@ namespace {
 constexpr double kSteep = 0.05;       // half the tangent of usual bends
 constexpr double kRoomAtFold = 1.02;  // length of a flat over what its bends take at the plate's height
 constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
-constexpr double kElastic = 1000.0;   // thicknesses of radius: half of that is where structural steel yields
-constexpr double kNoFold = 1e-6;      // angle that nobody bends [rad]
 constexpr double kApart = 1e-4;       // of a change of width from a bend, along the track [m]
 
 double tan_half(double angle) {
@@ -56,15 +54,17 @@ double leaning(const SectionPlate& plate) {
   return across.x / across.y;
 }
 
-double inner_radius(const StripJob& job, double thickness) {
+}  // namespace
+
+double inner_radius_of(const StripJob& job, double thickness) {
   return job.options.bend.inner_radius.value_or(thickness);
 }
 
-double neutral(const StripJob& job, double thickness) {
-  return job.options.bend.k_factor.value_or(k_factor(inner_radius(job, thickness), thickness));
+double bend_cut(const StripJob& job, double thickness, double angle) {
+  const double radius = inner_radius_of(job, thickness);
+  const double neutral = job.options.bend.k_factor.value_or(k_factor(radius, thickness));
+  return 2.0 * (radius + 0.5 * thickness) * tan_half(angle) - (radius + neutral * thickness) * angle;
 }
-
-}  // namespace
 
 Facets bent_flats(const StripJob& job, const Span& span, double largest_kink) {
   // Within the frames at its ends a unit is straight, down to its lowest corner beside bends of some degrees.
@@ -87,6 +87,15 @@ std::size_t BentStrips::bends() const {
   std::size_t count = 0;
   for (const Facets& facets : facets_) count += facets.bends();
   return count;
+}
+
+std::vector<FlatCorner> BentStrips::corners() const {
+  std::vector<FlatCorner> all;
+  for (const Stretch& unit : units_) {
+    for (std::size_t i = all.empty() ? unit.first : unit.first + 1; i <= unit.last; ++i)
+      all.push_back({stations_[i].s, stations_[i].at, stations_[i].miss});
+  }
+  return all;
 }
 
 void BentStrips::add_unit(const Facets& facets, const Span& span) {
@@ -237,17 +246,15 @@ std::vector<BentStrips::Bend> BentStrips::bends_of(const SectionPlate& plate, do
         0.5 * (norm(middle(i + 1, false) - middle(i, false)) + norm(middle(i, false) - middle(i - 1, false)));
     const bool at_bend = stations_[i].kink != 0.0;
     if (at_bend && bend.angle != 0.0) tightest = std::min(tightest, pitch / std::fabs(bend.angle));
-    bend.pressed = !at_bend && std::fabs(bend.angle) > kNoFold;
+    bend.pressed = !at_bend && std::fabs(bend.angle) > kNoBend;
   }
   // Plates that hardly turn take their form by themselves.
-  if (!(tightest < kElastic * thickness)) return bends;
-  const double radius = inner_radius(job_, thickness);
+  if (!(tightest < kElasticBend * thickness)) return bends;
   for (std::size_t i = 1; i + 1 < bends.size(); ++i) {
     const double angle = std::fabs(bends[i].angle);
-    if (stations_[stretch.first + i].kink == 0.0 || angle <= kNoFold) continue;
+    if (stations_[stretch.first + i].kink == 0.0 || angle <= kNoBend) continue;
     bends[i].pressed = true;
-    bends[i].cut = 2.0 * (radius + 0.5 * thickness) * tan_half(angle) -
-                   (radius + neutral(job_, thickness) * thickness) * angle;
+    bends[i].cut = bend_cut(job_, thickness, angle);
   }
   return bends;
 }
@@ -300,7 +307,7 @@ BentStrips::Quad BentStrips::quad(const SectionPlate& plate, std::size_t i, doub
 void BentStrips::develop(const SectionPlate& plate, double thickness, const Stretch& stretch,
                          Strip& strip) const {
   const std::vector<Bend> bends = bends_of(plate, thickness, stretch);
-  const double radius = inner_radius(job_, thickness);
+  const double radius = inner_radius_of(job_, thickness);
   Development flat;
   Vec2 at;
   double ruling = 0.0;  // heading of it on the flat

@@ -27,6 +27,23 @@ struct Strip {
       std::nullopt;  ///< of one whose edges are not those of the section [m]
 };
 
+/// A corner of the flats, or an end of them.
+struct FlatCorner {
+  double s = 0.0;     ///< the place on the track that it stands for [m]
+  Vec2 at;            ///< in the frame (x, height)
+  double miss = 0.0;  ///< from the track [m]
+};
+
+/// Plates that hardly turn take their form by themselves: thicknesses of radius, half of that is where structural steel yields.
+inline constexpr double kElasticBend = 1000.0;
+/// An angle that nobody bends [rad].
+inline constexpr double kNoBend = 1e-6;
+
+/// @return inner radius of the bends of a plate
+[[nodiscard]] double inner_radius_of(const StripJob& job, double thickness);
+/// @return by how much both flats of a bend together are shorter on the flat than up to their corner, in the middle of the thickness
+[[nodiscard]] double bend_cut(const StripJob& job, double thickness, double angle);
+
 /// @return flats of a stretch by the rule of the job
 [[nodiscard]] Facets bent_flats(const StripJob& job, const Span& span, double largest_kink);
 
@@ -55,6 +72,8 @@ class BentStrips {
   [[nodiscard]] std::vector<Strip> set(const SectionPlate& plate, double thickness, double taken);
   /// @return out per height where a unit begins or ends
   [[nodiscard]] double lean_at(double s) const;
+  /// @return the corners of all flats, one where units meet
+  [[nodiscard]] std::vector<FlatCorner> corners() const;
   [[nodiscard]] const std::vector<Facets>& facets() const { return facets_; }
   [[nodiscard]] std::size_t bends() const;
   /// @return by how much a side lies off the width that is asked for, where that begins to change beside a bend [m]

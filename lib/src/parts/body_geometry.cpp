@@ -37,6 +37,22 @@ double bevel_at(const RolledSheet& sheet, double y) {
   return bevels.back().below;
 }
 
+std::vector<double> mitres_of(const RolledSheet& sheet) {
+  constexpr double kNoBend = 1e-9;  // [rad]
+  const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  std::vector<double> mitres(pieces.size() + 1, 0.0);
+  mitres.front() = sheet.tilts[0];
+  mitres.back() = sheet.tilts[1];
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    if (!pieces[i - 1].straight() || !pieces[i].straight()) continue;
+    const Vec2 before = tangent_at(pieces[i - 1], 1.0);
+    const Vec2 after = tangent_at(pieces[i], 0.0);
+    const double sine = cross(before, after);
+    if (std::fabs(sine) > kNoBend) mitres[i] = sine / (1.0 + dot(before, after));
+  }
+  return mitres;
+}
+
 Vec2 sheet_place(const RolledSheet& sheet, double y, bool upper) {
   if (upper) return sheet.foot + y * sheet.across;
   const Vec2 into{-sheet.across.y, sheet.across.x};
@@ -167,6 +183,15 @@ std::vector<Slab> slabs_of(const RolledSheet& sheet, const std::vector<PathPiece
   for (const ArcPath* loop : loops) {
     for (const PathVertex& vertex : loop->vertices) breaks.push_back(vertex.at.x);
   }
+  const std::vector<double> mitres = mitres_of(sheet);
+  const bool bent = std::any_of(mitres.begin(), mitres.end(), [](double mitre) { return mitre != 0.0; });
+  for (double& place : breaks) {
+    constexpr double kSamePlace = 1e-9;  // [m]
+    if (!bent) break;
+    for (const double joint : joints) {
+      if (std::fabs(place - joint) < kSamePlace) place = joint;
+    }
+  }
   std::sort(breaks.begin(), breaks.end());
   std::vector<Slab> slabs;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
@@ -189,8 +214,19 @@ std::vector<Slab> slabs_of(const RolledSheet& sheet, const std::vector<PathPiece
   return slabs;
 }
 
+/// Of what lies between two planes that lean: its volume, and moments from its beginning, up and across.
+/// @param from,to  by how much it is shorter there per height
+Vec3 moments_between(const SectionMoments& section, double size, double from, double to, double& volume) {
+  const double both = from + to;
+  volume = section.area * size - section.x * both;
+  return {
+      0.5 * (section.area * size * size - 2.0 * size * to * section.x + (to * to - from * from) * section.xx),
+      section.x * size - section.xx * both, section.y * size - section.xy * both};
+}
+
 BodyMoments moments_of(const RolledSheet& sheet) {
   const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  const std::vector<double> mitres = mitres_of(sheet);
   std::vector<double> starts = {0.0};
   for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
   BodyMoments all;
@@ -203,6 +239,19 @@ BodyMoments moments_of(const RolledSheet& sheet) {
     const double through = section.area - curvature * section.x;
     const double up = section.x - curvature * section.xx;
     const double size = slab.to - slab.from;
+    const double mitre_from = slab.from == starts[slab.piece] ? mitres[slab.piece] : 0.0;
+    const double mitre_to = slab.to == starts[slab.piece + 1] ? mitres[slab.piece + 1] : 0.0;
+    if (mitre_from != 0.0 || mitre_to != 0.0) {
+      double volume = 0.0;
+      const Vec3 own = moments_between(section, size, mitre_from, mitre_to, volume);
+      const Vec2 at = point_on(piece, (slab.from - starts[slab.piece]) / whole);
+      const Vec2 along = tangent_at(piece, 0.0);
+      all.volume += volume;
+      first.x += at.x * volume + own.x * along.x - own.y * along.y;
+      first.y += at.y * volume + own.x * along.y + own.y * along.x;
+      first.z += own.z;
+      continue;
+    }
     all.volume += size * through;
     first.z += size * (section.y - curvature * section.xy);
     for (std::size_t k = 0; k < kNodes.size(); ++k) {
@@ -373,17 +422,26 @@ std::vector<Vec3> points_of(const RolledSheet& sheet, double inset) {
   const std::vector<PathPiece> pieces = pieces_of(sheet.path);
   std::vector<double> starts = {0.0};
   for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
+  const std::vector<double> mitres = mitres_of(sheet);
   std::vector<Vec3> points;
   const auto put = [&](Vec2 place) {
     std::size_t i = 0;
     while (i + 1 < pieces.size() && place.x > starts[i + 1]) ++i;
-    const double share = (place.x - starts[i]) / length(pieces[i]);
+    const double whole = length(pieces[i]);
+    const double share = (place.x - starts[i]) / whole;
     const Vec2 along = tangent_at(pieces[i], share);
     const Vec2 at = point_on(pieces[i], share);
     const Vec2 upper = sheet_place(sheet, place.y, true);
     const Vec2 way = (1.0 / sheet.thickness) * (sheet_place(sheet, place.y, false) - upper);
     for (const double depth : {inset, 0.5 * sheet.thickness, sheet.thickness - inset}) {
       const Vec2 there = upper + depth * way;
+      const double low = there.x * mitres[i] + inset;
+      const double high = whole - there.x * mitres[i + 1] - inset;
+      if ((mitres[i] != 0.0 || mitres[i + 1] != 0.0) && high > low) {
+        const Vec2 here = at + (std::clamp(share * whole, low, high) - share * whole) * along;
+        points.push_back({here.x - there.x * along.y, here.y + there.x * along.x, there.y});
+        continue;
+      }
       points.push_back({at.x - there.x * along.y, at.y + there.x * along.x, there.y});
     }
   };
@@ -517,15 +575,23 @@ Beside beside(const PathPiece& piece, Vec2 point) {
 
 /// The depth of a point inside what lies along a path.
 /// @param across  (piece, share of it, height above it): depth square to the path
+/// @param mitres  as mitres_of(); none: no two pieces meet at a bend
 template <typename Across>
-double depth_along(const std::vector<PathPiece>& pieces, Vec2 point, Across across) {
+double depth_along(const std::vector<PathPiece>& pieces, Vec2 point, Across across,
+                   const std::vector<double>& mitres = {}) {
   double deepest = -kFar;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     // Ends of the body alone count as faces.
     const auto [along, above] = beside(pieces[i], point);
     const double whole = length(pieces[i]);
-    const double from_start = i == 0 ? along : along + kInset;
-    const double from_end = (i + 1 == pieces.size() ? 0.0 : kInset) + whole - along;
+    double to_start = along;
+    double to_end = whole - along;
+    if (!mitres.empty() && (mitres[i] != 0.0 || mitres[i + 1] != 0.0)) {
+      to_start = (along - above * mitres[i]) / math::hypot(1.0, mitres[i]);
+      to_end = (whole - along - above * mitres[i + 1]) / math::hypot(1.0, mitres[i + 1]);
+    }
+    const double from_start = i == 0 ? to_start : to_start + kInset;
+    const double from_end = (i + 1 == pieces.size() ? 0.0 : kInset) + to_end;
     const double lengthwise = std::min(i == 0 ? from_start : kFar, i + 1 == pieces.size() ? from_end : kFar);
     if (from_start < 0.0 || from_end < 0.0) {
       deepest = std::max(deepest, std::min(from_start, from_end));
@@ -551,21 +617,24 @@ double depth_in(const RolledSheet& sheet, Vec3 point) {
   const std::vector<PathPiece> pieces = pieces_of(sheet.path);
   std::vector<double> starts = {0.0};
   for (const PathPiece& piece : pieces) starts.push_back(starts.back() + length(piece));
-  return depth_along(pieces, {point.x, point.y}, [&](std::size_t i, double share, double above) {
-    const Vec2 away = Vec2{above, point.z} - sheet.foot;
-    const double depth = dot(Vec2{-sheet.across.y, sheet.across.x}, away);
-    const double between = std::min(depth, sheet.thickness - depth);
-    if (between <= 0.0) return between;
-    const double x = starts[i] + share * length(pieces[i]);
-    // Where it would be on the upper face, edges leaning as they do.
-    const double lower = dot(sheet.across, away);
-    double y = lower;
-    constexpr int kRounds = 40;
-    for (int k = 0; k < kRounds && !sheet.bevels.empty(); ++k)
-      y = lower - depth / sheet.thickness * bevel_at(sheet, y);
-    const double flat = depth_in(sheet.region, Vec2{x, y});
-    return flat > 0.0 ? std::min(flat, between) : flat;
-  });
+  return depth_along(
+      pieces, {point.x, point.y},
+      [&](std::size_t i, double share, double above) {
+        const Vec2 away = Vec2{above, point.z} - sheet.foot;
+        const double depth = dot(Vec2{-sheet.across.y, sheet.across.x}, away);
+        const double between = std::min(depth, sheet.thickness - depth);
+        if (between <= 0.0) return between;
+        const double x = starts[i] + share * length(pieces[i]);
+        // Where it would be on the upper face, edges leaning as they do.
+        const double lower = dot(sheet.across, away);
+        double y = lower;
+        constexpr int kRounds = 40;
+        for (int k = 0; k < kRounds && !sheet.bevels.empty(); ++k)
+          y = lower - depth / sheet.thickness * bevel_at(sheet, y);
+        const double flat = depth_in(sheet.region, Vec2{x, y});
+        return flat > 0.0 ? std::min(flat, between) : flat;
+      },
+      mitres_of(sheet));
 }
 
 double depth_in(const TroughGore& gore, Vec3 point) {

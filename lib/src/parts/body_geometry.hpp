@@ -16,6 +16,10 @@ namespace glissade::parts {
 /// @param upper  on the upper face; else on the lower one
 [[nodiscard]] Vec2 sheet_place(const RolledSheet& sheet, double y, bool upper);
 
+/// @return at the joints of a sheet's path and both its ends, by how much what lies beside is shorter per length to the left:
+///         tangents of half the bends between lines; 0 between others
+[[nodiscard]] std::vector<double> mitres_of(const RolledSheet& sheet);
+
 /// A body's volume with its first moments, in its own frame.
 struct BodyMoments {
   double volume = 0.0;  ///< [m^3]

@@ -421,12 +421,13 @@ struct SheetGrid {
   [[nodiscard]] std::size_t cells() const { return across.size() - 1; }
 };
 
+constexpr double kSamePlace = 1e-9;  // along a sheet [m]
+
 void sort_apart(std::vector<double>& places) {
-  constexpr double kSame = 1e-9;  // [m]
   std::sort(places.begin(), places.end());
   std::vector<double> apart;
   for (const double place : places) {
-    if (apart.empty() || place - apart.back() > kSame) apart.push_back(place);
+    if (apart.empty() || place - apart.back() > kSamePlace) apart.push_back(place);
   }
   places = std::move(apart);
 }
@@ -452,12 +453,18 @@ SheetGrid grid_of(const RolledSheet& sheet, const Fineness& fineness) {
   }
   sort_apart(grid.along);
   sort_apart(grid.across);
+  const std::vector<double> mitres = mitres_of(sheet);
   for (const double x : grid.along) {
     std::size_t i = 0;
     while (i + 1 < pieces.size() && x > starts[i + 1]) ++i;
     const PathFrame frame = frame_on(pieces[i], std::clamp((x - starts[i]) / length(pieces[i]), 0.0, 1.0));
     grid.points.push_back(frame.at);
     grid.lefts.push_back(frame.left);
+    const Vec2 along{frame.left.y, -frame.left.x};
+    for (const std::size_t joint : {i, i + 1}) {
+      if (mitres[joint] == 0.0 || std::fabs(x - starts[joint]) >= kSamePlace) continue;
+      grid.lefts.back() = frame.left + (joint == i ? 1.0 : -1.0) * mitres[joint] * along;
+    }
   }
   return grid;
 }

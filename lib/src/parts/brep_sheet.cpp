@@ -42,6 +42,7 @@ class SheetFaces {
       : part_(part),
         pieces_(pieces_of(scaled(sheet.path, kMillimetres))),
         sheet_(in_millimetres(sheet)),
+        mitres_(mitres_of(sheet)),
         region_(sheet_.region) {
     if (pieces_.empty() || sheet.path.closed) throw bad_body(part, "its path is closed or has no piece");
     if (!(sheet.thickness > 0.0)) throw bad_body(part, "its thickness is " + length_text(sheet.thickness));
@@ -67,19 +68,27 @@ class SheetFaces {
     const std::vector<Vec2> outline = on_joints(turning(region_.outline, true));
     upper_.resize(pieces_.size());
     lower_.resize(pieces_.size());
-    add_outline(outline);
-    for (const ArcPath& cutout : region_.cutouts) add_cutout(turning(cutout, false));
+    std::vector<std::vector<Vec2>> across_joints;  // cutouts
+    for (const ArcPath& path : region_.cutouts) {
+      const ArcPath cutout = turning(path, false);
+      const std::vector<Vec2> corners = on_joints(cutout);
+      if (corners.size() > cutout.vertices.size()) across_joints.push_back(corners);
+    }
+    if (across_joints.empty())
+      add_outline(outline);
+    else
+      add_cut_outline(outline, across_joints);
+    for (const ArcPath& path : region_.cutouts) {
+      const ArcPath cutout = turning(path, false);
+      if (on_joints(cutout).size() == cutout.vertices.size()) add_cutout(cutout);
+    }
     for (const Bore& bore : bores_of(sheet_)) {
       const BoreLoops loops = add_bore(brep_, bore);
       upper_[bore.piece].push_back({loops.face});
       lower_[bore.piece].push_back({loops.back});
     }
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      for (const bool top : {true, false}) {
-        BrepFace made = sheet_face(i, top);
-        made.loops = std::move(top ? upper_[i] : lower_[i]);
-        brep_.faces.push_back(std::move(made));
-      }
+      for (const bool top : {true, false}) add_sheet_faces(i, top);
     }
     return std::move(brep_);
   }
@@ -130,9 +139,11 @@ class SheetFaces {
     const PathPiece& piece = pieces_[i];
     Vec2 point = piece.from;
     Vec2 tangent = start_tangent(piece);
+    double mitre = mitres_[i];
     if (at.x >= starts_[i + 1]) {
       point = piece.to;
       tangent = end_tangent(piece);
+      mitre = -mitres_[i + 1];
     } else if (at.x > starts_[i]) {
       const double share = (at.x - starts_[i]) / (starts_[i + 1] - starts_[i]);
       point = point_on(piece, share);
@@ -143,7 +154,8 @@ class SheetFaces {
         tangent = (piece.bulge > 0.0 ? 1.0 : -1.0) * Vec2{-spoke.y, spoke.x};
       }
     }
-    const Vec2 left{-tangent.y, tangent.x};
+    const Vec2 left =
+        Vec2{-tangent.y, tangent.x} + (at.x > starts_[i] && at.x < starts_[i + 1] ? 0.0 : mitre) * tangent;
     const auto vertex = [&](bool upper) {
       const Vec2 place = sheet_place(sheet_, at.y, upper);
       return add_vertex(brep_, at_height(point + place.x * left, place.y));
@@ -195,8 +207,13 @@ class SheetFaces {
     } else {
       const Vec2 tangent =
           tangent_at(pieces_[piece], (from.at.x - starts_[piece]) / (starts_[piece + 1] - starts_[piece]));
+      // Square to the path, or in the plane that halves a bend at its end.
+      const double mitre = from.at.x == starts_[piece]       ? mitres_[piece]
+                           : from.at.x == starts_[piece + 1] ? -mitres_[piece + 1]
+                                                             : 0.0;
+      const Vec2 square = (1.0 / math::hypot(1.0, mitre)) * (tangent - mitre * Vec2{-tangent.y, tangent.x});
       face.origin = brep_.vertices[from.upper];
-      face.axis = (to.at.y > from.at.y ? 1.0 : -1.0) * at_height(tangent, 0.0);
+      face.axis = (to.at.y > from.at.y ? 1.0 : -1.0) * at_height(mitre == 0.0 ? tangent : square, 0.0);
       face.reference = kUp;
     }
     face.loops = {{above, second, {below.edge, !below.forward}, {first.edge, !first.forward}}};
@@ -241,6 +258,60 @@ class SheetFaces {
     }
   }
 
+  /// Where cutouts lie across joints: their edges, the outline's and, where a joint crosses the sheet, edges along it both ways, chained piece by
+  /// piece. A piece may fall into several loops.
+  void add_cut_outline(const std::vector<Vec2>& outline, const std::vector<std::vector<Vec2>>& cutouts) {
+    struct Way {
+      Corner from;
+      Corner to;
+    };
+    std::vector<std::vector<Way>> ways(pieces_.size());
+    std::vector<const std::vector<Vec2>*> loops = {&outline};
+    for (const std::vector<Vec2>& cutout : cutouts) loops.push_back(&cutout);
+    std::vector<std::vector<double>> crossed(starts_.size());
+    for (const std::vector<Vec2>* const loop : loops) {
+      for (std::size_t k = 0; k < loop->size(); ++k) {
+        const Corner from = corner((*loop)[k]);
+        const Corner to = corner((*loop)[(k + 1) % loop->size()]);
+        const std::size_t piece = piece_of(from.at, to.at);
+        add_side(from, to, piece);
+        ways[piece].push_back({from, to});
+        for (std::size_t j = 1; j + 1 < starts_.size(); ++j) {
+          if (from.at.x == starts_[j]) crossed[j].push_back(from.at.y);
+        }
+      }
+    }
+    for (std::size_t j = 1; j + 1 < starts_.size(); ++j) {
+      std::vector<double>& edges = crossed[j];
+      std::sort(edges.begin(), edges.end());
+      for (std::size_t k = 0; k + 1 < edges.size(); k += 2) {
+        const Corner low = corner({starts_[j], edges[k]});
+        const Corner high = corner({starts_[j], edges[k + 1]});
+        ways[j - 1].push_back({low, high});
+        ways[j].push_back({high, low});
+      }
+    }
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      std::vector<Way>& left = ways[i];
+      if (left.empty()) throw bad_body(part_, "its sheet does not cover its path");
+      while (!left.empty()) {
+        std::vector<Corner> loop = {left.front().from};
+        Vec2 end = left.front().to.at;
+        left.erase(left.begin());
+        while (!(end == loop.front().at)) {
+          const auto next =
+              std::find_if(left.begin(), left.end(), [&](const Way& way) { return way.from.at == end; });
+          if (next == left.end())
+            throw bad_body(part_, "its sheet is not closed between two joints of its path");
+          loop.push_back(next->from);
+          end = next->to.at;
+          left.erase(next);
+        }
+        add_loop(i, loop);
+      }
+    }
+  }
+
   void add_cutout(const ArcPath& cutout) {
     std::vector<Corner> all;
     for (const PathVertex& vertex : cutout.vertices) all.push_back(corner(vertex.at));
@@ -251,6 +322,58 @@ class SheetFaces {
       add_side(all[k], to, piece);
     }
     add_loop(piece, all);
+  }
+
+  /// Whether a loop of a face runs counter-clockwise as seen from outside: one that is no hole.
+  [[nodiscard]] bool is_outer(const std::vector<BrepUse>& loop, Vec3 axis) const {
+    Vec3 twice;
+    const auto start = [&](const BrepUse& use) {
+      const BrepEdge& edge = brep_.edges[use.edge];
+      return brep_.vertices[use.forward ? edge.from : edge.to];
+    };
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      twice =
+          twice + cross(start(loop[k]) - start(loop[0]), start(loop[(k + 1) % loop.size()]) - start(loop[0]));
+    return loop.size() > 1 && dot(twice, axis) > 0.0;
+  }
+
+  /// One face, or one for each of the stretches into which cutouts part a piece.
+  void add_sheet_faces(std::size_t i, bool top) {
+    std::vector<std::vector<BrepUse>> loops = std::move(top ? upper_[i] : lower_[i]);
+    BrepFace made = sheet_face(i, top);
+    if (loops.size() < 2 || !pieces_[i].straight() || !is_outer(loops[1], made.axis)) {
+      made.loops = std::move(loops);
+      brep_.faces.push_back(std::move(made));
+      return;
+    }
+    std::vector<BrepFace> faces;
+    for (const std::vector<BrepUse>& loop : loops) {
+      if (!is_outer(loop, made.axis)) continue;
+      faces.push_back(made);
+      faces.back().loops = {loop};
+    }
+    for (const std::vector<BrepUse>& loop : loops) {
+      if (!is_outer(loop, made.axis))
+        face_round(faces, brep_.vertices[brep_.edges[loop[0].edge].from]).loops.push_back(loop);
+    }
+    for (BrepFace& face : faces) brep_.faces.push_back(std::move(face));
+  }
+
+  /// The flat face in which a place lies, of stretches side by side.
+  BrepFace& face_round(std::vector<BrepFace>& faces, Vec3 place) const {
+    const auto has = [&](const BrepFace& face) {
+      const Vec3 aside = cross(face.axis, face.reference);
+      const auto flat = [&](Vec3 at) { return Vec2{dot(at, face.reference), dot(at, aside)}; };
+      ArcPath outline{{}, true};
+      for (const BrepUse& use : face.loops[0]) {
+        const BrepEdge& edge = brep_.edges[use.edge];
+        outline.vertices.push_back({flat(brep_.vertices[use.forward ? edge.from : edge.to]), 0.0});
+      }
+      return contains(outline, flat(place));
+    };
+    const auto found = std::find_if(faces.begin(), faces.end(), has);
+    if (found == faces.end()) throw bad_body(part_, "a hole lies beyond its sheet");
+    return *found;
   }
 
   [[nodiscard]] BrepFace sheet_face(std::size_t i, bool top) {
@@ -270,6 +393,7 @@ class SheetFaces {
   const ShopPart& part_;
   std::vector<PathPiece> pieces_;
   RolledSheet sheet_;  ///< in millimetres
+  std::vector<double> mitres_;
   PlaneRegion region_;
   std::vector<double> starts_;
   Brep brep_;

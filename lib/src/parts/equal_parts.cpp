@@ -235,7 +235,9 @@ bool same_bevels(const RolledSheet& body, const RolledSheet& other) {
 
 BodyPlace place_of(const RolledSheet& body, const RolledSheet& other, bool end_for_end) {
   if (!near(body.thickness, other.thickness) || !near(body.foot, other.foot) ||
-      !near(body.across, other.across) || !same_bevels(body, other))
+      !near(body.across, other.across) || !same_bevels(body, other) ||
+      !near(body.tilts[end_for_end ? 1 : 0], other.tilts[0]) ||
+      !near(body.tilts[end_for_end ? 0 : 1], other.tilts[1]))
     return std::nullopt;
   // Ones that lean, or have another path, are not turned.
   if (end_for_end && (!body.bevels.empty() || body.foot.y != 0.0 || body.across.x != 0.0))

@@ -149,19 +149,25 @@ std::vector<double> bolts_across(const PlateOptions& options, double lane) {
 }
 
 std::vector<TilePlace> tile_places(const PlateOptions& options, const std::vector<double>& lanes,
-                                   const Span& unit, const OnOneArc& arcs, int& row) {
+                                   const Span& unit, const OnOneArc& arcs, int& row, const OnOneArc* seams) {
   const LinerOptions& liner = *options.liner;
   const double count = courses_in(options, lanes, unit);
   const double step = (unit.to - unit.from) / count;
   std::vector<TilePlace> tiles;
-  for (double k = 0.0; k < count; k += 1.0, ++row) {
-    const Span span{unit.from + k * step + 0.5 * liner.gap, unit.from + (k + 1.0) * step - 0.5 * liner.gap};
+  const auto seam = [&](double k) {
+    const double even = unit.from + k * step;
+    return k > 0.0 && k < count && seams != nullptr ? seams->nearest(even, unit).value_or(even) : even;
+  };
+  for (double k = 0.0; k < count; k += 1.0) {
+    const Span span{seam(k) + 0.5 * liner.gap, seam(k + 1.0) - 0.5 * liner.gap};
+    // Where two seams come to lie at one place there is one course less.
+    if (!(span.to > span.from)) continue;
+    ++row;
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      const Course course = course_of(liner, lanes[lane], row % 2 == 1);
+      const Course course = course_of(liner, lanes[lane], row % 2 == 0);
       for (std::size_t i = 0; i < course.widths.size(); ++i) {
         TilePlace tile{
-            span, row + 1, lane, course.edges[i], course.widths[i], course.widths[i] < 0.9 * course.full,
-            {},   {}};
+            span, row, lane, course.edges[i], course.widths[i], course.widths[i] < 0.9 * course.full, {}, {}};
         set_bolts(options, arcs, tile);
         tiles.push_back(std::move(tile));
       }

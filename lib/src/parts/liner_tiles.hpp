@@ -31,10 +31,12 @@ struct TilePlace {
 /// @param lanes  widths of the lanes [m]
 /// @param arcs   where holes may stand
 /// @param row    courses so far; counts on
+/// @param seams  where courses may meet; none: anywhere
 /// @throws InputError where no bolt finds a place: between which places, and a way out
 [[nodiscard]] std::vector<TilePlace> tile_places(const PlateOptions& options,
                                                  const std::vector<double>& lanes, const Span& unit,
-                                                 const OnOneArc& arcs, int& row);
+                                                 const OnOneArc& arcs, int& row,
+                                                 const OnOneArc* seams = nullptr);
 
 /// @return where the bolts of tiles stand across a lane, in courses of both kinds: from its left edge [m]
 [[nodiscard]] std::vector<double> bolts_across(const PlateOptions& options, double lane);

@@ -230,15 +230,19 @@ std::optional<ArcPath> band(const ArcSpline& track, const Span& span, double low
 }
 
 OnOneArc::OnOneArc(const ArcSpline& track, double radius, const Span& heights,
-                   const std::vector<double>& breaks) {
+                   const std::vector<double>& breaks, const std::vector<double>& bends) {
   constexpr double kAside = 0.5e-3;  // from where arcs meet [m]
-  for (const TrackArc& arc : track.arcs()) {
+  for (std::size_t k = 0; k < track.arcs().size(); ++k) {
+    const TrackArc& arc = track.arcs()[k];
     const double shrunk = std::min(1.0 - arc.curvature * heights.from, 1.0 - arc.curvature * heights.to);
     if (!(shrunk > 0.0)) continue;
     const double half = (radius + kAside) / shrunk;
     std::vector<double> ends = {arc.start, arc.start + arc.length};
+    if (!bends.empty()) ends = {arc.start + bends.at(k), arc.start + arc.length - bends.at(k + 1)};
+    if (!(ends[1] > ends[0])) continue;
+    const Span between{ends[0], ends[1]};
     for (const double place : breaks) {
-      if (place > arc.start && place < arc.start + arc.length) ends.push_back(place);
+      if (place > between.from && place < between.to) ends.push_back(place);
     }
     std::sort(ends.begin(), ends.end());
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {

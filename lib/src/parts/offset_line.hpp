@@ -42,8 +42,10 @@ class OnOneArc {
   /// @param radius   of what goes through [m]
   /// @param heights  of the plate above the track
   /// @param breaks   places that count as ends of arcs, too
-  OnOneArc(const ArcSpline& track, double radius, const Span& heights,
-           const std::vector<double>& breaks = {});
+  /// @param bends    what bends take of either side of every joint, the track's ends included; none: nothing
+  OnOneArc(const ArcSpline& track, double radius, const Span& heights, const std::vector<double>& breaks = {},
+           const std::vector<double>& bends = {});
+  [[nodiscard]] bool has(double place) const { return nearest(place, {place, place}).has_value(); }
   /// @return the nearest such place within a span; none if there is none
   [[nodiscard]] std::optional<double> nearest(double about, const Span& within) const;
 

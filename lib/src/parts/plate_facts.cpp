@@ -43,6 +43,12 @@ void measure_holes(const ShopPart& part, ShopFacts& facts) {
     facts.of(part, "hole_thicknesses", hole, part.thickness);
     facts.of(part, "hole_edge_diameters", edge, hole);
     facts.of(part, "web_thicknesses", web, part.thickness);
+    for (const BendLine& bend : part.pattern->bends) {
+      const PathPiece line{bend.from, bend.to, 0.0};
+      const PathPiece here{holes[i].centre, holes[i].centre + Vec2{1e-9, 0.0}, 0.0};
+      const double half = 0.5 * (bend.inner_radius + 0.5 * part.thickness) * bend.angle.radians();
+      facts.of(part, "hole_bend_thicknesses", distance(here, line) - holes[i].radius - half, part.thickness);
+    }
     if (holes.size() < 2) continue;
     facts.of(part, "hole_pitch_diameters", nearest, hole);
     if (is_frame(part)) facts.of(part, "bolt_pitch", nearest);

@@ -187,10 +187,6 @@ std::vector<Issue> section_corner_problems(const PlateSection& section, const Pl
              "Slots and laps are cut along a corner of one height and one distance from the middle.",
              "corners: butt, or one width"}};
   }
-  if (options.floor == FloorMake::bent) {
-    return {{"corners", "corners: plates of a bent floor of this section meet in mitres",
-             "Laps and slots follow arcs of the track.", "corners: butt, or floor: rolled"}};
-  }
   // Measures of laps, tabs and slots are those of a channel of the same plate.
   std::vector<Issue> issues = corner_problems({1.0, 1.0, t, t}, options);
   if (!issues.empty()) return issues;

@@ -31,9 +31,11 @@ std::optional<PlaneRegion> region_at(const Shell& shell, double s) {
   const StiffenerOptions& stiffener = *shell.options.stiffeners;
   const double gap = shell.options.flanges.gap;
   if (shell.ring) {
-    const ArcPath line = shell.outside(s).line;
-    return between(left_half(moved_out(line, gap + stiffener.width), kHalfGap),
-                   left_half(moved_out(line, gap), kHalfGap));
+    const SectionOutside outside = shell.outside(s);
+    const auto inner = round_laps(outside, gap);
+    if (!inner) return std::nullopt;
+    return between(left_half(moved_out(outside.line, gap + stiffener.width), kHalfGap),
+                   left_half(*inner, kHalfGap));
   }
   const double rim = shell.options.rim ? shell.options.rim->thickness + gap : 0.0;
   const SectionOutside outside = lowered(shell.outside(s), rim);

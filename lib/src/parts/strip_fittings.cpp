@@ -79,8 +79,9 @@ std::string suffix(const std::vector<double>& joints, std::size_t unit) {
 std::vector<double> cover_bolts(const StripJob& job, const Span& span, const SectionPlate& cover) {
   const CoverOptions& options = *job.options.cover;
   constexpr double kFromEnds = 40e-3;
-  const OnOneArc arcs(job.track, 0.5 * clearance_hole(options.bolt, HoleFit::coarse),
-                      {cover.back_from.y - job.options.rim->thickness, cover.face_from.y});
+  const Span heights{cover.back_from.y - job.options.rim->thickness, cover.face_from.y};
+  const OnOneArc arcs(job.track, 0.5 * clearance_hole(options.bolt, HoleFit::coarse), heights, {},
+                      job.rooms_at_bends(heights));
   std::vector<double> places;
   for (const Vec2 at : evenly({span.from + kFromEnds, 0.0}, {span.to - kFromEnds, 0.0}, options.pitch)) {
     const auto place = arcs.nearest(at.x, {span.from + 0.5 * kFromEnds, span.to - 0.5 * kFromEnds});
@@ -104,7 +105,43 @@ Covered covered(const StripJob& job, const Span& unit, const std::vector<Section
 
 }  // namespace
 
+namespace {
+
+/// Where a plate on flats begins, square to one of them, off bends and beyond a frame at the end of its unit.
+/// @param taken  by the frame
+double square_beyond(const StripJob& job, double taken, double end, double sense, const Span& heights) {
+  const TrackFrame frame = frame_at(job.track, end);
+  const auto clear = [&](double place) {
+    const TrackFrame here = frame_at(job.track, place);
+    const auto at = [&](double height) {
+      return sense * dot(here.at + height * here.up - frame.at, frame.along);
+    };
+    return std::min({at(0.0), at(heights.from), at(heights.to)}) >= taken - 1e-9;
+  };
+  constexpr double kStep = 0.5e-3;  // [m]
+  double place = job.off_bends(end + sense * taken, sense, heights);
+  while (!clear(place)) {
+    place += sense * kStep;
+    if (place <= 0.0 || place >= job.track.length()) return std::clamp(place, 0.0, job.track.length());
+    place = job.off_bends(place, sense, heights);
+  }
+  return place;
+}
+
+}  // namespace
+
 Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate) {
+  if (job.bent()) {
+    const bool frames = job.options.flanges.wanted && job.section.convex;
+    const double taken = frames ? job.options.flanges.thickness + kAsideOfFrame : 0.0;
+    const Span heights{std::min(plate.face_from.y, plate.back_from.y),
+                       std::max(plate.face_from.y, plate.back_from.y)};
+    const Span whole = unfolded(job, plate);
+    const Span room{square_beyond(job, taken, unit.from, 1.0, heights),
+                    square_beyond(job, taken, unit.to, -1.0, heights)};
+    return {std::max(room.from, job.off_bends(whole.from, 1.0, heights)),
+            std::min(room.to, job.off_bends(whole.to, -1.0, heights))};
+  }
   Span room = unit;
   const double high = std::max(plate.face_from.y, plate.back_from.y);
   if (job.options.flanges.wanted && job.section.convex) {
@@ -266,8 +303,14 @@ std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, const 
       room = {std::max(room.from, whole.from), std::min(room.to, whole.to)};
     }
   }
-  const OnOneArc arcs(job.track, 0.5 * clearance_hole(liner.bolt, HoleFit::coarse), {low, high}, breaks);
-  return tile_places(job.options, widths_of(job.section), room, arcs, row);
+  const std::vector<double> bends = job.rooms_at_bends({low, high});
+  const OnOneArc arcs(job.track, 0.5 * clearance_hole(liner.bolt, HoleFit::coarse), {low, high}, breaks,
+                      bends);
+  if (!job.bent()) return tile_places(job.options, widths_of(job.section), room, arcs, row);
+  // Seams between courses, and the ends of the liner, lie on one flat, too.
+  room = {job.off_bends(room.from, 1.0, {low, high}), job.off_bends(room.to, -1.0, {low, high})};
+  const OnOneArc seams(job.track, 0.5 * liner.gap, {low, high}, {}, bends);
+  return tile_places(job.options, widths_of(job.section), room, arcs, row, &seams);
 }
 
 std::vector<std::vector<Circle>> holes_below(const StripJob& job, const std::vector<TilePlace>& tiles) {
@@ -349,6 +392,9 @@ void object_to_rims(const PlateSection& section, const RimOptions& rim, Issues& 
 }
 
 void object_to_tiles(const PlateSection& section, const PlateOptions& options, Issues& issues) {
+  // Tiles of strips are bent as the plates below them.
+  PlateOptions wide = options;
+  wide.floor = FloorMake::rolled;
   const LinerOptions& liner = *options.liner;
   if (section.lined.empty() || section.widths) {
     issues.add("liner",
@@ -375,14 +421,13 @@ void object_to_tiles(const PlateSection& section, const PlateOptions& options, I
   }
   if (liner.tile_width > 0.0 && !(liner.gap < 0.0)) {
     // Its own measures are those of a channel's; half tiles are left out where they would be too narrow.
-    PlateOptions wide = options;
     double widest = 0.0;
     for (const double width : widths_of(section)) widest = std::max(widest, width);
     if (section.lined.size() > 1) wide.liner->tile_width = 4.0 * widest;
     issues.add(liner_problems({std::max(widest, 1.0), 1.0, section.thickness}, wide));
     return;
   }
-  issues.add(liner_problems({1.0, 1.0, section.thickness}, options));
+  issues.add(liner_problems({1.0, 1.0, section.thickness}, wide));
 }
 
 }  // namespace
@@ -390,23 +435,28 @@ void object_to_tiles(const PlateSection& section, const PlateOptions& options, I
 std::vector<Issue> section_fitting_problems(const PlateSection& section, const PlateOptions& options) {
   Issues issues;
   const bool bent = options.floor == FloorMake::bent;
-  const auto on_bends = [&](bool wanted, const char* key) {
-    if (!wanted || !bent) return false;
-    issues.add(key, std::string(key) + ": it would follow the bends of plates that are bent",
-               "It is rolled along arcs of the track.", "floor: rolled");
-    return true;
+  const auto on_bends = [&](double thickness) {
+    if (!bent) return;
+    if (auto tight = too_tight_a_bend(thickness, options)) issues.add({std::move(*tight)});
   };
   if (options.rim) object_to_rims(section, *options.rim, issues);
-  if (options.rim && bent) {
-    if (auto tight = too_tight_a_bend(options.rim->thickness, options)) issues.add({std::move(*tight)});
-  }
-  if (options.cover && !on_bends(true, "cover")) {
+  if (options.rim) on_bends(options.rim->thickness);
+  if (options.cover) {
+    on_bends(options.cover->thickness);
     issues.add(cover_problems(options));
+    const auto side = outer_side(section, 1.0);
+    if (side && !(side->top.y > 0.0))
+      issues.add("cover", "cover: it would lie on the floor",
+                 "The tops of this section are no higher than that.",
+                 "no cover, or a cross_section with sides above the floor");
     if (section.widths)
       issues.add("cover", "cover: its bolts and those of the rim do not meet beside a width that changes", "",
                  "no cover, or one width");
   }
-  if (options.liner && !on_bends(true, "liner")) object_to_tiles(section, options, issues);
+  if (options.liner) {
+    on_bends(options.liner->thickness);
+    object_to_tiles(section, options, issues);
+  }
   return std::move(issues.all);
 }
 

@@ -7,6 +7,7 @@
 #include "core/plane_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
+#include "parts/section_corners.hpp"
 #include "parts/strip_fittings.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -36,8 +37,16 @@ bool is_outer(const PlateSection& section, const SectionPlate& plate) {
 }
 
 /// What of a plate a lid may take, along its face.
-Span room_across(const PlateSection& section, const SectionPlate& plate, const PlateOptions& options) {
+/// @param edges  of the plate: where it butts against one that laps, that leans over it
+Span room_across(const PlateSection& section, const SectionPlate& plate, const CorneredPlate& edges,
+                 const PlateOptions& options) {
   Span room{0.0, norm(plate.face_to - plate.face_from)};
+  const auto leaning_over = [](const CornerEdge& edge, double sense) {
+    const double inwards = sense * edge.plain.below;  // at the plate's far face; the lid's lies as far again
+    return edge.meeting == CornerEdge::Meeting::butts && inwards > 0.0 ? 2.0 * inwards + kOffRim : 0.0;
+  };
+  room.from += leaning_over(edges.from, 1.0);
+  room.to -= leaning_over(edges.to, -1.0);
   if (!options.rim || section.ring) return room;
   const double taken = (options.rim->thickness + kOffRim) / std::fabs(plate.way().y);
   const double top = section.outside.front().y;
@@ -53,6 +62,7 @@ struct Side {
 
 std::optional<Side> side_for_openings(const PlateSection& section, const PlateOptions& options) {
   std::optional<Side> best;
+  const std::vector<CorneredPlate> edges = cornered(section, options);
   for (std::size_t i = 0; i < section.plates.size(); ++i) {
     const SectionPlate& plate = section.plates[i];
     const bool left = plate.face_from.x + plate.face_to.x > 0.0;
@@ -61,7 +71,7 @@ std::optional<Side> side_for_openings(const PlateSection& section, const PlateOp
       return i >= face.plate && i < face.plate + face.strips;
     });
     if (lined) continue;
-    const Side side{i, room_across(section, plate, options)};
+    const Side side{i, room_across(section, plate, edges[i], options)};
     if (!best || side.room.to - side.room.from > best->room.to - best->room.from + kOnSide) best = side;
   }
   return best;
@@ -86,7 +96,8 @@ std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const
                            std::vector<double> breaks) {
   const double hole = clearance_hole(window.bolt, HoleFit::coarse);
   breaks.insert(breaks.end(), {window.along.from, window.along.to});
-  const OnOneArc arcs(job.track, 0.5 * hole, heights_of(job.section, plate), breaks);
+  const Span heights = heights_of(job.section, plate);
+  const OnOneArc arcs(job.track, 0.5 * hole, heights, breaks, job.rooms_at_bends(heights));
   const double out = 0.5 * kLidLap;
   const Span within{window.lid_along.from + 0.75 * hole, window.lid_along.to - 0.75 * hole};
   std::vector<double> places;
@@ -99,6 +110,25 @@ std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const
     for (const double s : places) bolts.push_back({s, y});
   }
   return bolts;
+}
+
+/// The place nearest to one at which an opening in a bent side, and its lid, begin and end off its bends: those may go across it.
+std::optional<double> off_bends(const StripJob& job, const SectionPlate& plate,
+                                const InspectionOptions& opening, const Span& within) {
+  const Span heights = heights_of(job.section, plate);
+  const OnOneArc ends(job.track, kOffJointOfOpening, heights, {}, job.rooms_at_bends(heights));
+  const double half = 0.5 * opening.length;
+  constexpr double kStep = 0.5e-3;  // [m]
+  const double most = half + kLidLap;
+  for (double off = 0.0; off <= most; off += kStep) {
+    for (const double at : {opening.at - off, opening.at + off}) {
+      if (at < within.from || at > within.to) continue;
+      const bool clear = ends.has(at - half) && ends.has(at + half) && ends.has(at - half - kLidLap) &&
+                         ends.has(at + half + kLidLap);
+      if (clear) return at;
+    }
+  }
+  return std::nullopt;
 }
 
 StripWindow window_at(const Side& side, const InspectionOptions& opening, double at) {
@@ -141,14 +171,18 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
     const OnOneArc arcs(job.track, 0.5 * opening.length + kOffJointOfOpening, heights_of(job.section, plate));
     const Span within{room.from + reach, room.to - reach};
     // Of a span that is none no place lies in it.
-    const std::optional<double> at = arcs.nearest(opening.at, within);
-    const std::string where = "at: an opening at " + length_text(opening.at, 4);
+    const std::optional<double> at =
+        job.bent() ? off_bends(job, plate, opening, within) : arcs.nearest(opening.at, within);
+    const std::string where = "at: an opening at " + length_text(job.on_track(opening.at), 4);
     if (!at) {
-      refuse(where + " finds no place in its unit",
-             "Units end at " + length_text(unit.from, 4) + " and " + length_text(unit.to, 4) + "; it is " +
-                 length_text(opening.length) + " long, its lid " + length_text(2.0 * reach) +
-                 ", and lies on one arc of the " + plate.name + ".",
-             "another at, or a smaller length");
+      refuse(
+          where + " finds no place in its unit",
+          "Units end at " + length_text(job.on_track(unit.from), 4) + " and " +
+              length_text(job.on_track(unit.to), 4) + "; it is " + length_text(opening.length) +
+              " long, its lid " + length_text(2.0 * reach) +
+              (job.bent() ? ", and their ends lie off the bends of the " : ", and lies on one arc of the ") +
+              plate.name + ".",
+          "another at, or a smaller length");
     }
     // It may not be moved out of reach of what it is there for.
     if (std::fabs(*at - opening.at) > 0.5 * opening.length + kLidLap) {
@@ -168,7 +202,7 @@ void require_openings_on_track(const StripJob& job) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!(all[i].at > 0.0 && all[i].at < job.track.length())) {
       refuse("at: an opening at " + length_text(all[i].at, 4) + " is not on the track",
-             "It is " + length_text(job.track.length(), 4) + " long.",
+             "It is " + length_text(job.on_track(job.track.length()), 4) + " long.",
              "at: " + length_text(0.5 * job.track.length(), 2));
     }
     for (std::size_t k = 0; k < i; ++k) {
@@ -176,8 +210,8 @@ void require_openings_on_track(const StripJob& job) {
       const double apart = std::fabs(all[i].at - all[k].at);
       const double least = 2.0 * (0.5 * (all[i].length + all[k].length) + 2.0 * kLidLap);
       if (apart >= least) continue;
-      refuse("at: openings at " + length_text(all[k].at, 4) + " and " + length_text(all[i].at, 4) +
-                 " are too close",
+      refuse("at: openings at " + length_text(job.on_track(all[k].at), 4) + " and " +
+                 length_text(job.on_track(all[i].at), 4) + " are too close",
              "With room to find one arc each they take " + length_text(least) + ".", "one of them");
     }
   }
@@ -197,8 +231,10 @@ void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows
     const double at = 0.5 * (window.along.from + window.along.to);
     constexpr double kTold = 0.5e-3;  // [m]
     if (std::fabs(at - window.asked) < kTold) continue;
-    workshop.notes.push_back("The opening that is asked for at " + length_text(window.asked, 4) +
-                             " along the track is at " + length_text(at, 4) + ", on one arc of its plate.");
+    workshop.notes.push_back(
+        "The opening that is asked for at " + length_text(job.on_track(window.asked), 4) +
+        " along the track is at " + length_text(job.on_track(at), 4) +
+        (job.bent() ? ", its ends off the bends of its plate." : ", on one arc of its plate."));
   }
 }
 
@@ -208,10 +244,6 @@ std::vector<Issue> strip_opening_problems(const PlateSection& section, const Pla
   const auto add = [&](std::string what, std::string why, std::string hint) {
     issues.push_back({"inspection", "inspection: " + what, std::move(why), std::move(hint)});
   };
-  if (options.floor == FloorMake::bent) {
-    add("bends would run into openings of sides that are bent", "", "floor: rolled");
-    return issues;
-  }
   if (section.widths) {
     add("sides beside a width that changes have no openings", "They lean, each ruling otherwise.",
         "one width");

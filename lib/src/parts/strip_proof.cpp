@@ -128,7 +128,8 @@ Wanted wanted_of(const BentStrips& bent, const std::vector<Strip>& strips) {
   for (const Strip& strip : strips) {
     const BentStrips::Expected expected = bent.expected(strip);
     wanted.volume += expected.volume;
-    wanted.edge_mismatch = std::max({wanted.edge_mismatch, std::fabs(expected.edge_from - strip.edge_from),
+    wanted.edge_mismatch = std::max({wanted.edge_mismatch, strip.edge_mismatch.value_or(0.0),
+                                     std::fabs(expected.edge_from - strip.edge_from),
                                      std::fabs(expected.edge_to - strip.edge_to)});
   }
   return wanted;
@@ -156,7 +157,8 @@ double exact_volume(const StripJob& job, const std::optional<BentStrips>& bent,
 double volume_along(const StripJob& job, Vec2 section, const Span& span) {
   double volume = 0.0;
   for (const StripArc& one : job.arcs_in(span))
-    volume += one.arc.length * (section.x - one.arc.curvature * section.y);
+    volume += one.arc.length * (section.x - one.arc.curvature * section.y) -
+              (one.mitre_from + one.mitre_to) * section.y;
   return volume;
 }
 

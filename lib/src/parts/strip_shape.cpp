@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/flats_line.hpp"
 #include "parts/plate_unit.hpp"
 
 #include <algorithm>
@@ -103,6 +104,49 @@ StripJob::StripJob(const ArcSpline& on, const PlateSection& of, const PlateOptio
        "a smaller change, or one where the track bends less"});
 }
 
+StripJob::StripJob(const FlatsLine& flats, const PlateSection& of, const PlateOptions& with,
+                   const Placement& where)
+    : track(flats.line()), section(of), options(with), placement(where), flats_(&flats) {
+  for (const TrackArc& arc : track.arcs()) {
+    StripArc one{arc, 0.0, 0.0, 0.0, 0.0};
+    if (!arcs_.empty()) {
+      const double half = 0.5 * (arcs_.back().arc.slope_angle - arc.slope_angle);
+      constexpr double kStraight = 1e-9;  // [rad]
+      one.mitre_from = std::fabs(half) < kStraight ? 0.0 : math::tan(half);
+      arcs_.back().mitre_to = one.mitre_from;
+    }
+    arcs_.push_back(one);
+  }
+}
+
+double StripJob::on_track(double place) const {
+  return flats_ == nullptr ? place : flats_->on_track(place);
+}
+
+std::vector<double> StripJob::rooms_at_bends(const Span& heights) const {
+  if (flats_ == nullptr) return {};
+  constexpr double kOffBend = 2.0;  // thicknesses from where a bend begins
+  const double t = section.thickness;
+  const double radius = inner_radius_of(*this, t);
+  std::vector<double> rooms;
+  const auto add = [&](double mitre) {
+    const double mitred = std::max({0.0, mitre * heights.from, mitre * heights.to});
+    rooms.push_back(mitre == 0.0 ? 0.0 : mitred + (radius + t) * std::fabs(mitre) + kOffBend * t);
+  };
+  for (const StripArc& one : arcs_) add(one.mitre_from);
+  add(0.0);
+  return rooms;
+}
+
+double StripJob::off_bends(double place, double sense, const Span& heights) const {
+  const std::vector<double> rooms = rooms_at_bends(heights);
+  for (std::size_t k = 1; k + 1 < rooms.size(); ++k) {
+    const std::size_t i = sense > 0.0 ? k : rooms.size() - 1 - k;
+    if (std::fabs(place - arcs_[i].arc.start) < rooms[i]) place = arcs_[i].arc.start + sense * rooms[i];
+  }
+  return place;
+}
+
 std::vector<StripArc> StripJob::arcs_in(const Span& span) const {
   std::vector<StripArc> found;
   for (const StripArc& whole : arcs_) {
@@ -117,6 +161,9 @@ std::vector<StripArc> StripJob::arcs_in(const Span& span) const {
     one.wide_to = between(whole.wide_from, whole.wide_to, to);
     one.lean_from = between(whole.lean_from, whole.lean_to, from);
     one.lean_to = between(whole.lean_from, whole.lean_to, to);
+    constexpr double kOnJoint = 1e-9;  // [m]
+    if (from > whole.arc.start + kOnJoint) one.mitre_from = 0.0;
+    if (to < whole.arc.start + whole.arc.length - kOnJoint) one.mitre_to = 0.0;
     one.arc.start = from;
     one.arc.length = to - from;
     found.push_back(one);
@@ -346,13 +393,24 @@ bool folds_over(const TrackArc& arc, const SectionPlate& plate) {
          -arc.curvature * -lowest_of(plate) * kRoomAtFold > 1.0;
 }
 
+/// Of a flat between two bends.
+bool folds_over(const StripArc& flat, const SectionPlate& plate) {
+  const double both = flat.mitre_from + flat.mitre_to;
+  return flat.arc.length < kRoomAtFold * std::max(both * highest_of(plate), both * lowest_of(plate));
+}
+
 }  // namespace
 
 Span unfolded(const StripJob& job, const SectionPlate& plate) {
-  const std::vector<TrackArc>& arcs = job.track.arcs();
   Span span{0.0, job.track.length()};
-  for (const TrackArc& arc : arcs) {
-    if (!folds_over(arc, plate)) continue;
+  std::vector<StripArc> arcs;
+  if (job.bent())
+    arcs = job.arcs_in(span);
+  else
+    for (const TrackArc& arc : job.track.arcs()) arcs.push_back({arc, 0.0, 0.0, 0.0, 0.0});
+  for (const StripArc& one : arcs) {
+    const TrackArc& arc = one.arc;
+    if (job.bent() ? !folds_over(one, plate) : !folds_over(arc, plate)) continue;
     const double end = arc.start + arc.length;
     if (end <= kMostCutOff * job.track.length()) {
       span.from = std::max(span.from, end);
@@ -362,14 +420,17 @@ Span unfolded(const StripJob& job, const SectionPlate& plate) {
       span.to = std::min(span.to, arc.start);
       continue;
     }
-    const double radius = 1.0 / std::fabs(arc.curvature);
-    throw InputError(
-        {"cross_section",
-         "the " + plate.name + " folds over at " + length_text(arc.start, 3) + " along the track",
-         "It is " + length_text(std::max(highest_of(plate), -lowest_of(plate)), 3) +
-             " high above the floor line, the radius there " + length_text(radius, 3) + ".",
-         "a section of at most " + length_text(radius / kRoomAtFold, 3) +
-             ", or a limit smallest_valley_radius above it"});
+    const double radius =
+        job.bent() ? arc.length / std::fabs(one.mitre_from + one.mitre_to) : 1.0 / std::fabs(arc.curvature);
+    throw InputError({"cross_section",
+                      "the " + plate.name + " folds over at " + length_text(job.on_track(arc.start), 3) +
+                          " along the track",
+                      "It is " + length_text(std::max(highest_of(plate), -lowest_of(plate)), 3) +
+                          " high above the floor line, " +
+                          (job.bent() ? "a flat there " + length_text(arc.length, 3) + " long."
+                                      : "the radius there " + length_text(radius, 3) + "."),
+                      "a section of at most " + length_text(radius / kRoomAtFold, 3) +
+                          ", or a limit smallest_valley_radius above it"});
   }
   return span;
 }

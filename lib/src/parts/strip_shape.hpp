@@ -17,10 +17,15 @@ struct StripArc {
   double wide_to = 0.0;
   double lean_from = 0.0;  ///< by how much it leans out more, across per height [-]
   double lean_to = 0.0;
+  /// Of a flat: by how much it is shorter per height at both ends, where it meets another one at a bend.
+  double mitre_from = 0.0;
+  double mitre_to = 0.0;
 
   /// Of the foot of a wall, out per length of track.
   [[nodiscard]] double taper() const { return (wide_to - wide_from) / arc.length; }
 };
+
+class FlatsLine;
 
 /// Everything that the strips of one section are made from.
 ///
@@ -33,12 +38,22 @@ class StripJob {
   /// @throws InputError where a width makes walls lean or taper more than they may: the place, the bound, a way out
   StripJob(const ArcSpline& track, const PlateSection& section, const PlateOptions& options,
            const Placement& placement);
+  /// Along the flats of a bent job, of one width: their line stands for the track, and its places for those on the track.
+  StripJob(const FlatsLine& flats, const PlateSection& section, const PlateOptions& options,
+           const Placement& placement);
 
   const ArcSpline& track;
   const PlateSection& section;
   const PlateOptions& options;
   const Placement& placement;
 
+  [[nodiscard]] bool bent() const { return flats_ != nullptr; }
+  /// @return the place on the track of one along `track`
+  [[nodiscard]] double on_track(double place) const;
+  /// @return what things at these heights leave of either side of each joint of the line's flats, off its bend; nothing of a track
+  [[nodiscard]] std::vector<double> rooms_at_bends(const Span& heights) const;
+  /// @return a place, moved on by sense (+1 downstream) until it is off all bends
+  [[nodiscard]] double off_bends(double place, double sense, const Span& heights) const;
   [[nodiscard]] bool widens() const { return section.widths.has_value(); }
   /// @return arcs of the track within a span, cut where the width begins or ends to change and where they turn far
   [[nodiscard]] std::vector<StripArc> arcs_in(const Span& span) const;
@@ -53,6 +68,7 @@ class StripJob {
   [[nodiscard]] double most_taper() const { return most_taper_; }
 
  private:
+  const FlatsLine* flats_ = nullptr;
   std::vector<StripArc> arcs_;
   double most_lean_ = 0.0;
   double most_taper_ = 0.0;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace glissade::parts {
@@ -23,12 +24,21 @@ double sine_over(double half) {
 
 }  // namespace
 
-StripFlat::StripFlat(const StripJob& job, const SectionPlate& plate, const Span& span) {
+StripFlat::StripFlat(const StripJob& job, const SectionPlate& plate, const Span& span, double thickness)
+    : bent_(job.bent()) {
   const Vec2 way = plate.way();
   rise_ = way.y;
   const Vec2 back{-way.y, way.x};
   foot_ = plate.face_from.y + 0.5 * dot(back, plate.back_from - plate.face_from) * back.y;
-  for (const StripArc& one : job.arcs_in(span)) arcs_.push_back(one.arc);
+  for (const StripArc& one : job.arcs_in(span)) {
+    arcs_.push_back(one.arc);
+    mitres_.push_back(one.mitre_from);
+  }
+  mitres_.push_back(job.arcs_in(span).back().mitre_to);
+  if (bent_) {
+    fold(job, plate, thickness);
+    return;
+  }
   Vec2 at;
   double heading = 0.0;
   for (const TrackArc& arc : arcs_) {
@@ -43,7 +53,70 @@ StripFlat::StripFlat(const StripJob& job, const SectionPlate& plate, const Span&
   }
 }
 
+void StripFlat::fold(const StripJob& job, const SectionPlate& plate, double thickness) {
+  const Vec2 way = plate.way();
+  bends_.resize(arcs_.size());
+  double tightest = std::numeric_limits<double>::infinity();
+  const auto run = [&](std::size_t i) {
+    return arcs_[i].length - plate.middle_to().y * (mitres_[i] + mitres_[i + 1]);
+  };
+  for (std::size_t i = 1; i < arcs_.size(); ++i) {
+    // A leaning side is bent by what its lean leaves of the line's bend.
+    const double sine = std::fabs(way.x) * mitres_[i] / math::hypot(1.0, mitres_[i]);
+    bends_[i].angle = (way.x > 0.0 ? -2.0 : 2.0) * math::asin(sine);
+    if (bends_[i].angle != 0.0)
+      tightest = std::min(tightest, 0.5 * (run(i) + run(i - 1)) / std::fabs(bends_[i].angle));
+  }
+  for (FlatBend& bend : bends_) {
+    if (!(tightest < kElasticBend * thickness) || std::fabs(bend.angle) <= kNoBend) continue;
+    bend.pressed = true;
+    bend.cut = bend_cut(job, thickness, std::fabs(bend.angle));
+  }
+  Vec2 at;
+  double heading = 0.0;
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    if (i > 0) {
+      // Both flats share the line of their bend; it turns the lines along the plate.
+      const double slant = rise_ * mitres_[i];
+      const auto [sine, cosine] = math::sine_cosine(heading);
+      const Vec2 along{cosine, sine};
+      const Vec2 square = (1.0 / math::hypot(1.0, slant)) * (along - slant * Vec2{-sine, cosine});
+      const Vec2 corner = at + (arcs_[i - 1].length - foot_ * mitres_[i]) * along - bends_[i].cut * square;
+      heading -= 2.0 * math::atan(slant);
+      const auto [next_sine, next_cosine] = math::sine_cosine(heading);
+      at = corner - foot_ * mitres_[i] * Vec2{next_cosine, next_sine};
+    }
+    starts_.push_back(at);
+    headings_.push_back(heading);
+  }
+}
+
+Span StripFlat::reach(std::size_t i, double y) const {
+  const auto taken = [&](std::size_t k) {
+    const double cut = k < bends_.size() ? bends_[k].cut : 0.0;
+    return height(y) * mitres_[k] + 0.5 * cut * math::hypot(1.0, rise_ * mitres_[k]);
+  };
+  return {taken(i), arcs_[i].length - taken(i + 1)};
+}
+
+Vec2 StripFlat::on_flat(std::size_t i, double along, double y) const {
+  const auto [sine, cosine] = math::sine_cosine(headings_[i]);
+  return starts_[i] + along * Vec2{cosine, sine} - y * Vec2{-sine, cosine};
+}
+
+Vec2 StripFlat::at_bends(double s, double y) const {
+  constexpr double kOnBend = 1e-9;  // [m]
+  std::size_t i = 0;
+  while (i + 1 < arcs_.size() && s > arcs_[i].start + arcs_[i].length + kOnBend) ++i;
+  const double along = s - arcs_[i].start;
+  // Ends of the plate lean as their planes do.
+  if (along < kOnBend) return on_flat(i, reach(i, y).from, y);
+  if (along > arcs_[i].length - kOnBend) return on_flat(i, reach(i, y).to, y);
+  return on_flat(i, along, y);
+}
+
 Vec2 StripFlat::at(double s, double y) const {
+  if (bent_) return at_bends(s, y);
   std::size_t i = 0;
   while (i + 1 < arcs_.size() && s > arcs_[i].start + arcs_[i].length) ++i;
   const TrackArc& arc = arcs_[i];
@@ -76,9 +149,18 @@ void StripFlat::append_edge(double from, double to, double y, ArcPath& path) con
 
 double StripFlat::finished_length(double from, double to, double y) const {
   double sum = 0.0;
-  for (const TrackArc& arc : arcs_) {
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const TrackArc& arc = arcs_[i];
     const double low = std::max(std::min(from, to), arc.start);
     const double high = std::min(std::max(from, to), arc.start + arc.length);
+    if (bent_) {
+      constexpr double kOnBend = 1e-9;  // [m]
+      if (!(high - low > kOnBend)) continue;
+      const Span whole = reach(i, y);
+      sum += (high > arc.start + arc.length - kOnBend ? whole.to : high - arc.start) -
+             (low < arc.start + kOnBend ? whole.from : low - arc.start);
+      continue;
+    }
     if (high > low) sum += (high - low) * (1.0 - arc.curvature * height(y));
   }
   return sum;
@@ -186,6 +268,49 @@ ArcPath flat_loop(const StripFlat& flat, const RolledSheet& sheet, const Span& s
   return path;
 }
 
+/// The line of flats within a span, and how the planes of its ends lean.
+ArcPath path_of_flats(const StripJob& job, const Span& span, std::array<double, 2>& tilts) {
+  ArcPath path;
+  const std::vector<StripArc> flats = job.arcs_in(span);
+  for (const StripArc& flat : flats) path.vertices.push_back({frame_at(job.track, flat.arc.start).at, 0.0});
+  path.vertices.push_back({frame_at(job.track, span.to).at, 0.0});
+  tilts = {flats.front().mitre_from, flats.back().mitre_to};
+  return path;
+}
+
+/// Stretches of a sheet across a place along its path, ascending.
+std::vector<Span> across_at(const PlaneRegion& region, double x) {
+  std::vector<double> edges;
+  const auto see = [&](const ArcPath& loop) {
+    for (const PathPiece& edge : pieces_of(loop)) {
+      if (std::min(edge.from.x, edge.to.x) < x && x < std::max(edge.from.x, edge.to.x))
+        edges.push_back(edge.from.y);
+    }
+  };
+  see(region.outline);
+  for (const ArcPath& cutout : region.cutouts) see(cutout);
+  std::sort(edges.begin(), edges.end());
+  std::vector<Span> stretches;
+  for (std::size_t k = 0; k + 1 < edges.size(); k += 2) stretches.push_back({edges[k], edges[k + 1]});
+  return stretches;
+}
+
+/// The lines of bends on the pattern, parted where the sheet is.
+void add_bends(const StripJob& job, const StripFlat& flat, const RolledSheet& sheet, const SheetCut& cut,
+               FlatPattern& pattern) {
+  for (std::size_t i = 1; i < flat.bends().size(); ++i) {
+    const FlatBend& bend = flat.bends()[i];
+    if (!bend.pressed) continue;
+    const double s = flat.arcs()[i].start;
+    const auto on_pattern = [&](double y) { return flat.at(s, y + 0.5 * bevel_at(sheet, y)); };
+    for (const Span& stretch : across_at(sheet.region, s - cut.span.from)) {
+      pattern.bends.push_back({on_pattern(stretch.to), on_pattern(stretch.from),
+                               Angle::from_radians(std::fabs(bend.angle)),
+                               inner_radius_of(job, cut.thickness), bend.angle > 0.0});
+    }
+  }
+}
+
 }  // namespace
 
 ShopPart sheet_part(const StripJob& job, const SheetCut& cut, const std::vector<double>& radii,
@@ -194,7 +319,8 @@ ShopPart sheet_part(const StripJob& job, const SheetCut& cut, const std::vector<
   const Vec2 way = plate.way();
   const double middle = 0.5 * (plate.face_from.x + plate.face_to.x);
   RolledSheet sheet;
-  sheet.path = *offset_line(job.track, cut.span, 0.0);
+  sheet.path =
+      job.bent() ? path_of_flats(job, cut.span, sheet.tilts) : *offset_line(job.track, cut.span, 0.0);
   const Vec2 origin = sheet.path.vertices.front().at;
   for (PathVertex& vertex : sheet.path.vertices) vertex.at = vertex.at - origin;
   sheet.thickness = cut.thickness;
@@ -203,7 +329,7 @@ ShopPart sheet_part(const StripJob& job, const SheetCut& cut, const std::vector<
   sheet.across = {way.y, -way.x};
   sheet.bevels = bevels_of(cut);
 
-  const StripFlat flat(job, plate, cut.span);
+  const StripFlat flat(job, plate, cut.span, cut.thickness);
   FlatPattern pattern;
   pattern.region.outline = flat_loop(flat, sheet, cut.span, sheet.region.outline, edge_mismatch);
   for (const ArcPath& cutout : sheet.region.cutouts)
@@ -216,11 +342,16 @@ ShopPart sheet_part(const StripJob& job, const SheetCut& cut, const std::vector<
     const double s = flat.arcs()[i].start;
     pattern.rolls.push_back({flat.at(s, high), flat.at(s, low), radii[i]});
   }
+  add_bends(job, flat, sheet, cut, pattern);
   const PlaneMotion motion = into(own_plane(pattern.region.outline));
   pattern.region = moved(pattern.region, motion);
   for (RollLine& roll : pattern.rolls) {
     roll.from = motion(roll.from);
     roll.to = motion(roll.to);
+  }
+  for (BendLine& bend : pattern.bends) {
+    bend.from = motion(bend.from);
+    bend.to = motion(bend.to);
   }
   set_number_place(pattern, bounds(pattern.region.outline));
 

@@ -10,11 +10,19 @@
 
 namespace glissade::parts {
 
+/// What a bend of the line makes of a plate.
+struct FlatBend {
+  double angle = 0.0;  ///< positive towards the face [rad]
+  double cut = 0.0;    ///< bend_cut()
+  bool pressed = false;
+};
+
 /// A plate of a section of one width along a stretch of track, on the flat. Places are (arc length of the track, y along the
 /// plate's face from `face_from`) and lie in the middle of the thickness.
 class StripFlat {
  public:
-  StripFlat(const StripJob& job, const SectionPlate& plate, const Span& span);
+  /// @param thickness  of the plate: bends take of it
+  StripFlat(const StripJob& job, const SectionPlate& plate, const Span& span, double thickness);
 
   [[nodiscard]] Vec2 at(double s, double y) const;
   /// Adds the corners of an edge along the plate, but for its last one.
@@ -23,12 +31,22 @@ class StripFlat {
   [[nodiscard]] double finished_length(double from, double to, double y) const;
   /// @return where arcs begin [m]
   [[nodiscard]] const std::vector<TrackArc>& arcs() const { return arcs_; }
+  /// @return of a bent plate, one where each arc begins; none of a rolled one
+  [[nodiscard]] const std::vector<FlatBend>& bends() const { return bends_; }
 
  private:
-  [[nodiscard]] double heading(double s) const;
   [[nodiscard]] double height(double y) const { return foot_ + rise_ * y; }
+  /// A place on a flat, the distance from where it begins told; on a bend it lies on the bend's line.
+  [[nodiscard]] Vec2 on_flat(std::size_t i, double along, double y) const;
+  /// @return from where to where a flat reaches on the pattern, along an edge
+  [[nodiscard]] Span reach(std::size_t i, double y) const;
+  [[nodiscard]] Vec2 at_bends(double s, double y) const;
+  void fold(const StripJob& job, const SectionPlate& plate, double thickness);
 
   std::vector<TrackArc> arcs_;
+  std::vector<double> mitres_;   ///< of bent plates, where arcs begin and at the end
+  std::vector<FlatBend> bends_;  ///< at the same places
+  bool bent_ = false;
   std::vector<Vec2> starts_;  ///< of arcs, at y = 0
   std::vector<double> headings_;
   double foot_ = 0.0;  ///< height at y = 0, in the middle of the thickness

@@ -68,7 +68,7 @@ SectionOutside outside_of(const PlateSection& section, const PlateOptions& optio
   return outside;
 }
 
-Shell strip_shell(const StripJob& job, const std::optional<BentStrips>& bent,
+Shell strip_shell(const StripJob& job, const std::optional<BentStrips>& bent, const FlatsJob* flats,
                   const std::vector<double>& joints, const std::vector<UnitWork>& works, Workshop& workshop,
                   TakenUp& taken) {
   Shell shell = empty_shell(job.track, job.options, job.placement, joints, workshop, taken);
@@ -95,11 +95,14 @@ Shell strip_shell(const StripJob& job, const std::optional<BentStrips>& bent,
   }
   take_frames(shell);
   constexpr double kBoltHead = 15e-3;  // round a bolt of the liner [m]
+  const auto take = [&](double from, double to) {
+    taken.add(flats ? flats->flats().on_track(from) : from, flats ? flats->flats().on_track(to) : to);
+  };
   for (const UnitWork& work : works) {
     for (const TilePlace& tile : work.tiles) {
-      for (const double s : tile.along) taken.add(s - kBoltHead, s + kBoltHead);
+      for (const double s : tile.along) take(s - kBoltHead, s + kBoltHead);
     }
-    for (const StripWindow& window : work.windows) taken.add(window.lid_along.from, window.lid_along.to);
+    for (const StripWindow& window : work.windows) take(window.lid_along.from, window.lid_along.to);
   }
   return shell;
 }
@@ -157,6 +160,9 @@ std::vector<Issue> strip_shell_problems(const PlateSection& section, const Plate
   const char* const round = "They stand along its outside, from top to top.";
   refuse(options.stiffeners && !section.convex, "stiffeners", hollow, round, "another outline, or none");
   refuse(options.lifting && !section.convex, "lifting", hollow, round, "another outline, or none");
+  const bool laps_round = section.ring && !outside_of(section, options).laps.empty();
+  refuse(options.lifting && laps_round, "lifting", "plates that lap all round the section stand in its way",
+         "It is welded to their outside from where that faces half upwards.", "corners: butt, or none");
   if (options.stiffeners && !bent_widths && section.convex &&
       !round_laps(outside_of(section, options), options.flanges.gap)) {
     issues.push_back({"stiffeners", "stiffeners: laps of this section leave them no way round",

@@ -2,6 +2,7 @@
 
 #include "glissade/section/measures.hpp"
 
+#include "parts/flats_line.hpp"
 #include "parts/shell.hpp"
 #include "parts/strip_works.hpp"
 
@@ -15,10 +16,11 @@ namespace glissade::parts {
 
 /// Strips as what stiffeners, lugs and trestles are set on.
 /// @param bent   none: they are rolled
-/// @param works  of rolled ones
+/// @param flats  along whose line the works of bent ones are; none: they have none
+/// @param works  of rolled ones along the track
 [[nodiscard]] Shell strip_shell(const StripJob& job, const std::optional<BentStrips>& bent,
-                                const std::vector<double>& joints, const std::vector<UnitWork>& works,
-                                Workshop& workshop, TakenUp& taken);
+                                const FlatsJob* flats, const std::vector<double>& joints,
+                                const std::vector<UnitWork>& works, Workshop& workshop, TakenUp& taken);
 
 /// Mitred tubes, or the troughs of half a pipe, as what they are set on.
 /// @param side    of half a pipe: height of its upright sides above the axis [m]

@@ -85,12 +85,23 @@ Span all_unfolded(const StripJob& job) {
 
 namespace {
 
+/// Heights between which laps, tabs and slots lie, at the most.
+Span lap_heights(const StripJob& job) {
+  const double out = job.options.corners.overlap + 2.0 * job.section.thickness;
+  return {job.section.lowest - out, job.section.highest + out};
+}
+
 /// What frames leave of a unit to laps: their ends off the joints of arcs.
 Span laps_of(const StripJob& job, const Span& unit) {
   const Span all = all_unfolded(job);
   Span laps{std::max(unit.from, all.from), std::min(unit.to, all.to)};
   if (!job.options.flanges.wanted || !job.section.convex) return laps;
   const double end = job.options.flanges.thickness + kLapAside;
+  if (job.bent()) {
+    const Span heights = lap_heights(job);
+    return {job.off_bends(std::max(laps.from, unit.from + end), 1.0, heights),
+            job.off_bends(std::min(laps.to, unit.to - end), -1.0, heights)};
+  }
   const auto off_joints = [&](double place, double sense) {
     for (const TrackArc& arc : job.track.arcs()) {
       if (std::fabs(place - arc.start) < kOffJoint) return arc.start + sense * kOffJoint;
@@ -106,7 +117,7 @@ std::vector<Span> tabs_of(const StripJob& job, const Span& laps, std::size_t num
   const CornerOptions& corners = job.options.corners;
   const double half = 0.5 * corners.tab;
   const Span within{laps.from + kOffFrame + half, laps.to - kOffFrame - half};
-  const OnOneArc arcs(job.track, half + slack_of(job), {0.0, 0.0});
+  const OnOneArc arcs(job.track, half + slack_of(job), {0.0, 0.0}, {}, job.rooms_at_bends(lap_heights(job)));
   const double count = std::max(1.0, std::ceil((within.to - within.from) / corners.spacing - 1e-9));
   const double step = (within.to - within.from) / count;
   std::vector<Span> tabs;
@@ -154,12 +165,9 @@ UnitWork work_of(const StripJob& job, const Span& unit, std::size_t number, int&
 }
 
 /// A strip with laps, tabs, slots or holes.
-Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, const CorneredPlate& edges,
-                   const UnitWork& work) {
+SheetCut worked_cut(const StripJob& job, std::size_t index, const Span& span, const CorneredPlate& edges,
+                    const UnitWork& work) {
   const SectionPlate& plate = job.section.plates[index];
-  Strip strip;
-  strip.plate = index;
-  strip.span = span;
   SheetCut cut = plain_cut(plate, job.section.thickness, span, job.options.material);
   cut.edges = edges;
   cut.laps = {std::max(work.laps.from, span.from), std::min(work.laps.to, span.to)};
@@ -169,6 +177,16 @@ Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, con
   for (const StripWindow& window : work.windows) {
     if (window.plate == index) cut.openings.push_back({window.along, window.across});
   }
+  return cut;
+}
+
+Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, const CorneredPlate& edges,
+                   const UnitWork& work) {
+  const SectionPlate& plate = job.section.plates[index];
+  Strip strip;
+  strip.plate = index;
+  strip.span = span;
+  const SheetCut cut = worked_cut(job, index, span, edges, work);
   double mismatch = 0.0;
   strip.part = sheet_part(job, cut, rolled_radii(job, plate, span, strip.steps), mismatch);
   strip.edge_mismatch = mismatch;
@@ -233,6 +251,25 @@ std::vector<Strip> strips_between(const StripJob& job, const std::vector<double>
     }
   }
   return strips;
+}
+
+void work_bent(const StripJob& on_flats, const std::vector<Span>& spans, const std::vector<double>& joints,
+               const std::vector<UnitWork>& works, std::vector<Strip>& strips) {
+  const std::vector<CorneredPlate> edges = cornered(on_flats.section, on_flats.options);
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    Strip& strip = strips[i];
+    const auto unit = static_cast<std::size_t>(
+        std::upper_bound(joints.begin(), joints.end() - 1, spans[i].from) - joints.begin() - 1);
+    const std::size_t p = strip.plate;
+    const bool meets = edges[p].from.meeting != CornerEdge::Meeting::mitre ||
+                       edges[p].to.meeting != CornerEdge::Meeting::mitre;
+    if (!meets && works[unit].holes[p].empty()) continue;
+    double mismatch = 0.0;
+    std::string name = std::move(strip.part.name);
+    strip.part = sheet_part(on_flats, worked_cut(on_flats, p, spans[i], edges[p], works[unit]), {}, mismatch);
+    strip.part.name = std::move(name);
+    strip.edge_mismatch = mismatch;
+  }
 }
 
 void measure_tabs(const StripJob& job, const std::vector<double>& joints, const std::vector<UnitWork>& works,

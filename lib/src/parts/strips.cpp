@@ -8,6 +8,7 @@
 #include "core/plane_geometry.hpp"
 #include "parts/as_built.hpp"
 #include "parts/bent_strips.hpp"
+#include "parts/flats_line.hpp"
 #include "parts/joint_steps.hpp"
 #include "parts/plate_checks.hpp"
 #include "parts/plate_facts.hpp"
@@ -66,28 +67,65 @@ AsBuiltRide ride_rolled(const StripJob& job, const std::vector<double>& joints, 
   return ride_units(lines, job.options.joint_step, design, body, gravity);
 }
 
+/// Strips of a bent job, as they lie along the line of its flats.
+std::vector<Strip> on_line(const FlatsJob& flats, std::vector<Strip> strips) {
+  for (Strip& strip : strips)
+    strip.span = {flats.flats().on_line(strip.span.from), flats.flats().on_line(strip.span.to)};
+  return strips;
+}
+
+/// Plates of a bent job get their laps, tabs, slots, holes and openings.
+void work_bent(const FlatsJob& flats, const std::vector<UnitWork>& works, std::vector<Strip>& strips) {
+  std::vector<Span> spans;
+  for (const Strip& strip : on_line(flats, strips)) spans.push_back(strip.span);
+  work_bent(flats.job(), spans, flats.joints(), works, strips);
+}
+
+/// The largest bend that costs no more than is allowed.
+double kink_of(const StripJob& job, const Body& body, double gravity, double exit_speed) {
+  return kink_for_speed(
+      job.track, job.options.bend,
+      [&](double largest) {
+        return bent_flats(job, {0.0, job.track.length()}, largest);
+      },
+      body, gravity, exit_speed);
+}
+
+/// By what works make strips differ from mitred ones.
+/// @param flats  of bent ones with works
+std::vector<VolumeDifference> cut_from(const StripJob& job, bool bent, const FlatsJob* flats,
+                                       const std::vector<Strip>& strips, const std::vector<double>& joints,
+                                       const std::vector<UnitWork>& works) {
+  if (flats != nullptr) return cut_differences(flats->job(), on_line(*flats, strips), flats->joints(), works);
+  return bent ? std::vector<VolumeDifference>() : cut_differences(job, strips, joints, works);
+}
+
 /// Frames, rims, covers, liner, stiffeners, lugs and trestles, each with room for those before.
-void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent,
+/// @param flats  of bent plates with works: along its line
+void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent, const FlatsJob* flats,
                    const std::vector<double>& joints, const std::vector<Strip>& strips,
                    const std::vector<UnitWork>& works, Workshop& workshop) {
   PlateOptions framed = job.options;
   // Frames know how bent plates lean beside a width that changes.
   if (!bent || !job.widens()) framed.flanges = frames_that_clear(job, joints, strips);
   add_strip_frames({job.track, job.section, framed, job.placement}, bent, joints, workshop);
-  if (bent)
+  const StripJob& along = flats != nullptr ? flats->job() : job;
+  const std::vector<double>& ends = flats != nullptr ? flats->joints() : joints;
+  if (bent && !job.options.cover)
     measure_bends(add_bent_rims(job, *bent, workshop), job.options, workshop);
   else
-    add_strip_rims(job, joints, workshop);
-  add_strip_covers(job, joints, workshop);
+    add_strip_rims(along, ends, workshop);
+  add_strip_covers(along, ends, workshop);
   if (job.options.liner) {
     std::vector<TilePlace> tiles;
     for (const UnitWork& work : works) tiles.insert(tiles.end(), work.tiles.begin(), work.tiles.end());
-    add_strip_liner(job, tiles, workshop);
+    add_strip_liner(along, tiles, workshop);
   }
-  for (const UnitWork& work : works) add_strip_lids(job, work.windows, workshop);
+  for (const UnitWork& work : works) add_strip_lids(along, work.windows, workshop);
+  if (flats != nullptr) schedule_bends(*flats, workshop);
   workshop.setting_out = setting_out(job.track, joints, job.placement);
   TakenUp taken;
-  const Shell shell = strip_shell(job, bent, joints, works, workshop, taken);
+  const Shell shell = strip_shell(job, bent, flats, joints, works, workshop, taken);
   add_stiffeners(shell);
   add_lugs(shell);
   add_supports(shell, workshop.setting_out);
@@ -141,20 +179,20 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   std::vector<Strip> strips;
   std::vector<UnitWork> works;
   std::optional<BentStrips> bent;
+  std::unique_ptr<FlatsJob> flats;
   WorkshopBuild build;
-  const double kink = options.floor == FloorMake::bent
-                          ? kink_for_speed(
-                                track, options.bend,
-                                [&](double largest) {
-                                  return bent_flats(job, {0.0, track.length()}, largest);
-                                },
-                                body, gravity, design.exit_speed())
-                          : 1.0;
+  const double kink =
+      options.floor == FloorMake::bent ? kink_of(job, body, gravity, design.exit_speed()) : 1.0;
   split_until_it_fits(options.split, track.length(), [&](std::size_t count) -> std::optional<Excess> {
     build.joints = joints_of(track, options.split, count);
     if (options.floor == FloorMake::bent) {
       bent.emplace(job, kink, build.joints);
       strips = bent->strips();
+      if (has_works(options)) {
+        flats = std::make_unique<FlatsJob>(job, *bent, build.joints);
+        works = works_between(flats->job(), flats->joints());
+        work_bent(*flats, works, strips);
+      }
     } else {
       works = works_between(job, build.joints);
       strips = strips_between(job, build.joints, works);
@@ -173,7 +211,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   }
   Workshop& workshop = build.workshop;
   list_strips(strips, workshop);
-  set_on_strips(job, bent, build.joints, strips, works, workshop);
+  set_on_strips(job, bent, flats.get(), build.joints, strips, works, workshop);
   build.ride = bent ? as_told(ride_facets(bent->facets(), body, gravity, options.joint_step), design,
                               bent->bends(), build.joints.size() - 2)
                     : ride_rolled(job, build.joints, body, gravity, design);
@@ -185,7 +223,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   measure_tabs(job, build.joints, works, workshop);
   measure_steps(section_places(job, build.joints), options, build);
   const std::vector<VolumeDifference> cut =
-      bent ? std::vector<VolumeDifference>() : cut_differences(job, strips, build.joints, works);
+      cut_from(job, bent.has_value(), flats.get(), strips, build.joints, works);
   build.proof = prove_strips(job, bent, strips, cut, workshop);
   add_strip_notes(job, bent, build.proof, strips, workshop);
   if (!cut.empty()) note_differences(build.proof, "mitred plates", workshop);

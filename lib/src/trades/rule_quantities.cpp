@@ -94,6 +94,8 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"hole_thicknesses", number, "diameter of a hole over the thickness of its plate"},
     {"hole_edge_diameters", number, "distance of a hole's middle from the edge over its diameter"},
     {"hole_pitch_diameters", number, "distance of two holes' middles over their diameter"},
+    {"hole_bend_thicknesses", number,
+     "distance of a hole's edge from where a bend begins over the thickness of its plate"},
     {"web_thicknesses", number, "width of what stands beside a hole or slot over the thickness of its plate"},
     {"tab_width", length, "width of a tab"},
     {"tab_thicknesses", number, "width of a tab over the thickness of its plate"},

@@ -16,6 +16,9 @@ struct TrackArc {
   double curvature = 0.0;    ///< kappa, positive in a valley; 0: straight [1/m]
 };
 
+/// Largest angle at which two pieces of an ArcSpline may meet, as a rule [rad].
+inline constexpr double kArcSplineKink = 1e-9;
+
 /// A track of straight lines and circular arcs that meet with a common tangent: what a shop cuts, rolls and sets out.
 ///
 /// Curve: curvature piecewise constant, position and slope angle continuous.
@@ -24,9 +27,10 @@ struct TrackArc {
 class ArcSpline final : public Centerline {
  public:
   /// @param path  open, in the frame (x, height): x as a centerline has it, height = -drop; starts at the origin
+  /// @param largest_kink  more of a line that nothing runs on: the flats that bent plates are [rad]
   /// @throws InputError if there are fewer than two vertices, the first is not the origin, a piece has no length, or
-  ///   two pieces meet at more than kArcSplineKink; names the joint
-  explicit ArcSpline(ArcPath path);
+  ///   two pieces meet at more than `largest_kink`; names the joint
+  explicit ArcSpline(ArcPath path, double largest_kink = kArcSplineKink);
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "arc-spline"; }
   [[nodiscard]] double length() const noexcept override { return length_; }
@@ -48,7 +52,4 @@ class ArcSpline final : public Centerline {
 
 /// Stated bound of the position error of ArcSpline between its joints, relative to the length of the track.
 inline constexpr double kArcSplineAccuracy = 1e-14;
-/// Largest angle at which two of its pieces may meet [rad].
-inline constexpr double kArcSplineKink = 1e-9;
-
 }  // namespace glissade

@@ -64,10 +64,12 @@ struct Bevel {
 /// A sheet bent to a chain of lines and arcs: plates with slots, tabs and holes, level or leaning. Its faces are planes,
 /// cylinders and cones.
 struct RolledSheet {
-  ArcPath path;            ///< open, in the part's x-y plane; tangents continuous
+  /// Open, in the part's x-y plane. Tangents are continuous but between lines, which meet at bends without a radius: in the plane
+  /// that halves their angle.
+  ArcPath path;
   double thickness = 0.0;  ///< of the sheet, below its upper face [m]; > 0
   /// x: arc length along the path, from 0 to its length; y: along the upper face's line across [m]. Edges run along x or y;
-  /// those along y, cutouts and holes keep off the joints of the path, but for its ends. Holes are drilled square; no edge along y
+  /// those along y and holes keep off the joints of the path, but for its ends. Holes are drilled square; no edge along y
   /// is level with one.
   PlaneRegion region;
   /// Where the upper face's line begins, and its unit direction. x: to the left of the path, y: along z [m]. The lower face
@@ -76,6 +78,8 @@ struct RolledSheet {
   Vec2 across = {0.0, 1.0};
   std::vector<Bevel> bevels =
       {};  ///< by ascending `at`; between two of them evenly, beyond the last as there
+  /// By how much shorter it is at both ends per length to the left of a path that is straight there: planes that halve a bend.
+  std::array<double, 2> tilts = {0.0, 0.0};
 };
 
 /// A plate of plane facets that meet at bends without a radius: four corners at each bend and at both ends, counter-clockwise seen

@@ -1,0 +1,209 @@
+// Bent plates of sections other than channels with laps, tabs and slots, covers, liners and openings: bodies, patterns, proof.
+
+#include "glissade/core/math.hpp"
+#include "glissade/io/step_file.hpp"
+#include "glissade/solid/mesh_facts.hpp"
+
+#include "parts/body_geometry.hpp"
+#include "parts/body_mesh.hpp"
+#include "parts/bores.hpp"
+#include "parts/brep_faults.hpp"
+#include "parts/chute_plates.hpp"
+#include "parts/random_tracks.hpp"
+#include "parts/refusals.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/temp_dir.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+using namespace testing;
+
+PlateOptions bent(CornerJoint corners) {
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  options.bend = {FacetRule::segment_angle, Angle::from_degrees(2.5).radians(), {}, {}};
+  options.corners.kind = corners;
+  return options;
+}
+
+PlateOptions with_everything(CornerJoint corners) {
+  PlateOptions options = bent(corners);
+  options.rim.emplace();
+  options.cover.emplace();
+  options.liner.emplace();
+  options.liner->bolt = 6;
+  options.inspection = {{2.5, 0.5, 0.1, 8}};
+  return options;
+}
+
+section::Trapezoid trapezoid() {
+  return {WidthLaw(0.4), 0.25, Angle::from_degrees(25.0), 4e-3};
+}
+
+double listed(const WorkshopBuild& build, const std::string& what) {
+  double sum = 0.0;
+  for (const VolumeDifference& one : build.proof.differences) {
+    if (one.what == what) sum += one.volume;
+  }
+  return sum;
+}
+
+/// On which flat of a sheet a place along its path lies.
+std::size_t flat_of(const RolledSheet& sheet, double x) {
+  std::size_t flat = 0;
+  for (const PathPiece& piece : pieces_of(sheet.path)) {
+    if (x <= length(piece)) break;
+    x -= length(piece);
+    ++flat;
+  }
+  return flat;
+}
+
+/// Holes of one flat are as far from one another on the pattern as they are on the body.
+std::size_t require_pattern_of_holes(const ShopPart& part) {
+  const auto* const sheet = std::get_if<RolledSheet>(&part.body);
+  if (sheet == nullptr) return 0;
+  const std::vector<Circle>& flat = part.pattern->region.holes;
+  const std::vector<Circle>& own = sheet->region.holes;
+  const std::vector<parts::Bore> bores = parts::bores_of(*sheet);
+  REQUIRE(flat.size() == bores.size());
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < bores.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (flat_of(*sheet, own[i].centre.x) != flat_of(*sheet, own[k].centre.x)) continue;
+      ++pairs;
+      const double apart = norm(bores[i].centre - bores[k].centre);
+      CHECK(norm(flat[i].centre - flat[k].centre) == Approx(apart).margin(1e-10));
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+TEST_CASE("bent works: laps, tabs, slots, holes and openings are those of body, pattern, facets and STEP") {
+  const TempDir dir;
+  std::size_t pairs = 0;
+  std::size_t parted = 0;
+  for (const CornerJoint corners : {CornerJoint::lap, CornerJoint::tab_and_slot}) {
+    const WorkshopBuild build = plates_of(chute(), trapezoid(), with_everything(corners));
+    CHECK(build.proof.bolted > 100);
+    CHECK(build.proof.edge_mismatch < 1e-9);
+    CHECK(listed(build, "openings") < 0.0);
+    CHECK(listed(build, "holes of the liner") < 0.0);
+    CHECK(listed(build, "holes of lids") < 0.0);
+    CHECK((corners == CornerJoint::lap) == (listed(build, "tabs") == 0.0));
+    CHECK((corners == CornerJoint::lap) == (listed(build, "slots") == 0.0));
+    for (const ShopPart& part : build.workshop.parts) {
+      INFO(part.name);
+      CHECK(faults_of(part.pattern->region).empty());
+      const auto* const sheet = std::get_if<RolledSheet>(&part.body);
+      if (sheet == nullptr) continue;
+      pairs += require_pattern_of_holes(part);
+      const MeshFacts facts = measure(parts::facets_of(part.body, 2e-7));
+      CHECK(facts.boundary_edges == 0);
+      CHECK(facts.self_intersections == 0);
+      CHECK(facts.oriented_outward);
+      CHECK(facts.volume == Approx(part.volume).epsilon(2e-6));  // chords of holes
+      for (const Vec3 point : parts::edge_points(part.body, 1e-4))
+        CHECK(parts::depth_inside(part.body, point) > 0.5e-4);
+      write_step(dir.path() / "part.step", part);
+      require_same_step(dir.path() / "part.step", part);
+      CHECK(read_step_facts(dir.path() / "part.step").solids.front().splines == 0);
+      // Bends that an opening parts have two lines.
+      for (std::size_t i = 0; i + 1 < part.pattern->bends.size(); ++i) {
+        const BendLine& one = part.pattern->bends[i];
+        const BendLine& other = part.pattern->bends[i + 1];
+        if (std::fabs(cross(one.to - one.from, other.from - one.from)) < 1e-12 * norm(one.to - one.from))
+          ++parted;
+      }
+    }
+  }
+  CHECK(pairs > 100);
+  CHECK(parted > 0);
+}
+
+TEST_CASE("bent works: a plate with nothing but its edges lapped is the mitred one and its lap") {
+  const WorkshopBuild plain = plates_of(chute(), trapezoid(), bent(CornerJoint::butt));
+  const WorkshopBuild lapped = plates_of(chute(), trapezoid(), bent(CornerJoint::lap));
+  CHECK(lapped.proof.volume == Approx(plain.proof.volume + listed(lapped, "laps") +
+                                      listed(lapped, "edges beyond the ends of other plates"))
+                                   .epsilon(1e-11));
+  CHECK(lapped.ride.exit_speed == plain.ride.exit_speed);
+  CHECK(lapped.ride.travel_time == plain.ride.travel_time);
+  // What is not lapped stays what it is: bends and their rows.
+  CHECK(lapped.workshop.bends.size() == plain.workshop.bends.size());
+  for (const ShopPart* const floor : named(plain, "floor")) {
+    const auto other = named(lapped, floor->name);
+    REQUIRE(other.size() == 1);
+    REQUIRE(floor->pattern->bends.size() == other.front()->pattern->bends.size());
+    for (std::size_t i = 0; i < floor->pattern->bends.size(); ++i) {
+      CHECK(floor->pattern->bends[i].angle.radians() ==
+            Approx(other.front()->pattern->bends[i].angle.radians()).epsilon(1e-9));
+      CHECK(floor->pattern->bends[i].up == other.front()->pattern->bends[i].up);
+    }
+  }
+}
+
+TEST_CASE("bent works: what is set on bent plates is bent as they are, and has its rows of the schedule") {
+  const WorkshopBuild build = plates_of(chute(), trapezoid(), with_everything(CornerJoint::butt));
+  for (const char* const name : {"cover", "rim", "tile", "floor"}) {
+    INFO(name);
+    std::size_t bends = 0;
+    for (const ShopPart* const part : named(build, name)) {
+      // Where an opening parts a bend it is one hit.
+      const auto rows = std::count_if(build.workshop.bends.begin(), build.workshop.bends.end(),
+                                      [&](const BendStep& step) { return step.part == part->number; });
+      CHECK(rows == static_cast<std::ptrdiff_t>(part->pattern->bends.size()));
+      bends += part->pattern->bends.size();
+    }
+    CHECK(bends > 0);
+  }
+}
+
+TEST_CASE(
+    "bent works: random tracks, sections and works add up, clear one another, and are bolted pair by pair") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int built = 0;
+  for (int run = 0; run < 12; ++run) {
+    const ClothoidSpline track = testing::random_track(random, {.crest = -0.5, .valley = 0.8});
+    const double t = random.between(2e-3, 5e-3);
+    PlateOptions options =
+        bent(std::vector{CornerJoint::butt, CornerJoint::lap, CornerJoint::tab_and_slot}[run % 3]);
+    options.bend.value = Angle::from_degrees(random.between(1.0, 6.0)).radians();
+    options.walls = random.integer(0, 1) == 0 ? WallSeat::beside_floor : WallSeat::on_floor;
+    options.split.longest = random.between(0.8, 3.0);
+    options.round = RoundMake::staves;
+    options.stave_tolerance = 25e-3;
+    if (random.integer(0, 1) == 0) options.liner.emplace().bolt = 6;
+    if (random.integer(0, 1) == 0) options.rim.emplace();
+    if (options.rim && random.integer(0, 1) == 0) options.cover.emplace();
+    for (const section::Measures& measures :
+         {section::Measures(section::Trapezoid{WidthLaw(random.between(0.25, 0.5)), random.between(0.1, 0.25),
+                                               Angle::from_degrees(random.between(2.0, 50.0)), t}),
+          section::Measures(section::VChannel{Angle::from_degrees(80.0), 0.05, 0.2, t}),
+          section::Measures(section::HalfPipe{0.3, 0.05, t})}) {
+      INFO(section::kind(measures) << " " << run);
+      // Throws InternalError where parts clash, do not add up, or bolts do not meet.
+      const std::string refusal = refusal_of([&] {
+        const WorkshopBuild build = plates_of(track, measures, options);
+        ++built;
+        for (const ShopPart& part : build.workshop.parts) {
+          CHECK(faults_of(part.pattern->region).empty());
+          require_pattern_of_holes(part);
+        }
+        if (options.liner || options.cover) CHECK(build.proof.bolted > 0);
+      });
+      if (!refusal.empty()) CHECK(refusal.find('|') != std::string::npos);
+    }
+  }
+  CHECK(built > 12);
+}
