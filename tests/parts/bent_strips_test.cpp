@@ -121,6 +121,30 @@ TEST_CASE("bent strips: a wall that takes its form by itself is, laid flat facet
   }
 }
 
+TEST_CASE("bent strips: the pattern of a floor that widens to both sides is the same on both") {
+  std::size_t bends = 0;
+  for (const section::Measures& measures :
+       {section::Measures(section::Slab{kWidening, 4e-3}),
+        section::Measures(section::UChannel{kWidening, 0.18, 4e-3}),
+        section::Measures(section::Trapezoid{kWidening, 0.18, Angle::from_degrees(20.0), 4e-3})}) {
+    INFO(section::kind(measures));
+    const WorkshopBuild build = plates_of(chute(), measures, bent_in_one_piece());
+    for (const ShopPart* const floor : named(build, "floor")) {
+      const std::vector<BendLine>& lines = floor->pattern->bends;
+      REQUIRE(lines.size() > 10);
+      const auto middle_of = [](const BendLine& line) { return 0.5 * (line.from + line.to); };
+      const Vec2 axis = middle_of(lines.back()) - middle_of(lines.front());
+      for (const BendLine& line : lines) {
+        ++bends;
+        // Square to the axis, and as far on both sides of it.
+        CHECK(dot(line.to - line.from, axis) == Approx(0.0).margin(1e-9));
+        CHECK(cross(middle_of(line) - middle_of(lines.front()), axis) == Approx(0.0).margin(1e-9));
+      }
+    }
+  }
+  CHECK(bends > 30);
+}
+
 TEST_CASE("bent strips: beside a width that is one everywhere the floor is the bent floor of a channel") {
   const WidthLaw same({{1.0, 0.4}, {3.0, 0.4 + 1e-9}});
   PlateOptions options = bent_in_one_piece();

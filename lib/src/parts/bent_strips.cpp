@@ -295,8 +295,10 @@ BentStrips::Quad BentStrips::quad(const SectionPlate& plate, std::size_t i, doub
   if (level(plate)) {
     // Bends are level lines: the flat between them gets shorter, and keeps its widths.
     const double run = norm(along - along.z * Vec3{0.0, 0.0, 1.0}) - 0.5 * (cut_from + cut_to);
-    quad.base = {run, along.z};
-    quad.upper = {run, along.z + across_to.z - across_from.z};
+    // On the pattern the way from `face_to` to `face_from` is up, whichever it is in space.
+    const double up = across_from.z > 0.0 ? 1.0 : -1.0;
+    quad.base = {run, up * along.z};
+    quad.upper = {run, up * (along.z + across_to.z - across_from.z)};
     return quad;
   }
   // The edges of a facet are parallel; both are shorter by what bends take, along them.
