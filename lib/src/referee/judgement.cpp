@@ -64,15 +64,67 @@ Problem from_start_of(Problem problem, const Centerline& track) {
 
 }  // namespace
 
+namespace {
+
+bool comes_first(const CenterlinePoint& a, const CenterlinePoint& b) {
+  return a.arc_length < b.arc_length;
+}
+
+/// Where a track is looked at, in order: samples, and wherever between them its slope is greatest or least.
+std::vector<CenterlinePoint> points_along(const Centerline& track, const Problem& problem, int samples) {
+  const std::vector<double> stations = sampled(track, problem, samples);
+  std::vector<CenterlinePoint> points;
+  std::vector<double> slopes;
+  for (const double s : stations) {
+    points.push_back(track.at(s));
+    slopes.push_back(points.back().slope_angle);
+  }
+  std::vector<double> places;
+  add_extremes(stations, slopes, places);
+  for (const double s : places) points.push_back(track.at(s));
+  std::inplace_merge(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(stations.size()),
+                     points.end(), comes_first);
+  return points;
+}
+
+/// Shows a ride at the points that it reaches, and wherever between them something that limits ask for is greatest or least.
+void show(const Motion& motion, const std::vector<CenterlinePoint>& points, Watches& watches) {
+  struct Sight {
+    double s = 0.0;
+    Watches::Measures measures;
+  };
+  const auto sight = [&](const CenterlinePoint& point) -> Sight {
+    const MotionState state = motion.at(point.arc_length);
+    return {point.arc_length, watches.measures(state, point)};
+  };
+  std::vector<Sight> sights;
+  std::vector<double> stations;
+  for (const CenterlinePoint& point : points) {
+    if (point.arc_length > motion.distance()) break;
+    sights.push_back(sight(point));
+    stations.push_back(point.arc_length);
+  }
+  std::vector<double> places;
+  std::vector<double> values(stations.size());
+  for (std::size_t k = 0; k < Watches::Measures{}.size(); ++k) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = sights[i].measures[k];
+    add_extremes(stations, values, places);
+  }
+  std::sort(places.begin(), places.end());
+  for (const double s : places) sights.push_back(sight(motion.centerline().at(s)));
+  std::inplace_merge(sights.begin(), sights.begin() + static_cast<std::ptrdiff_t>(stations.size()),
+                     sights.end(), [](const Sight& a, const Sight& b) { return a.s < b.s; });
+  for (const Sight& seen : sights) watches.at_measures(seen.measures, seen.s);
+}
+
+}  // namespace
+
 Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samples,
                       BrokenRides broken_rides) {
   const Problem problem = from_start_of(asked, *track);
   const CenterlinePoint end = track->at(track->length());
   const double chord = math::hypot(end.x, end.drop);
-  const std::vector<double> stations = sampled(*track, problem, samples);
-  std::vector<CenterlinePoint> points;
-  points.reserve(stations.size());
-  for (const double s : stations) points.push_back(track->at(s));
+  const std::vector<CenterlinePoint> points = points_along(*track, problem, samples);
 
   Watches watches(problem, chord);
   for (const CenterlinePoint& point : points) watches.at_point(point);
@@ -106,9 +158,7 @@ Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samp
       judgement.travel_time = motion.travel_time();
       judgement.exit_speed = motion.exit_speed();
     }
-    const auto ridden = std::upper_bound(stations.begin(), stations.end(), motion.distance());
-    const std::vector<MotionState> states = motion.at({stations.begin(), ridden});
-    for (std::size_t i = 0; i < states.size(); ++i) watches.at_state(states[i], points[i]);
+    show(motion, points, watches);
     if (motion.arrived()) watches.at_exit_speed(motion.exit_speed(), end);
   }
   watches.ride_at({});

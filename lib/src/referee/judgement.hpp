@@ -32,9 +32,9 @@ struct Judgement {
 /// Whether limits on motion are held against a ride that ends before the finish.
 enum class BrokenRides { left_out, judged };
 
-/// Points on each smooth piece: ten times as many as the stations of the search, of which a piece has some
-/// seven.
-inline constexpr int kRefereeSamples = 70;
+/// Points on each smooth piece: three times as many as the stations of the search, of which a piece has some seven. What is
+/// greatest between them is found by parabolas.
+inline constexpr int kRefereeSamples = 24;
 
 /// Rides the track with Motion and compares it with the problem as given, in SI, sharing no code with the
 /// search.

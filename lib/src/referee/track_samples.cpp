@@ -100,6 +100,31 @@ double closest_approach(const Centerline& track, const std::vector<CenterlinePoi
   return norm(Vec2{point.x, point.drop} - target);
 }
 
+void add_extremes(std::span<const double> stations, std::span<const double> values,
+                  std::vector<double>& places) {
+  constexpr double kBreak = 1e-12;    // of the track: both sides of one lie closer to each other
+  constexpr double kMatters = 1e-11;  // of the greatest value
+  const std::size_t count = stations.size();
+  if (count < 3) return;
+  double greatest = 0.0;
+  for (const double value : values) greatest = std::max(greatest, std::fabs(value));
+  const double gap = kBreak * stations.back();
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    const double before = stations[i] - stations[i - 1];
+    const double behind = stations[i + 1] - stations[i];
+    if (before <= gap || behind <= gap) continue;
+    const double rise = (values[i] - values[i - 1]) / before;
+    const double next_rise = (values[i + 1] - values[i]) / behind;
+    const double bend = (next_rise - rise) / (before + behind);
+    // From the middle one of the three.
+    const double away = -0.5 * (rise + bend * before) / bend;
+    const bool first = i == 1 || stations[i - 1] - stations[i - 2] <= gap;
+    const bool last = i + 2 == count || stations[i + 2] - stations[i + 1] <= gap;
+    const bool between = away >= (first ? -before : -0.5 * before) && away <= (last ? behind : 0.5 * behind);
+    if (between && std::fabs(bend) * away * away > kMatters * greatest) places.push_back(stations[i] + away);
+  }
+}
+
 namespace {
 
 /// A change of curvature from one piece to the next, times the track's length; below it is rounding.

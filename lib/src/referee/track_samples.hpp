@@ -6,6 +6,7 @@
 #include "referee/watches.hpp"
 
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,12 @@ namespace glissade::referee {
 /// @return arc lengths from 0 to the end, ascending: both sides of every break, and of every place at which friction or the
 ///   law changes [m]
 [[nodiscard]] std::vector<double> sampled(const Centerline& track, const Problem& problem, int samples);
+
+/// Adds the places between samples where a smooth quantity is greatest or least: vertices of the parabola through three of
+/// them, none across a break or where it matters by less than rounding does.
+/// @param values  at each station
+void add_extremes(std::span<const double> stations, std::span<const double> values,
+                  std::vector<double>& places);
 
 /// Shows all of a track's curvature and its rate, jumps included.
 /// @param samples  points on a piece that is no clothoid

@@ -110,24 +110,34 @@ void Watches::ride_at(std::optional<FrictionLevel> level, Friction friction) {
   friction_of_ride_ = friction;
 }
 
-void Watches::at_state(const MotionState& state, const CenterlinePoint& point) {
-  const double s = state.arc_length;
+Watches::Measures Watches::measures(const MotionState& state, const CenterlinePoint& point) const {
   // Unbounded curvature at a start from rest loads the track all the same no more than finitely.
   const double curvature_load = std::isfinite(point.curvature) && !problem_.body.law
                                     ? point.curvature * state.speed * state.speed
                                     : state.normal_load - problem_.gravity * math::cos(point.slope_angle);
-  see(LimitId::highest_normal_load, state.normal_load, s);
-  see(LimitId::lowest_normal_load, state.normal_load, s);
+  Measures measures{state.normal_load, curvature_load, state.speed, 0.0, 0.0};
+  if (stream_ != nullptr) {
+    const double s = state.arc_length;
+    measures[3] = stream_->depth(s, state.speed);
+    measures[4] = stream_->floor_wear(s, friction_of_ride_, state.normal_load);
+  }
+  return measures;
+}
+
+void Watches::at_measures(const Measures& measures, double s) {
+  const auto& [normal_load, curvature_load, speed_there, depth, wear] = measures;
+  see(LimitId::highest_normal_load, normal_load, s);
+  see(LimitId::lowest_normal_load, normal_load, s);
   see(LimitId::highest_curvature_load, curvature_load, s);
   if (stream_ != nullptr) {
-    see(LimitId::highest_burden_depth, stream_->depth(s, state.speed), s);
-    see(LimitId::highest_floor_wear, stream_->floor_wear(s, friction_of_ride_, state.normal_load), s);
+    see(LimitId::highest_burden_depth, depth, s);
+    see(LimitId::highest_floor_wear, wear, s);
   }
   const Range& speed = problem_.limits.speed;
   if (s >= problem_.limits.lowest_speed_from) {
-    see(LimitId::speed, state.speed, s);
+    see(LimitId::speed, speed_there, s);
   } else if (speed.highest) {
-    see_side({LimitId::speed, Bound::highest}, *speed.highest, state.speed, s);
+    see_side({LimitId::speed, Bound::highest}, *speed.highest, speed_there, s);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "clearance/strip.hpp"
 #include "referee/judgement.hpp"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,9 @@ class Watch {
 /// All watches of a problem, and how to feed them.
 class Watches {
  public:
+  /// What limits are held against wherever the body rides: normal load, load by curvature, speed, depth, wear of the floor.
+  using Measures = std::array<double, 5>;
+
   /// @param chord  from the start of the track to its finish [m]
   Watches(const Problem& problem, double chord);
 
@@ -50,7 +54,9 @@ class Watches {
   void at_rate(double s, double rate);
   /// What is seen from here on is of the ride at this friction, or of none.
   void ride_at(std::optional<FrictionLevel> level, Friction friction = {});
-  void at_state(const MotionState& state, const CenterlinePoint& point);
+  /// @return at the friction of the ride; 0 for what a problem has not
+  [[nodiscard]] Measures measures(const MotionState& state, const CenterlinePoint& point) const;
+  void at_measures(const Measures& measures, double s);
   void at_exit_speed(double exit_speed, const CenterlinePoint& end);
   void at_end(const Centerline& track);
   /// @param in,out  lengths of the straights that the track starts and ends with

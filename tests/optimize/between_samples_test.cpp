@@ -1,0 +1,78 @@
+// The referee looks at places; what lies between them counts all the same.
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/motion/motion.hpp"
+#include "glissade/optimize/optimize.hpp"
+
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <catch2/catch.hpp>
+
+using namespace glissade;
+
+namespace {
+
+const LimitCheck& check_of(const std::vector<LimitCheck>& checks, const LimitName& limit) {
+  return *std::find_if(checks.begin(), checks.end(),
+                       [&](const LimitCheck& check) { return check.limit == limit; });
+}
+
+/// Waves that a body at 15 m/s follows: a slope that is steepest within its pieces.
+std::shared_ptr<const ClothoidSpline> waves(testing::Random& random) {
+  std::vector<ClothoidSegment> segments;
+  double curvature = random.between(-0.01, 0.01);
+  for (int i = 0; i < 8; ++i) {
+    const double next = random.between(0.001, 0.01) * (curvature > 0.0 ? -1.0 : 1.0);
+    segments.push_back({random.between(2.0, 9.0), curvature, next});
+    curvature = next;
+  }
+  return std::make_shared<const ClothoidSpline>(Angle::from_degrees(25.0), std::move(segments));
+}
+
+/// The steepest slope, by its parabola in each segment.
+double steepest(const ClothoidSpline& track) {
+  double angle = track.entry_slope_angle().radians();
+  double most = angle;
+  for (const ClothoidSegment& segment : track.segments()) {
+    const double rate = (segment.exit_curvature - segment.entry_curvature) / segment.length;
+    const double where = -segment.entry_curvature / rate;
+    // A positive curvature makes the track flatter.
+    if (where > 0.0 && where < segment.length)
+      most = std::max(most, angle - 0.5 * segment.entry_curvature * where);
+    angle -= 0.5 * (segment.entry_curvature + segment.exit_curvature) * segment.length;
+    most = std::max(most, angle);
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("referee: slopes, loads and speeds that are greatest between samples are found", "[limits]") {
+  testing::Random random = testing::seeded_random();
+  for (int i = 0; i < 50; ++i) {
+    CAPTURE(i);
+    const auto track = waves(random);
+    Problem problem;
+    problem.endpoints = track->endpoints();
+    problem.body.friction = Friction::from_coefficient(random.between(0.0, 0.5));
+    problem.body.entry_speed = 15.0;
+    problem.limits.slope_angle.highest = 0.1;
+    problem.limits.highest_normal_load = 1.0;
+    problem.limits.lowest_normal_load = 20.0;
+    problem.limits.speed.highest = 1.0;
+    const Motion motion(track, problem.body, problem.gravity);
+    REQUIRE(motion.arrived());
+    const std::vector<LimitCheck> checks = check_limits(problem, track);
+    const auto reached = [&](LimitId id, Bound bound) { return check_of(checks, {id, bound}).reached; };
+    CHECK(reached(LimitId::slope_angle, Bound::highest) == Approx(steepest(*track)).epsilon(1e-12));
+    CHECK(reached(LimitId::highest_normal_load, Bound::highest) ==
+          Approx(motion.highest_load().normal_load).epsilon(1e-8));
+    CHECK(reached(LimitId::lowest_normal_load, Bound::lowest) ==
+          Approx(motion.lowest_load().normal_load).epsilon(1e-8));
+    CHECK(reached(LimitId::speed, Bound::highest) == Approx(motion.highest_speed().speed).epsilon(1e-9));
+  }
+}
