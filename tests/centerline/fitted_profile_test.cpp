@@ -277,13 +277,47 @@ TEST_CASE(
           const double away = place.drop + points.front().y - wave(x);
           off = std::max(off, std::fabs(away) * std::cos(place.slope_angle));
         }
-        // Where points are more than the knots, a miss is told.
-        const bool enough_knots = count <= kMostProfileKnots;
-        CHECK((off <= (each < 8 ? 0.15 : 0.03) * kHeight || (!enough_knots && profile.leaves_gaps())));
+        CHECK(off <= (each < 8 ? 0.15 : count < 20 ? 0.03 : 0.004) * kHeight);
         CHECK(off <= 4.0 * profile.between_points() + profile.max_deviation());
-        if (each <= 6) CHECK(profile.leaves_gaps());
-        if (each >= 12 && enough_knots) CHECK_FALSE(profile.leaves_gaps());
+        if (each <= 5 || off > 0.04 * kHeight) CHECK(profile.leaves_gaps());
+        if (each >= 12) CHECK_FALSE(profile.leaves_gaps());
       }
+    }
+  }
+}
+
+TEST_CASE("exact points are followed to millimetres however many they are and however many waves they show") {
+  constexpr double kRun = 100.0;
+  constexpr double kHeight = 2.0;
+  const double turn = 2.0 * std::numbers::pi;
+  struct Wave {
+    const char* name;
+    double periods;
+    double chirp;  // the share by which the last wave is shorter than the middle one
+  };
+  for (const Wave& wave : {Wave{"sine", 10.0, 0.0}, Wave{"sine", 20.0, 0.0}, Wave{"chirp", 12.0, 0.6}}) {
+    for (const int count : {160, 170, 200, 400, 1000, 2000}) {
+      if (count != 160 && !testing::thorough() && (count != 2000 || wave.periods < 20.0)) continue;
+      const auto height = [&](double x) {
+        const double u = x / kRun;
+        return 0.5 * x + kHeight * std::sin(turn * wave.periods * u * (1.0 - wave.chirp + wave.chirp * u));
+      };
+      std::vector<Vec2> points;
+      for (int i = 0; i < count; ++i) {
+        const double x = kRun * i / (count - 1);
+        points.push_back({x, height(x)});
+      }
+      const FittedProfile profile(points);
+      INFO(wave.name << ", " << wave.periods << " periods, " << count << " points");
+      CHECK(profile.max_deviation() <= 1e-4);
+      CHECK_FALSE(profile.leaves_out_much());
+      CHECK_FALSE(profile.leaves_gaps());
+      double off = 0.0;
+      for (int i = 0; i <= 4000; ++i) {
+        const CenterlinePoint place = profile.at(std::min(profile.length(), profile.length() * (i / 4000.0)));
+        off = std::max(off, std::fabs(place.drop - height(place.x)) * std::cos(place.slope_angle));
+      }
+      CHECK(off <= (count < 11.0 * wave.periods * (1.0 + wave.chirp) ? 0.005 : 0.001));
     }
   }
 }

@@ -4,7 +4,9 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "profile_cost.hpp"
 #include "profile_description.hpp"
+#include "profile_interpolant.hpp"
 #include "profile_model.hpp"
 
 #include <algorithm>
@@ -24,36 +26,25 @@ namespace {
 constexpr double kMostSmoothing = 1.0;
 constexpr double kLeastSmoothing = 1e-20;
 constexpr double kSmoothingStep = 0.1;
-// Plain cross-validation now and then takes noise for shape; counting each freedom of the curve this often is
-// the usual remedy (Cummins, Filloon and Nychka, J. Am. Stat. Assoc. 96 (2001) 233).
-constexpr double kPriceOfFreedom = 1.4;
-// It needs many more points than the curve has freedom. Beyond this share, or with fewer points than this, it
-// tells nothing.
-constexpr double kMostFreedom = 0.65;
-constexpr std::size_t kFewestToValidate = 20;
-// What is left of points tells their noise up to here, and if it has that much freedom of its own.
-constexpr double kMostFreedomToTell = 0.85;
-constexpr double kLeastFreedomLeft = 7.0;
-// Fisher's ratio that noise passes once in a thousand times where 20 points are described, and never where many are.
-constexpr double kMoreThanNoise = 10.0;
 constexpr int kMostSteps = 60;
 constexpr int kMostHalvings = 12;
 // A step that promises less than this share of what is left is not worth its while.
 constexpr double kSettled = 1e-9;
-// Root of the mean squared distance over length that is rounding.
-constexpr double kRoundingShare = 1e-15;
 // Means of neighbours stand for more points than these: they keep what the points say, at a bounded cost.
 constexpr std::size_t kMostFitted = 1000;
 
-/// @return at most kMostFitted points in the same order, each the mean of neighbours; the ends as they are
-std::vector<Vec2> thinned(const std::vector<Vec2>& points) {
-  if (points.size() <= kMostFitted) return points;
+constexpr std::size_t kMostFollowed = 2000;
+constexpr std::size_t kFewestFollowed = 8;
+
+/// @return at most so many points in the same order, each the mean of neighbours; the ends as they are
+std::vector<Vec2> thinned(const std::vector<Vec2>& points, std::size_t most) {
+  if (points.size() <= most) return points;
   std::vector<Vec2> means = {points.front()};
   const std::size_t inner = points.size() - 2;
-  constexpr std::size_t kGroups = kMostFitted - 2;
-  for (std::size_t group = 0; group < kGroups; ++group) {
-    const std::size_t from = 1 + group * inner / kGroups;
-    const std::size_t to = 1 + (group + 1) * inner / kGroups;
+  const std::size_t groups = most - 2;
+  for (std::size_t group = 0; group < groups; ++group) {
+    const std::size_t from = 1 + group * inner / groups;
+    const std::size_t to = 1 + (group + 1) * inner / groups;
     Vec2 sum;
     for (std::size_t i = from; i < to; ++i) sum = sum + points[i];
     means.push_back(1.0 / static_cast<double>(to - from) * sum);
@@ -61,37 +52,6 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points) {
   means.push_back(points.back());
   return means;
 }
-
-/// What a description of points costs: what it leaves of them, and the numbers that it takes.
-struct Cost {
-  double mean_square = 0.0;  // of distance over length
-  double freedom = 0.0;
-
-  /// Craven and Wahba's score: an estimate of the distance from the curve that the points were noisy samples of.
-  /// Infinite where the description is too free for the score to mean anything.
-  [[nodiscard]] double validation_score(std::size_t points) const {
-    const auto equations = static_cast<double>(points);
-    if (freedom > kMostFreedom * equations) return std::numeric_limits<double>::infinity();
-    return mean_square / math::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
-  }
-  /// Whether so much of the points is left to chance that its size can be told.
-  [[nodiscard]] bool tells(std::size_t points) const {
-    const auto equations = static_cast<double>(points);
-    return freedom <= kMostFreedomToTell * equations && equations - freedom >= kLeastFreedomLeft;
-  }
-  /// Fisher's ratio: whether this description's additional freedom takes more from the points than noise yields.
-  [[nodiscard]] bool finds_more_than_noise(const Cost& stiffer, std::size_t points) const {
-    const double more = freedom - stiffer.freedom;
-    const double taken = (stiffer.mean_square - mean_square) / more;
-    return taken * (static_cast<double>(points) - freedom) > kMoreThanNoise * mean_square;
-  }
-  /// Schwarz's Bayesian information criterion, over the number of points.
-  [[nodiscard]] double bayesian_score(std::size_t points) const {
-    const auto equations = static_cast<double>(points);
-    return math::log(std::max(mean_square, kRoundingShare * kRoundingShare)) +
-           freedom * math::log(equations) / equations;
-  }
-};
 
 /// A shape that was relaxed, and what it costs.
 struct Relaxed {
@@ -102,7 +62,7 @@ struct Relaxed {
 class Fitter {
  public:
   explicit Fitter(const std::vector<Vec2>& points)
-      : points_(&points), model_(thinned(points)), shape_(model_.first_shape()) {}
+      : points_(&points), model_(thinned(points, kMostFitted)), shape_(model_.first_shape()) {}
 
   [[nodiscard]] ClothoidSpline within_deviation(double max_deviation) {
     return model_.spline(within(max_deviation));
@@ -365,29 +325,78 @@ FittedCurve smooth_curve(ClothoidSpline curve, Vec2 start) {
   return {std::move(curve), start, between};
 }
 
+/// A curve found, and whether few pieces describe it.
+struct Found {
+  FittedCurve fitted;
+  bool described = false;
+};
+
+Found smooth_or_described(const std::vector<Vec2>& points) {
+  Fitter fitter(points);
+  ClothoidSpline smooth = fitter.validated_spline();
+  if (points.size() >= kFewestToValidate) {
+    const auto description = describe_in_pieces(points, smooth);
+    if (description && describes_better(*description, points, smooth, fitter.best_cost())) {
+      return {{description->profile.spline(), description->profile.start(points.front())}, true};
+    }
+  }
+  return {smooth_curve(std::move(smooth), points.front())};
+}
+
+/// Whether a curve through the points holds what the curve found leaves out, or leaves less open between them.
+bool follows_better(const FollowedProfile& followed, const Found& found, const std::vector<Vec2>& points) {
+  constexpr double kPlainly = 3.0;  // more than the points' own noise
+  // Pieces that come so near are what was built.
+  constexpr double kBuilt = 1e-5;
+  constexpr double kMet = 1e-8;
+  constexpr double kLittleOpen = 1e-7;
+  const double length = found.fitted.curve.length();
+  std::vector<Vec2> seen = points;
+  for (Vec2& point : seen) point = point - found.fitted.start;
+  const double missed = std::sqrt(mean_square_deviation(found.fitted.curve, seen)) / length;
+  const auto count = static_cast<double>(std::min(points.size(), kMostFollowed));
+  const double noise = std::sqrt(followed.cost.mean_square) / (1.0 - followed.cost.freedom / count);
+  const double open = found.fitted.between;
+  const bool leaves_less_open = followed.between < open && open > kLittleOpen * length;
+  if (!found.described && followed.exact && leaves_less_open) return true;
+  return points.size() >= kFewestToValidate &&
+         missed > std::max(kPlainly * noise, found.described ? kBuilt : kMet);
+}
+
 }  // namespace
 
 FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit) {
-  Fitter fitter(points);
-  if (fit.max_deviation) return smooth_curve(fitter.within_deviation(*fit.max_deviation), points.front());
-  ClothoidSpline smooth = fitter.validated_spline();
-  if (points.size() < kFewestToValidate) return smooth_curve(std::move(smooth), points.front());
-  const auto description = describe_in_pieces(points, smooth);
-  if (!description || !describes_better(*description, points, smooth, fitter.best_cost())) {
-    return smooth_curve(std::move(smooth), points.front());
+  if (fit.max_deviation) {
+    Fitter fitter(points);
+    return smooth_curve(fitter.within_deviation(*fit.max_deviation), points.front());
   }
-  return {description->profile.spline(), description->profile.start(points.front())};
+  Found found = smooth_or_described(points);
+  if (points.size() < kFewestFollowed) return std::move(found.fitted);
+  auto followed = follow_points(thinned(points, kMostFollowed));
+  if (!followed || !follows_better(*followed, found, points)) return std::move(found.fitted);
+  return {std::move(followed->curve), followed->start, followed->between};
 }
 
 std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve, const std::vector<Vec2>& points) {
   std::vector<PointDeviation> deviations;
   const std::vector<double> lengths = rough_arc_lengths(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double s = nearest_place(curve, points[i], curve.length() * (lengths[i] / lengths.back()));
-    const CenterlinePoint place = curve.at(s);
-    const Vec2 away = points[i] - Vec2{place.x, place.drop};
-    const double side = dot(away, {-math::sin(place.slope_angle), math::cos(place.slope_angle)});
-    deviations.push_back({s, std::copysign(norm(away), side)});
+    const auto deviation_from = [&](double guess) {
+      const double s = nearest_place(curve, points[i], guess);
+      const CenterlinePoint place = curve.at(s);
+      const Vec2 away = points[i] - Vec2{place.x, place.drop};
+      const double side = dot(away, {-math::sin(place.slope_angle), math::cos(place.slope_angle)});
+      return PointDeviation{s, std::copysign(norm(away), side)};
+    };
+    PointDeviation nearest = deviation_from(curve.length() * (lengths[i] / lengths.back()));
+    if (i > 0) {
+      // On narrow waves the guess by the polygon may lie on the next flank.
+      const double chord = norm(points[i] - points[i - 1]);
+      const PointDeviation ahead =
+          deviation_from(std::min(curve.length(), deviations.back().arc_length + chord));
+      if (std::fabs(ahead.deviation) < std::fabs(nearest.deviation)) nearest = ahead;
+    }
+    deviations.push_back(nearest);
   }
   return deviations;
 }

@@ -40,21 +40,23 @@ struct ProfileFault {
 /// A measured or hand-drawn profile as a smooth curve, so that an existing chute can be assessed.
 ///
 /// Measured points cannot be slid on as they are: the curvature of a line through them is mostly their noise,
-/// and curvature drives the normal load. So the curve is described in one of two ways, whichever the Bayesian
-/// information criterion finds the better one:
+/// and curvature drives the normal load. So the curve is described in one of three ways. Of the first
+/// two whichever the Bayesian information criterion finds the better one:
 /// - as few pieces: straights, arcs, clothoids and bends whose curvature is a polynomial, with curvature jumps and
 ///   kinks between them where the points show them (a track that builders drew; the in-run of a ski jump).
 ///   Straights, arcs and clothoids come back to rounding from exact points;
 /// - as a clothoid spline of many pieces, curvature continuous, that minimises
 ///     mean of (distance / length)^2 + smoothing * length^3 * integral of (d kappa/ds)^2 ds
 ///   over all clothoid splines from the first point, the smoothing chosen by cross-validation. This is the only way
-///   if max_deviation is given, or if there are fewer than 20 points.
+///   if max_deviation is given;
+/// - as clothoids along a spline of fifth degree through the points (less their noise, where they show some), where that
+///   leaves less open between exact points than the smooth curve, or where the smooth curve misses what they show.
 /// What the description costs is told by the deviations.
 /// Frame: the start (0, 0) is the place of the curve nearest to the first point, the finish that nearest to the
 ///   last one. Where the last point lies to the left of the first, the profile is mirrored: x counts towards the
 ///   finish.
 /// Curve: curvature is piecewise linear between breaks(); it may jump there. Of more than 1000 points the smooth
-///   curve is fitted to means of neighbours; deviations are always those of every point.
+///   curve is fitted to means of neighbours, of more than 2000 the spline; deviations are always those of every point.
 /// Accuracy: docs/accuracy.md, profiles fitted to exact points.
 /// Cost: about linear in the number of points; some 0.1 s for 100 of them, 1 to 2 s for 2000.
 /// Identity: exact points of an arc or a straight give that arc or straight.
@@ -127,7 +129,7 @@ class FittedProfile final : public Centerline {
   bool leaves_pattern_ = false;
 };
 
-/// The most knots of a smooth FittedProfile.
+/// The most knots of the smooth curve; along a spline through the points there are more.
 inline constexpr int kMostProfileKnots = 120;
 
 }  // namespace glissade
