@@ -244,3 +244,27 @@ TEST_CASE("slope angles that leave out the mean slope are told by it, by however
     CHECK(optimize(problem).centerline != nullptr);
   }
 }
+
+TEST_CASE(
+    "a slope angle that misses the mean slope by a hair leaves the straight line, and the search says so") {
+  testing::Random random = testing::seeded_random();
+  for (int i = 0; i < 8; ++i) {
+    Problem problem;
+    problem.endpoints = {random.between(2.0, 40.0), 0.0};
+    problem.endpoints.drop = problem.endpoints.run * random.between(0.3, 2.0);
+    problem.body.friction = Friction::from_coefficient(random.between(0.0, 0.2));
+    const double mean = std::atan2(problem.endpoints.drop, problem.endpoints.run);
+    const double miss = std::pow(10.0, random.between(-11.0, -7.5));
+    const bool flat = i % 2 == 0;
+    Range& slope = problem.limits.slope_angle;
+    (flat ? slope.highest : slope.lowest) = flat ? mean - miss : mean + miss;
+    INFO("problem " << i << ", mean slope " << mean << ", missed by " << miss);
+    const Optimum optimum = optimize(problem);
+    CHECK(optimum.report.status == OptimizeStatus::optimal);
+    REQUIRE(optimum.centerline);
+    for (const double share : {0.0, 0.3, 0.7}) {
+      CHECK(optimum.centerline->slope_angle(share * optimum.centerline->length()) ==
+            Approx(mean).margin(1e-3));
+    }
+  }
+}

@@ -21,13 +21,16 @@ double beyond(Angle mean, double room, Bound bound) {
   return Angle::from_degrees(degrees / kRounded).radians();
 }
 
+Angle mean_slope(const Problem& problem) {
+  return Angle::from_radians(math::atan2(problem.endpoints.drop, std::fabs(problem.endpoints.run)));
+}
+
 }  // namespace
 
 std::optional<Conflict> beside_mean_slope(const Problem& problem, double tolerance,
                                           const std::function<bool(const LimitName&, double)>& would_do) {
   if (problem.finish.kind != FinishKind::point) return std::nullopt;
-  const Angle mean =
-      Angle::from_radians(math::atan2(problem.endpoints.drop, std::fabs(problem.endpoints.run)));
+  const Angle mean = mean_slope(problem);
   const Range& allowed = problem.limits.slope_angle;
   const bool too_flat = allowed.highest && *allowed.highest < mean.radians() - tolerance;
   const bool too_steep = allowed.lowest && *allowed.lowest > mean.radians() + tolerance;
@@ -46,6 +49,16 @@ std::optional<Conflict> beside_mean_slope(const Problem& problem, double toleran
   conflict.why = "The mean slope from start to finish is " + angle_text(mean, 7) +
                  ", and every track has that slope somewhere (mean value theorem).";
   return conflict;
+}
+
+Problem with_mean_slope_allowed(Problem problem, double tolerance) {
+  if (problem.finish.kind != FinishKind::point) return problem;
+  const double mean = mean_slope(problem).radians();
+  Range& allowed = problem.limits.slope_angle;
+  const auto just_missed = [&](double by) { return by > 0.0 && by <= tolerance; };
+  if (allowed.highest && just_missed(mean - *allowed.highest)) allowed.highest = mean;
+  if (allowed.lowest && just_missed(*allowed.lowest - mean)) allowed.lowest = mean;
+  return problem;
 }
 
 }  // namespace glissade::optimizer

@@ -17,4 +17,9 @@ namespace glissade::optimizer {
 [[nodiscard]] std::optional<Conflict> beside_mean_slope(
     const Problem& problem, double tolerance, const std::function<bool(const LimitName&, double)>& would_do);
 
+/// A bound that misses the mean slope by less than the tolerance leaves the straight line, but no room in which a search
+/// could tell that nothing is better: it becomes the mean slope itself, which does.
+/// @param tolerance  as above
+[[nodiscard]] Problem with_mean_slope_allowed(Problem problem, double tolerance);
+
 }  // namespace glissade::optimizer

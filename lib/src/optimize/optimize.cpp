@@ -309,9 +309,9 @@ Optimum optimize(const Problem& given, const OptimizeOptions& options, const std
                  const Progress& progress) {
   using namespace optimizer;
   require_searchable(given);
-  const Problem problem = with_true_changes(given);
-  require_passable_in_order(problem);
   require_valid(options);
+  const Problem problem = with_mean_slope_allowed(with_true_changes(given), options.limit_tolerance);
+  require_passable_in_order(problem);
   if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);
   if (problem.objective.kind == ObjectiveKind::least_peak_wear)
     return least_peak(problem, options, stop, progress);
