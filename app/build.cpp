@@ -28,7 +28,7 @@ constexpr const char* kDescription =
     "\n"
     "Files of an earlier build that this one does not make are removed, unless they were changed since; a "
     "file\n"
-    "in the way that no build wrote is kept as FILE.kept. Other designs may share the directory.";
+    "in the way that no build wrote is kept as FILE.kept. Designs of other names may share the directory.";
 
 constexpr const char* kFooter =
     "Examples:\n"

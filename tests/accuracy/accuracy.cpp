@@ -412,8 +412,8 @@ double wave_missed(int each, int periods, double phase) {
 
 Section waves() {
   Section section{"Waves from exact points, 1 to 10 periods (off the wave, over its height)", {}};
-  const std::vector<std::pair<int, double>> bounds = {{5, 0.2},    {6, 0.12},   {8, 0.03},
-                                                      {12, 0.012}, {20, 0.006}, {40, 0.006}};
+  const std::vector<std::pair<int, double>> bounds = {{5, 0.2},    {6, 0.1},    {8, 0.01},
+                                                      {12, 0.002}, {20, 0.004}, {40, 0.001}};
   for (const auto& [each, bound] : bounds) {
     Line entry = line(fmt::format("{} points a period", each), bound);
     for (const int periods : {1, 2, 5, 10}) {

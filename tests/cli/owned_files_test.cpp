@@ -106,6 +106,33 @@ TEST_CASE("two designs in one directory leave each other's files alone, reports 
   CHECK(names_in(builds.out()) == Names{".a.sha256", ".b.sha256", "a.off", "b.report.html", "b.stl"});
 }
 
+TEST_CASE("designs of one name from different directories do not replace each other") {
+  const Builds builds;
+  for (const char* folder : {"one", "two"}) {
+    fs::create_directory(builds.place() / folder);
+    put_bytes(builds.place() / folder / "x.yaml", kSlab);
+  }
+  const auto build = [&](const std::string& folder, const std::string& from) {
+    return glissade_run({"build", folder + "x.yaml", "-o", (builds.place() / "out").string(), "--no-report",
+                         "--set", "export=[stl]"},
+                        {builds.place() / from, {}, {}});
+  };
+  REQUIRE(build("one/", "").exit_code == 0);
+  const std::string first = bytes_of(builds.out("x.stl"));
+  const Outcome refused = build("two/", "");
+  CHECK(refused.exit_code != 0);
+  CHECK_THAT(refused.errors, Contains("holds files of another design of the same name, ") &&
+                                 Contains("one/x.yaml") && Contains("two/x.yaml would replace them") &&
+                                 Contains("another directory with -o"));
+  CHECK(bytes_of(builds.out("x.stl")) == first);
+  // The same file from elsewhere is the same design; one that was moved is not another.
+  CHECK(build("", "one").exit_code == 0);
+  fs::remove(builds.place() / "two/x.yaml");
+  fs::rename(builds.place() / "one/x.yaml", builds.place() / "two/x.yaml");
+  CHECK(build("two/", "").exit_code == 0);
+  CHECK(names_in(builds.out()) == Names{".x.sha256", "x.stl"});
+}
+
 TEST_CASE("a file that was changed since it was built is not removed") {
   const Builds builds;
   builds.build("a", "stl, scad");

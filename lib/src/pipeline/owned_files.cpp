@@ -18,20 +18,27 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kChecksumDigits = 64;
 constexpr std::uintmax_t kLargestList = 1U << 20U;
+// A comment to sha256sum.
+constexpr std::string_view kDesignLine = "# design: ";
+
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (c == '\n') {
+      text += "\\n";
+    } else if (c == '\\') {
+      text += "\\\\";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
 
 /// sha256sum puts a backslash before lines whose name has escaped characters.
 std::string line_of(const std::string& checksum, const std::string& name) {
-  std::string escaped;
-  for (const char c : name) {
-    if (c == '\n') {
-      escaped += "\\n";
-    } else if (c == '\\') {
-      escaped += "\\\\";
-    } else {
-      escaped += c;
-    }
-  }
-  return (escaped == name ? "" : "\\") + checksum + "  " + escaped + "\n";
+  const std::string text = escaped(name);
+  return (text == name ? "" : "\\") + checksum + "  " + text + "\n";
 }
 
 std::string unescaped(const std::string& text) {
@@ -80,6 +87,7 @@ OwnedFiles OwnedFiles::in(const fs::path& directory, const std::string& stem) {
   if (const auto size = fs::file_size(list, error); error || size > kLargestList) return owned;
   std::ifstream stream(list, std::ios::binary);
   for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(kDesignLine)) owned.design_ = unescaped(line.substr(kDesignLine.size()));
     if (auto entry = entry_of(line)) owned.checksums_.insert(std::move(*entry));
   }
   return owned;
@@ -104,10 +112,21 @@ std::vector<std::string> OwnedFiles::names() const {
   return names;
 }
 
-std::string OwnedFiles::list_of(const fs::path& directory, const std::vector<std::string>& names) {
+std::optional<fs::path> OwnedFiles::other_design(const fs::path& design) const {
+  if (design_.empty() || design.empty()) return std::nullopt;
+  const fs::path known = (directory_ / design_).lexically_normal();
+  std::error_code error;
+  if (!fs::exists(known, error) || !fs::exists(design, error)) return std::nullopt;
+  if (fs::equivalent(known, design, error) || error) return std::nullopt;
+  return known;
+}
+
+std::string OwnedFiles::list_of(const fs::path& directory, const std::vector<std::string>& names,
+                                const fs::path& design) {
   std::vector<std::string> sorted = names;
   std::sort(sorted.begin(), sorted.end());
   std::string text;
+  if (!design.empty()) text += std::string(kDesignLine) + escaped(design.generic_string()) + "\n";
   for (const std::string& name : sorted) text += line_of(sha256_of_file(directory / name), name);
   return text;
 }

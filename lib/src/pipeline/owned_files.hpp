@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,20 @@ class OwnedFiles {
 
   [[nodiscard]] std::vector<std::string> names() const;
 
-  /// @param names  relative to `directory`, where the files lie
-  /// @return text of the list: a line a file, sorted by name
+  /// @return the design that the list names, where that is still there and another file than `design`
+  [[nodiscard]] std::optional<std::filesystem::path> other_design(const std::filesystem::path& design) const;
+
+  /// @param names   relative to `directory`, where the files lie
+  /// @param design  the file that they were built from, relative to where the list will lie; empty: none is named
+  /// @return text of the list: the design in a comment, then a line a file, sorted by name
   /// @throws FileError if a file cannot be read
   [[nodiscard]] static std::string list_of(const std::filesystem::path& directory,
-                                           const std::vector<std::string>& names);
+                                           const std::vector<std::string>& names,
+                                           const std::filesystem::path& design);
 
  private:
   std::filesystem::path directory_;
+  std::string design_;                            // relative to the directory
   std::map<std::string, std::string> checksums_;  // by name
 };
 

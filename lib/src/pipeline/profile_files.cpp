@@ -18,7 +18,7 @@ std::vector<std::filesystem::path> write_profile(const std::filesystem::path& di
   const std::vector<Sheet> sheets = profile_sheets(design, track, options);
   const std::string stem = design.file.empty() ? std::string("design") : design.file.stem().string();
   // An owner of its own: a build into the same directory has other files.
-  Staging staging(directory, stem + ".section");
+  Staging staging(directory, stem + ".section", design.file);
   write_dxf(staging.path_for(stem + ".section.dxf"), drawing);
   write_pdf(staging.path_for(stem + ".section.pdf"), sheets, design.name.empty() ? stem : design.name);
   write_coordinates_csv(staging.path_for(stem + ".coordinates.csv"), stations, options);

@@ -6,6 +6,7 @@
 #include "io/parallel.hpp"
 #include "pipeline/chute_rules.hpp"
 #include "pipeline/cross_section.hpp"
+#include "pipeline/fabricate.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/staging.hpp"
 #include "pipeline/steps.hpp"
@@ -66,7 +67,7 @@ Build publish(const Design& given, Assembly assembly, const fs::path& directory,
               const BuildOptions& options) {
   const Design design = as_solved(given, assembly.track);
   Steps steps(context, assembly.total_cost, assembly.cost);
-  Staging staging(directory, assembly.stem);
+  Staging staging(directory, assembly.stem, given.file);
   std::vector<fs::path> made;
   std::vector<fs::path> read_back;
   for (const PendingFile& file : assembly.files) {
@@ -148,6 +149,7 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
             const BuildOptions& options) {
   RunContext context = given_context;
   require_cross_section(design);
+  require_same_design(directory, stem_of(design), design.file);
   WholeProgress progress(given_context.progress);
   context.progress = progress.of_search();
   Track track = solve(design, context);

@@ -151,10 +151,21 @@ class Moves {
 
 }  // namespace
 
-Staging::Staging(const fs::path& target, std::string owner)
-    : target_(without_trailing_slash(target)),
-      owner_(std::move(owner)),
-      made_directories_(make_directories(target_)) {
+void require_same_design(const fs::path& target, const std::string& owner, const fs::path& design) {
+  const auto other = OwnedFiles::in(target, owner).other_design(design);
+  if (!other) return;
+  throw FileError(
+      {target.string(), "it holds files of another design of the same name, " + other->string(),
+       "Files are called after their design: those of " + design.string() + " would replace them.",
+       "another directory with -o, or another name for one of the design files"});
+}
+
+Staging::Staging(const fs::path& target, std::string owner, const fs::path& design)
+    : target_(without_trailing_slash(target)), owner_(std::move(owner)) {
+  require_same_design(target_, owner_, design);
+  made_directories_ = make_directories(target_);
+  std::error_code error;
+  if (fs::exists(design, error)) design_ = fs::relative(design, target_, error);
   for (const fs::path& path : made_directories_) {
     unfinished_directories_.emplace_back(path, Unfinished::Kind::if_empty);
   }
@@ -207,7 +218,7 @@ Published Staging::publish() {
   (void)make_directories(attic);
   const std::string list = OwnedFiles::list_name(owner_);
   AtomicFile list_file(made / list);
-  list_file.write(OwnedFiles::list_of(made, names_));
+  list_file.write(OwnedFiles::list_of(made, names_, design_));
   list_file.commit();
 
   const OwnedFiles owned = OwnedFiles::in(target_, owner_);

@@ -18,6 +18,11 @@ struct Published {
   std::vector<std::filesystem::path> set_aside;
 };
 
+/// @throws FileError if the target holds files of this owner that were built from another design, which is still there:
+///         designs of one name in different directories do not replace each other's files unasked
+void require_same_design(const std::filesystem::path& target, const std::string& owner,
+                         const std::filesystem::path& design);
+
 /// A directory inside the target directory in which the files of one owner are made and checked before all of
 /// them move to their places together. What has not been published is gone when this is destroyed, the target
 /// directory too where it was made for this and stayed empty.
@@ -28,8 +33,9 @@ class Staging {
  public:
   /// @param target  where the files will be; made if missing
   /// @param owner   whose files they are, e.g. the stem of a design's file name
-  /// @throws FileError if `target` cannot be made or written to
-  Staging(const std::filesystem::path& target, std::string owner);
+  /// @param design  the design file that they are built from; may be empty or no file
+  /// @throws FileError if `target` cannot be made or written to, or as require_same_design()
+  Staging(const std::filesystem::path& target, std::string owner, const std::filesystem::path& design);
   ~Staging();
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
@@ -49,6 +55,7 @@ class Staging {
 
   std::filesystem::path target_;
   std::string owner_;
+  std::filesystem::path design_;                         // relative to the target
   std::vector<std::filesystem::path> made_directories_;  // outermost first
   std::filesystem::path directory_;
   int lock_ = -1;
