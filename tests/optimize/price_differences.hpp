@@ -145,7 +145,7 @@ struct Differences {
   }
   /// Whether the price is told between two that differ: the bound lies where another limit begins to bind.
   [[nodiscard]] bool has_kink_at(double price) const {
-    const auto [low, high] = std::minmax(tighter(), looser());
+    const auto [low, high] = std::minmax({tighter(), looser()});
     return high - low > 2.0 * kPriceAccuracy * high && price > low - noise && price < high + noise;
   }
 };

@@ -12,11 +12,6 @@
 namespace glissade::optimizer {
 namespace {
 
-// A step through all the room would win less than this share of the objective, ...
-constexpr double kAtRest = 1e-5;  // accuracy: ten times that of a time
-// ... and a step wins less than this.
-constexpr double kPays = 5e-7;  // accuracy: half that of a time
-
 /// Knots that move together: one, or those around a jump.
 struct Group {
   std::size_t first = 0;
@@ -214,20 +209,21 @@ Vector times(const Vector& a, const Vector& b, double factor = 1.0) {
 }
 
 /// Whether a jump of the curvature lies so far from where it belongs that it is worth more than the mesh costs.
-bool is_worth_moving(const ScaledProblem& problem, const Found& found) {
-  constexpr double kWorth = 3e-5;  // taste: of the objective, for half the way to what stands next
+bool is_worth_moving(const ScaledProblem& problem, const Found& found, const KnotMoves& moves) {
   std::vector<Group> jumps = groups_of(found);
-  std::erase_if(jumps, [](const Group& group) { return group.first == group.last; });
+  if (!moves.bends) std::erase_if(jumps, [](const Group& group) { return group.first == group.last; });
   const Vector slopes = times(slopes_of(problem, found, jumps), rooms_of(found, jumps));
-  return greatest_size(slopes) > kWorth * std::fabs(found.objective);
+  return greatest_size(slopes) > moves.worth * std::fabs(found.objective);
 }
 
 class KnotMover {
  public:
-  KnotMover(const ScaledProblem& problem, const Found& begun, double tolerance, SearchControl& control)
+  KnotMover(const ScaledProblem& problem, const Found& begun, double tolerance, SearchControl& control,
+            const KnotMoves& moves)
       : problem_(problem),
         tolerance_(tolerance),
         control_(control),
+        moves_(moves),
         best_(begun),
         groups_(groups_of(begun)),
         unit_(rooms_of(begun, groups_)),
@@ -238,11 +234,11 @@ class KnotMover {
     constexpr double kFirstStep = 0.05;  // of the room; taste
     const double size = std::fabs(best_.objective);
     Vector slopes = slopes_here();
-    curvature_.begin(kFirstStep / std::max(greatest_size(slopes), kAtRest * size));
-    for (int round = 0; round < kMostSteps && greatest_size(slopes) > kAtRest * size; ++round) {
+    curvature_.begin(kFirstStep / std::max(greatest_size(slopes), moves_.at_rest * size));
+    for (int round = 0; round < kMostSteps && greatest_size(slopes) > moves_.at_rest * size; ++round) {
       const double before = best_.objective;
       const Vector step = advance(curvature_.step_against(slopes));
-      if (step.empty() || before - best_.objective < kPays * size) break;
+      if (step.empty() || before - best_.objective < moves_.pays * size) break;
       Vector change = slopes_here();
       const Vector after = change;
       add_scaled(change.data(), -1.0, slopes.data(), change.size());
@@ -284,6 +280,7 @@ class KnotMover {
   const ScaledProblem& problem_;
   double tolerance_;
   SearchControl& control_;
+  KnotMoves moves_;
   Found best_;
   std::vector<Group> groups_;
   Vector unit_;  ///< of the steps: the rooms at the beginning
@@ -293,9 +290,9 @@ class KnotMover {
 }  // namespace
 
 std::optional<Found> with_moved_knots(const ScaledProblem& problem, const Found& begun, double tolerance,
-                                      SearchControl& control) {
-  if (!is_worth_moving(problem, begun)) return std::nullopt;
-  KnotMover mover(problem, begun, tolerance, control);
+                                      SearchControl& control, const KnotMoves& moves) {
+  if (!is_worth_moving(problem, begun, moves)) return std::nullopt;
+  KnotMover mover(problem, begun, tolerance, control, moves);
   mover.run();
   if (!(mover.best().objective < begun.objective)) return std::nullopt;
   return mover.best();

@@ -6,6 +6,14 @@
 
 namespace glissade::optimizer {
 
+/// What knots are moved for, as shares of the objective.
+struct KnotMoves {
+  double worth = 3e-5;    ///< a jump goes elsewhere where half the way to what stands next would win more; taste
+  double at_rest = 1e-5;  ///< a step through all the room would win less; accuracy: ten times that of a time
+  double pays = 5e-7;     ///< the least that a step wins; accuracy: half that of a time
+  bool bends = false;     ///< so do bends without a jump
+};
+
 /// An optimum among those of neighbouring meshes: knots go to where moving them wins nothing.
 ///
 /// On one mesh the places of the knots are given, and with them those where curvature can jump or bend: the
@@ -14,8 +22,10 @@ namespace glissade::optimizer {
 /// their optima, steps are those of a quasi-Newton method.
 /// @param begun  an optimum on its mesh
 /// @param tolerance  residual that the optima are to keep
+/// @param moves      what counts as well
 /// @return the best optimum; none where jumps of the curvature lie well, or nothing is won
 [[nodiscard]] std::optional<Found> with_moved_knots(const ScaledProblem& problem, const Found& begun,
-                                                    double tolerance, SearchControl& control);
+                                                    double tolerance, SearchControl& control,
+                                                    const KnotMoves& moves = {});
 
 }  // namespace glissade::optimizer

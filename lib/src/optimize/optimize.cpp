@@ -230,8 +230,7 @@ void tell_track(const Candidate& best, const OptimizeOptions& options, SearchCon
   report.checks = best.judgement.checks;
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = best.finer_mesh_wins;
-  report.active = active_limits_to_either_side(
-      *best.problem, priced(*best.problem, found, best.multipliers_ahead, options, control));
+  report.active = priced_limits(*best.problem, found, best.multipliers_ahead, options, control);
 }
 
 /// Tells why there is no track.

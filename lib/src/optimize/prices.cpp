@@ -1,6 +1,7 @@
 #include "optimize/prices.hpp"
 
 #include "optimize/lead_prices.hpp"
+#include "optimize/moved_knots.hpp"
 #include "optimize/one_sided_prices.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/switches.hpp"
@@ -80,12 +81,22 @@ std::optional<Found> on_finer_mesh(const ScaledProblem& problem, const Found& fo
   return use ? std::optional(std::move(next)) : std::nullopt;
 }
 
-/// Pieces next to jumps, halved a few times.
+/// Pieces next to jumps, and next to straight ends, at which curvature is none: after those it may be another at once.
+std::vector<bool> beside_jumps_and_leads(const Mesh& mesh) {
+  constexpr double kShort = 3e-3;  // taste: three times a pair of knots
+  std::vector<bool> beside = beside_jumps(mesh);
+  const auto is_long = [&](std::size_t piece) { return mesh.knots[piece + 1] - mesh.knots[piece] > kShort; };
+  if (mesh.lead_in > 0.0 && is_long(0)) beside.front() = true;
+  if (mesh.lead_out > 0.0 && is_long(beside.size() - 1)) beside.back() = true;
+  return beside;
+}
+
+/// These, halved a few times.
 std::optional<MeshTrack> halved_beside_jumps(const Found& found) {
   constexpr int kRounds = 4;  // budget
   MeshTrack finer{found.track->mesh(), found.z};
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<bool> beside = beside_jumps(finer.mesh);
+    const std::vector<bool> beside = beside_jumps_and_leads(finer.mesh);
     if (std::none_of(beside.begin(), beside.end(), [](bool is_beside) { return is_beside; })) break;
     finer = with_halved_pieces(Transcription(finer.mesh), finer.z, beside);
   }
@@ -93,29 +104,90 @@ std::optional<MeshTrack> halved_beside_jumps(const Found& found) {
   return finer;
 }
 
-}  // namespace
+/// An optimum that prices are taken from.
+struct Priced {
+  Found found;
+  std::optional<Found>
+      before;          ///< on the mesh before, of twice as long pieces; none where one mesh was enough
+  Vector multipliers;  ///< of each limit
+  Vector error;        ///< of each, by what it still changes from mesh to mesh; 0 where it stays
+};
 
-Found priced(const ScaledProblem& problem, Found found, const Vector& ahead, const OptimizeOptions& options,
-             SearchControl& control) {
+/// Multipliers on one mesh after the other: what they tend to.
+class Sequence {
+ public:
+  void add(Vector multipliers) { terms_.push_back(std::move(multipliers)); }
+
+  [[nodiscard]] const Vector& last() const { return terms_.back(); }
+  [[nodiscard]] std::size_t size() const { return terms_.size(); }
+  [[nodiscard]] bool stays() const {
+    return terms_.size() > 1 && same_prices(terms_.back(), terms_[terms_.size() - 2]);
+  }
+
+  /// One that changes less and less the same way is continued.
+  /// Source: A. C. Aitken, Proceedings of the Royal Society of Edinburgh 46 (1927) 289-305.
+  /// @param error  by how much it is, or by how much it changed last
+  /// @return what it tends to
+  [[nodiscard]] double limit_of(std::size_t i, double& error) const {
+    constexpr double kSlowest = 0.85;  // taste
+    const std::size_t count = terms_.size();
+    const double value = last()[i];
+    error = 0.0;
+    if (count < 2) return value;
+    const double change = value - terms_[count - 2][i];
+    error = std::fabs(change);
+    if (count < 3) return value;
+    const double before = terms_[count - 2][i] - terms_[count - 3][i];
+    const double ratio = before == 0.0 ? 0.0 : change / before;
+    const double rest = ratio > 0.0 && ratio < kSlowest ? change * ratio / (1.0 - ratio) : 0.0;
+    if (rest == 0.0 || !(value + rest > 0.0)) return value;
+    error = std::fabs(rest);
+    return value + rest;
+  }
+
+ private:
+  std::vector<Vector> terms_;
+};
+
+/// Where the mesh holds jumps of the curvature beside where they belong.
+Found with_knots_at_rest(const ScaledProblem& problem, Found found, const OptimizeOptions& options,
+                         SearchControl& control) {
+  // Prices miss by the first order of what the objective misses by the second.
+  constexpr KnotMoves kMoves{1e-7, 1e-8, 1e-11, true};  // taste
+  std::optional<Found> moved = with_moved_knots(problem, found, options.tolerance, control, kMoves);
+  return moved ? std::move(*moved) : std::move(found);
+}
+
+Priced priced(const ScaledProblem& problem, Found found, const Vector& ahead, const OptimizeOptions& options,
+              SearchControl& control) {
+  constexpr int kRounds = 3;                // budget
+  constexpr std::size_t kMostPieces = 200;  // budget
+  bool same = ahead.empty() || same_prices(multipliers_of(problem, found), ahead);
+  if (!same) found = with_knots_at_rest(problem, std::move(found), options, control);
   if (const std::optional<MeshTrack> finer = halved_beside_jumps(found)) {
     if (auto next = on_finer_mesh(problem, found, *finer, options, control)) found = std::move(*next);
   }
   // Where a finer mesh has other prices, they are taken from there, and from a finer one still until they stay.
-  constexpr int kRounds = 3;                // budget
-  constexpr std::size_t kMostPieces = 200;  // budget
-  Vector prices = multipliers_of(problem, found);
-  bool same = ahead.empty() || same_prices(prices, ahead);
+  std::optional<Found> before;
+  Sequence sequence;
+  sequence.add(multipliers_of(problem, found));
   for (int round = 0; !same && round < kRounds; ++round) {
     if (found.track->mesh().knots.size() > kMostPieces) break;
     auto next = on_finer_mesh(problem, found, with_all_halved(*found.track, found.z), options, control);
     if (!next) break;
-    found = std::move(*next);
-    Vector finer = multipliers_of(problem, found);
-    same = same_prices(finer, prices);
-    prices = std::move(finer);
+    before = std::exchange(found, std::move(*next));
+    sequence.add(multipliers_of(problem, found));
+    same = sequence.stays();
   }
-  return found;
+  Priced result{std::move(found), std::move(before), sequence.last(), Vector(problem.limits.size(), 0.0)};
+  for (std::size_t i = 0; !same && i < problem.limits.size(); ++i) {
+    result.multipliers[i] = sequence.limit_of(i, result.error[i]);
+    if (sequence.size() == 1) result.error[i] = std::fabs(result.multipliers[i] - ahead[i]);
+  }
+  return result;
 }
+
+}  // namespace
 
 namespace {
 
@@ -141,12 +213,15 @@ void add_leads(const ScaledProblem& problem, const Found& found, double objectiv
 }
 
 /// Each limit that carries something, or binds without.
-std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Found& found, double objective) {
+/// @param multipliers  of each limit
+/// @param error        of each
+std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Found& found,
+                                        const Vector& multipliers, const Vector& error, double objective) {
   std::vector<ActiveLimit> result;
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
     const LimitSpec& limit = problem.limits[i];
-    const double multiplier = multiplier_of(found, limit, i);
+    const double multiplier = multipliers[i];
     if (multiplier <= 0.0 && limit.side != 0 && bindings[i].empty()) continue;
     ActiveLimit active;
     active.limit = limit.name;
@@ -154,7 +229,9 @@ std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Foun
     for (const Span& span : bindings[i]) {
       active.where.push_back({span.from * problem.chord, span.to * problem.chord});
     }
-    active.price = multiplier / limit.scale * limit.per_si * objective_unit(problem);
+    const double unit = limit.per_si / limit.scale * objective_unit(problem);
+    active.price = multiplier * unit;
+    active.price_error = error[i] * unit;  // of all its sides; a share at last
     // A limit with two sides under one name, as that on the rate of curvature, gives way on both.
     const auto same = std::find_if(result.begin(), result.end(),
                                    [&](const ActiveLimit& known) { return known.limit == active.limit; });
@@ -163,7 +240,13 @@ std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Foun
       continue;
     }
     same->price += active.price;
+    same->price_error += active.price_error;
     same->where = joined(std::move(same->where), active.where);
+  }
+  for (ActiveLimit& active : result) {
+    constexpr double kTold = 0.02;  // accuracy: that of a price
+    const bool is_told = active.price_error > kTold * active.price && active.price > 0.0;
+    active.price_error = is_told ? active.price_error / active.price : 0.0;
   }
   add_leads(problem, found, objective, result);
   return result;
@@ -181,16 +264,49 @@ std::vector<ActiveLimit> told(std::vector<ActiveLimit> limits) {
 }  // namespace
 
 std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found, double objective) {
-  return told(binding_limits(problem, found, objective));
+  const Vector multipliers = multipliers_of(problem, found);
+  return told(binding_limits(problem, found, multipliers, Vector(multipliers.size(), 0.0), objective));
 }
 
-std::vector<ActiveLimit> active_limits_to_either_side(const ScaledProblem& problem, const Found& found) {
-  std::vector<ActiveLimit> limits = binding_limits(problem, found, 1.0);
-  for (const OneSidedPrice& price : one_sided_prices(problem, found)) {
+namespace {
+
+/// Kinks that two meshes have: where one lets two rows just touch there is one on it alone.
+/// @param at  the optimum on the other mesh, where that has none of them
+std::vector<OneSidedPrice> lasting_kinks(const ScaledProblem& problem, Priced& at,
+                                         const OptimizeOptions& options, SearchControl& control) {
+  std::vector<OneSidedPrice> kinks = one_sided_prices(problem, at.found);
+  if (kinks.empty()) return kinks;
+  std::optional<Found> other = std::move(at.before);
+  if (!other) {
+    const MeshTrack finer = with_all_halved(*at.found.track, at.found.z);
+    other = on_finer_mesh(problem, at.found, finer, options, control);
+  }
+  if (!other) return kinks;
+  std::vector<OneSidedPrice> others = one_sided_prices(problem, *other);
+  const auto is_lasting = [&](const OneSidedPrice& kink) {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const OneSidedPrice& known) { return known.limit == kink.limit; });
+  };
+  if (std::all_of(kinks.begin(), kinks.end(), is_lasting)) return kinks;
+  at.found = std::move(*other);
+  at.multipliers = multipliers_of(problem, at.found);
+  at.error.assign(problem.limits.size(), 0.0);
+  return others;
+}
+
+}  // namespace
+
+std::vector<ActiveLimit> priced_limits(const ScaledProblem& problem, const Found& found, const Vector& ahead,
+                                       const OptimizeOptions& options, SearchControl& control) {
+  Priced at = priced(problem, found, ahead, options, control);
+  const std::vector<OneSidedPrice> kinks = lasting_kinks(problem, at, options, control);
+  std::vector<ActiveLimit> limits = binding_limits(problem, at.found, at.multipliers, at.error, 1.0);
+  for (const OneSidedPrice& price : kinks) {
     for (ActiveLimit& active : limits) {
       if (active.limit != price.limit) continue;
       active.price = price.relaxing * objective_unit(problem);
       active.tightening_price = price.tightening * objective_unit(problem);
+      active.price_error = 0.0;
     }
   }
   return told(std::move(limits));

@@ -59,6 +59,8 @@ std::string relaxed_text(const Relaxation& relaxation) {
 
 std::string price_text(const ActiveLimit& active, const Objective& objective) {
   const std::string relaxing = price_text(active.price, active.limit, objective);
+  if (active.price_error > 0.0)
+    return relaxing + " (to " + rounded_text(100.0 * active.price_error, 1) + " %)";
   if (!active.tightening_price) return relaxing;
   const double tightening = price_for_people(*active.tightening_price, active.limit);
   const bool none = std::isinf(tightening);

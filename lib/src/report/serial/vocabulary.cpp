@@ -136,6 +136,7 @@ Json active_json(const ActiveLimit& active, const Objective& objective) {
           {"where", std::move(where)},
           {"price", number(price_for_people(active.price, active.limit))},
           {"tightening_price", number(price_for_people(active.tightening(), active.limit))},
+          {"price_error", active.price_error},
           {"price_unit", price_unit(active.limit, objective)}};
 }
 
@@ -152,7 +153,7 @@ Json limit_json(const LimitCheck& check, const ActiveLimit* active, const Object
                {"violation", in_unit(check.violation, check.limit)},
                {"violation_of_scale", number(check.violation / check.scale)}};
   const Json prices = active != nullptr ? active_json(*active, objective) : Json::object();
-  for (const char* key : {"where", "price", "tightening_price", "price_unit"})
+  for (const char* key : {"where", "price", "tightening_price", "price_error", "price_unit"})
     json[key] = prices.value(key, Json(nullptr));
   return json;
 }
