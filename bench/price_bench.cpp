@@ -36,7 +36,8 @@ struct Bound {
   double value = 0.0;
   double price = 0.0;
   double tightening = 0.0;
-  double size = 0.0;  ///< of the bound
+  double size = 0.0;   ///< of the bound
+  double error = 0.0;  ///< as told: ActiveLimit::price_error
 };
 
 std::vector<Bound> bounds_of(const Problem& problem, const OptimizeReport& report) {
@@ -52,15 +53,15 @@ std::vector<Bound> bounds_of(const Problem& problem, const OptimizeReport& repor
     return std::max(std::fabs(value), known != nullptr && value == 0.0 ? known->scale : 0.0);
   };
   for (const ActiveLimit& active : report.active)
-    bounds.push_back(
-        {active.limit, active.value, active.price, active.tightening(), size_of(active.limit, active.value)});
+    bounds.push_back({active.limit, active.value, active.price, active.tightening(),
+                      size_of(active.limit, active.value), active.price_error});
   for (const LimitName& limit : testing_problems::limits_of(problem)) {
     const bool told =
         std::any_of(bounds.begin(), bounds.end(), [&](const Bound& bound) { return bound.limit == limit; });
     if (told) continue;
     for (const LimitCheck& check : report.checks) {
       if (check.limit != limit || std::fabs(check.reached - check.value) > kAt * check.scale) continue;
-      bounds.push_back({limit, check.value, 0.0, 0.0, size_of(limit, check.value)});
+      bounds.push_back({limit, check.value, 0.0, 0.0, size_of(limit, check.value), 0.0});
     }
   }
   return bounds;
@@ -135,6 +136,8 @@ class Comparison {
       return both ? "kink" : "OFF-KINK";
     }
     if (close(bound.price, differences.central())) return "ok";
+    const double missed = std::fabs(bound.price - differences.central());
+    if (missed <= bound.error * std::fabs(differences.central())) return "loose";
     if (differences.scatter() > 0.1 * bound.price + 2.0 * differences.noise) return "unclear";
     return bound.price == 0.0 ? "MISSED" : differences.has_kink_at(bound.price) ? "untoldkink" : "OFF";
   }

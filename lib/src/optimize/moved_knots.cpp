@@ -230,12 +230,11 @@ class KnotMover {
         curvature_(groups_.size()) {}
 
   void run() {
-    constexpr int kMostSteps = 12;       // budget
     constexpr double kFirstStep = 0.05;  // of the room; taste
     const double size = std::fabs(best_.objective);
     Vector slopes = slopes_here();
     curvature_.begin(kFirstStep / std::max(greatest_size(slopes), moves_.at_rest * size));
-    for (int round = 0; round < kMostSteps && greatest_size(slopes) > moves_.at_rest * size; ++round) {
+    for (int round = 0; round < moves_.most_steps && greatest_size(slopes) > moves_.at_rest * size; ++round) {
       const double before = best_.objective;
       const Vector step = advance(curvature_.step_against(slopes));
       if (step.empty() || before - best_.objective < moves_.pays * size) break;

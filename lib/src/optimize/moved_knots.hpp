@@ -8,10 +8,12 @@ namespace glissade::optimizer {
 
 /// What knots are moved for, as shares of the objective.
 struct KnotMoves {
-  double worth = 3e-5;    ///< a jump goes elsewhere where half the way to what stands next would win more; taste
+  double worth =
+      3e-5;  ///< a jump goes elsewhere where half the way to what stands next would win more; taste
   double at_rest = 1e-5;  ///< a step through all the room would win less; accuracy: ten times that of a time
   double pays = 5e-7;     ///< the least that a step wins; accuracy: half that of a time
   bool bends = false;     ///< so do bends without a jump
+  int most_steps = 12;    ///< budget
 };
 
 /// An optimum among those of neighbouring meshes: knots go to where moving them wins nothing.

@@ -20,7 +20,7 @@ constexpr double kMoved = 1e-7;  // accuracy: that of a limit
 // Prices this far apart are two, ...
 constexpr double kApart = 0.04;  // accuracy: twice that of a price
 // ... if they lie apart by this share of the greatest multiplier: what costs next to nothing changes fast.
-constexpr double kCounts = 1e-3;  // taste
+constexpr double kCounts = 1e-5;  // taste
 
 /// The quadratic program at an optimum, with the bound of one limit moved.
 class MovedPrograms {

@@ -153,7 +153,7 @@ class Sequence {
 Found with_knots_at_rest(const ScaledProblem& problem, Found found, const OptimizeOptions& options,
                          SearchControl& control) {
   // Prices miss by the first order of what the objective misses by the second.
-  constexpr KnotMoves kMoves{1e-7, 1e-8, 1e-11, true};  // taste
+  constexpr KnotMoves kMoves{1e-6, 1e-7, 1e-10, true, 4};  // taste
   std::optional<Found> moved = with_moved_knots(problem, found, options.tolerance, control, kMoves);
   return moved ? std::move(*moved) : std::move(found);
 }
