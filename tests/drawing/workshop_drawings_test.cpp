@@ -1,6 +1,7 @@
 #include "glissade/drawing/workshop_drawings.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/slot.hpp"
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/sheet_file.hpp"
 #include "glissade/io/workshop_tables.hpp"
@@ -82,6 +83,37 @@ TEST_CASE("the set of drawings has every part, list and table, each sheet number
     CHECK(std::any_of(set.begin(), set.end(), [&](const Sheet& sheet) { return says(sheet, text); }));
   }
   CHECK(pdf_text(set, "x") == pdf_text(drawing_set(workshop), "x"));
+}
+
+TEST_CASE("slots are numbered after the holes, with middle, width and length") {
+  Workshop workshop = testing::upright_workshop();
+  ShopPart part;
+  part.name = "frame";
+  part.material = "S235";
+  part.number = 1;
+  part.thickness = 6e-3;
+  part.places = {Frame{}};
+  part.pattern.emplace();
+  PlaneRegion& region = part.pattern->region;
+  region.outline = {{{{0.01, 0.02}, 0.0}, {{0.41, 0.02}, 0.0}, {{0.41, 0.12}, 0.0}, {{0.01, 0.12}, 0.0}},
+                    true};
+  region.cutouts = {{{{{0.1, 0.05}, 0.0}, {{0.12, 0.05}, 0.0}, {{0.12, 0.06}, 0.0}}, true},
+                    path_of(Slot{{0.06, 0.07}, {0.0, 6.5e-3}, 6e-3})};
+  region.holes = {{{0.2, 0.07}, 5.5e-3}};
+  part.body = Prism{region, part.thickness};
+  workshop.parts = {part};
+  const auto has_row = [&](const std::vector<std::string>& wanted) {
+    for (const Sheet& sheet : drawing_set(workshop)) {
+      for (const SheetTable& table : sheet.tables) {
+        if (std::find(table.rows.begin(), table.rows.end(), wanted) != table.rows.end()) return true;
+      }
+    }
+    return false;
+  };
+  CHECK(has_row({"1", "190", "50", "11"}));
+  CHECK(has_row({"2", "50", "50", "12 x 25"}));
+  workshop.parts[0].pattern->region.holes.clear();
+  CHECK(has_row({"1", "50", "50", "12 x 25"}));
 }
 
 TEST_CASE("the view from the side shows parts in their true size") {

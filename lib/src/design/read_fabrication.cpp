@@ -36,6 +36,7 @@ ShopLeast least_of(const std::vector<Rule>& rules, double density) {
   };
   return {.hole_edge_diameters = least("hole_edge_diameters", false),
           .hole_pitch_diameters = least("hole_pitch_diameters", false),
+          .slot_edge_diameters = least("slot_edge_diameters", false),
           .bend_radius_thicknesses = least("bend_radius_thicknesses", false),
           .flat_thicknesses = least("flat_thicknesses", true),
           .flat = least("flat", true)};

@@ -86,6 +86,10 @@ FlangeOptions read_flanges(const Value& value, Findings& findings) {
   if (const auto bolt = map.find("bolt")) flanges.bolt = read_bolt(*bolt, findings).value_or(flanges.bolt);
   flanges.pitch = map.quantity("pitch", Dimension::length).value_or(flanges.pitch);
   flanges.gap = map.quantity("gap", Dimension::length).value_or(flanges.gap);
+  flanges.slotted = chosen<std::optional<FlangeSide>>(
+      map, "slotted", flanges.slotted,
+      {{"none", std::nullopt}, {"downstream", FlangeSide::downstream}, {"upstream", FlangeSide::upstream}});
+  flanges.slot = map.quantity("slot", Dimension::length);
   map.refuse_unknown_keys();
   return flanges;
 }

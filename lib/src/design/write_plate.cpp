@@ -45,6 +45,9 @@ std::string flanges(const FlangeOptions& options) {
   group.add("bolt", "M" + std::to_string(options.bolt));
   group.add("pitch", options.pitch, Dimension::length);
   group.add("gap", options.gap, Dimension::length);
+  if (options.slotted)
+    group.add("slotted", options.slotted == FlangeSide::downstream ? "downstream" : "upstream");
+  group.add("slot", options.slot, Dimension::length);
   return group.inlined();
 }
 

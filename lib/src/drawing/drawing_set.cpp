@@ -1,3 +1,4 @@
+#include "glissade/core/slot.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 
 #include "drawing/general_arrangement.hpp"
@@ -126,26 +127,55 @@ void append_table(std::vector<Sheet>& sheets, const Workshop& workshop, const st
 
 constexpr double kTableWidth = 66.0;
 
+bool has_holes(const ShopPart& part) {
+  const PlaneRegion& region = part.pattern->region;
+  return !region.holes.empty() ||
+         std::any_of(region.cutouts.begin(), region.cutouts.end(),
+                     [](const ArcPath& cutout) { return as_slot(cutout).has_value(); });
+}
+
+DrawnText number_at(Vec2 at, std::size_t layer, std::size_t number) {
+  DrawnText text;
+  text.layer = layer;
+  text.at = at;
+  text.height_mm = 1.8;
+  text.text = std::to_string(number);
+  return text;
+}
+
+/// Slots by number after the holes: their middles, width and overall length.
+void add_slots(const ShopPart& part, Drawing& view, std::size_t layer, SheetTable& table) {
+  const PlaneRegion& region = part.pattern->region;
+  const PlaneBox box = bounds(region.outline);
+  for (std::size_t i = 0; i < region.cutouts.size(); ++i) {
+    const auto slot = as_slot(region.cutouts[i]);
+    if (!slot) continue;
+    const std::size_t number = table.rows.size() + 1;
+    table.rows.push_back({std::to_string(number), mm(slot->middle.x - box.low.x),
+                          mm(slot->middle.y - box.low.y),
+                          mm(2.0 * slot->radius) + " x " + mm(overall_length(*slot))});
+    // The outline is drawn first, then cutouts as they come.
+    const PlaneBox drawn = bounds(view.paths.at(1 + i).path);
+    view.texts.push_back(number_at(drawn.high, layer, number));
+  }
+}
+
 /// Holes by number, from the lower left corner of the pattern; numbers beside the holes in the view.
 void add_holes(const ShopPart& part, Drawing& view, SheetTable& table) {
   const FlatPattern& pattern = *part.pattern;
   const PlaneBox box = bounds(pattern.region.outline);
   table.caption = "Holes, from the lower left corner";
-  table.widths_mm = {12.0, 20.0, 20.0, 14.0};
+  table.widths_mm = {10.0, 18.0, 18.0, 20.0};
   table.header = {"no.", "x mm", "y mm", "Ø mm"};
   const std::size_t layer = view.layer({"NUMBERS", LineStyle::continuous, 0.18, 7});
   for (std::size_t i = 0; i < pattern.region.holes.size(); ++i) {
     const Circle& hole = pattern.region.holes[i];
     table.rows.push_back({std::to_string(i + 1), mm(hole.centre.x - box.low.x), mm(hole.centre.y - box.low.y),
                           mm(2.0 * hole.radius)});
-    DrawnText text;
-    text.layer = layer;
-    text.at =
-        view.circles[i].circle.centre + Vec2{view.circles[i].circle.radius, view.circles[i].circle.radius};
-    text.height_mm = 1.8;
-    text.text = std::to_string(i + 1);
-    view.texts.push_back(std::move(text));
+    const Circle& drawn = view.circles[i].circle;
+    view.texts.push_back(number_at(drawn.centre + Vec2{drawn.radius, drawn.radius}, layer, i + 1));
   }
+  add_slots(part, view, layer, table);
 }
 
 std::vector<std::string> facts_of(const ShopPart& part) {
@@ -208,11 +238,11 @@ std::vector<Sheet> part_sheets(const Workshop& workshop, const ShopPart& part) {
   for (DrawingLayer& layer : view.layers) layer.width_mm = layer.name == "CUT" ? 0.5 : 0.18;
   add_overall_dimensions(view);
   // A curve without holes is marked by its ordinates.
-  SheetTable holes = part.pattern->region.holes.empty() && part.pattern->rolls.empty()
+  SheetTable holes = !has_holes(part) && part.pattern->rolls.empty()
                          ? drawing::ordinate_table(part.pattern->region.outline)
                          : SheetTable{};
-  const std::string listed = part.pattern->region.holes.empty() ? ": ordinates" : ": holes";
-  if (!part.pattern->region.holes.empty()) add_holes(part, view, holes);
+  const std::string listed = has_holes(part) ? ": holes" : ": ordinates";
+  if (has_holes(part)) add_holes(part, view, holes);
   if (!holes.rows.empty()) {
     room.high.x -= kTableWidth + 4.0;
     holes.at = {area.high.x - kTableWidth, area.high.y};

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/slot.hpp"
 
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
@@ -35,26 +36,16 @@ struct Hole {
   Vec3 reach;  ///< from a slot's centre to that of its end; 0 of a hole that is round
 };
 
-/// A slot between two half circles; none if the path is another figure.
 std::vector<Hole> slots_of(const Prism& prism) {
   std::vector<Hole> slots;
   for (const ArcPath& cutout : prism.region.cutouts) {
-    constexpr double kHalfCircle = 1e-9;
-    const auto& at = cutout.vertices;
-    if (at.size() != 4) continue;
-    const std::size_t first = at[0].bulge == 0.0 ? 1 : 0;
-    const auto is_end = [&](std::size_t k) { return std::fabs(std::fabs(at[k].bulge) - 1.0) < kHalfCircle; };
-    if (!is_end(first) || !is_end(first + 2) || at[1 - first].bulge != 0.0 || at[3 - first].bulge != 0.0)
-      continue;
-    const Vec2 one = 0.5 * (at[first].at + at[first + 1].at);
-    const Vec2 other = 0.5 * (at[first + 2].at + at[(first + 3) % 4].at);
-    const Vec2 middle = 0.5 * (one + other);
-    const Vec2 reach = 0.5 * (other - one);
-    slots.push_back({{middle.x, middle.y, 0.0},
+    const auto slot = as_slot(cutout);
+    if (!slot) continue;
+    slots.push_back({{slot->middle.x, slot->middle.y, 0.0},
                      {0.0, 0.0, 1.0},
                      prism.depth,
-                     0.5 * norm(at[first + 1].at - at[first].at),
-                     {reach.x, reach.y, 0.0}});
+                     slot->radius,
+                     {slot->reach.x, slot->reach.y, 0.0}});
   }
   return slots;
 }

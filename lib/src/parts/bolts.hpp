@@ -13,8 +13,9 @@ struct Bolt {
   double fine = 0.0;  ///< clearance holes, ISO 273 [m]
   double medium = 0.0;
   double coarse = 0.0;
-  double nut_height = 0.0;     ///< ISO 4032 [m]
-  double washer_height = 0.0;  ///< ISO 7089 [m]
+  double nut_height = 0.0;           ///< ISO 4032 [m]
+  double washer_height = 0.0;        ///< ISO 7089 [m]
+  double large_washer_height = 0.0;  ///< ISO 7093-1 [m]
 };
 /// @throws InputError if the size is unknown
 [[nodiscard]] const Bolt& bolt_of(int size);

@@ -5,6 +5,7 @@
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/equal_parts.hpp"
+#include "parts/frame_holes.hpp"
 #include "parts/placed_piece.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/shop_facts.hpp"
@@ -82,7 +83,7 @@ std::optional<double> face_at_joint(const Solid& solid, const FacePlace& place, 
          0.5 * t * (t + 1.0) * heights[2];
 }
 
-/// By how much two frames may shift on each other: holes of a medium and a coarse fit about one bolt.
+/// By how much two frames may shift on each other, sideways: holes of a medium and a coarse fit about one bolt.
 double play_of(const FlangeOptions& flanges) {
   if (!flanges.wanted) return 0.0;
   const double bolt = 1e-3 * flanges.bolt;
@@ -126,12 +127,16 @@ void measure_steps(const std::vector<FacePlace>& places, const PlateOptions& opt
   }
   if (build.joints.size() < 3) return;
   build.ride.joint_step = options.joint_step;
-  build.ride.joint_play = play_of(options.flanges);
+  const double sideways = play_of(options.flanges);
+  build.ride.joint_play = sideways + slot_reach(options.flanges);
   if (!(build.ride.joint_play > 0.0)) return;
+  const std::string flush =
+      "Faces are held flush at joints, downstream never higher, before bolts are tightened: their ";
   build.workshop.notes.push_back(
-      "Faces are held flush at joints, downstream never higher, before bolts are tightened: their holes "
-      "let units shift by " +
-      length_text(build.ride.joint_play) + " either way.");
+      options.flanges.slotted
+          ? flush + "slots let units shift by " + length_text(build.ride.joint_play) + " up or down, by " +
+                length_text(sideways) + " to either side."
+          : flush + "holes let units shift by " + length_text(build.ride.joint_play) + " either way.");
 }
 
 std::vector<FacePlace> channel_places(const Job& job, const std::vector<double>& joints) {

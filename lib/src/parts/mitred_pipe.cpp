@@ -9,6 +9,7 @@
 #include "parts/bolted.hpp"
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
+#include "parts/frame_holes.hpp"
 #include "parts/joint_steps.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
@@ -339,12 +340,22 @@ ArcPath half_round(double inner, double outer, double side) {
   return path;
 }
 
+/// How far along the line of bolts, from its end, the uppermost one stands.
+double half_round_edge(const PipeJob& job, const FlangeOptions& flange, double pitch_radius) {
+  const double below = below_top(flange);
+  const double turned = below - *job.side;
+  // Slots are upright, so that below the sides depth counts and not the way round.
+  if (!flange.slotted || !(turned > 0.0)) return below;
+  return *job.side + pitch_radius * math::asin(std::min(1.0, turned / pitch_radius));
+}
+
 /// Bolts round half a pipe, evenly from below one rim to below the other.
-void add_half_round_holes(const PipeJob& job, double pitch_radius, double hole, PlaneRegion& region) {
-  const double edge = 1.5 * clearance_hole(job.options.flanges.bolt, HoleFit::coarse);
+std::vector<Vec2> round_half(const PipeJob& job, const FlangeOptions& flange, double pitch_radius) {
+  const double edge = half_round_edge(job, flange, pitch_radius);
   const double whole = 2.0 * *job.side + kPi * pitch_radius;
   const double room = whole - 2.0 * edge;
-  const double gaps = std::max(2.0, std::ceil(room / job.options.flanges.pitch - 1e-9));
+  const double gaps = std::max(2.0, std::ceil(room / flange.pitch - 1e-9));
+  std::vector<Vec2> middles;
   for (double k = 0.0; k <= gaps; k += 1.0) {
     const double along = edge + room * k / gaps - *job.side;  // from where the round begins on the left
     Vec2 at{pitch_radius, -along};
@@ -354,36 +365,46 @@ void add_half_round_holes(const PipeJob& job, double pitch_radius, double hole, 
       const auto [sine, cosine] = math::sine_cosine(along / pitch_radius);
       at = {pitch_radius * cosine, -pitch_radius * sine};
     }
-    region.holes.push_back({at, 0.5 * hole});
+    middles.push_back(at);
   }
+  return middles;
+}
+
+/// Bolts round a whole pipe: an even number, none in the plane of the track.
+std::vector<Vec2> round_whole(double pitch_radius, double pitch) {
+  const double count = 2.0 * std::max(2.0, std::ceil(kPi * pitch_radius / pitch - 1e-9));
+  std::vector<Vec2> middles;
+  for (double k = 0.5; k < count; k += 1.0) {
+    const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * k / count);
+    middles.push_back({pitch_radius * sine, pitch_radius * cosine});
+  }
+  return middles;
 }
 
 /// A ring round the end of a unit; of half a pipe, up to its rims.
-ShopPart ring_of(const PipeJob& job, HoleFit fit) {
+/// @param of_joint  the side on which it lies
+ShopPart ring_of(const PipeJob& job, FlangeSide of_joint) {
   const FlangeOptions& flange = job.options.flanges;
   const double inner = job.radius() + job.pipe.thickness + flange.gap;
   const double pitch_radius = inner + 0.5 * flange.width;
   ShopPart part;
-  const std::string name = job.side ? "trough_flange" : "pipe_flange";
-  part.name = fit == HoleFit::coarse ? name + "_loose" : name;
+  part.name = frame_name(job.side ? "trough_flange" : "pipe_flange", flange, of_joint);
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = flange.thickness;
   FlatPattern pattern;
   if (job.side) {
     pattern.region.outline = half_round(inner, inner + flange.width, *job.side);
-    add_half_round_holes(job, pitch_radius, clearance_hole(flange.bolt, fit), pattern.region);
   } else {
     pattern.region.outline = path_of(Circle{{}, inner + flange.width});
     pattern.region.cutouts = {path_of(Circle{{}, inner})};
-    // An even number, none in the plane of the track.
-    const double count = 2.0 * std::max(2.0, std::ceil(kPi * pitch_radius / flange.pitch - 1e-9));
-    for (double k = 0.5; k < count; k += 1.0) {
-      const auto [sine, cosine] = math::sine_cosine(2.0 * kPi * k / count);
-      pattern.region.holes.push_back(
-          {{pitch_radius * sine, pitch_radius * cosine}, 0.5 * clearance_hole(flange.bolt, fit)});
-    }
   }
+  drill_frame(
+      job.options, of_joint,
+      [&](const FlangeOptions& with) {
+        return job.side ? round_half(job, with, pitch_radius) : round_whole(pitch_radius, with.pitch);
+      },
+      pattern.region);
   part.body = Prism{pattern.region, flange.thickness};
   part.pattern = std::move(pattern);
   return part;
@@ -399,19 +420,20 @@ Frame ring_place(const PipeJob& job, const Gore& gore, double at, double shift) 
 
 void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
   if (!job.options.flanges.wanted) return;
-  ShopPart tight = ring_of(job, HoleFit::medium);
-  ShopPart loose = ring_of(job, HoleFit::coarse);
+  ShopPart before = ring_of(job, FlangeSide::upstream);
+  ShopPart after = ring_of(job, FlangeSide::downstream);
   for (const GoreUnit& unit : units) {
     const Gore& last = unit.gores.back();
-    loose.places.push_back(ring_place(job, unit.gores.front(), 0.0, 0.0));
-    tight.places.push_back(ring_place(job, last, last.body.length, -job.options.flanges.thickness));
+    after.places.push_back(ring_place(job, unit.gores.front(), 0.0, 0.0));
+    before.places.push_back(ring_place(job, last, last.body.length, -job.options.flanges.thickness));
   }
-  const std::size_t holes = tight.pattern->region.holes.size();
-  for (ShopPart* part : {&tight, &loose}) {
+  // Those that are not slotted are round.
+  const std::size_t bolts = std::max(before.pattern->region.holes.size(), after.pattern->region.holes.size());
+  for (ShopPart* part : {&before, &after}) {
     weigh(*part);
     add_part(workshop, *part, kFrameColour);
   }
-  add_joint_bolts(workshop, job.options.flanges, holes, units.size() - 1);
+  add_joint_bolts(workshop, job.options.flanges, bolts * (units.size() - 1), units.size() - 1);
 }
 
 /// Flat bars along the outsides of the troughs' tops, cut at the planes of their ends.

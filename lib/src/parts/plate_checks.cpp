@@ -9,6 +9,7 @@
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
+#include "parts/frame_holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,6 @@ namespace parts {
 namespace {
 
 constexpr double kLeastStrip = 50e-3;  // [m]
-constexpr double kEdgeAtTop = 1.5;     // hole diameters below the top of a frame, as frame_plate() has it
 
 /// Collects what is wrong with the measures, all of it.
 class Objections {
@@ -36,6 +36,7 @@ class Objections {
     issues_.push_back({where, std::move(what), std::move(why), std::move(hint)});
   }
   void add(Issue issue) { issues_.push_back(std::move(issue)); }
+  [[nodiscard]] std::vector<Issue>& issues() { return issues_; }
   [[nodiscard]] std::vector<Issue> all() && { return std::move(issues_); }
 
  private:
@@ -45,6 +46,12 @@ class Objections {
 /// Whose bound it is.
 std::string asked_by(double bound, double usual) {
   return bound == usual ? " (EN 1993-1-8)." : " (the rules of this shop).";
+}
+
+/// A length that the text of it does not make less.
+double next_up(double length) {
+  constexpr double kStep = 0.1e-3;  // [m]
+  return kStep * std::ceil(length / kStep - 1e-6);
 }
 
 /// Of frames round any section.
@@ -68,7 +75,7 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
     objections.add("flanges.pitch", "pitch: " + length_text(flange.pitch) + " is too close for " + bolt,
                    "Holes of " + length_text(hole) + " are at least " + length_text(pitch) + " apart" +
                        asked_by(shop.hole_pitch_diameters, ShopLeast{}.hole_pitch_diameters),
-                   "a pitch of 150 mm, or a smaller bolt");
+                   "pitch: " + length_text(next_up(pitch)) + ", or a smaller bolt");
   }
   if (0.5 * flange.width < edge) {
     objections.add("flanges.width",
@@ -76,7 +83,9 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
                        length_text(0.5 * flange.width) + " from the edge",
                    "Their centres are at least " + length_text(edge) + " from it" +
                        asked_by(shop.hole_edge_diameters, ShopLeast{}.hole_edge_diameters),
-                   "a width of at least " + length_text(2.0 * edge) + ", or a smaller bolt");
+                   "a width of at least " + length_text(next_up(2.0 * edge)) + ", or a smaller bolt");
+  } else {
+    add_slot_problems(options, objections.issues());
   }
 }
 
@@ -96,12 +105,14 @@ void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& optio
     return;
   }
   const double column =
-      channel.wall_height - kEdgeAtTop * hole + channel.thickness + flange.gap + 0.5 * flange.width;
-  if (column < options.shop.hole_pitch_diameters * hole) {
+      channel.wall_height - below_top(flange) + channel.thickness + flange.gap + 0.5 * flange.width;
+  if (column < options.shop.hole_pitch_diameters * hole + 2.0 * slot_reach(flange)) {
     objections.add("flanges.bolt",
                    "bolt: " + bolt + " finds no place beside walls of " + length_text(channel.wall_height),
-                   "Two holes of " + length_text(hole) + " are " + length_text(column) + " apart there.",
-                   "a smaller bolt");
+                   "Two " + std::string(flange.slotted ? "slots, as wide as holes" : "holes") + " of " +
+                       length_text(hole) + (flange.slotted ? "," : "") + " are " + length_text(column) +
+                       " apart there.",
+                   flange.slotted ? "a smaller bolt, a shorter slot, or slotted: none" : "a smaller bolt");
   }
 }
 

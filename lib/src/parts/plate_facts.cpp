@@ -4,6 +4,7 @@
 
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/slot.hpp"
 
 #include "parts/fittings.hpp"
 #include "parts/shop_facts.hpp"
@@ -55,6 +56,29 @@ void measure_holes(const ShopPart& part, ShopFacts& facts) {
   }
 }
 
+void measure_frame_slots(const ShopPart& part, ShopFacts& facts) {
+  const PlaneRegion& region = part.pattern->region;
+  for (std::size_t i = 0; i < region.cutouts.size(); ++i) {
+    const auto slot = as_slot(region.cutouts[i]);
+    if (!slot) continue;
+    const double width = 2.0 * slot->radius;
+    double edge = std::numeric_limits<double>::infinity();
+    for (const Vec2 end : {slot->middle - slot->reach, slot->middle + slot->reach})
+      edge = std::min(edge, edge_distance(region.outline, end));
+    double web = edge - slot->radius;
+    for (std::size_t k = 0; k < region.cutouts.size(); ++k) {
+      if (k == i) continue;
+      const double apart = distance(region.cutouts[i], region.cutouts[k]);
+      web = std::min(web, apart);
+      // The opening of a closed frame is an edge of it.
+      if (!as_slot(region.cutouts[k])) edge = std::min(edge, apart + slot->radius);
+    }
+    facts.of(part, "hole_thicknesses", width, part.thickness);
+    facts.of(part, "slot_edge_diameters", edge, width);
+    facts.of(part, "web_thicknesses", web, part.thickness);
+  }
+}
+
 std::string on_floor(const Unit& unit, double s) {
   return unit.floor.name + " at " + length_text(unit.span.from + s, 3) + " along the track";
 }
@@ -86,6 +110,7 @@ void measure_plates(const PlateOptions& options, Workshop& workshop) {
     facts.of(part, "part_sheet_share", shorter, std::min(sheet.x, sheet.y));
     facts.of(part, "part_width", shorter);
     measure_holes(part, facts);
+    measure_frame_slots(part, facts);
   }
 }
 

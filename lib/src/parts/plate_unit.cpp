@@ -5,6 +5,7 @@
 #include "core/least_rectangle.hpp"
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
+#include "parts/frame_holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -279,7 +280,7 @@ PlaneRegion frame_region(const Job& job, double width, double top, bool over_lap
   return region;
 }
 
-ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& places) {
+ShopPart frame_plate(const Job& job, FlangeSide of_joint, const std::vector<Frame>& places) {
   const FlangeOptions& flange = job.options.flanges;
   const double inner = 0.5 * job.channel.width + job.channel.wall() + flange.gap;
   const double low = -floor_depth(job) - job.channel.thickness - flange.gap;
@@ -287,20 +288,20 @@ ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& plac
   const bool walls = top > 0.0;
   PlaneRegion region = frame_region(job, flange.width, top, false);
 
-  const double radius = 0.5 * clearance_hole(flange.bolt, fit);
   const double side = inner + 0.5 * flange.width;
   const double level = low - 0.5 * flange.width;
-  const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse);
-  for (const Vec2 at : evenly({-side, level}, {side, level}, flange.pitch))
-    region.holes.push_back({at, radius});
-  if (walls) {
+  const auto bolts = [&](const FlangeOptions& with) {
+    std::vector<Vec2> all = evenly({-side, level}, {side, level}, with.pitch);
+    if (!walls) return all;
     for (const double x : {-side, side}) {
-      const std::vector<Vec2> column = evenly({x, level}, {x, top - edge}, flange.pitch);
-      for (std::size_t i = 1; i < column.size(); ++i) region.holes.push_back({column[i], radius});
+      const std::vector<Vec2> column = evenly({x, level}, {x, top - below_top(with)}, with.pitch);
+      all.insert(all.end(), column.begin() + 1, column.end());
     }
-  }
+    return all;
+  };
+  drill_frame(job.options, of_joint, bolts, region);
   ShopPart part;
-  part.name = fit == HoleFit::coarse ? "end_frame_loose" : "end_frame";
+  part.name = frame_name("end_frame", flange, of_joint);
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = flange.thickness;

@@ -90,9 +90,9 @@ void drill_floor(const Job& job, const FloorFace& face, const std::vector<Span>&
 [[nodiscard]] PlaneRegion frame_region(const Job& job, double width, double top, bool over_laps);
 
 /// A frame round the end of a unit, of one plate.
-/// @param fit     of its holes
+/// @param of_joint  the side on which it lies, which its holes tell
 /// @param places  arc lengths of its upstream faces, each with the sense in which it grows: +1 downstream
-[[nodiscard]] ShopPart frame_plate(const Job& job, HoleFit fit, const std::vector<Frame>& places);
+[[nodiscard]] ShopPart frame_plate(const Job& job, FlangeSide of_joint, const std::vector<Frame>& places);
 /// @return where a frame stands: x to the left, y up, z downstream; its face towards the unit's end at s
 /// @param downstream  true: it lies downstream of the place
 [[nodiscard]] Frame frame_place(const Job& job, double s, bool downstream);

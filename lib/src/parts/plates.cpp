@@ -79,16 +79,16 @@ void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& j
     upstream.push_back(frame_place(job, joints[i], true));
     downstream.push_back(frame_place(job, joints[i + 1], false));
   }
-  // Holes of one of two frames that meet are larger, so that they fit as they come.
-  std::size_t holes = 0;
-  for (const HoleFit fit : {HoleFit::medium, HoleFit::coarse}) {
-    const bool loose = fit == HoleFit::coarse;
-    const ShopPart frame = frame_plate(job, fit, loose ? upstream : downstream);
-    holes = frame.pattern->region.holes.size();
-    for (ShopPart& piece : pieces_across(frame, loose, job.options.split))
+  std::size_t bolts = 0;
+  for (const FlangeSide side : {FlangeSide::upstream, FlangeSide::downstream}) {
+    // Upstream of a joint is the downstream end of a unit.
+    const bool before = side == FlangeSide::upstream;
+    const ShopPart frame = frame_plate(job, side, before ? downstream : upstream);
+    bolts = std::max(frame.pattern->region.holes.size(), frame.pattern->region.cutouts.size());
+    for (ShopPart& piece : pieces_across(frame, !before, job.options.split))
       add_part(workshop, std::move(piece), kFrameColour);
   }
-  add_joint_bolts(workshop, job.options.flanges, holes, joints.size() - 2);
+  add_joint_bolts(workshop, job.options.flanges, bolts * (joints.size() - 2), joints.size() - 2);
 }
 
 /// What is set on the channel, in the order in which each leaves room for the next.

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/slot.hpp"
 
 #include "parts/body_geometry.hpp"
 #include "parts/plate_joints.hpp"
@@ -148,13 +149,23 @@ bool cuts_once(const ArcPath& outline, double x) {
 std::optional<double> cut_near(const PlaneRegion& region, double about, double room) {
   for (double off = 0.0; off <= room; off += kStep) {
     for (const double x : {about - off, about + off}) {
-      const bool free = std::none_of(region.holes.begin(), region.holes.end(), [&](const Circle& hole) {
-        return std::fabs(hole.centre.x - x) < kOffHole * hole.radius;
-      });
+      const bool free =
+          std::none_of(
+              region.holes.begin(), region.holes.end(),
+              [&](const Circle& hole) { return std::fabs(hole.centre.x - x) < kOffHole * hole.radius; }) &&
+          std::none_of(region.cutouts.begin(), region.cutouts.end(), [&](const ArcPath& cutout) {
+            const PlaneBox box = bounds(cutout);
+            return std::fabs(0.5 * (box.low.x + box.high.x) - x) < 0.5 * kOffHole * box.width();
+          });
       if (free && cuts_once(region.outline, x)) return x;
     }
   }
   return std::nullopt;
+}
+
+bool within(const ArcPath& cutout, const Span& span) {
+  const PlaneBox box = bounds(cutout);
+  return box.low.x > span.from && box.high.x < span.to;
 }
 
 ShopPart piece_of(const ShopPart& plate, const Span& span, std::size_t index, std::size_t count) {
@@ -163,6 +174,9 @@ ShopPart piece_of(const ShopPart& plate, const Span& span, std::size_t index, st
   region.outline = part_beyond(part_beyond(whole.outline, {1.0, 0.0}, span.from), {-1.0, 0.0}, -span.to);
   for (const Circle& hole : whole.holes) {
     if (hole.centre.x > span.from && hole.centre.x < span.to) region.holes.push_back(hole);
+  }
+  for (const ArcPath& cutout : whole.cutouts) {
+    if (within(cutout, span)) region.cutouts.push_back(cutout);
   }
   ShopPart piece = plate;
   piece.name += strip_letter(index, count);
@@ -194,12 +208,18 @@ std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& plate, std::size_
   return pieces;
 }
 
+/// Openings that seams would have to go through, those of closed sections, are no slots.
+bool all_slots(const std::vector<ArcPath>& cutouts) {
+  return std::all_of(cutouts.begin(), cutouts.end(),
+                     [](const ArcPath& cutout) { return as_slot(cutout).has_value(); });
+}
+
 }  // namespace
 
 std::vector<ShopPart> pieces_across(const ShopPart& plate, bool staggered, const SplitOptions& split) {
   SplitOptions sheet = split;
   sheet.heaviest.reset();
-  if (!split.allowed || !excess(sheet, plate) || !plate.pattern->region.cutouts.empty()) return {plate};
+  if (!split.allowed || !excess(sheet, plate) || !all_slots(plate.pattern->region.cutouts)) return {plate};
   const double shift = staggered ? -kStagger : kStagger;
   for (std::size_t count = 2; count <= kMostPieces; ++count) {
     if (auto pieces = in_pieces(plate, count, shift, sheet)) return *pieces;

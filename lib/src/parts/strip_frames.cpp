@@ -5,7 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/body_geometry.hpp"
-#include "parts/bolts.hpp"
+#include "parts/frame_holes.hpp"
 #include "parts/frame_room.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/seams.hpp"
@@ -25,6 +25,7 @@ void add_polygon(ArcPath& path, const std::vector<Vec2>& corners) {
 }
 
 /// Evenly spaced places along a chain of lines.
+/// @param edge  of an open chain, from its ends
 std::vector<Vec2> along_chain(std::vector<Vec2> chain, bool closed, double pitch, double edge) {
   if (closed) chain.push_back(chain.front());
   double whole = 0.0;
@@ -44,6 +45,19 @@ std::vector<Vec2> along_chain(std::vector<Vec2> chain, bool closed, double pitch
   return places;
 }
 
+/// How far along a chain that comes down from a level rim a place lies so far below it; none if the chain stays above.
+std::optional<double> along_to(const std::vector<Vec2>& chain, double below) {
+  double along = 0.0;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const double deep = chain.front().y - chain[i].y;
+    const double deeper = chain.front().y - chain[i + 1].y;
+    const double whole = norm(chain[i + 1] - chain[i]);
+    if (deeper >= below) return along + whole * (below - deep) / (deeper - deep);
+    along += whole;
+  }
+  return std::nullopt;
+}
+
 /// The outside of the section over the thickness of the frames on both sides of a joint: farther out nowhere.
 std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
   const double t = job.options.flanges.thickness;
@@ -54,7 +68,22 @@ std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
   return corners;
 }
 
-ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, HoleFit fit) {
+/// Of the uppermost bolts, from the ends of the chain on which they stand.
+double frame_edge(const std::vector<Vec2>& outside, const std::vector<Vec2>& chain, bool ring,
+                  const FlangeOptions& flange) {
+  const double below = below_top(flange);
+  if (ring) return below;
+  if (flange.slotted) {
+    if (const auto along = along_to(chain, below)) return *along;
+  }
+  // Rims are level: of a wall that leans, holes keep their distance from the rim, not along the wall.
+  const Vec2 first = outside[1] - outside[0];
+  const double upright = std::fabs(first.y) / norm(first);
+  return below / (upright > 0.0 ? upright : 1.0);
+}
+
+/// @param of_joint  the side on which it lies
+ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, FlangeSide of_joint) {
   const FlangeOptions& flange = job.options.flanges;
   const PlateSection& section = job.section;
   const auto at = [&](double by) { return moved_to_left(outside, section.ring, by); };
@@ -71,21 +100,26 @@ ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, HoleFit
     add_polygon(pattern.region.outline, outer);
     add_polygon(pattern.region.outline, inner);
   }
-  // Rims are level: of a wall that leans, holes keep their distance from the rim, not along the wall.
-  const Vec2 first = outside[1] - outside[0];
-  const double upright = section.ring ? 1.0 : std::fabs(first.y) / norm(first);
-  const double edge = 1.5 * clearance_hole(flange.bolt, HoleFit::coarse) / (upright > 0.0 ? upright : 1.0);
-  const double radius = 0.5 * clearance_hole(flange.bolt, fit);
-  for (const Vec2 centre : along_chain(at(flange.gap + 0.5 * flange.width), section.ring, flange.pitch, edge))
-    pattern.region.holes.push_back({centre, radius});
+  const std::vector<Vec2> chain = at(flange.gap + 0.5 * flange.width);
+  drill_frame(
+      job.options, of_joint,
+      [&](const FlangeOptions& with) {
+        return along_chain(chain, section.ring, with.pitch, frame_edge(outside, chain, section.ring, with));
+      },
+      pattern.region);
   ShopPart part;
-  part.name = fit == HoleFit::coarse ? "end_frame_loose" : "end_frame";
+  part.name = frame_name("end_frame", flange, of_joint);
   part.material = job.options.material.name;
   part.density = job.options.material.density;
   part.thickness = flange.thickness;
   part.body = Prism{pattern.region, flange.thickness};
   part.pattern = std::move(pattern);
   return part;
+}
+
+std::size_t bolts_of(const ShopPart& frame, bool ring) {
+  const PlaneRegion& region = frame.pattern->region;
+  return region.holes.empty() ? region.cutouts.size() - (ring ? 1 : 0) : region.holes.size();
 }
 
 Frame place_of_frame(const StripJob& job, double s, double shift) {
@@ -104,25 +138,22 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
     return;
   }
   std::size_t bolts = 0;
-  for (const HoleFit fit : {HoleFit::medium, HoleFit::coarse}) {
+  for (const FlangeSide side : {FlangeSide::upstream, FlangeSide::downstream}) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      const bool tight = fit == HoleFit::medium;
-      if (tight ? i == 0 : i + 1 == joints.size()) continue;
+      const bool before = side == FlangeSide::upstream;
+      if (before ? i == 0 : i + 1 == joints.size()) continue;
       // Both frames of a joint are one figure, but for their holes.
       const double lean = bent ? bent->lean_at(joints[i]) : job.lean_at(joints[i]);
-      ShopPart frame = frame_of(job, outside_at(job, lean, joints[i]), fit);
+      ShopPart frame = frame_of(job, outside_at(job, lean, joints[i]), side);
       if (job.widens()) frame.name += "_" + std::to_string(i);
-      frame.places = {place_of_frame(job, joints[i], tight ? -job.options.flanges.thickness : 0.0)};
-      if (tight && i + 1 < joints.size()) bolts += frame.pattern->region.holes.size();
+      frame.places = {place_of_frame(job, joints[i], before ? -job.options.flanges.thickness : 0.0)};
+      if (before && i + 1 < joints.size()) bolts += bolts_of(frame, job.section.ring);
       weigh(frame);
-      for (ShopPart& piece : pieces_across(frame, !tight, job.options.split))
+      for (ShopPart& piece : pieces_across(frame, !before, job.options.split))
         add_part(workshop, std::move(piece), kFrameColour);
     }
   }
-  if (bolts == 0) return;
-  const std::string where =
-      joints.size() == 3 ? "at the joint" : "at the " + std::to_string(joints.size() - 2) + " joints";
-  add_bolts(workshop, job.options.flanges.bolt, 2.0 * job.options.flanges.thickness, bolts, where);
+  add_joint_bolts(workshop, job.options.flanges, bolts, joints.size() - 2);
 }
 
 FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& joints,

@@ -65,19 +65,36 @@ void add_item(Workshop& workshop, BoughtInItem item) {
   workshop.items.push_back(std::move(item));
 }
 
-void add_bolts(Workshop& workshop, int size, double grip, std::size_t count, const std::string& where) {
-  const Bolt& bolt = bolt_of(size);
+namespace {
+
+/// Bolts and nuts without washers.
+void add_fastener(Workshop& workshop, int size, double grip, std::size_t count, const std::string& where) {
   const std::string name = "M" + std::to_string(size);
-  add_item(workshop, {"bolt " + name + " x " + rounded_text(1e3 * bolt_length(bolt, grip), 4), "ISO 4017 8.8",
-                      count, where});
+  add_item(workshop, {"bolt " + name + " x " + rounded_text(1e3 * bolt_length(bolt_of(size), grip), 4),
+                      "ISO 4017 8.8", count, where});
   add_item(workshop, {"nut " + name, "ISO 4032 8", count, where});
+}
+
+}  // namespace
+
+void add_bolts(Workshop& workshop, int size, double grip, std::size_t count, const std::string& where) {
+  const std::string name = "M" + std::to_string(size);
+  add_fastener(workshop, size, grip, count, where);
   add_item(workshop, {"washer " + name, "ISO 7089 200 HV", 2 * count, where});
 }
 
-void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_t holes, std::size_t joints) {
+void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_t bolts, std::size_t joints) {
   if (joints == 0) return;
   const std::string where = joints == 1 ? "at the joint" : "at the " + std::to_string(joints) + " joints";
-  add_bolts(workshop, flange.bolt, 2.0 * flange.thickness, holes * joints, where);
+  const double grip = 2.0 * flange.thickness;
+  if (!flange.slotted) return add_bolts(workshop, flange.bolt, grip, bolts, where);
+  // A usual washer would sink into the slot.
+  const Bolt& bolt = bolt_of(flange.bolt);
+  const double more = bolt.large_washer_height - bolt.washer_height;
+  const std::string name = "M" + std::to_string(flange.bolt);
+  add_fastener(workshop, flange.bolt, grip + more, bolts, where);
+  add_item(workshop, {"washer " + name, "ISO 7089 200 HV", bolts, where});
+  add_item(workshop, {"large washer " + name, "ISO 7093-1 200 HV", bolts, where + ", on the slots"});
 }
 
 void note_differences(const PartsProof& proof, const std::string& whole, Workshop& workshop) {

@@ -30,10 +30,10 @@ void add_item(Workshop& workshop, BoughtInItem item);
 /// A bolt with its nut and two washers through a grip.
 void add_bolts(Workshop& workshop, int size, double grip, std::size_t count, const std::string& where);
 
-/// Bolts of the frames that meet at joints.
-/// @param holes   of one frame
+/// Bolts of the frames that meet at joints; where one frame is slotted, with a large washer on that side.
+/// @param bolts   of all of them
 /// @param joints  between units
-void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_t holes, std::size_t joints);
+void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_t bolts, std::size_t joints);
 
 /// Says by how much the parts differ from what they make.
 /// @param whole  "the plain channel"

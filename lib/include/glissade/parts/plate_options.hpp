@@ -74,6 +74,9 @@ struct SplitOptions {
   friend bool operator==(const SplitOptions&, const SplitOptions&) = default;
 };
 
+/// On which side of a joint a frame lies, seen the way that the body goes.
+enum class FlangeSide { upstream, downstream };
+
 /// Frames round both ends of every transport unit, bolted together at the joints.
 struct FlangeOptions {
   bool wanted = true;
@@ -84,6 +87,10 @@ struct FlangeOptions {
   double gap = 0.5e-3;      ///< between channel and frame, for welding [m]
   bool as_told =
       false;  ///< kept where the usual measures, these, do not fit the section; else what fits is taken
+  /// Of the two frames at a joint the one with slots, square to the floor, in place of round holes; none: neither.
+  std::optional<FlangeSide> slotted = std::nullopt;
+  std::optional<double> slot =
+      std::nullopt;  ///< overall length of the slots [m]; none: 2.5 bolt diameters (EN 1090-2)
 
   friend bool operator==(const FlangeOptions&, const FlangeOptions&) = default;
 };
@@ -187,6 +194,7 @@ struct SupportOptions {
 struct ShopLeast {
   double hole_edge_diameters = 1.2;      ///< from a hole's middle to an edge (EN 1993-1-8)
   double hole_pitch_diameters = 2.4;     ///< between holes' middles, across the force (EN 1993-1-8)
+  double slot_edge_diameters = 1.5;      ///< from the middles of a slot's ends to an edge (EN 1993-1-8)
   double bend_radius_thicknesses = 1.0;  ///< inside a bend, mild steel
   double flat_thicknesses = 4.0;         ///< between bends: half the opening of a usual die
   double flat = 0.0;                     ///< the same, whatever the thickness [m]
