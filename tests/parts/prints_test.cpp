@@ -436,6 +436,46 @@ TEST_CASE("prints: numbers go into any flat outside that holds them, and leave a
   CHECK(refusal(eased, channel).starts_with("ease|ease: 0.8 mm is more than 0.5 mm|"));
 }
 
+TEST_CASE("prints: boards thinner than a number is deep have it in no face that it would go through") {
+  PrintOptions options;
+  options.split.bed = {0.08, 0.08, 0.08};
+  const StraightLine down({0.25, 0.2});
+  for (const double thickness : {1.01e-3, 1.3e-3, 2.5e-3, 3e-3}) {
+    const CrossSection board =
+        CrossSection::polygon({{-9e-3, -thickness}, {9e-3, -thickness}, {9e-3, 0.0}, {-9e-3, 0.0}});
+    const auto vertices = [&](double deep) {
+      options.number_depth = deep;
+      std::size_t count = 0;
+      for (const PrintPiece& piece : prints(down, board, options).prints) {
+        CHECK(measure(piece.mesh).valid());
+        count += piece.name.find("segment") == 0 ? piece.mesh.vertices.size() : 0;
+      }
+      return count;
+    };
+    const std::size_t plain = vertices(0.0);
+    for (const double deep : {0.4e-3, 1.2e-3, 2e-3}) {
+      INFO(thickness << " " << deep);
+      CHECK((vertices(deep) > plain) == (deep + options.wall < thickness));
+    }
+  }
+}
+
+TEST_CASE("prints: pins and holes without chamfers are sound, and measures finer than printers are refused") {
+  PrintOptions options;
+  options.dowels.chamfer = 0.0;
+  std::size_t pins = 0;
+  for (const PrintPiece& piece : prints(run(), groove(), options).prints) {
+    CHECK(measure(piece.mesh).valid());
+    CHECK(measure(piece.mesh).shortest_edge > 0.1e-3);
+    pins += piece.name.find("pin") == 0 ? 1 : 0;
+  }
+  CHECK(pins > 1);
+  options.dowels.chamfer = 1e-8;
+  CHECK(refusal(options, groove()) ==
+        "dowels.chamfer|chamfer: 0.00001 mm is finer than 0.001 mm|No printer makes it.|0.5 mm, or 0 mm for "
+        "none\n");
+}
+
 TEST_CASE("prints: pieces that are asked to be shorter or lighter than any are refused by that key") {
   PrintOptions options;
   options.split.longest = 0.1e-3;

@@ -134,7 +134,8 @@ bool FaceOutline::holds(Vec2 low, Vec2 high, double margin) const {
       const Vec2 b = loop[(i + 1) % loop.size()];
       if (a.x > low.x && a.x < high.x && a.y > low.y && a.y < high.y) return false;
       for (std::size_t k = 0; k < 4; ++k) {
-        if (distance_between(box[k], box[(k + 1) % 4], a, b) < margin) return false;
+        // A margin of nothing, too, is crossed by an outline that goes through the box.
+        if (!(distance_between(box[k], box[(k + 1) % 4], a, b) > margin)) return false;
       }
     }
   }

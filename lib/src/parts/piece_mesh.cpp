@@ -174,16 +174,19 @@ TriangleMesh round_bar(double diameter, double length, double chamfer) {
     }
   };
   const double radius = 0.5 * diameter;
+  // Without chamfers the rings beside the ends would lie on them.
+  const bool chamfered = chamfer > 0.0;
   ring(radius - chamfer, 0.0);
-  ring(radius, chamfer);
-  ring(radius, length - chamfer);
+  if (chamfered) ring(radius, chamfer);
+  if (chamfered) ring(radius, length - chamfer);
   ring(radius - chamfer, length);
   constexpr auto kCount = static_cast<std::uint32_t>(kBarCorners);
+  const std::uint32_t last = chamfered ? 3 : 1;
   // Seen from outside, each ring is below the next one: the walls of a recess turned inside out.
-  for (std::uint32_t i = 0; i < 3; ++i) add_walls(mesh, i * kCount, (i + 1) * kCount, kCount);
+  for (std::uint32_t i = 0; i < last; ++i) add_walls(mesh, i * kCount, (i + 1) * kCount, kCount);
   for (std::uint32_t i = 1; i + 1 < kCount; ++i) {
     mesh.triangles.push_back({0, i + 1, i});
-    mesh.triangles.push_back({3 * kCount, 3 * kCount + i, 3 * kCount + i + 1});
+    mesh.triangles.push_back({last * kCount, last * kCount + i, last * kCount + i + 1});
   }
   return mesh;
 }

@@ -20,6 +20,15 @@ class Problems {
     if (value > 0.0) return;
     issues.push_back({key, name_of(key) + ": " + text + " is not positive", "", hint});
   }
+  /// Nothing, or more than files in single precision hold apart.
+  void none_or_printable(const std::string& key, double value, const std::string& hint) {
+    not_negative(key, value, hint);
+    constexpr double kFinest = 1e-6;  // [m]
+    if (!(value > 0.0 && value < kFinest)) return;
+    issues.push_back({key,
+                      name_of(key) + ": " + length_text(value) + " is finer than " + length_text(kFinest),
+                      "No printer makes it.", hint + ", or 0 mm for none"});
+  }
   void not_negative(const std::string& key, double value, const std::string& hint) {
     if (value >= 0.0) return;
     issues.push_back({key, name_of(key) + ": " + length_text(value) + " is negative", "", hint});
@@ -49,7 +58,7 @@ void check_tongue(const PrintOptions& options, Problems& problems) {
   if (tongue.height) problems.positive("tongue.height", *tongue.height, length_text(*tongue.height), "4 mm");
   if (tongue.depth) problems.positive("tongue.depth", *tongue.depth, length_text(*tongue.depth), "3 mm");
   problems.not_negative("tongue.fit", tongue.fit, "0.2 mm");
-  problems.not_negative("tongue.chamfer", tongue.chamfer, "0.5 mm");
+  problems.none_or_printable("tongue.chamfer", tongue.chamfer, "0.5 mm");
   const double flare = tongue.flare.radians();
   constexpr double kMost = 0.7853981633974483;  // 45 deg
   if (!(flare > 0.0 && flare <= kMost)) {
@@ -99,13 +108,13 @@ std::vector<Issue> print_problems(const CrossSection& section, const PrintOption
     problems.positive("dowels.diameter", *dowels.diameter, length_text(*dowels.diameter), "4 mm");
   if (dowels.depth) problems.positive("dowels.depth", *dowels.depth, length_text(*dowels.depth), "10 mm");
   problems.not_negative("dowels.fit", dowels.fit, "0.15 mm");
-  problems.not_negative("dowels.chamfer", dowels.chamfer, "0.5 mm");
+  problems.none_or_printable("dowels.chamfer", dowels.chamfer, "0.5 mm");
   check_tongue(options, problems);
   if (options.stands) check_stands(*options.stands, problems);
   problems.positive("layer", options.layer, length_text(options.layer), "0.2 mm");
   problems.positive("wall", options.wall, length_text(options.wall), "0.9 mm");
-  problems.not_negative("number_depth", options.number_depth, "0.4 mm");
-  problems.not_negative("ease", options.ease, "0.2 mm");
+  problems.none_or_printable("number_depth", options.number_depth, "0.4 mm");
+  problems.none_or_printable("ease", options.ease, "0.2 mm");
   const double overhang = options.overhang.radians();
   if (!(overhang >= 0.0 && overhang <= kRightAngle)) {
     problems.issues.push_back({"overhang",
