@@ -476,6 +476,23 @@ TEST_CASE("prints: pins and holes without chamfers are sound, and measures finer
         "none\n");
 }
 
+TEST_CASE("prints: pieces are as fine as a printer makes them, however coarse the solid is asked to be") {
+  const CrossSection half_pipe = CrossSection::half_pipe(54e-3, 5e-3, 26e-3);
+  const auto volume_at = [&](double tolerance) {
+    const WorkshopBuild build = make_prints(run(), half_pipe, {PrintOptions::kArcTolerance}, {}, tolerance,
+                                            Placement(), {.friction = kFriction});
+    double sum = 0.0;
+    for (const PrintPiece& piece : build.prints) {
+      CHECK(measure(piece.mesh).valid());
+      if (piece.name.find("segment") == 0) sum += measure(piece.mesh).volume;
+    }
+    return sum;
+  };
+  const double fine = volume_at(5e-5);
+  for (const double tolerance : {5e-4, 2e-3, 2e-2}) CHECK(volume_at(tolerance) == fine);
+  CHECK(volume_at(1e-5) != fine);
+}
+
 TEST_CASE("prints: pieces that are asked to be shorter or lighter than any are refused by that key") {
   PrintOptions options;
   options.split.longest = 0.1e-3;

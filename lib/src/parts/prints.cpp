@@ -35,6 +35,9 @@ constexpr std::array<double, 3> kSegmentColour = {0.85, 0.45, 0.20};
 constexpr std::array<double, 3> kOtherSegmentColour = {0.95, 0.65, 0.35};
 constexpr std::array<double, 3> kStandColour = {0.60, 0.62, 0.66};
 constexpr std::array<double, 3> kPinColour = {0.45, 0.45, 0.50};
+// Facets of pieces depart no farther from the exact shape, however coarse the solid's are [m]: faces that meet are alike and holes
+// keep their walls, which a printer's layers need.
+constexpr double kPieceTolerance = 0.05e-3;
 constexpr double kEndPlay = 0.5e-3;     // of a pin at the bottom of each hole [m]
 constexpr double kFoldedVolume = 1e-6;  // relative, where levels are trimmed
 constexpr double kSameFace = 1e-9;      // greatest difference of mating faces [m]
@@ -371,13 +374,9 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
   if (!problems.empty()) throw InputError(std::move(problems));
   WorkshopBuild build;
   build.master = fit_arcs(track, fit);
-  const PrintJob job{*build.master.spline,
-                     section,
-                     FaceOutline(section, mesh_tolerance),
-                     options,
-                     mesh_tolerance,
-                     placement,
-                     stop};
+  const double tolerance = std::min(mesh_tolerance, kPieceTolerance);
+  const PrintJob job{
+      *build.master.spline, section, FaceOutline(section, tolerance), options, tolerance, placement, stop};
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
   const PrintPlan plan = plan_prints(job);
   const Hold hold = hold_joints(job, plan);
