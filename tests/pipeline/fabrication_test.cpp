@@ -38,6 +38,27 @@ Design quick(const std::string& fabrication = "{process: plate}") {
       "chute.yaml");
 }
 
+/// The rows of a setting-out table whose words begin like this, each held against the chord between the joints about it.
+/// @return how many
+std::size_t ordinates_from_their_chords(const Workshop& workshop, const std::string& kind) {
+  std::vector<const SettingOutPoint*> joints;
+  for (const SettingOutPoint& row : workshop.setting_out) {
+    if (row.what == "start" || row.what == "finish" || row.what.starts_with("joint ")) joints.push_back(&row);
+  }
+  std::size_t count = 0;
+  for (const SettingOutPoint& row : workshop.setting_out) {
+    if (!row.what.starts_with(kind)) continue;
+    std::size_t next = 1;
+    while (next + 1 < joints.size() && joints[next]->arc_length <= row.arc_length) ++next;
+    const Vec2 from{joints[next - 1]->x, joints[next - 1]->z};
+    const Vec2 chord = Vec2{joints[next]->x, joints[next]->z} - from;
+    INFO(row.what << " at " << row.arc_length << " m");
+    CHECK(row.ordinate == Approx(cross(chord, Vec2{row.x, row.z} - from) / norm(chord)).margin(1e-9));
+    ++count;
+  }
+  return count;
+}
+
 std::string refusal(const std::string& fabrication) {
   try {
     const Design design = quick(fabrication);
@@ -101,6 +122,27 @@ TEST_CASE("fabrication: what is set out lies in the frame of the site, parts in 
   CHECK(workshop.items.empty());
 }
 
+TEST_CASE("fabrication: every ordinate that is set out is that from the chord of its own unit") {
+  const auto workshop_of = [](const Design& design) {
+    return assemble(design, solve(design), {}, {.report = false}).fabrication->workshop;
+  };
+  const Workshop channel =
+      workshop_of(quick("{process: plate, split: {longest: 2 m}, supports: {ground: 0 m, spacing: 1.5 m}}"));
+  CHECK(ordinates_from_their_chords(channel, "station") > 10);
+  CHECK(ordinates_from_their_chords(channel, "support") > 3);
+  const Design pipe = parse_design(
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 4 m}, finish: {x: 4 m, z: 0 m}}\n"
+      "body: {friction_angle: 17 deg, entry_speed: 2 m/s}\n"
+      "cross_section: {kind: pipe, inner_diameter: 200 mm, thickness: 2 mm}\n"
+      "fabrication: {process: plate, round: mitred, split: {longest: 2 m}}\n"
+      "mesh: {tolerance: 2 mm}\nexport: [off]\n",
+      "pipe.yaml");
+  CHECK(ordinates_from_their_chords(workshop_of(pipe), "mitre") > 3);
+  const Workshop printed = workshop_of(read_design(designs_path("marble_run_printed.yaml")));
+  CHECK(ordinates_from_their_chords(printed, "stand ") > 3);
+}
+
 TEST_CASE("fabrication: every piece that is cut lies on one sheet of its thickness, holes and all") {
   const TempDir place;
   const Build built = build(quick(), place / "out", {}, {.report = false});
@@ -123,6 +165,7 @@ TEST_CASE("fabrication: every piece that is cut lies on one sheet of its thickne
   }
   CHECK(cut == contours);
   CHECK(holes == circles);
+  CHECK(std::filesystem::exists(place / "out" / "chute.nests.csv"));
 }
 
 TEST_CASE(

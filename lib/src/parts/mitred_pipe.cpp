@@ -548,11 +548,12 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const W
   return proof;
 }
 
-std::vector<SettingOutPoint> mitres(const PipeJob& job, const Facets& facets) {
+std::vector<SettingOutPoint> mitres(const PipeJob& job, const Facets& facets,
+                                    const std::vector<double>& joints) {
   std::vector<SettingOutPoint> rows;
   for (std::size_t i = 0; i < facets.bends(); ++i) {
     const double s = 0.5 * (facets.touches[i] + facets.touches[i + 1]);
-    rows.push_back(setting_out_point(job.track, {0.0, job.track.length()}, job.placement,
+    rows.push_back(setting_out_point(job.track, segment_at(joints, s), job.placement,
                                      "mitre " + std::to_string(i + 1) + ", " +
                                          angle_text(Angle::from_radians(std::fabs(facets.kinks[i])), 4),
                                      s));
@@ -658,7 +659,8 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   add_stiffeners(shell);
   add_lugs(shell);
   add_supports(shell, workshop.setting_out);
-  for (SettingOutPoint& row : mitres(job, facets)) workshop.setting_out.push_back(std::move(row));
+  for (SettingOutPoint& row : mitres(job, facets, build.joints))
+    workshop.setting_out.push_back(std::move(row));
   in_order(workshop.setting_out);
   build.ride = as_told(ride_facets(cut_at(facets, joints), body, gravity, options.joint_step), design,
                        facets.bends(), units.size() - 1);

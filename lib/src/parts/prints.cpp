@@ -181,8 +181,7 @@ void add_stand_pins(const PrintJob& job, const std::vector<Stand>& stands, Works
   build.workshop.parts.push_back(std::move(part));
 }
 
-void add_stands(const PrintJob& job, const std::vector<Stand>& stands, const Span& whole,
-                WorkshopBuild& build) {
+void add_stands(const PrintJob& job, const std::vector<Stand>& stands, WorkshopBuild& build) {
   for (std::size_t i = 0; i < stands.size(); ++i) {
     const std::string name = "stand_" + std::to_string(i + 1);
     const std::vector<StandBlock>& blocks = stands[i].blocks;
@@ -190,8 +189,9 @@ void add_stands(const PrintJob& job, const std::vector<Stand>& stands, const Spa
       const std::string which = blocks.size() == 1 ? name : name + "_" + std::to_string(k + 1);
       add_block(job, stands[i], blocks[k], which, build);
     }
-    build.workshop.setting_out.push_back(
-        setting_out_point(job.track, whole, job.placement, "stand " + std::to_string(i + 1), stands[i].at));
+    build.workshop.setting_out.push_back(setting_out_point(job.track, segment_at(build.joints, stands[i].at),
+                                                           job.placement, "stand " + std::to_string(i + 1),
+                                                           stands[i].at));
   }
   add_stand_pins(job, stands, build);
   in_order(build.workshop.setting_out);
@@ -389,7 +389,7 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
   add_segments(job, units, build);
   if (hold.dowels) add_pins(job, plan.joints, *hold.dowels, build);
   build.workshop.setting_out = setting_out(job.track, build.joints, placement);
-  add_stands(job, stands, {0.0, job.track.length()}, build);
+  add_stands(job, stands, build);
   build.workshop.tolerance = "Printed to 0.2 mm; seams off the running surface";
   build.workshop.notes = notes_of(job, plan, hold, stands);
   const double drop = hold.tongue ? hold.tongue->fit : hold.dowels ? options.dowels.fit : 0.0;

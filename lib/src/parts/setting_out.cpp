@@ -22,6 +22,11 @@ double round_step(double length) {
 
 }  // namespace
 
+Span segment_at(const std::vector<double>& joints, double s) {
+  const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, s);
+  return {*(next - 1), *next};
+}
+
 SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord_span, const Placement& placement,
                                   std::string what, double s) {
   const CenterlinePoint at = track.at(s);
@@ -50,8 +55,7 @@ void in_order(std::vector<SettingOutPoint>& rows) {
 std::vector<SettingOutPoint> setting_out(const ArcSpline& track, const std::vector<double>& joints,
                                          const Placement& placement) {
   const auto point = [&](std::string what, double s) {
-    const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, s);
-    return setting_out_point(track, {*(next - 1), *next}, placement, std::move(what), s);
+    return setting_out_point(track, segment_at(joints, s), placement, std::move(what), s);
   };
   std::vector<SettingOutPoint> rows;
   const double step = round_step(track.length());

@@ -17,6 +17,11 @@ namespace glissade::parts {
                                                        const std::vector<double>& joints,
                                                        const Placement& placement);
 
+/// @param joints  as above
+/// @return the segment that a place lies in, of two that meet there the one that begins: its ends are those of the chord whose
+///         ordinate is told
+[[nodiscard]] Span segment_at(const std::vector<double>& joints, double s);
+
 /// One more place.
 /// @param chord  whose ordinate is told
 [[nodiscard]] SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord,

@@ -368,6 +368,13 @@ void require_room_for_legs(const Trestle& trestle, const SupportOptions& support
                     "a lower ground, or a ground line that is lower there"});
 }
 
+/// The unit that a place lies in, of two that meet there the one that begins.
+Span unit_at(const Shell& shell, double s) {
+  const auto next = std::upper_bound(shell.units.begin() + 1, shell.units.end(), s,
+                                     [](double at, const Span& unit) { return at < unit.from; });
+  return *(next - 1);
+}
+
 }  // namespace
 
 void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
@@ -397,8 +404,8 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
     add_legs(shell, trestle, measures, text);
     add_braces(shell, trestle, measures, text);
     shell.taken.add(place->at - clear, place->at + clear);
-    rows.push_back(
-        setting_out_point(shell.track, {0.0, whole}, shell.placement, "support " + text, place->at));
+    rows.push_back(setting_out_point(shell.track, unit_at(shell, place->at), shell.placement,
+                                     "support " + text, place->at));
   }
   if (number > 0) return;
   if (flat_enough) {

@@ -324,9 +324,8 @@ std::string in_mm(double metres) {
 void set_out_frame(const TimberJob& job, const BearerPlan& bearers, const std::vector<Leg>& legs,
                    Workshop& workshop) {
   const auto add_row = [&](const std::vector<double>& joints, const std::string& what, double s) {
-    const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, s);
     workshop.setting_out.push_back(
-        setting_out_point(job.track, {*(next - 1), *next}, job.placement, what, s));
+        setting_out_point(job.track, segment_at(joints, s), job.placement, what, s));
   };
   if (bearers.across.size() > 1) {
     for (std::size_t i = 1; i + 1 < bearers.shifted.size(); ++i)
