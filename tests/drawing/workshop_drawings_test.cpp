@@ -10,6 +10,7 @@
 #include "support/shop_parts.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -185,4 +186,49 @@ TEST_CASE("tables as CSV: units in the header, one row each, texts with commas i
   CHECK(shop_checks_csv(workshop) ==
         "rule,verdict,value,bound,where,source,sentence,certainty\n"
         "smallest hole,pass,14 mm,at least 4 mm,part 1,a source,Holes are wide enough.,secondary\n");
+}
+
+TEST_CASE(
+    "the cut list tells what parts are cut from: the rectangle round a board that lies askew, length and "
+    "section of tubes") {
+  Workshop workshop;
+  // A brace of 2 m x 120 mm at 45 deg, a curved band, and a tube of 60 x 60 x 4 mm.
+  const ArcPath board =
+      moved(rectangle({0.0, 0.0}, {2.0, 0.12}), PlaneMotion::turn(0.25 * std::numbers::pi, {3.0, 1.0}));
+  workshop.parts.push_back(testing::shop_part(1, "brace", Prism{{board, {}, {}}, 0.024}));
+  workshop.parts[0].pattern = FlatPattern{{board, {}, {}}, {}, {}, {}, {}, 0.0};
+  workshop.parts.push_back(testing::shop_part(
+      2, "leg",
+      Prism{{rectangle({-0.03, -0.03}, {0.03, 0.03}), {rectangle({-0.026, -0.026}, {0.026, 0.026})}, {}},
+            1.5}));
+  workshop.parts[1].pattern.reset();
+  workshop.parts[1].thickness = 0.004;
+  const std::string cuts = cut_list_csv(workshop);
+  INFO(cuts);
+  CHECK(cuts.find("\n1,brace,S235,4,1,2000,120,4240,0,0,") != std::string::npos);
+  CHECK(cuts.find("\n2,leg,S235,4,1,1500,60,,,,") != std::string::npos);
+  CHECK(cuts.find(",tube 60 x 60 x 4 mm\n") != std::string::npos);
+}
+
+TEST_CASE("the table of sheets tells the stock, its pieces, and the share of it that they use") {
+  Workshop workshop;
+  workshop.parts.push_back(
+      testing::shop_part(1, "plate", Prism{{rectangle({0.0, 0.0}, {1.0, 0.5}), {}, {}}, 0.004}));
+  PlaneRegion region;
+  region.outline = rectangle({0.0, 0.0}, {1.0, 0.5});
+  region.holes = {{{0.5, 0.25}, 0.1}};
+  workshop.parts[0].pattern = FlatPattern{region, {}, {}, {}, {}, 0.0};
+  workshop.parts[0].places.resize(3);
+  const std::vector<NestedSheet> sheets = nest(workshop, {2.05, 1.05, 0.01, 0.01});
+  REQUIRE(sheets.size() == 1);
+  const std::string table = nests_csv(workshop, sheets);
+  INFO(table);
+  CHECK(table.find("sheet,material,thickness_mm,length_mm,width_mm,margin_mm,spacing_mm,pieces,parts_area_m2,"
+                   "utilisation_percent,parts\nnest_S235_4mm_1_of_1,S235,4,2050,1050,10,10,3,1.40575222") ==
+        0);
+  CHECK(table.find(",3 x no. 1\n") != std::string::npos);
+  // Three plates less their holes, over the sheet.
+  const double share = 3.0 * (0.5 - std::numbers::pi * 0.01) / (2.05 * 1.05);
+  CHECK(sheets[0].utilisation == Approx(share).epsilon(1e-12));
+  CHECK(table.find(",65.3") != std::string::npos);
 }

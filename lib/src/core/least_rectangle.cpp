@@ -57,4 +57,17 @@ double lying_angle(const std::vector<Vec2>& points) {
   return angle;
 }
 
+Vec2 least_size(const ArcPath& outline) {
+  constexpr double kWorthTurning = 1e-3;  // of the area
+  constexpr double kFineness = 1e-4;      // sagitta, of the longer side
+  const auto sides = [](const PlaneBox& box) {
+    return Vec2{std::max(box.width(), box.height()), std::min(box.width(), box.height())};
+  };
+  const Vec2 drawn = sides(bounds(outline));
+  if (!(drawn.y > 0.0)) return drawn;
+  const double angle = lying_angle(flattened(outline, kFineness * drawn.x));
+  const Vec2 turned = sides(bounds(moved(outline, PlaneMotion::turn(angle))));
+  return turned.x * turned.y < (1.0 - kWorthTurning) * drawn.x * drawn.y ? turned : drawn;
+}
+
 }  // namespace glissade::core

@@ -1,6 +1,7 @@
 #include "glissade/core/slot.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 
+#include "core/least_rectangle.hpp"
 #include "drawing/general_arrangement.hpp"
 #include "drawing/ink.hpp"
 #include "drawing/ordinates.hpp"
@@ -179,12 +180,16 @@ void add_holes(const ShopPart& part, Drawing& view, SheetTable& table) {
 }
 
 std::vector<std::string> facts_of(const ShopPart& part) {
+  constexpr double kWorthTelling = 0.98;  // of the area
   std::vector<std::string> facts{std::to_string(part.quantity()) + " off",
                                  "mass " + fixed(part.mass, 3) + " kg each"};
   if (!part.pattern) return facts;
   const FlatPattern& pattern = *part.pattern;
   const PlaneBox box = bounds(pattern.region.outline);
   facts.push_back("flat " + mm(box.width()) + " x " + mm(box.height()) + " mm");
+  const Vec2 least = core::least_size(pattern.region.outline);
+  if (least.x * least.y < kWorthTelling * box.width() * box.height())
+    facts.push_back("cut from " + mm(least.x) + " x " + mm(least.y) + " mm");
   facts.push_back("cut edge " + mm(length(pattern.region.outline)) + " mm round the outline");
   if (!pattern.bends.empty()) {
     facts.push_back(std::to_string(pattern.bends.size()) + " bends, inner radius " +

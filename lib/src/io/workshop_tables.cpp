@@ -3,11 +3,16 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/least_rectangle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 namespace glissade {
 namespace {
@@ -64,32 +69,58 @@ double degrees(Angle angle) {
   return clean(angle.degrees());
 }
 
+/// Length along the bar, and its section, of a part that is sawn from a hollow one; of others nothing.
+struct Bar {
+  double length = 0.0;  ///< [m]
+  double width = 0.0;   ///< [m]
+  std::string section;  ///< "tube 60 x 60 x 4 mm"
+};
+
+Bar bar_of(const ShopPart& part) {
+  const auto* const prism = std::get_if<Prism>(&part.body);
+  if (prism == nullptr || prism->region.cutouts.empty()) return {};
+  const PlaneBox box = bounds(prism->region.outline);
+  const auto shown = [](double metres) { return rounded_text(kMillimetres * metres, 6); };
+  return {prism->depth, std::max(box.width(), box.height()),
+          "tube " + shown(box.width()) + " x " + shown(box.height()) + " x " + shown(part.thickness) + " mm"};
+}
+
+/// Length, width, length of cut, holes and bends.
+void add_sizes(const ShopPart& part, const Bar& bar, Csv& csv) {
+  if (part.pattern) {
+    const PlaneRegion& region = part.pattern->region;
+    const Vec2 size = core::least_size(region.outline);
+    double cut = length(region.outline);
+    for (const ArcPath& cutout : region.cutouts) cut += length(cutout);
+    for (const Circle& hole : region.holes) cut += length(path_of(hole));
+    csv << mm(size.x) << mm(size.y) << mm(cut) << region.holes.size() << part.pattern->bends.size();
+    return;
+  }
+  if (bar.section.empty()) {
+    csv << ""
+        << "";
+  } else {
+    csv << mm(bar.length) << mm(bar.width);
+  }
+  csv << ""
+      << ""
+      << "";
+}
+
 }  // namespace
 
 std::string cut_list_csv(const Workshop& workshop) {
   Csv csv(
       "number,name,material,thickness_mm,quantity,length_mm,width_mm,cut_length_mm,holes,bends,mass_kg,total_"
       "mass_kg,"
-      "centre_of_gravity_x_mm,centre_of_gravity_y_mm,centre_of_gravity_z_mm,bought_in");
+      "centre_of_gravity_x_mm,centre_of_gravity_y_mm,centre_of_gravity_z_mm,bought_in,section");
   for (const ShopPart& part : workshop.parts) {
     csv.row() << part.number << part.name << part.material << mm(part.thickness) << part.quantity();
-    if (part.pattern) {
-      const PlaneRegion& region = part.pattern->region;
-      const PlaneBox box = bounds(region.outline);
-      double cut = length(region.outline);
-      for (const ArcPath& cutout : region.cutouts) cut += length(cutout);
-      for (const Circle& hole : region.holes) cut += length(path_of(hole));
-      csv << mm(std::max(box.width(), box.height())) << mm(std::min(box.width(), box.height())) << mm(cut)
-          << region.holes.size() << part.pattern->bends.size();
-    } else {
-      csv << ""
-          << ""
-          << ""
-          << ""
-          << "";
-    }
+    const Bar bar = part.pattern ? Bar{} : bar_of(part);
+    add_sizes(part, bar, csv);
     csv << part.mass << part.mass * static_cast<double>(part.quantity()) << mm(part.centre_of_gravity.x)
-        << mm(part.centre_of_gravity.y) << mm(part.centre_of_gravity.z) << (part.bought_in ? "yes" : "no");
+        << mm(part.centre_of_gravity.y) << mm(part.centre_of_gravity.z) << (part.bought_in ? "yes" : "no")
+        << bar.section;
   }
   return csv.text();
 }
@@ -98,6 +129,26 @@ std::string bought_in_csv(const Workshop& workshop) {
   Csv csv("name,standard,quantity,where");
   for (const BoughtInItem& item : workshop.items) {
     csv.row() << item.name << item.standard << item.quantity << item.where;
+  }
+  return csv.text();
+}
+
+std::string nests_csv(const Workshop& workshop, const std::vector<NestedSheet>& sheets) {
+  Csv csv(
+      "sheet,material,thickness_mm,length_mm,width_mm,margin_mm,spacing_mm,pieces,parts_area_m2,"
+      "utilisation_percent,parts");
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const NestedSheet& sheet = sheets[i];
+    std::map<int, std::size_t> counts;
+    for (const NestedPiece& piece : sheet.pieces) ++counts[workshop.parts[piece.part].number];
+    std::string parts;
+    for (const auto& [number, count] : counts) {
+      parts += (parts.empty() ? "" : "; ") + std::to_string(count) + " x no. " + std::to_string(number);
+    }
+    csv.row() << nest_stem(sheets, i) << sheet.material << mm(sheet.thickness) << mm(sheet.stock.width)
+              << mm(sheet.stock.height) << mm(sheet.stock.margin) << mm(sheet.stock.spacing)
+              << sheet.pieces.size() << clean(sheet.utilisation * sheet.stock.width * sheet.stock.height)
+              << clean(100.0 * sheet.utilisation) << parts;
   }
   return csv.text();
 }

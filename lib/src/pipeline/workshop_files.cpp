@@ -105,6 +105,7 @@ std::vector<PendingFile> nests_of(const std::string& stem, const Workshop& works
     files.push_back(dxf_file(stem + ".nests/" + nest_stem(sheets, i) + ".dxf",
                              nest_drawing(workshop, sheets[i]), options));
   }
+  if (!sheets.empty()) files.push_back(table(stem + ".nests.csv", nests_csv(workshop, sheets)));
   return files;
 }
 
