@@ -93,7 +93,7 @@ TEST_CASE("mirrored, of another size and elsewhere clearances of a whole solid h
 }
 
 TEST_CASE(
-    "neither a lift-off, nor rounding next to a crest, nor a jump beside its knots makes a search end "
+    "no lift-off, no rounding next to a crest, no jump beside knots and no entry speed makes a search end "
     "elsewhere") {
   struct Known {
     int seed;
@@ -102,7 +102,8 @@ TEST_CASE(
   };
   std::vector<Known> all{{3, 257, "wider smallest_valley_radius"},
                          {5, 25, "wider entry_slope_angle.lowest"},
-                         {5, 105, "wider highest_normal_load"}};
+                         {5, 105, "wider highest_normal_load"},
+                         {7, 149, "without smallest_crest_radius"}};
   if (testing::thorough()) all.push_back({3, 298, "without exit_slope_angle.highest"});
   for (const Known& known : all) {
     std::size_t draw = 0;

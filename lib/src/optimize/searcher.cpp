@@ -82,6 +82,10 @@ CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
   return std::make_shared<ClothoidSpline>(Angle::from_radians(found.z[layout.angle()]), std::move(segments));
 }
 
+bool is_travel_time(const ScaledProblem& problem) {
+  return problem.speed_weight == 0.0 && problem.drop_weight == 0.0 && problem.length_weight == 0.0;
+}
+
 /// Whether the rate of curvature is limited: then nothing jumps.
 bool is_smooth(const ScaledProblem& problem) {
   return std::any_of(problem.limits.begin(), problem.limits.end(),
@@ -159,6 +163,18 @@ Found halved_at(const std::vector<LiftOff>& lifts, Found found) {
   return found;
 }
 
+/// Where the track from the first start is doubted: other starts, which may lead to better ones.
+std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::vector<GuessCurve>& curves,
+                                     const Found& first, bool got_lost) {
+  constexpr double kDoubtful = 0.05;  // taste: slower by such a share than without limits
+  std::vector<GuessCurve> more;
+  if (got_lost) more.assign(curves.begin() + 1, curves.end());
+  if (!is_travel_time(problem)) return more;
+  const std::optional<FlyingStart> flying = flying_start(problem);
+  if (flying && first.objective > (1.0 + kDoubtful) * flying->travel_time) more.push_back(flying->curve);
+  return more;
+}
+
 /// Places at which limits are held beside the stations, of the core's length.
 class HeldPlaces {
  public:
@@ -196,12 +212,18 @@ Candidate Searcher::search(const Passages& passages) {
   // Clipped slopes are often the unclipped ones: what did not do is not tried twice, unless limits were tightened on
   // the way.
   std::vector<std::pair<GuessCurve, Vector>> tried;
-  for (const GuessCurve& start : starts(*candidate.rough)) {
+  const std::vector<GuessCurve> curves = starts(*candidate.rough);
+  for (const GuessCurve& start : curves) {
     const std::pair<GuessCurve, Vector> trial(start, margins_);
     if (std::find(tried.begin(), tried.end(), trial) != tried.end()) continue;
     tried.push_back(trial);
-    std::optional<Found> found =
-        unlimited ? from_exact(scaled_problem, start) : coarse(*candidate.rough, start);
+    Rough rough;
+    if (unlimited) {
+      rough.found = from_exact(scaled_problem, start);
+    } else {
+      rough = coarse(*candidate.rough, start);
+    }
+    std::optional<Found>& found = rough.found;
     if (control_.stop()) candidate.stopped = true;
     if (!found) continue;
     if (control_.any_track) {
@@ -211,8 +233,17 @@ Candidate Searcher::search(const Passages& passages) {
       if (candidate.kept || candidate.stopped) break;
       continue;
     }
-    refine(candidate, *found, unlimited && scaled_problem.drag == 0.0);
-    if (!candidate.kept && !candidate.stopped) others.push_back(std::move(*found));
+    // Only of the first start: others are tried anyway.
+    std::vector<GuessCurve> more;
+    if (!unlimited && tried.size() == 1)
+      more = worth_trying(*candidate.rough, curves, *found, rough.got_lost);
+    if (more.empty() || candidate.stopped) {
+      refine(candidate, *found, unlimited && scaled_problem.drag == 0.0);
+      if (!candidate.kept && !candidate.stopped) others.push_back(std::move(*found));
+    } else {
+      take_best(candidate, *found, more, others);
+      if (rough.got_lost) break;
+    }
     // A track that keeps the limits, but is no optimum, may have lost its way: the next start is tried too.
     const bool converged = candidate.kept && candidate.found->residual <= options_.tolerance;
     if (converged || candidate.stopped) break;
@@ -223,6 +254,53 @@ Candidate Searcher::search(const Passages& passages) {
     mend_any(candidate, other.track->mesh(), other.z);
   }
   return candidate;
+}
+
+void Searcher::take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,
+                         std::vector<Found>& others) {
+  const ScaledProblem& problem = *candidate.problem;
+  std::vector<Found> tracks{std::move(first)};
+  const auto is_same = [](const Found& a, const Found& b) {
+    constexpr double kSame = 1e-6;  // accuracy: that of a time
+    return std::fabs(a.objective - b.objective) <= kSame * std::fabs(b.objective);
+  };
+  for (const GuessCurve& start : more) {
+    if (control_.stop()) break;
+    std::optional<Found> found = coarse(*candidate.rough, start).found;
+    if (!found) continue;
+    const bool known =
+        std::any_of(tracks.begin(), tracks.end(), [&](const Found& track) { return is_same(track, *found); });
+    if (!known) tracks.push_back(*std::move(found));
+  }
+  // Which is the best one coarse meshes don't tell: some of them have hardly begun to be fast.
+  for (Found& track : tracks)
+    track = laid_anew(problem, on_finer_meshes(problem, *candidate.rough, std::move(track)));
+  std::stable_sort(tracks.begin(), tracks.end(), [](const Found& a, const Found& b) {
+    const bool keeps = a.feasible(kNearlyFeasible);
+    return keeps != b.feasible(kNearlyFeasible) ? keeps : a.objective < b.objective;
+  });
+  const auto is_converged = [&](const Candidate& end) {
+    return end.kept && end.found->residual <= options_.tolerance;
+  };
+  for (Found& track : tracks) {
+    if (candidate.stopped) return;
+    // One that has not come to its end yet may still become the best.
+    const bool may_win = track.residual > options_.tolerance && track.feasible(kNearlyFeasible);
+    if (is_converged(candidate) && !may_win) continue;
+    Candidate end;
+    end.problem = candidate.problem;
+    end.rough = candidate.rough;
+    begin_margins(problem);
+    settle(end, track);
+    if (!end.kept) others.push_back(std::move(track));
+    const bool stopped = end.stopped;
+    const bool counts = !is_converged(candidate) || is_converged(end);
+    const bool is_better = !candidate.found || (end.kept && !candidate.kept) ||
+                           (is_converged(end) && !is_converged(candidate)) ||
+                           (end.kept && end.found->objective < candidate.found->objective);
+    if (end.found && counts && is_better) candidate = std::move(end);
+    candidate.stopped = stopped;
+  }
 }
 
 Candidate Searcher::search_from(const Passages& passages, const Mesh& mesh, const Vector& z) {
@@ -317,18 +395,18 @@ std::optional<Found> Searcher::from_exact(const ScaledProblem& problem, const Gu
   return found;
 }
 
-std::optional<Found> Searcher::coarse(const ScaledProblem& problem, const GuessCurve& start) {
+Searcher::Rough Searcher::coarse(const ScaledProblem& problem, const GuessCurve& start) {
   tell("coarse track", 0.0);
   const Mesh mesh = mesh_with(problem, graded_knots(start, kCoarsePieces, entry_share(problem, start.length)),
                               start.length);
   aim_at(kCoarseTolerance, 5);
   Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
-  if (found.feasible(kNearlyFeasible) || found.stopped) return found;
+  if (found.feasible(kNearlyFeasible) || found.stopped) return {std::move(found)};
   // The descent lost its way, or the mesh is too coarse: look for any track that keeps the limits first.
   const Mesh finer = mesh_with(
       problem, graded_knots(start, kRescuePieces, entry_share(problem, start.length)), start.length);
   control_.most_rounds = 6;
-  return rescued(problem, finer, fit(start, Transcription(finer)));
+  return {rescued(problem, finer, fit(start, Transcription(finer))), true};
 }
 
 std::optional<Found> Searcher::rescued(const ScaledProblem& problem, const Mesh& mesh,

@@ -61,7 +61,14 @@ class Searcher {
   [[nodiscard]] bool is_unlimited() const;
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const;
   [[nodiscard]] std::optional<Found> from_exact(const ScaledProblem& problem, const GuessCurve& start);
-  [[nodiscard]] std::optional<Found> coarse(const ScaledProblem& problem, const GuessCurve& start);
+  struct Rough {
+    std::optional<Found> found;
+    bool got_lost = false;  ///< the descent did, and was led back by way of any track that keeps the limits
+  };
+  [[nodiscard]] Rough coarse(const ScaledProblem& problem, const GuessCurve& start);
+  /// From every start, where the first one's track is doubted: the best of them, then others until one is an optimum.
+  void take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,
+                 std::vector<Found>& others);
   /// By way of any track that keeps the limits. @return nothing where none comes close
   [[nodiscard]] std::optional<Found> rescued(const ScaledProblem& problem, const Mesh& mesh,
                                              const Vector& beginning);

@@ -116,6 +116,30 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
   return curves;
 }
 
+std::optional<FlyingStart> flying_start(const ScaledProblem& problem) {
+  constexpr int kSteps = 128;     // taste
+  constexpr double kSlow = 1.01;  // taste: of the speed that just arrives
+  const Vec2 finish = expected_finish(problem);
+  const Endpoints ends{finish.x, finish.y};
+  const Friction friction =
+      Friction::from_coefficient(mean_friction(problem, problem.rides[problem.objective_ride]));
+  const double entry_speed = std::sqrt(problem.entry_speed2);
+  if (!(entry_speed > 0.0 && finish.x > 0.0)) return std::nullopt;
+  if (entry_speed < kSlow * least_entry_speed(ends, friction, 1.0)) return std::nullopt;
+  const FastestTrack track = fastest_track(ends, friction, entry_speed, 1.0);
+  FlyingStart start;
+  start.travel_time = track.travel_time;
+  const double length = track.centerline->length();
+  for (int i = 0; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    start.curve.sigma.push_back(share);
+    start.curve.zeta.push_back(track.centerline->slope_angle(share * length));
+  }
+  start.curve = widened(std::move(start.curve), problem.rides.front().height);
+  start.curve.length = std::max(length - problem.lead_in - problem.lead_out, 0.2 * length);
+  return start;
+}
+
 std::vector<GuessCurve> winding_starts(const ScaledProblem& problem) {
   constexpr int kSteps = 128;                   // taste
   constexpr int kMostWaves = 3;                 // taste

@@ -12,6 +12,15 @@ namespace glissade::optimizer {
 /// the core, without the straight ends.
 [[nodiscard]] std::vector<GuessCurve> starts(const ScaledProblem& problem);
 
+/// The fastest track of a body that enters with a speed, and its time: what limits lead away from.
+struct FlyingStart {
+  GuessCurve curve;
+  double travel_time = 0.0;  ///< scaled, without limits and drag
+};
+
+/// @return none for one that enters at rest or can't arrive
+[[nodiscard]] std::optional<FlyingStart> flying_start(const ScaledProblem& problem);
+
 /// Curves that wind about the straight line, from few bends to many: ways to wear energy down, or to be long.
 [[nodiscard]] std::vector<GuessCurve> winding_starts(const ScaledProblem& problem);
 
