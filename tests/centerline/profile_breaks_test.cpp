@@ -125,11 +125,11 @@ TEST_CASE("a curve that passes over what its points show is told by their patter
     followed.push_back({1.0 * i, 0.4 * i + 0.005 * std::sin(2.0 * 3.14159265358979 * i / 6.0)});
   }
   CHECK_FALSE(FittedProfile(followed).leaves_pattern());
-  // Waves far more than a smooth curve has knots, and measured densely.
+  // Waves shorter than the stretches whose means stand for so many points.
   std::vector<Vec2> waves;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 12'000; ++i) {
     const double x = 0.1 * i;
-    waves.push_back({x, 0.4 * x + 0.02 * std::sin(2.0 * 3.14159265358979 * x / 2.0)});
+    waves.push_back({x, 0.4 * x + 0.02 * std::sin(2.0 * 3.14159265358979 * x / 0.8)});
   }
   const FittedProfile passed_over(waves);
   CHECK(passed_over.rms_deviation() > 5e-3);
@@ -146,5 +146,46 @@ TEST_CASE("a millimetre of noise at a hundred points hides neither radius nor lo
       CHECK(testing::smallest_valley_radius(profile.curve()) == Approx(known.smallest_radius).epsilon(0.02));
       CHECK(highest_load(profile) == Approx(highest_load(*known.truth)).epsilon(0.01));
     }
+  }
+}
+
+TEST_CASE("stations of a spline of clothoids, its joints among them, give that very spline") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int draw = 0; draw < 6; ++draw) {
+    std::vector<ClothoidSegment> segments;
+    double curvature = random.between(-0.08, 0.08);
+    double slope = 0.4;
+    for (int k = 0; k < 14; ++k) {
+      const double length = random.between(0.8, 8.0);
+      // Turned back where the slope goes far.
+      const double next = random.between(-0.08, 0.08) + (slope > 0.7 ? 0.05 : slope < 0.0 ? -0.05 : 0.0);
+      segments.push_back({length, curvature, next});
+      slope -= 0.5 * length * (curvature + next);
+      curvature = next;
+    }
+    const ClothoidSpline drawn(Angle::from_radians(0.4), segments);
+    std::vector<double> stations = {0.0};
+    for (const double joint : drawn.breaks()) {
+      const double from = stations.back();
+      const int gaps = static_cast<int>(std::ceil((joint - from) / 0.4));
+      for (int i = 1; i <= gaps; ++i)
+        stations.push_back(i == gaps ? joint : from + (joint - from) * i / gaps);
+    }
+    std::vector<Vec2> points;
+    for (const double s : stations) {
+      const CenterlinePoint place = drawn.at(s);
+      points.push_back({place.x, place.drop});
+    }
+    const FittedProfile profile(points);
+    INFO("draw " << draw << ", " << points.size() << " points");
+    CHECK(profile.length() == Approx(drawn.length()).epsilon(1e-8));
+    double most = 0.0;
+    for (int i = 0; i < 500; ++i) {
+      const double s = i / 500.0;
+      most = std::max(most, std::fabs(profile.at(s * profile.length()).curvature -
+                                      drawn.at(s * drawn.length()).curvature));
+    }
+    CHECK(most <= 1e-5);
   }
 }

@@ -2,6 +2,7 @@
 
 #include "glissade/core/math.hpp"
 
+#include "clothoids_between.hpp"
 #include "interpolating_spline.hpp"
 #include "profile_model.hpp"
 #include "smoothed_points.hpp"
@@ -301,11 +302,23 @@ std::optional<FollowedProfile> follow_points(const std::vector<Vec2>& points) {
   const Vec2 start = through.front();
   for (Vec2& point : through) point = point - start;
   const InterpolatingSpline spline(found->parameters, through, SplineDegree::quintic);
+  if (found->smooth.exact) {
+    std::vector<double> angles;
+    for (const double parameter : found->parameters) {
+      const Vec2 along = spline.at(parameter).first;
+      const double angle = math::atan2(along.y, along.x);
+      const double before = angles.empty() ? angle : angles.back();
+      angles.push_back(before + std::remainder(angle - before, 2.0 * std::numbers::pi));
+    }
+    if (auto curve = clothoids_between(through, std::move(angles))) {
+      return FollowedProfile{*std::move(curve), start, {}, true, true, 0.0};
+    }
+  }
   auto curve = clothoids_through(nodes_for_clothoids(spline, found->parameters));
   if (!curve) return {};
   Cost cost = found->smooth.cost;
   cost.mean_square /= curve->length() * curve->length();
-  return FollowedProfile{*std::move(curve), start, cost, found->smooth.exact, found->between};
+  return FollowedProfile{*std::move(curve), start, cost, found->smooth.exact, false, found->between};
 }
 
 }  // namespace glissade::centerline
