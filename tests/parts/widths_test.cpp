@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/io/step_file.hpp"
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ namespace {
 using namespace glissade;
 using namespace testing;
 
+constexpr double kPi = std::numbers::pi;
 const WidthLaw kWidening({{2.0, 0.4}, {4.0, 0.6}, {6.0, 0.35}});
 
 PlateOptions in_one_piece() {
@@ -224,4 +227,85 @@ TEST_CASE("widths: what cannot be made is refused with place, value and bound") 
       refusal(section::Slab{kWidening, 6e-3, 0.05, 0.02}, {})
           .find("cross_section.width|fabrication: plates of curbs or a groove beside a width that changes") ==
       0);
+}
+
+TEST_CASE(
+    "widths: tiles cover a floor that widens but for their gaps, those at the sides taking the change") {
+  const StraightLine line(Endpoints{4.0, 3.0});
+  const WidthLaw widths(std::vector<WidthAt>{{1.0, 0.5}, {4.0, 0.8}});
+  PlateOptions options = in_one_piece();
+  options.liner.emplace();
+  options.liner->bolt = 6;
+  const double radius = 3.3e-3;  // M6, medium
+  for (const section::Measures& measures :
+       {section::Measures(section::Slab{widths, 4e-3}),
+        section::Measures(section::UChannel{widths, 0.2, 4e-3}),
+        section::Measures(section::Trapezoid{widths, 0.2, Angle::from_degrees(20.0), 4e-3})}) {
+    INFO(section::kind(measures));
+    const WorkshopBuild build = plates_of(line, measures, options);
+    double tiles = 0.0;
+    double uncovered = 0.0;
+    std::size_t holes = 0;
+    for (const ShopPart* const tile : named(build, "tile_")) {
+      tiles += static_cast<double>(tile->quantity()) * tile->volume / tile->thickness;
+      holes += tile->quantity() * tile->pattern->region.holes.size();
+      uncovered +=
+          static_cast<double>(tile->quantity() * tile->pattern->region.holes.size()) * kPi * radius * radius;
+      // Half a gap at its ends, and the one to its left.
+      const auto& body = std::get<SweptBody>(tile->body);
+      uncovered += static_cast<double>(tile->quantity()) * options.liner->gap * length(body.path);
+      CHECK(moments(tile->pattern->region).area * tile->thickness == Approx(tile->volume).epsilon(1e-9));
+    }
+    // What is left are gaps between courses, and one more along each.
+    double floor = 0.0;
+    constexpr int kSlices = 50000;
+    for (int k = 0; k < kSlices; ++k) floor += widths.at(5.0 * (k + 0.5) / kSlices) * 5.0 / kSlices;
+    CHECK(tiles + uncovered < floor);
+    CHECK(tiles + uncovered > 0.98 * floor);
+    CHECK(build.proof.bolted == holes);
+    CHECK(holes > 50);
+    // Their holes are a listed difference of the floor.
+    double listed = 0.0;
+    for (const VolumeDifference& one : build.proof.differences) {
+      if (one.what == "holes of the liner") listed += one.volume;
+    }
+    CHECK(-listed == Approx(static_cast<double>(holes) * kPi * 3.5e-3 * 3.5e-3 * 4e-3).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("widths: liners and covers beside a width that changes are closed bodies, bolted pair by pair") {
+  const TempDir dir;
+  PlateOptions options;
+  options.liner.emplace();
+  options.liner->bolt = 6;
+  options.rim.emplace();
+  options.cover.emplace();
+  for (const section::Measures& measures :
+       {section::Measures(section::UChannel{kWidening, 0.2, 4e-3}),
+        section::Measures(section::Trapezoid{kWidening, 0.2, Angle::from_degrees(20.0), 4e-3})}) {
+    INFO(section::kind(measures));
+    const WorkshopBuild build = plates_of(chute(), measures, options);  // throws where parts clash
+    CHECK(build.proof.bolted > 50);
+    std::size_t rims = 0;
+    std::size_t covers = 0;
+    for (const ShopPart& part : build.workshop.parts) {
+      INFO(part.name);
+      if (part.name.find("rim") != std::string::npos)
+        rims += part.quantity() * part.pattern->region.holes.size();
+      if (part.name.find("cover") != std::string::npos)
+        covers += part.quantity() * part.pattern->region.holes.size();
+      CHECK(faults_of(part.pattern->region).empty());
+      const auto* const body = std::get_if<SweptBody>(&part.body);
+      if (body == nullptr || body->holes.empty()) continue;
+      CHECK(body->holes.size() == part.pattern->region.holes.size());
+      const MeshFacts facts = measure(parts::facets_of(part.body, 2e-6));
+      CHECK(facts.boundary_edges == 0);
+      CHECK(facts.self_intersections == 0);
+      CHECK(facts.volume == Approx(part.volume).epsilon(2e-4));
+      write_step(dir.path() / "part.step", part);
+      require_same_step(dir.path() / "part.step", part);
+    }
+    CHECK(rims == covers);
+    CHECK(covers > 20);
+  }
 }

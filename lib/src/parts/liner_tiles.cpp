@@ -149,9 +149,19 @@ std::vector<double> bolts_across(const PlateOptions& options, double lane) {
 }
 
 std::vector<TilePlace> tile_places(const PlateOptions& options, const std::vector<double>& lanes,
-                                   const Span& unit, const OnOneArc& arcs, int& row, const OnOneArc* seams) {
+                                   const Span& unit, const OnOneArc& arcs, int& row, const OnOneArc* seams,
+                                   const std::function<double(const Span&)>& wider) {
   const LinerOptions& liner = *options.liner;
-  const double count = courses_in(options, lanes, unit);
+  std::vector<double> widest = lanes;
+  if (wider) {
+    double most = 0.0;
+    constexpr int kSlices = 64;
+    const double slice = (unit.to - unit.from) / kSlices;
+    for (int k = 0; k < kSlices; ++k)
+      most = std::max(most, wider({unit.from + k * slice, unit.from + (k + 1) * slice}));
+    for (double& lane : widest) lane += most;
+  }
+  const double count = courses_in(options, widest, unit);
   const double step = (unit.to - unit.from) / count;
   std::vector<TilePlace> tiles;
   const auto seam = [&](double k) {
@@ -163,11 +173,13 @@ std::vector<TilePlace> tile_places(const PlateOptions& options, const std::vecto
     // Where two seams come to lie at one place there is one course less.
     if (!(span.to > span.from)) continue;
     ++row;
+    const double more = wider ? wider(span) : 0.0;
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      const Course course = course_of(liner, lanes[lane], row % 2 == 0);
+      const Course course = course_of(liner, lanes[lane] + more, row % 2 == 0);
       for (std::size_t i = 0; i < course.widths.size(); ++i) {
         TilePlace tile{
-            span, row, lane, course.edges[i], course.widths[i], course.widths[i] < 0.9 * course.full, {}, {}};
+            span, row, lane, course.edges[i], course.widths[i], course.widths[i] < 0.9 * course.full,
+            {},   {},  more, liner.gap};
         set_bolts(options, arcs, tile);
         tiles.push_back(std::move(tile));
       }

@@ -26,17 +26,22 @@ struct TilePlace {
   bool half = false;
   std::vector<double> along;   ///< of its bolts: places on the track
   std::vector<double> across;  ///< and from its left edge
+  double wider =
+      0.0;  ///< of its course: what its lane has more there than where it is narrowest, half on either side
+  double gap = 0.0;  ///< beside its lane
 };
 
 /// @param lanes  widths of the lanes [m]
 /// @param arcs   where holes may stand
 /// @param row    courses so far; counts on
 /// @param seams  where courses may meet; none: anywhere
+/// @param wider  of a lane that widens: by how much it is wider over a course than told, at the least
 /// @throws InputError where no bolt finds a place: between which places, and a way out
 [[nodiscard]] std::vector<TilePlace> tile_places(const PlateOptions& options,
                                                  const std::vector<double>& lanes, const Span& unit,
                                                  const OnOneArc& arcs, int& row,
-                                                 const OnOneArc* seams = nullptr);
+                                                 const OnOneArc* seams = nullptr,
+                                                 const std::function<double(const Span&)>& wider = {});
 
 /// @return where the bolts of tiles stand across a lane, in courses of both kinds: from its left edge [m]
 [[nodiscard]] std::vector<double> bolts_across(const PlateOptions& options, double lane);

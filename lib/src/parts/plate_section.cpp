@@ -175,16 +175,18 @@ std::optional<PlateSection> section_of(const section::UChannel& channel, const P
   const double outer = inner + t;
   const double high = channel.wall_height;
   const bool beside = options.walls == WallSeat::beside_floor;
-  const double foot = beside ? -t : 0.0;
+  const double low = lining_of(options);
+  const double foot = (beside ? -t : 0.0) - low;
   const double edge = beside ? inner : outer;
   PlateSection section;
   section.plates = {{"left_wall", {inner, high}, {inner, foot}, {outer, high}, {outer, foot}},
-                    {"floor", {edge, 0.0}, {-edge, 0.0}, {edge, -t}, {-edge, -t}},
+                    {"floor", {edge, -low}, {-edge, -low}, {edge, -low - t}, {-edge, -low - t}},
                     {"right_wall", {-inner, foot}, {-inner, high}, {-outer, foot}, {-outer, high}}};
   section.thickness = t;
   section.convex = true;
   section.mitred = false;
-  section.outside = {{outer, high}, {outer, -t}, {-outer, -t}, {-outer, high}};
+  section.outside = {{outer, high}, {outer, -low - t}, {-outer, -low - t}, {-outer, high}};
+  if (options.liner) section.lined = {{1, {inner, 0.0}, {-inner, 0.0}}};
   section.widths = changing(channel.width);
   return section;
 }
@@ -340,10 +342,12 @@ std::optional<PlateSection> section_of(const section::TrackGroove& track, const 
   return round_outline(track, options);
 }
 
-std::optional<PlateSection> section_of(const section::Slab& slab, const PlateOptions&) {
+std::optional<PlateSection> section_of(const section::Slab& slab, const PlateOptions& options) {
   if (!slab.width.is_constant() && slab.curb_height > 0.0) return std::nullopt;
   const double half = 0.5 * slab.width.narrowest() + slab.curb_width;
-  PlateSection section = of_chain({{half, 0.0}, {-half, 0.0}}, slab.thickness, false);
+  const double low = lining_of(options);
+  PlateSection section = of_chain({{half, -low}, {-half, -low}}, slab.thickness, false);
+  if (options.liner) section.lined = {{0, {half, 0.0}, {-half, 0.0}}};
   section.plates[0].name = "floor";
   section.widths = changing(slab.width);
   return section;

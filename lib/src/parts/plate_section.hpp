@@ -18,6 +18,10 @@ struct SectionPlate {
   Vec2 face_to;
   Vec2 back_from;  ///< on the other side
   Vec2 back_to;
+  /// Edges that stay where they are where the section widens: of tiles beside other tiles.
+  bool from_stays = false;
+  bool to_stays = false;
+  double out = 0.0;  ///< by how much half the section is wider where its corners are told than where it is narrowest [m]
 
   /// Its unit direction along the face.
   [[nodiscard]] Vec2 way() const { return (1.0 / norm(face_to - face_from)) * (face_to - face_from); }

@@ -119,6 +119,16 @@ PlateSection with_seams(PlateSection section, const PlateOptions& options) {
     const std::size_t first = result.plates.size();
     for (std::size_t k = 0; k < whole.lined.size(); ++k) {
       if (whole.lined[k].plate != i) continue;
+      if (whole.widths && !seams.empty()) {
+        throw InputError({"liner",
+                          "liner: the " + whole.plates[i].name + " is up to " +
+                              length_text(norm(whole.plates[i].face_to - whole.plates[i].face_from) +
+                                              whole.widths->widest() - whole.widths->narrowest(),
+                                          4) +
+                              " wide, wider than one strip may be",
+                          "Where the width changes its seams would run through holes of the tiles.",
+                          "a larger split.sheet or split.widest, or no liner"});
+      }
       result.lined[k].plate = first;
       result.lined[k].strips = seams.size() + 1;
     }

@@ -80,8 +80,8 @@ std::vector<double> cover_bolts(const StripJob& job, const Span& span, const Sec
   const CoverOptions& options = *job.options.cover;
   constexpr double kFromEnds = 40e-3;
   const Span heights{cover.back_from.y - job.options.rim->thickness, cover.face_from.y};
-  const OnOneArc arcs(job.track, 0.5 * clearance_hole(options.bolt, HoleFit::coarse), heights, {},
-                      job.rooms_at_bends(heights));
+  const OnOneArc arcs(job.track, 0.5 * clearance_hole(options.bolt, HoleFit::coarse), heights,
+                      job.widens() ? job.pieces() : std::vector<double>(), job.rooms_at_bends(heights));
   std::vector<double> places;
   for (const Vec2 at : evenly({span.from + kFromEnds, 0.0}, {span.to - kFromEnds, 0.0}, options.pitch)) {
     const auto place = arcs.nearest(at.x, {span.from + 0.5 * kFromEnds, span.to - 0.5 * kFromEnds});
@@ -95,6 +95,12 @@ struct Covered {
   Span span;
   std::vector<double> bolts;
 };
+
+/// How far out the tops of the sides stand at a place, beyond where they are narrowest.
+double out_at(const StripJob& job, double s) {
+  if (!job.widens()) return 0.0;
+  return job.wider_at(s) + job.section.outside.front().y * job.lean_at(s);
+}
 
 Covered covered(const StripJob& job, const Span& unit, const std::vector<SectionPlate>& rims) {
   if (!job.options.cover) return {room_of(job, unit, rims.front()), {}};
@@ -171,9 +177,12 @@ ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickn
   part.density = material.density;
   part.thickness = cut.thickness;
   Vec2 origin;
-  part.body = strip_body(job, plate, span, origin);
+  SweptBody body = strip_body(job, plate, span, origin);
+  Development flat = developed(job, plate, span);
+  drill_level(job, plate, span, holes, body, flat);
+  part.body = std::move(body);
   part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
-  part.pattern = pattern_of(developed(job, plate, span), {});
+  part.pattern = pattern_of(flat, {});
   weigh(part);
   return part;
 }
@@ -209,7 +218,8 @@ void add_strip_rims(const StripJob& job, const std::vector<double>& joints, Work
       const double width = rim.face_from.x - rim.face_to.x;
       const double middle = 0.5 * job.options.rim->width;
       for (const double s : unit.bolts) {
-        holes.push_back({{s, rim.face_from.x > 0.0 ? middle : width - middle},
+        const double out = out_at(job, s);
+        holes.push_back({{s, rim.face_from.x > 0.0 ? middle - out : width - middle + out},
                          0.5 * clearance_hole(job.options.cover->bolt, HoleFit::medium)});
       }
       ShopPart part = set_plate(job, rim, job.options.rim->thickness, unit.span, job.options.material, holes);
@@ -230,7 +240,8 @@ void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Wo
     const Covered unit = covered(job, {joints[i], joints[i + 1]}, rims);
     std::vector<Circle> holes;
     for (const double s : unit.bolts) {
-      for (const double y : {middle, width - middle})
+      const double out = out_at(job, s);
+      for (const double y : {middle - out, width - middle + out})
         holes.push_back({{s, y}, 0.5 * clearance_hole(options.bolt, HoleFit::coarse)});
     }
     ShopPart part = set_plate(job, cover, options.thickness, unit.span, job.options.material, holes);
@@ -244,6 +255,8 @@ void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Wo
 // --- liner
 
 namespace {
+
+constexpr double kSameEdge = 1e-9;  // [m]
 
 Vec2 way_of(const LinedFace& face) {
   return (1.0 / norm(face.to - face.from)) * (face.to - face.from);
@@ -270,9 +283,24 @@ SectionPlate tile_plate(const PlateSection& section, const TilePlace& tile, doub
   const LinedFace& face = section.lined[tile.lane];
   const Vec2 way = way_of(face);
   const Vec2 back = thickness * Vec2{-way.y, way.x};
-  const Vec2 from = face.from + (lane_of(section, face).low + tile.edge) * way;
+  const Lane lane = lane_of(section, face);
+  // Where its course is narrowest. Those at the sides take the change of width, others stay.
+  const Vec2 from = face.from + (lane.low + tile.edge - 0.5 * tile.wider) * way;
   const Vec2 to = from + tile.width * way;
-  return {"tile", from, to, from + back, to + back};
+  const bool first = tile.edge <= tile.gap;
+  const bool last = tile.edge + tile.width + tile.gap >= lane.width + tile.wider - kSameEdge;
+  return {"tile", from, to, from + back, to + back, !first, !last, 0.5 * tile.wider};
+}
+
+/// By how much the lane of a level floor is wider over a course than where it is narrowest, at the least.
+double wider_over(const StripJob& job, const Span& span, double lowest) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const StripArc& one : job.arcs_in(span)) {
+    for (const double height : {0.0, lowest}) {
+      least = std::min({least, one.wide_from + height * one.lean_from, one.wide_to + height * one.lean_to});
+    }
+  }
+  return 2.0 * least;
 }
 
 }  // namespace
@@ -304,8 +332,15 @@ std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, const 
     }
   }
   const std::vector<double> bends = job.rooms_at_bends({low, high});
-  const OnOneArc arcs(job.track, 0.5 * clearance_hole(liner.bolt, HoleFit::coarse), {low, high}, breaks,
-                      bends);
+  std::vector<double> ends = breaks;
+  if (job.widens()) {
+    for (const double place : job.pieces()) ends.push_back(place);
+  }
+  const OnOneArc arcs(job.track, 0.5 * clearance_hole(liner.bolt, HoleFit::coarse), {low, high}, ends, bends);
+  if (job.widens()) {
+    return tile_places(job.options, widths_of(job.section), room, arcs, row, nullptr,
+                       [&](const Span& span) { return wider_over(job, span, low); });
+  }
   if (!job.bent()) return tile_places(job.options, widths_of(job.section), room, arcs, row);
   // Seams between courses, and the ends of the liner, lie on one flat, too.
   room = {job.off_bends(room.from, 1.0, {low, high}), job.off_bends(room.to, -1.0, {low, high})};
@@ -321,7 +356,7 @@ std::vector<std::vector<Circle>> holes_below(const StripJob& job, const std::vec
     const SectionPlate& plate = job.section.plates[face.plate];
     const double from = lane_of(job.section, face).low - dot(plate.face_from - face.from, way_of(face));
     for (const double across : tile.across) {
-      const double y = from + tile.edge + across;
+      const double y = from + tile.edge + across - 0.5 * tile.wider;
       const std::size_t strip = strip_below(job.section, face, y);
       const double own = y - dot(job.section.plates[strip].face_from - plate.face_from, way_of(face));
       for (const double s : tile.along) holes[strip].push_back({{s, own}, radius});
@@ -338,13 +373,13 @@ void add_strip_liner(const StripJob& job, const std::vector<TilePlace>& tiles, W
   lay_tiles(
       job.options, names, tiles,
       [&](const TilePlace& tile, const StockMaterial& material) {
+        const SectionPlate plate = tile_plate(job.section, tile, liner.thickness);
         std::vector<Circle> holes;
         for (const double s : tile.along) {
           for (const double y : tile.across)
             holes.push_back({{s, y}, 0.5 * clearance_hole(liner.bolt, HoleFit::medium)});
         }
-        return set_plate(job, tile_plate(job.section, tile, liner.thickness), liner.thickness, tile.span,
-                         material, holes);
+        return set_plate(job, plate, liner.thickness, tile.span, material, holes);
       },
       job.section.thickness, workshop);
 }
@@ -396,12 +431,14 @@ void object_to_tiles(const PlateSection& section, const PlateOptions& options, I
   PlateOptions wide = options;
   wide.floor = FloorMake::rolled;
   const LinerOptions& liner = *options.liner;
-  if (section.lined.empty() || section.widths) {
-    issues.add("liner",
-               section.widths ? "liner: tiles of one width leave gaps beside a width that changes"
-                              : "liner: this section has no floor that tiles could lie on",
-               section.widths ? "Their courses are cut alike." : "Tiles are flat.",
-               "no liner, or a cross_section of kind: u-channel or trapezoid, of one width");
+  if (section.lined.empty()) {
+    issues.add("liner", "liner: this section has no floor that tiles could lie on", "Tiles are flat.",
+               "no liner, or a cross_section of kind: u-channel or trapezoid");
+    return;
+  }
+  if (section.widths && options.floor == FloorMake::bent) {
+    issues.add("liner", "liner: tiles on a bent floor have one width",
+               "Their edges would be bent with the floor's.", "no liner, floor: rolled, or one width");
     return;
   }
   const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), liner.bolt) != bolt_sizes().end();
@@ -449,9 +486,10 @@ std::vector<Issue> section_fitting_problems(const PlateSection& section, const P
       issues.add("cover", "cover: it would lie on the floor",
                  "The tops of this section are no higher than that.",
                  "no cover, or a cross_section with sides above the floor");
-    if (section.widths)
-      issues.add("cover", "cover: its bolts and those of the rim do not meet beside a width that changes", "",
-                 "no cover, or one width");
+    if (section.widths && bent)
+      issues.add("cover",
+                 "cover: sides of bent plates lean otherwise from flat to flat where the width changes", "",
+                 "no cover, floor: rolled, or one width");
   }
   if (options.liner) {
     on_bends(options.liner->thickness);

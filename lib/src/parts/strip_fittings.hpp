@@ -19,7 +19,8 @@ namespace glissade::parts {
 [[nodiscard]] Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate);
 
 /// The part of a plate that is not of the section itself, between two places.
-/// @param holes  (place along the track, y along its face); none where the width changes
+/// @param holes  (place along the track, y along its face); where the width changes of level plates alone, y from where `face_from` is
+///               told
 [[nodiscard]] ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickness,
                                  const Span& span, const StockMaterial& material,
                                  const std::vector<Circle>& holes);

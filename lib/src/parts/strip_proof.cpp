@@ -207,6 +207,9 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
                                       [&](const StripWindow& window) { return window.plate == strip.plate; });
       for (const Bore& bore : bores_of(*sheet)) (opened ? lids : holes).volume -= drilled_by_layers(bore);
     }
+    if (const auto* const body = std::get_if<SweptBody>(&strip.part.body)) {
+      for (const Bore& bore : bores_of(*body)) holes.volume -= drilled_by_layers(bore);
+    }
     for (const StripWindow& window : work.windows) {
       if (window.plate != strip.plate) continue;
       openings.volume -= volume_along(

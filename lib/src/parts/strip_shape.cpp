@@ -190,6 +190,12 @@ Vec2 StripJob::at(Vec2 corner, double wider, double lean) const {
   return {corner.x + (corner.x > 0.0 ? out : -out), corner.y};
 }
 
+std::vector<double> StripJob::pieces() const {
+  std::vector<double> places;
+  for (const StripArc& one : arcs_) places.push_back(one.arc.start);
+  return places;
+}
+
 double StripJob::departure() const {
   return most_lean_ * std::max(section.highest, -section.lowest);
 }
@@ -241,8 +247,9 @@ Development developed_level(const StripJob& job, const SectionPlate& plate,
   Development strip;
   double reached = 0.0;
   const auto put = [&](double wider, double lean) {
-    const Vec2 from = job.at(plate.middle_from(), wider, lean);
-    const Vec2 to = job.at(plate.middle_to(), wider, lean);
+    const Vec2 from =
+        plate.from_stays ? plate.middle_from() : job.at(plate.middle_from(), wider - plate.out, lean);
+    const Vec2 to = plate.to_stays ? plate.middle_to() : job.at(plate.middle_to(), wider - plate.out, lean);
     strip.base.push_back({reached, to.x});
     strip.upper.push_back({reached, from.x});
   };
@@ -254,6 +261,19 @@ Development developed_level(const StripJob& job, const SectionPlate& plate,
   }
   return strip;
 }
+
+}  // namespace
+
+Vec2 on_level(const StripJob& job, const SectionPlate& plate, const Span& span, Vec2 place) {
+  double reached = 0.0;
+  for (const StripArc& one : job.arcs_in(span)) {
+    const double here = std::min(place.x - one.arc.start, one.arc.length);
+    if (here > 0.0) reached += here * (1.0 - one.arc.curvature * plate.middle_to().y);
+  }
+  return {reached, plate.face_from.x + place.y * plate.way().x};
+}
+
+namespace {
 
 Development developed_widening(const StripJob& job, const SectionPlate& plate,
                                const std::vector<StripArc>& arcs) {
@@ -341,6 +361,14 @@ Development developed(const StripJob& job, const SectionPlate& plate, const Span
   return strip;
 }
 
+void drill_level(const StripJob& job, const SectionPlate& plate, const Span& span,
+                 const std::vector<Circle>& holes, SweptBody& body, Development& flat) {
+  for (const Circle& hole : holes) {
+    body.holes.push_back({hole.centre - Vec2{span.from, 0.0}, hole.radius});
+    flat.holes.push_back({on_level(job, plate, span, hole.centre), hole.radius});
+  }
+}
+
 double length_along(const std::vector<Vec2>& places, const std::vector<double>& turns) {
   double sum = 0.0;
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -365,6 +393,7 @@ FlatPattern pattern_of(const Development& strip, const std::vector<double>& radi
   const Vec2 back = PlaneMotion::turn(-plane.angle)(plane.origin);
   const PlaneMotion motion = PlaneMotion::turn(-plane.angle, -1.0 * back);
   outline = moved(outline, motion);
+  for (const Circle& hole : strip.holes) pattern.region.holes.push_back({motion(hole.centre), hole.radius});
   for (std::size_t i = 0; i < radii.size(); ++i) {
     if (i > 0 && radii[i] == radii[i - 1]) continue;
     pattern.rolls.push_back({motion(strip.base[i]), motion(strip.upper[i]), radii[i]});
@@ -447,8 +476,11 @@ SweptBody strip_body(const StripJob& job, const SectionPlate& plate, const Span&
     const auto put = [&](double s, double bulge, double wider, double lean) {
       body.path.vertices.push_back({frame_at(job.track, s).at, bulge});
       body.shifts.emplace_back();
-      for (const Vec2 corner : corners)
-        body.shifts.back().push_back(corner.x - job.at(corner, wider, lean).x);
+      for (std::size_t j = 0; j < corners.size(); ++j) {
+        const bool stays = j == 0 || j == 3 ? plate.from_stays : plate.to_stays;
+        body.shifts.back().push_back(stays ? 0.0
+                                           : corners[j].x - job.at(corners[j], wider - plate.out, lean).x);
+      }
     };
     for (const StripArc& one : arcs) {
       put(one.arc.start, math::tan(0.25 * one.arc.curvature * one.arc.length), one.wide_from, one.lean_from);

@@ -62,6 +62,8 @@ class StripJob {
   [[nodiscard]] double lean_at(double s) const;
   /// @return where a corner of the section stands
   [[nodiscard]] Vec2 at(Vec2 corner, double wider, double lean) const;
+  /// @return places where the pieces of bodies beside a width that changes begin
+  [[nodiscard]] std::vector<double> pieces() const;
   /// @return greatest lean, and greatest distance of walls from where the width has them [m]
   [[nodiscard]] double most_lean() const { return most_lean_; }
   [[nodiscard]] double departure() const;
@@ -80,6 +82,7 @@ struct Development {
   std::vector<Vec2> upper;  ///< at the side of `face_from`
   std::vector<double> turns;
   std::vector<BendLine> folds;  ///< where a width begins or ends to change
+  std::vector<Circle> holes = {};
 };
 
 /// The stretch of track over which a plate stands unfolded; beyond it, at either end, the radius is less than its height.
@@ -91,10 +94,18 @@ struct Development {
 [[nodiscard]] SweptBody strip_body(const StripJob& job, const SectionPlate& plate, const Span& span,
                                    Vec2& origin);
 
+/// @return the place on the pattern of a level plate of one along the track, and y along its face where it is narrowest
+[[nodiscard]] Vec2 on_level(const StripJob& job, const SectionPlate& plate, const Span& span, Vec2 place);
+
 [[nodiscard]] Development developed(const StripJob& job, const SectionPlate& plate, const Span& span);
 
 /// @return the length of a chain of arcs through places that turn so
 [[nodiscard]] double length_along(const std::vector<Vec2>& places, const std::vector<double>& turns);
+
+/// Holes through a level plate beside a width that changes: in its body and on the flat.
+/// @param holes  as on_level()
+void drill_level(const StripJob& job, const SectionPlate& plate, const Span& span,
+                 const std::vector<Circle>& holes, SweptBody& body, Development& flat);
 
 /// @param radii  to which each arc is rolled; empty: none is
 [[nodiscard]] FlatPattern pattern_of(const Development& strip, const std::vector<double>& radii);

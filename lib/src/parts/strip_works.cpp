@@ -193,9 +193,10 @@ Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, con
   return strip;
 }
 
-Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
+/// @param holes  beside a width that changes, as drill_level()
+Strip strip_of(const StripJob& job, std::size_t index, const Span& span, const std::vector<Circle>& holes) {
   const SectionPlate& plate = job.section.plates[index];
-  const Development flat = developed(job, plate, span);
+  Development flat = developed(job, plate, span);
   Strip strip;
   strip.plate = index;
   strip.span = span;
@@ -216,7 +217,9 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span) {
   part.density = job.options.material.density;
   part.thickness = job.section.thickness;
   Vec2 origin;
-  part.body = strip_body(job, plate, span, origin);
+  SweptBody body = strip_body(job, plate, span, origin);
+  drill_level(job, plate, span, holes, body, flat);
+  part.body = std::move(body);
   part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
   part.pattern = pattern_of(flat, radii);
@@ -245,8 +248,9 @@ std::vector<Strip> strips_between(const StripJob& job, const std::vector<double>
       if (!(span.to - span.from > 1e-6)) continue;
       const bool meets = edges[p].from.meeting != CornerEdge::Meeting::mitre ||
                          edges[p].to.meeting != CornerEdge::Meeting::mitre;
-      const bool worked = meets || !works[j].holes[p].empty();
-      strips.push_back(worked ? worked_strip(job, p, span, edges[p], works[j]) : strip_of(job, p, span));
+      const bool worked = !job.widens() && (meets || !works[j].holes[p].empty());
+      strips.push_back(worked ? worked_strip(job, p, span, edges[p], works[j])
+                              : strip_of(job, p, span, works[j].holes[p]));
       if (joints.size() > 2) strips.back().part.name += "_" + std::to_string(j + 1);
     }
   }
