@@ -191,7 +191,9 @@ TEST_CASE(
 TEST_CASE(
     "bent strips: bodies are closed, outward and of their volume, in facets and in STEP, of planes alone") {
   const TempDir dir;
-  const WorkshopBuild build = plates_of(chute(), section::UChannel{kWidening, 0.25, 4e-3}, bent());
+  PlateOptions options = bent();
+  options.rim.emplace();  // ends square beside frames
+  const WorkshopBuild build = plates_of(chute(), section::UChannel{kWidening, 0.25, 4e-3}, options);
   for (const ShopPart& part : build.workshop.parts) {
     write_step(dir.path() / "part.step", part);
     require_same_step(dir.path() / "part.step", part);

@@ -2,6 +2,7 @@
 
 #include "glissade/core/math.hpp"
 #include "glissade/io/step_file.hpp"
+#include "glissade/parts/bend_hits.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "parts/body_geometry.hpp"
@@ -166,6 +167,15 @@ TEST_CASE("bent works: what is set on bent plates is bent as they are, and has i
     }
     CHECK(bends > 0);
   }
+  // Lines that an opening parts are one hit.
+  std::size_t parted = 0;
+  for (const ShopPart* const wall : named(build, "left_wall")) {
+    const auto rows = std::count_if(build.workshop.bends.begin(), build.workshop.bends.end(),
+                                    [&](const BendStep& step) { return step.part == wall->number; });
+    CHECK(bend_hits(*wall->pattern) == static_cast<std::size_t>(rows));
+    parted += wall->pattern->bends.size() - static_cast<std::size_t>(rows);
+  }
+  CHECK(parted > 0);
 }
 
 TEST_CASE(

@@ -1,5 +1,6 @@
 #include "glissade/core/slot.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
+#include "glissade/parts/bend_hits.hpp"
 
 #include "core/least_rectangle.hpp"
 #include "drawing/general_arrangement.hpp"
@@ -192,7 +193,7 @@ std::vector<std::string> facts_of(const ShopPart& part) {
     facts.push_back("cut from " + mm(least.x) + " x " + mm(least.y) + " mm");
   facts.push_back("cut edge " + mm(length(pattern.region.outline)) + " mm round the outline");
   if (!pattern.bends.empty()) {
-    facts.push_back(std::to_string(pattern.bends.size()) + " bends, inner radius " +
+    facts.push_back(std::to_string(bend_hits(pattern)) + " bends, inner radius " +
                     mm(pattern.bends.front().inner_radius) + " mm: see the bend schedule");
   }
   if (!pattern.rolls.empty()) facts.emplace_back("rolled: radii in the bend schedule");

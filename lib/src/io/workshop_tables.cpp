@@ -2,6 +2,7 @@
 
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/parts/bend_hits.hpp"
 
 #include "core/least_rectangle.hpp"
 
@@ -93,7 +94,7 @@ void add_sizes(const ShopPart& part, const Bar& bar, Csv& csv) {
     double cut = length(region.outline);
     for (const ArcPath& cutout : region.cutouts) cut += length(cutout);
     for (const Circle& hole : region.holes) cut += length(path_of(hole));
-    csv << mm(size.x) << mm(size.y) << mm(cut) << region.holes.size() << part.pattern->bends.size();
+    csv << mm(size.x) << mm(size.y) << mm(cut) << region.holes.size() << bend_hits(*part.pattern);
     return;
   }
   if (bar.section.empty()) {

@@ -399,8 +399,12 @@ std::optional<BentStrips::SquareEnd> BentStrips::square_end(const SectionPlate& 
     }
     if (room - move < kShort) continue;
     const double share = move / whole;
+    // A square ruling leans as all of its flat does.
+    const Station& first = side.downstream ? a : b;
+    const Station& last = side.downstream ? b : a;
+    const double lean = first.lean - (last.wide - first.wide) / whole * tan_half(first.kink);
     return SquareEnd{{a.s + share * (b.s - a.s), a.at + move * way, up, 0.0, 0.0,
-                      a.wide + share * (b.wide - a.wide), a.lean + share * (b.lean - a.lean)},
+                      a.wide + share * (b.wide - a.wide), lean},
                      i};
   }
   return std::nullopt;

@@ -126,7 +126,10 @@ double StripJob::on_track(double place) const {
 std::vector<double> StripJob::rooms_at_bends(const Span& heights) const {
   if (flats_ == nullptr) return {};
   constexpr double kOffBend = 2.0;  // thicknesses from where a bend begins
-  const double t = section.thickness;
+  // Of the thickest plate that they may go through.
+  const double t = std::max({section.thickness, options.rim ? options.rim->thickness : 0.0,
+                             options.cover ? options.cover->thickness : 0.0,
+                             options.liner ? options.liner->thickness : 0.0});
   const double radius = inner_radius_of(*this, t);
   std::vector<double> rooms;
   const auto add = [&](double mitre) {
