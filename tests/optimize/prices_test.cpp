@@ -145,6 +145,34 @@ TEST_CASE("straight ends are priced, also where friction changes along the track
   CHECK(active_of(report, "lead_in").where[0].from == 0.0);
 }
 
+TEST_CASE("a straight start of any length has its price, which changes little from one to the next") {
+  Problem problem;
+  problem.endpoints = {10.0, 6.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.smallest_valley_radius = 3.0;
+  double before = 0.0;
+  for (int i = 0; i < 24; ++i) {
+    problem.limits.lead_in = 0.3 + 0.07 * i;
+    CAPTURE(problem.limits.lead_in);
+    const OptimizeReport report = optimize(problem).report;
+    REQUIRE(report.status == OptimizeStatus::optimal);
+    const double price = active_of(report, "lead_in").price;
+    if (i > 0) CHECK(price == Approx(before).epsilon(0.3));
+    before = price;
+  }
+  // One that the quadrature cuts into another panel where it is longer by 1e-4 of the chord.
+  testing::Random random(5);
+  constexpr int kIndex = 80;
+  for (int i = 0; i <= kIndex; ++i) problem = testing_problems::drawn(random);
+  const OptimizeReport report = optimize(problem).report;
+  REQUIRE(report.status == OptimizeStatus::optimal);
+  const LimitName limit = active_of(report, "lead_in").limit;
+  const double step = 0.02 * problem.limits.lead_in;
+  const double shorter = won_by(problem, report, limit, problem.limits.lead_in, -step);
+  const double longer = won_by(problem, report, limit, problem.limits.lead_in, step);
+  CHECK(active_of(report, "lead_in").price == Approx(0.5 * (shorter - longer)).epsilon(0.03));
+}
+
 namespace {
 
 /// How many prices of random problems were held against re-solves.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace glissade::optimizer {
@@ -87,6 +88,16 @@ bool is_straight_beyond(const Found& found, LimitId end) {
   return std::fabs(found.z[layout.turn(next)]) < kStraight;
 }
 
+/// By central differences, or from one side where the quadrature is cut into other panels on the other.
+std::optional<double> slope_of(const std::function<std::optional<double>(double)>& function, double step) {
+  const std::optional<double> behind = function(step);
+  const std::optional<double> before = function(-step);
+  if (behind && before) return (*behind - *before) / (2.0 * step);
+  const std::optional<double> here = function(0.0);
+  if (!here || (!behind && !before)) return std::nullopt;
+  return (behind ? *behind - *here : *here - *before) / step;
+}
+
 }  // namespace
 
 std::vector<LeadPrice> lead_prices(const ScaledProblem& problem, const Found& found, double objective) {
@@ -100,12 +111,10 @@ std::vector<LeadPrice> lead_prices(const ScaledProblem& problem, const Found& fo
       const bool start = id == LimitId::lead_in;
       return lagrangian(problem, found, objective, start ? by : 0.0, start ? 0.0 : by);
     };
-    const std::optional<double> longer = at(step);
-    const std::optional<double> shorter = at(-step);
-    if (!longer || !shorter) continue;
-    const double price = (*longer - *shorter) / (2.0 * step);
+    const std::optional<double> slope = slope_of(at, step);
+    if (!slope) continue;
     const double size = objective > 0.0 ? std::fabs(found.objective) : 1.0;
-    if (price > kNothing * size) prices.push_back({{id, entry_of(id).bound}, length, price});
+    if (*slope > kNothing * size) prices.push_back({{id, entry_of(id).bound}, length, *slope});
   }
   return prices;
 }
