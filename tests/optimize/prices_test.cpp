@@ -21,7 +21,7 @@ using testing_problems::kPriceAccuracy;
 namespace {
 
 // Prices are not compared for which re-solves contradict each other by more than this share of the price.
-constexpr double kContradiction = 0.1;
+constexpr double kContradiction = 0.05;
 
 const ActiveLimit& active_of(const OptimizeReport& report, const std::string& key) {
   const auto found = std::find_if(report.active.begin(), report.active.end(),

@@ -270,28 +270,60 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
 
 namespace {
 
-/// Kinks that two meshes have: where one lets two rows just touch there is one on it alone.
-/// @param at  the optimum on the other mesh, where that has none of them
-std::vector<OneSidedPrice> lasting_kinks(const ScaledProblem& problem, Priced& at,
-                                         const OptimizeOptions& options, SearchControl& control) {
-  std::vector<OneSidedPrice> kinks = one_sided_prices(problem, at.found);
-  if (kinks.empty()) return kinks;
+/// Prices to either side on one mesh, and whether they are those of the problem.
+struct Kink {
+  OneSidedPrice price;
+  bool lasts = true;  ///< another mesh has it, too, and as wide
+};
+
+/// Where a mesh lets two rows just touch there is a kink on it alone, or one that narrows with its pieces.
+/// @param at  the optimum on the other mesh, where one of its own kinks does not last
+std::vector<Kink> kinks_of(const ScaledProblem& problem, Priced& at, const OptimizeOptions& options,
+                           SearchControl& control) {
+  constexpr double kAsWide =
+      0.75;  // theory: a half where it goes with the length of pieces, 1 where it lasts
+  const auto told_all = [](const std::vector<OneSidedPrice>& prices, const auto& lasts) {
+    std::vector<Kink> kinks;
+    for (const OneSidedPrice& price : prices) kinks.push_back({price, lasts(price)});
+    return kinks;
+  };
+  const std::vector<OneSidedPrice> prices = one_sided_prices(problem, at.found);
   std::optional<Found> other = std::move(at.before);
-  if (!other) {
+  if (!other && !prices.empty()) {
     const MeshTrack finer = with_all_halved(*at.found.track, at.found.z);
     other = on_finer_mesh(problem, at.found, finer, options, control);
   }
-  if (!other) return kinks;
-  std::vector<OneSidedPrice> others = one_sided_prices(problem, *other);
-  const auto is_lasting = [&](const OneSidedPrice& kink) {
-    return std::any_of(others.begin(), others.end(),
-                       [&](const OneSidedPrice& known) { return known.limit == kink.limit; });
+  if (!other || prices.empty()) return told_all(prices, [](const OneSidedPrice&) { return true; });
+  const std::vector<OneSidedPrice> others = one_sided_prices(problem, *other);
+  const auto lasts_among = [](const std::vector<OneSidedPrice>& known) {
+    return [&known](const OneSidedPrice& price) {
+      return std::any_of(known.begin(), known.end(), [&](const OneSidedPrice& one) {
+        if (one.limit != price.limit) return false;
+        const auto [narrow, wide] =
+            std::minmax({one.tightening - one.relaxing, price.tightening - price.relaxing});
+        return std::isinf(price.tightening) || narrow >= kAsWide * wide;
+      });
+    };
   };
-  if (std::all_of(kinks.begin(), kinks.end(), is_lasting)) return kinks;
+  if (std::all_of(prices.begin(), prices.end(), lasts_among(others)))
+    return told_all(prices, lasts_among(others));
   at.found = std::move(*other);
   at.multipliers = multipliers_of(problem, at.found);
   at.error.assign(problem.limits.size(), 0.0);
-  return others;
+  return told_all(others, lasts_among(prices));
+}
+
+/// Sets the price of one that binds: two, or what lies between them where they are not the problem's.
+void set_price(const Kink& kink, double unit, ActiveLimit& active) {
+  const OneSidedPrice& price = kink.price;
+  active.price = price.relaxing * unit;
+  active.price_error = 0.0;
+  if (kink.lasts) {
+    active.tightening_price = price.tightening * unit;
+    return;
+  }
+  active.price = 0.5 * (price.relaxing + price.tightening) * unit;
+  active.price_error = (price.tightening - price.relaxing) / (price.tightening + price.relaxing);
 }
 
 }  // namespace
@@ -299,14 +331,11 @@ std::vector<OneSidedPrice> lasting_kinks(const ScaledProblem& problem, Priced& a
 std::vector<ActiveLimit> priced_limits(const ScaledProblem& problem, const Found& found, const Vector& ahead,
                                        const OptimizeOptions& options, SearchControl& control) {
   Priced at = priced(problem, found, ahead, options, control);
-  const std::vector<OneSidedPrice> kinks = lasting_kinks(problem, at, options, control);
+  const std::vector<Kink> kinks = kinks_of(problem, at, options, control);
   std::vector<ActiveLimit> limits = binding_limits(problem, at.found, at.multipliers, at.error, 1.0);
-  for (const OneSidedPrice& price : kinks) {
+  for (const Kink& kink : kinks) {
     for (ActiveLimit& active : limits) {
-      if (active.limit != price.limit) continue;
-      active.price = price.relaxing * objective_unit(problem);
-      active.tightening_price = price.tightening * objective_unit(problem);
-      active.price_error = 0.0;
+      if (active.limit == kink.price.limit) set_price(kink, objective_unit(problem), active);
     }
   }
   return told(std::move(limits));
