@@ -30,18 +30,18 @@ Vec2 point_of(const Centerline& track, double s) {
 }
 
 /// The greatest distance from the points of one track to the chords between many points of another.
-double brute_deviation(const Centerline& from, const Centerline& to) {
-  constexpr int kPoints = 4000;
+/// @param points  of the other one: their chords cut the curve
+double brute_deviation(const Centerline& from, const Centerline& to, int points = 4000) {
   std::vector<Vec2> line;
-  for (int i = 0; i <= kPoints; ++i) {
-    const double share = static_cast<double>(i) / kPoints;
+  for (int i = 0; i <= points; ++i) {
+    const double share = static_cast<double>(i) / points;
     // Denser towards the start, where curvature may be unbounded.
     line.push_back(point_of(to, to.length() * share * share * (1.5 - 0.5 * share)));
   }
   double most = 0.0;
   std::size_t near = 0;
-  for (int i = 0; i <= kPoints / 4; ++i) {
-    const Vec2 point = point_of(from, from.length() * i / (kPoints / 4));
+  for (int i = 0; i <= 1000; ++i) {
+    const Vec2 point = point_of(from, from.length() * i / 1000);
     double least = 1e300;
     const std::size_t low = near > 300 ? near - 300 : 0;
     for (std::size_t k = low; k + 1 < std::min(near + 300, line.size()); ++k) {
@@ -313,6 +313,37 @@ TEST_CASE("master curve: a fit to one side stays on it, with the goal of its own
       CHECK(curve.lower_bound >= both);
       CHECK(curve.arcs <= goal(curve.lower_bound));
       check_ends(track, *curve.spline);
+    }
+  }
+}
+
+TEST_CASE("master curve: long tracks reach the goal at tolerances not their own, on both sides and on one") {
+  for (const auto& [design, tolerance] :
+       {std::pair("ski_jump_inrun_track", 5e-5), std::pair("toboggan_run", 1e-4),
+        std::pair("toboggan_run_with_mats", 2e-5), std::pair("hills/klingenthal_hs140", 2e-4),
+        std::pair("ski_jump_inrun_with_limits", 1e-4), std::pair("ore_transfer", 1e-5)}) {
+    const Track track = solve(read_design(designs_path(std::string(design) + ".yaml")));
+    for (const FitSide side : {FitSide::both, FitSide::away, FitSide::into_flow}) {
+      const MasterCurve curve = fit_arcs(*track.centerline, {tolerance, side});
+      INFO(design << ", side " << static_cast<int>(side) << ", " << curve.arcs << " arcs, bound "
+                  << curve.lower_bound);
+      CHECK(curve.arcs >= curve.lower_bound);
+      CHECK(curve.arcs <= goal(curve.lower_bound));
+      CHECK(curve.max_deviation <= tolerance);
+      CHECK(brute_deviation(*curve.spline, *track.centerline, 40000) <= 1.01 * tolerance + 5e-7);
+    }
+  }
+}
+
+TEST_CASE("master curve: short arcs between kept pieces do not narrow a fit to one side") {
+  // A line meets an arc: beside the joint the distance bends, and a parabola across it tells more than there is.
+  const Track track = solve(read_design(designs_path("toboggan_on_terrain.yaml")));
+  for (const double tolerance : {1e-4, 1e-3}) {
+    for (const FitSide side : {FitSide::away, FitSide::into_flow}) {
+      const MasterCurve curve = fit_arcs(*track.centerline, {tolerance, side});
+      INFO(curve.arcs << " arcs, bound " << curve.lower_bound);
+      CHECK(static_cast<double>(curve.arcs) <= 1.35 * static_cast<double>(curve.lower_bound) + 2.0);
+      CHECK(curve.max_deviation > 0.9 * tolerance);
     }
   }
 }

@@ -1,15 +1,13 @@
 // A chain is known by its joints, each at an offset along the track's normal at its knot, and by its first heading:
 // an arc leaves with the heading that the one before has at its end and is bound for the next joint, so common
 // tangents and both end points are exact whatever the offsets are. A small change of the offsets changes the deviation
-// by a piecewise quadratic delta with delta'' = change of curvature; a joint that moves by m along the track gives it a
-// kink of m times the jump of curvature there. The best such change, the moves within a part of a cell, is minimax's;
-// the deviation is then measured, and so on.
+// by a quadratic spline with continuous slope. The best one is minimax's; the deviation is then measured, and so on.
 
 #include "parts/arc_fit.hpp"
 
 #include "glissade/core/math.hpp"
 
-#include "parts/minimax.hpp"
+#include "parts/spline_change.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,21 +17,9 @@
 namespace glissade::parts {
 namespace {
 
-// Measured over the shipped designs at six tolerances: a first move of 0.05 to 0.2 finds the same chains to 1 in 200.
-constexpr double kFirstMove = 0.1;  // of a joint, as a share of the shorter cell beside it
-constexpr double kMostMove = 0.3;
-constexpr double kLeastMove = 1e-3;
-constexpr double kFaster = 1.5;  // moves after one that paid
-constexpr double kSlower = 0.3;  // and after one that did not
-constexpr int kMostRounds = 20;
-constexpr int kTrialRounds = 4;
-constexpr double kHopeless = 2.5;   // tolerances, after the trial rounds
-constexpr double kSlowGain = 0.01;  // relative gain of a round that is slow
-constexpr int kMostSlow = 3;        // slow rounds in a row that end the search
-constexpr int kMostSettling = 4;
-constexpr double kSettled = 0.02;  // relative gain below which the offsets are settled
-constexpr std::size_t kRowsPerCell =
-    20;  // of the linear programme; the farthest sample of each cell is one more
+constexpr int kMostSettling = 6;
+constexpr double kFarTurn = 100.0;  // deviations by which a free start's arc may rise
+constexpr double kSettled = 0.02;   // relative gain below which the offsets are settled
 
 /// The track between samples, by the arc that its neighbours' points and headings make.
 struct TrackPoint {
@@ -62,70 +48,34 @@ double share_near(Vec2 wanted, Vec2 from, Vec2 to) {
 
 class Fitter {
  public:
-  Fitter(const TrackSamples& samples, const Stretch& stretch, ChainStart start)
-      : samples_(samples), stretch_(stretch), state_(std::move(start)) {
+  Fitter(const TrackSamples& samples, const Stretch& stretch, ChainStart start, double middle)
+      : samples_(samples), stretch_(stretch), state_(std::move(start)), middle_(middle) {
     start_ = samples.s[stretch.first];
     end_ = samples.s[stretch.last];
-    dropped_.assign(2 * cells() + 1, false);
-    dropped_.front() = dropped_.back() = true;
-    if (stretch_.before && stretch_.before->reach == 0.0) dropped_[1] = true;
-    if (stretch_.after && stretch_.after->reach == 0.0) dropped_[2 * cells() - 1] = true;
   }
 
-  /// Moves the joints as long as that brings the chain closer; each move is judged by the best offsets at its joints.
+  /// The chain with the best offsets and first heading for the joints as they are.
   ArcChain best(double tolerance) {
-    ArcChain best = settled(tolerance);
-    ChainStart good = state_;
-    double move = kFirstMove;
-    int slow = 0;
-    for (int round = 0; round < kMostRounds && move >= kLeastMove && slow < kMostSlow; ++round) {
-      if (best.deviation <= tolerance || !std::isfinite(best.deviation)) return best;
-      if (round >= kTrialRounds && best.deviation > kHopeless * tolerance) return best;
-      correct(move);
-      ArcChain chain = settled(tolerance);
-      if (chain.deviation < best.deviation) {
-        slow = chain.deviation > (1.0 - kSlowGain) * best.deviation ? slow + 1 : 0;
-        best = std::move(chain);
-        good = state_;
-        move = std::min(kFaster * move, kMostMove);
-      } else {
+    ArcChain best = build();
+    for (int k = 0; k < kMostSettling; ++k) {
+      if (!std::isfinite(best.deviation) || best.deviation <= tolerance) return best;
+      const ChainStart good = state_;
+      correct(best.deviation);
+      ArcChain next = build();
+      if (!(next.deviation < best.deviation)) {
         state_ = good;
-        build();
-        move *= kSlower;
+        return build();
       }
+      const bool small = next.deviation > (1.0 - kSettled) * best.deviation;
+      best = std::move(next);
+      if (small) break;
     }
     return best;
   }
 
  private:
-  /// The chain with the best offsets and first heading for the joints as they are.
-  ArcChain settled(double tolerance) {
-    ArcChain chain = build();
-    for (int k = 0; k < kMostSettling; ++k) {
-      if (!std::isfinite(chain.deviation) || chain.deviation <= tolerance) return chain;
-      const ChainStart good = state_;
-      correct(0.0);
-      ArcChain next = build();
-      if (!(next.deviation < chain.deviation)) {
-        state_ = good;
-        build();
-        return chain;
-      }
-      const bool small = next.deviation > (1.0 - kSettled) * chain.deviation;
-      chain = std::move(next);
-      if (small) break;
-    }
-    return chain;
-  }
-
   [[nodiscard]] std::size_t cells() const { return state_.knots.size() - 1; }
   [[nodiscard]] double width(std::size_t cell) const { return state_.knots[cell + 1] - state_.knots[cell]; }
-
-  /// The three Bernstein polynomials of a place in a cell: delta is piecewise quadratic, its values at the knots shared.
-  [[nodiscard]] MinimaxRow row_at(double s, std::size_t cell) const {
-    const double v = (s - state_.knots[cell]) / width(cell);
-    return {2 * cell, {(1.0 - v) * (1.0 - v), 2.0 * v * (1.0 - v), v * v}, 0.0, 1.0, 1.0, 0.0};
-  }
 
   /// Adds the arc from the present place and heading to a point.
   void go_to(ArcChain& chain, Vec2& at, double& heading, Vec2 to) {
@@ -189,7 +139,7 @@ class Fitter {
     return chain;
   }
 
-  /// Where the chain lies as seen from the track, at every sample.
+  /// Where the chain lies as seen from where it is to lie, at every sample.
   void measure(ArcChain& chain) {
     offset_at_.clear();
     std::size_t cell = 0;
@@ -200,7 +150,7 @@ class Fitter {
       const ArcAt& here = leg_at(samples_.s[j], cell);
       if (&here != leg) along = direction_of(here.heading);
       leg = &here;
-      const double offset = -distance_from(here.from, along, here.curvature, samples_.point[j]);
+      const double offset = -distance_from(here.from, along, here.curvature, samples_.point[j]) - middle_;
       offset_at_.push_back(offset);
       if (!(std::fabs(offset) <= chain.deviation)) chain.deviation = std::fabs(offset);
     }
@@ -213,122 +163,37 @@ class Fitter {
     return legs_[cell];
   }
 
-  void add_cell_rows(std::vector<MinimaxRow>& rows, std::size_t cell) const {
-    const auto index_of = [&](double s) {
-      const auto place = std::lower_bound(samples_.s.begin(), samples_.s.end(), s);
-      const auto i = static_cast<std::size_t>(place - samples_.s.begin());
-      return std::clamp(i, stretch_.first + 1, stretch_.last);
-    };
-    const std::size_t first = index_of(state_.knots[cell]);
-    const std::size_t last = index_of(state_.knots[cell + 1]);
-    const auto add = [&](std::size_t j) {
-      rows.push_back(row_at(samples_.s[j], cell));
-      rows.back().base = offset_at_[j - stretch_.first - 1];
-    };
-    const std::size_t count = last - first;
-    const std::size_t taken = std::min(count, kRowsPerCell);
-    for (std::size_t k = 0; k < taken; ++k) add(first + k * count / taken);
-    std::size_t farthest = first;
-    for (std::size_t j = first; j < last; ++j) {
-      const auto size = [&](std::size_t i) { return std::fabs(offset_at_[i - stretch_.first - 1]); };
-      if (size(j) > size(farthest)) farthest = j;
-    }
-    if (farthest < last) add(farthest);
-  }
-
-  /// Of the curvature at a knot; at the ends that against the kept pieces.
-  [[nodiscard]] double jump(std::size_t knot) const {
-    const double before = knot > 0 ? legs_[knot - 1].curvature : stretch_.before->leg.curvature;
-    const double after = knot < cells() ? legs_[knot].curvature : stretch_.after->leg.curvature;
-    return before - after;
-  }
-  /// Whether a knot may move: within the chain, or along a kept piece that reaches on.
-  [[nodiscard]] bool moves(std::size_t knot) const {
-    if (knot == 0) return stretch_.before && stretch_.before->reach > 0.0;
-    return knot < cells() || (stretch_.after && stretch_.after->reach > 0.0);
-  }
-  /// The shorter of the cells beside a knot.
-  [[nodiscard]] double room_at(std::size_t knot) const {
-    if (knot == 0) return width(0);
-    return knot < cells() ? std::min(width(knot - 1), width(knot)) : width(knot - 1);
-  }
-
-  /// Slope after a knot less slope before it, times a width: a length, as the other rows are.
-  [[nodiscard]] MinimaxRow kink_row(std::size_t knot, double move) const {
-    const double shorter = room_at(knot);
-    MinimaxRow kink{0, {}, 0.0, 0.0, 0.0, 0.0};
-    if (knot == 0) {
-      kink = {0, {-2.0, 2.0, 0.0}, 0.0, 0.0, 0.0, 0.0};
-    } else if (knot == cells()) {
-      kink = {2 * knot - 2, {0.0, 2.0, -2.0}, 0.0, 0.0, 0.0, 0.0};
-    } else {
-      const double before = shorter / width(knot - 1);
-      const double after = shorter / width(knot);
-      kink = {2 * knot - 1, {2.0 * before, -2.0 * (before + after), 2.0 * after}, 0.0, 0.0, 0.0, 0.0};
-    }
-    kink.room = std::max(std::fabs(jump(knot)) * move * shorter * shorter, 1e-9 * shorter * shorter);
-    return kink;
-  }
-
-  void correct(double move) {
-    std::vector<MinimaxRow> rows;
-    for (std::size_t cell = 0; cell < cells(); ++cell) add_cell_rows(rows, cell);
-    for (std::size_t i = 0; i <= cells(); ++i) {
-      if (moves(i)) rows.push_back(kink_row(i, move));
-    }
+  /// Moves the joints across the track, and turns a free start, as the best change of the offsets does.
+  void correct(double deviation) {
+    std::vector<MinimaxRow> rows =
+        spline_rows(samples_, stretch_.first + 1, stretch_.last, state_.knots, offset_at_);
     if (rows.empty()) return;
-    apply(minimax(rows, dropped_).x, move);
-  }
-
-  /// How far a knot goes for a change of the slope on both its sides.
-  [[nodiscard]] double step_of(std::size_t knot, const std::vector<double>& x, double move) const {
-    const double after = knot < cells() ? 2.0 * (x[2 * knot + 1] - x[2 * knot]) / width(knot) : 0.0;
-    const double before = knot > 0 ? 2.0 * (x[2 * knot] - x[2 * knot - 1]) / width(knot - 1) : 0.0;
-    const double most = move * room_at(knot);
-    return jump(knot) == 0.0 ? 0.0 : std::clamp((after - before) / jump(knot), -most, most);
-  }
-
-  void apply(const std::vector<double>& x, double move) {
-    const std::vector<double> old = state_.knots;
-    std::vector<double> moved = state_.knots;
-    std::vector<double> offsets = state_.offsets;
-    for (std::size_t i = 1; i < cells(); ++i) {
-      const double step = step_of(i, x, move);
-      const std::size_t cell = step > 0.0 ? i : i - 1;
-      moved[i] = old[i] + step;
-      const TrackPoint place = between(samples_, moved[i]);
-      const MinimaxRow row = row_at(moved[i], cell);
-      offsets[i] = -legs_[cell].distance(place.point);
-      for (std::size_t k = 0; k < 3; ++k) offsets[i] += row.value[k] * x[row.first + k];
-    }
-    if (moves(0))
-      moved.front() = std::clamp(old.front() + step_of(0, x, move), start_, start_ + stretch_.before->reach);
-    if (moves(cells()))
-      moved.back() = std::clamp(old.back() + step_of(cells(), x, move), end_ - stretch_.after->reach, end_);
-    if (!stretch_.before) {
-      // An upright start does not lean over.
-      const double own = samples_.heading[stretch_.first];
-      const double steepest = std::min(own, -0.5 * std::numbers::pi);
-      state_.heading = std::max(state_.heading + 2.0 * x[1] / width(0), steepest);
-    }
-    state_.knots = std::move(moved);
-    state_.offsets = std::move(offsets);
+    // An upright start does not lean over.
+    const double own = samples_.heading[stretch_.first];
+    const double steepest = std::min(own, -0.5 * std::numbers::pi);
+    if (!stretch_.before)
+      rows.push_back(start_row(0.5 * width(0) * (state_.heading - steepest), kFarTurn * deviation));
+    const std::vector<double> x =
+        best_change(state_.knots, rows, stretch_.before.has_value(), stretch_.after.has_value()).x;
+    for (std::size_t i = 1; i < cells(); ++i) state_.offsets[i] += x[2 * i];
+    if (!stretch_.before) state_.heading = std::max(state_.heading + 2.0 * x[1] / width(0), steepest);
   }
 
   const TrackSamples& samples_;
   Stretch stretch_;
   ChainStart state_;
-  double start_ = 0.0;  // arc lengths of the stretch
+  double middle_ = 0.0;  // to the left of the track [m]
+  double start_ = 0.0;   // arc lengths of the stretch
   double end_ = 0.0;
-  std::vector<bool> dropped_;  // columns that ends and kept tangents fix
   std::vector<ArcAt> legs_;
   std::vector<double> offset_at_;  // of the chain at each sample within the stretch [m]
 };
 
 }  // namespace
 
-ArcChain fit_chain(const TrackSamples& samples, const Stretch& stretch, ChainStart start, double tolerance) {
-  return Fitter(samples, stretch, std::move(start)).best(tolerance);
+ArcChain fit_chain(const TrackSamples& samples, const Stretch& stretch, ChainStart start, double middle,
+                   double tolerance) {
+  return Fitter(samples, stretch, std::move(start), middle).best(tolerance);
 }
 
 }  // namespace glissade::parts

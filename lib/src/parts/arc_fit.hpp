@@ -31,7 +31,7 @@ struct ArcChain {
   double first_reach = 0.0;          ///< by which the kept piece before goes on [m]
   double last_reach = 0.0;           ///< by which the kept piece after begins earlier [m]
   double deviation =
-      0.0;  ///< greatest distance of a sample from its arc; infinite where the chain failed [m]
+      0.0;  ///< greatest distance of its arcs from where it is to lie, at the samples; infinite where the chain failed [m]
 };
 
 /// Where the joints of a chain lie to begin with.
@@ -42,9 +42,10 @@ struct ChainStart {
   double heading = 0.0;         ///< of the first arc; not looked at after a kept piece [rad]
 };
 
-/// The chain of as many arcs that comes closest to a stretch, as found from a start by moving its joints.
-/// @param tolerance  the deviation that is enough [m]; the search ends there, or where it sees that it is out of reach
+/// The chain with given joints that comes closest to a line beside a stretch, as found by moving them across the track.
+/// @param middle     how far to the left of the track that line is [m]
+/// @param tolerance  the deviation that is enough [m]; the search ends there
 [[nodiscard]] ArcChain fit_chain(const TrackSamples& samples, const Stretch& stretch, ChainStart start,
-                                 double tolerance);
+                                 double middle, double tolerance);
 
 }  // namespace glissade::parts

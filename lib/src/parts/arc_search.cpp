@@ -18,22 +18,7 @@
 namespace glissade::parts {
 namespace {
 
-// Measured over the shipped designs at six tolerances and 300 random tracks: halving the widths of offsets and headings, or
-// twice the curvatures, costs two to eight times the time and saves 1 arc in 100; joints that lie closer save more.
-constexpr std::size_t kGatesPerStep = 2;
-constexpr std::size_t kCurvatures = 8;  // of an interval that are followed
-constexpr std::size_t kOffsets = 6;     // across the band, that count as one each
-constexpr double kHeadings = 2.0;       // wide [half widths of the band a piece]
-constexpr std::size_t kMostHeadings = 64;
-constexpr double kSteepest =
-    16.0;  // heading at a free start, off the track's [half widths of the band a piece]
-constexpr std::size_t kFreeHeadings = 33;
-constexpr std::size_t kReaches = 6;    // places along what a kept piece may reach
-constexpr std::size_t kStepsBack = 2;  // behind the front at which states are still followed
-constexpr std::size_t kBiarcs = 12;
-constexpr double kBetween = 0.05;  // half widths of the band that an arc may gain between two gates
-constexpr int kMostHalvings = 6;   // of what lies between two gates
-constexpr double kInside = 1e-9;   // of an interval of curvatures, off its ends
+constexpr int kMostHalvings = 6;  // of what lies between two gates
 
 /// A line across the band.
 struct Gate {

@@ -1,12 +1,15 @@
-// A search over states gives a chain whatever the track, with some arcs more than needed, since its joints lie on gates.
-// Chains of fewer arcs are then closed in on by moving joints freely, from two kinds of start: pieces of single circles,
-// best where the curvature changes steadily, and the search's own chains in wider bands, best beside kept pieces and
-// where the change of curvature changes its sign.
+// Joints that lie well are moved until their chain comes as close as it can, to first order; how far it stays outside, or
+// inside, tells how many arcs there should be: their number grows with the cube root of it. They begin at the ends of
+// pieces that single circles pass, and, where that leaves many arcs, where a search by dynamic programming puts them. Where
+// neither gives a chain, the search over true arcs does whatever the track, with some more than needed.
 
 #include "parts/fewest_arcs.hpp"
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+
+#include "parts/joint_fit.hpp"
+#include "parts/joint_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,16 +23,25 @@ namespace {
 
 // Of the band: between gates a chain may stray a little farther than at them.
 constexpr double kSearched = 0.98;
-constexpr double kSearchedSlip = 0.5;  // of the narrow side of a band to one side
 constexpr double kFitted = 0.998;
-constexpr std::size_t kSteps = 8;         // of the search, where joints are moved after it
-constexpr std::size_t kFineSteps = 16;    // once more where that leaves many arcs
-constexpr std::size_t kFinerSteps = 24;   // where they are not moved
+constexpr double kFittedJoints = 0.995;   // of that, to first order
+constexpr std::size_t kSteps = 8;         // of the searches
+constexpr std::size_t kFineSteps = 16;    // where the first ones meet nothing
 constexpr std::size_t kFinestSteps = 64;  // before the search gives up
+constexpr std::size_t kFewPieces = 3;     // for which the search itself is quick enough
 constexpr double kMostReach = 0.8;        // of a stretch, by a kept piece
-constexpr double kWider = 1.2;            // bands of the search, one to the next
+constexpr double kLeastWider = 1.05;      // bands of the search, one to the next
+constexpr double kMostWider = 1.5;
 constexpr double kWidest = 4.0;
-constexpr int kTries = 2;  // from wider bands, before the number of arcs stands
+constexpr int kMostSearches = 4;
+constexpr std::size_t kVeryFewArcs = 10;  // of which no more than needed are worth a search
+constexpr std::size_t kFewArcs = 24;      // the same of a thorough one
+constexpr double kNearly = 1.1;           // tolerances, of true arcs on joints that are within one
+constexpr int kMostFits = 8;              // from one start
+constexpr double kRoundedDown = 0.35;     // of an arc that seems to be missing
+constexpr double kMostMore = 2.0;         // times as many arcs as were tried
+constexpr std::size_t kMostCuts = 3;      // of arcs that stay outside
+constexpr double kLeastShare = 0.02;  // of the greatest deviation, by which an arc counts that comes closer
 /// Arcs with common tangents to separate ones, where the curvature changes steadily: (192 / 124.7)^(1/3).
 constexpr double kTangentShare = 1.155;
 
@@ -56,10 +68,10 @@ Stretch inner_part(const TrackSamples& samples, const Stretch& stretch) {
 }
 
 /// Joints where a given number of separate arcs with the least common tolerance end.
-ChainStart even_joints(const TrackSamples& samples, const Stretch& stretch, double tolerance,
+ChainStart even_joints(const TrackSamples& samples, const Stretch& stretch, const Band& band,
                        std::size_t cells) {
-  double high = tolerance;  // too many pieces below `low`, few enough at `high`
-  double low = tolerance;
+  double high = band.half_width();  // too many pieces below `low`, few enough at `high`
+  double low = high;
   const auto pieces_at = [&](double bound) {
     return circle_pieces(samples, stretch.first, stretch.last, bound);
   };
@@ -89,7 +101,7 @@ ChainStart even_joints(const TrackSamples& samples, const Stretch& stretch, doub
     const double middle = 0.5 * (knots[longest] + knots[longest + 1]);
     knots.insert(knots.begin() + static_cast<std::ptrdiff_t>(longest) + 1, middle);
   }
-  start.offsets.assign(knots.size(), 0.0);
+  start.offsets.assign(knots.size(), band.middle());
   start.heading = samples.heading[stretch.first];
   return start;
 }
@@ -98,52 +110,122 @@ ChainStart even_joints(const TrackSamples& samples, const Stretch& stretch, doub
 class Fewer {
  public:
   Fewer(const Centerline& track, const TrackSamples& samples, const Stretch& stretch, const Band& band,
-        FoundChain found)
+        bool thorough)
       : track_(track),
         samples_(samples),
         stretch_(reaching(samples, stretch, band)),
         band_(band),
         tolerance_(kFitted * band.half_width()),
-        best_(std::move(found)) {}
+        thorough_(thorough) {}
 
   ArcChain run() {
     const Stretch inner = inner_part(samples_, stretch_);
     const std::size_t bound = circle_pieces(samples_, inner.first, inner.last, band_.half_width()).count();
-    const std::size_t least = stretch_.before && stretch_.after ? 2 : 1;
-    const std::size_t fewest = std::max(bound, least);
-    const auto likely = static_cast<std::size_t>(std::ceil(kTangentShare * static_cast<double>(bound))) + 1;
-    if (likely > fewest && likely < best_.arcs) from_even(inner, likely);
-    for (const std::size_t steps : {kSteps, kFineSteps}) {
-      wider_ = steps == kSteps ? kWider : 1.0;
-      while (best_.arcs > fewest) {
-        const std::size_t arcs = best_.arcs;
-        if (!from_wider(arcs, fewest, steps) && !from_even(inner, arcs - 1)) break;
-      }
-      if (best_.arcs <= likely) break;
-    }
-    return std::move(best_.chain);
+    fewest_ = std::max<std::size_t>(bound, stretch_.before && stretch_.after ? 2 : 1);
+    const auto tangent = static_cast<std::size_t>(std::ceil(kTangentShare * static_cast<double>(bound)));
+    likely_ = std::max(tangent + 1, fewest_);
+    if (bound <= kFewPieces) search();
+    if (!known() || arcs() > fewest_)
+      close_in(even_joints(samples_, inner, band_, known() ? std::min(likely_, arcs() - 1) : likely_));
+    if (!known() || worth()) from_joints(kSteps);
+    if (!known()) from_joints(kFineSteps);
+    if (!known()) search();
+    return std::move(best_);
   }
 
  private:
-  bool from_even(const Stretch& inner, std::size_t arcs) {
-    return take(even_joints(samples_, inner, band_.half_width(), arcs));
-  }
+  [[nodiscard]] bool known() const { return !best_.vertices.empty(); }
+  [[nodiscard]] std::size_t arcs() const { return best_.vertices.size() - 1; }
 
-  /// Searches wider bands until fewer arcs than the best are met, and closes in from there.
-  bool from_wider(std::size_t arcs, std::size_t fewest, std::size_t steps) {
-    int tries = 0;
-    for (; wider_ <= kWidest && tries < kTries; wider_ *= kWider) {
-      const Band band = band_.scaled(wider_);
-      const auto found = search_chain(track_, samples_, reaching(samples_, stretch_, band), band, steps);
-      if (!found || found->arcs >= arcs) continue;
-      if (found->arcs < fewest) return false;
-      if (take(found->joints)) return true;
-      ++tries;
+  /// Fits one number of arcs after the other, from a start on.
+  void close_in(ChainStart start) {
+    std::size_t failed = fewest_ - 1;  // the greatest number of arcs that were not enough
+    FittedJoints good;                 // joints of the last chain that does, to go on from
+    for (int fits = 0; fits < kMostFits && inside(start); ++fits) {
+      FittedJoints fitted = fit_joints(samples_, stretch_, start, band_.middle(), kFittedJoints * tolerance_);
+      const std::size_t count = fitted.deviations.size();
+      if (take(fitted)) {
+        good = std::move(fitted);
+        if (count - 1 < fewest_) return;
+        start = count - 1 > failed ? spread(good, count - 1) : without_least(good);
+      } else if (count > failed) {
+        failed = count;
+        const std::size_t next = more_than(fitted);
+        if (next > failed) {
+          start = with_arcs(fitted, next);
+        } else if (!good.deviations.empty() && (worth() || arcs() <= kFewArcs)) {
+          start = without_least(good);  // all joints moved did not do: one taken out may
+        } else {
+          return;
+        }
+      } else {
+        return;
+      }
     }
-    return false;
   }
 
-  bool take(ChainStart start) {
+  /// How many arcs a chain that stays outside seems to need, fewer than are known to do; 0 where that is far off.
+  [[nodiscard]] std::size_t more_than(const FittedJoints& fitted) const {
+    const std::size_t count = fitted.deviations.size();
+    const double wanted = static_cast<double>(count) * std::cbrt(fitted.deviation / tolerance_);
+    if (!(wanted < kMostMore * static_cast<double>(count))) return 0;
+    const auto next = std::max(count + 1, static_cast<std::size_t>(std::ceil(wanted - kRoundedDown)));
+    // A few that stay outside are cut where they are.
+    const std::size_t outside = outside_of(fitted);
+    if (outside <= kMostCuts && (!known() || count + outside < arcs())) return count + outside;
+    return known() ? std::min(next, arcs() - 1) : next;
+  }
+
+  /// Whether a chain of fewer arcs is worth a search.
+  [[nodiscard]] bool worth() const {
+    return arcs() > fewest_ && (arcs() > likely_ || arcs() <= (thorough_ ? kFewArcs : kVeryFewArcs));
+  }
+
+  /// Starts from joints that are found in bands so wide that they are as few as wanted.
+  void from_joints(std::size_t steps) {
+    double wider = kSearched;
+    const int most = thorough_ ? 2 * kMostSearches : kMostSearches;
+    for (int searches = 0; searches < most && wider <= kWidest; ++searches) {
+      if (known() && !worth()) return;
+      const std::size_t wanted = known() ? arcs() - 1 : likely_;
+      const Band band = band_.scaled(wider);
+      auto joints = search_joints(samples_, reaching(samples_, stretch_, band), band, steps);
+      if (!joints) return;
+      const std::size_t count = joints->knots.size() - 1;
+      // Arcs are as many as the cube root of the width asks.
+      const double ratio = static_cast<double>(count) / static_cast<double>(wanted);
+      wider *= std::clamp(ratio * ratio * ratio, kLeastWider, kMostWider);
+      if (count <= wanted || (!known() && searches + 1 == most)) close_in(std::move(*joints));
+    }
+  }
+
+  /// A first chain whatever the track.
+  void search() {
+    const Band inside = band_.scaled(kSearched);
+    for (std::size_t steps = kSteps; steps <= kFinestSteps; steps *= 2) {
+      const Stretch within = reaching(samples_, stretch_, inside);
+      auto found = search_chain(track_, samples_, within, inside, steps);
+      if (!found) continue;
+      // Between gates it strays: joints that move a little are far cheaper than gates that stand closer.
+      best_ = std::move(found->chain);
+      if (best_.deviation > band_.half_width())
+        best_ =
+            fit_chain(samples_, within, moved(within, std::move(found->joints)), band_.middle(), tolerance_);
+      if (best_.deviation <= band_.half_width()) return;
+    }
+    throw ConvergenceError({"",
+                            "no arcs found that follow the track within " + length_text(band_.half_width()),
+                            "", "a larger tolerance"});
+  }
+
+  [[nodiscard]] ChainStart moved(const Stretch& within, ChainStart joints) const {
+    if (within.before && within.after && joints.knots.size() < 3) return joints;
+    return fit_joints(samples_, within, std::move(joints), band_.middle(), kFittedJoints * tolerance_).joints;
+  }
+
+  /// Puts the ends of a start where kept pieces reach.
+  /// @return whether its joints follow each other
+  bool inside(ChainStart& start) const {
     std::vector<double>& knots = start.knots;
     const double begin = samples_.s[stretch_.first];
     const double end = samples_.s[stretch_.last];
@@ -152,11 +234,79 @@ class Fewer {
     for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
       if (!(knots[i] < knots[i + 1])) return false;
     }
-    const std::size_t arcs = knots.size() - 1;
-    ArcChain chain = fit_chain(samples_, stretch_, std::move(start), tolerance_);
+    return knots.size() > (stretch_.before && stretch_.after ? 2 : 1);
+  }
+
+  bool take(const FittedJoints& fitted) {
+    if (!(fitted.deviation <= tolerance_)) return false;
+    ArcChain chain = fit_chain(samples_, stretch_, fitted.joints, band_.middle(), tolerance_);
+    if (chain.deviation > tolerance_ && chain.deviation < kNearly * tolerance_) {
+      // What the first order leaves out is made up for.
+      const double aim = kFittedJoints * tolerance_ * std::min(1.0, fitted.deviation / chain.deviation);
+      const FittedJoints closer = fit_joints(samples_, stretch_, fitted.joints, band_.middle(), aim);
+      chain = fit_chain(samples_, stretch_, closer.joints, band_.middle(), tolerance_);
+    }
     if (!(chain.deviation <= tolerance_)) return false;
-    best_ = {std::move(chain), {}, arcs};
+    best_ = std::move(chain);
     return true;
+  }
+
+  /// Joints for another number of arcs, from those of a chain.
+  [[nodiscard]] ChainStart with_arcs(const FittedJoints& fitted, std::size_t count) const {
+    const std::size_t before = fitted.deviations.size();
+    return count == before + outside_of(fitted) ? with_cuts(fitted) : spread(fitted, count);
+  }
+
+  [[nodiscard]] std::size_t outside_of(const FittedJoints& fitted) const {
+    const auto outside = std::count_if(fitted.deviations.begin(), fitted.deviations.end(),
+                                       [&](double deviation) { return deviation > tolerance_; });
+    return static_cast<std::size_t>(outside);
+  }
+
+  /// The arcs that stay outside cut in two.
+  [[nodiscard]] ChainStart with_cuts(const FittedJoints& fitted) const {
+    const std::vector<double>& knots = fitted.joints.knots;
+    ChainStart start{{knots.front()}, {}, fitted.joints.heading};
+    for (std::size_t i = 0; i < fitted.deviations.size(); ++i) {
+      if (fitted.deviations[i] > tolerance_) start.knots.push_back(0.5 * (knots[i] + knots[i + 1]));
+      start.knots.push_back(knots[i + 1]);
+    }
+    start.offsets.assign(start.knots.size(), band_.middle());
+    return start;
+  }
+
+  /// The joints but the one between the two arcs that would make the closest one.
+  [[nodiscard]] ChainStart without_least(const FittedJoints& fitted) const {
+    const auto sum_at = [&](std::size_t joint) {
+      return std::cbrt(fitted.deviations[joint - 1]) + std::cbrt(fitted.deviations[joint]);
+    };
+    std::size_t least = 1;
+    for (std::size_t i = 2; i < fitted.deviations.size(); ++i) {
+      if (sum_at(i) < sum_at(least)) least = i;
+    }
+    ChainStart start = fitted.joints;
+    start.knots.erase(start.knots.begin() + static_cast<std::ptrdiff_t>(least));
+    start.offsets.erase(start.offsets.begin() + static_cast<std::ptrdiff_t>(least));
+    return start;
+  }
+
+  /// Joints between which arcs would come as close as each other, by the cubes of their widths.
+  [[nodiscard]] ChainStart spread(const FittedJoints& fitted, std::size_t count) const {
+    const std::vector<double>& knots = fitted.joints.knots;
+    std::vector<double> shares{0.0};
+    for (const double deviation : fitted.deviations)
+      shares.push_back(shares.back() + std::cbrt(std::max(deviation / fitted.deviation, kLeastShare)));
+    ChainStart start{{knots.front()}, {}, fitted.joints.heading};
+    std::size_t cell = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      const double wanted = shares.back() * static_cast<double>(i) / static_cast<double>(count);
+      while (shares[cell + 1] < wanted) ++cell;
+      const double part = (wanted - shares[cell]) / (shares[cell + 1] - shares[cell]);
+      start.knots.push_back(knots[cell] + part * (knots[cell + 1] - knots[cell]));
+    }
+    start.knots.push_back(knots.back());
+    start.offsets.assign(start.knots.size(), band_.middle());
+    return start;
   }
 
   const Centerline& track_;
@@ -164,8 +314,10 @@ class Fewer {
   Stretch stretch_;
   Band band_;
   double tolerance_ = 0.0;
-  FoundChain best_;
-  double wider_ = kWider;
+  bool thorough_ = false;
+  ArcChain best_;
+  std::size_t fewest_ = 1;  // arcs that a chain can have
+  std::size_t likely_ = 1;  // and that it is to be expected to have
 };
 
 }  // namespace
@@ -183,25 +335,8 @@ double reach_of(const TrackSamples& samples, const Stretch& stretch, const ArcAt
 }
 
 ArcChain fewest_arcs(const Centerline& track, const TrackSamples& samples, const Stretch& stretch,
-                     const Band& band) {
-  const bool even = band.left == band.right;
-  const auto inside_of = [&](double side) {
-    return side < band.half_width() ? kSearchedSlip * side : kSearched * side;
-  };
-  const Band inside = {inside_of(band.left), inside_of(band.right)};
-  for (std::size_t steps = even ? kSteps : kFinerSteps; steps <= kFinestSteps; steps *= 2) {
-    const Stretch within = reaching(samples, stretch, inside);
-    auto found = search_chain(track, samples, within, inside, steps);
-    if (!found) continue;
-    // Between gates it strays: joints that move a little are far cheaper than gates that stand closer.
-    const bool strays = found->chain.deviation > band.half_width();
-    if (strays && even) found->chain = fit_chain(samples, within, found->joints, kFitted * band.half_width());
-    if (found->chain.deviation > band.half_width()) continue;
-    if (!even) return std::move(found->chain);
-    return Fewer(track, samples, stretch, band, std::move(*found)).run();
-  }
-  throw ConvergenceError(
-      {"", "no arcs found that follow the track within " + length_text(band.left), "", "a larger tolerance"});
+                     const Band& band, bool thorough) {
+  return Fewer(track, samples, stretch, band, thorough).run();
 }
 
 }  // namespace glissade::parts

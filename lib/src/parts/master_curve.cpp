@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -104,20 +106,34 @@ std::optional<Stretch> stretch_before(const TrackSamples& samples, const std::ve
   return stretch;
 }
 
+/// Chains that are known, by their stretch, band and how thoroughly they were searched.
+using KnownChains = std::map<std::tuple<std::size_t, std::size_t, double, double, bool>, ArcChain>;
+
+/// What a fit goes by.
+struct Fit {
+  const Centerline& track;
+  const TrackSamples& samples;
+  MasterCurveOptions options;
+  bool thorough = false;
+  KnownChains known;
+};
+
 /// The chain between a kept piece and the one before it; no vertices where there is nothing in between.
-ArcChain chain_before(const Centerline& track, const TrackSamples& samples, const std::vector<Kept>& kept,
-                      std::size_t next, const Band& band) {
-  const std::optional<Stretch> stretch = stretch_before(samples, kept, next);
+ArcChain chain_before(Fit& fit, const std::vector<Kept>& kept, std::size_t next, const Band& band) {
+  const std::optional<Stretch> stretch = stretch_before(fit.samples, kept, next);
   if (!stretch) return {};
-  return fewest_arcs(track, samples, *stretch, band);
+  const auto key = std::tuple(stretch->first, stretch->last, band.left, band.right, fit.thorough);
+  const auto known = fit.known.find(key);
+  if (known != fit.known.end()) return known->second;
+  ArcChain chain = fewest_arcs(fit.track, fit.samples, *stretch, band, fit.thorough);
+  return fit.known.emplace(key, std::move(chain)).first->second;
 }
 
 /// Lines and arcs of the track where it has them, chains in between.
-ArcPath assembled(const Centerline& track, const TrackSamples& samples, const std::vector<Kept>& kept,
-                  const Band& band) {
+ArcPath assembled(Fit& fit, const std::vector<Kept>& kept, const Band& band) {
+  const TrackSamples& samples = fit.samples;
   std::vector<ArcChain> chains;
-  for (std::size_t i = 0; i <= kept.size(); ++i)
-    chains.push_back(chain_before(track, samples, kept, i, band));
+  for (std::size_t i = 0; i <= kept.size(); ++i) chains.push_back(chain_before(fit, kept, i, band));
   ArcPath path;
   const auto add = [&path](const ArcChain& chain) {
     if (!chain.vertices.empty())
@@ -162,33 +178,40 @@ double offset_from(const Centerline& track, Vec2 point, double& guess) {
   return side * least;
 }
 
-/// The greatest value of a list, with the top between values by a parabola.
-double greatest(const std::vector<double>& values, double sign) {
-  double most = 0.0;
-  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
-    const double before = sign * values[i - 1];
-    const double here = sign * values[i];
-    const double after = sign * values[i + 1];
-    most = std::max(most, here);
-    const double bend = before - 2.0 * here + after;
-    const double rise = 0.5 * (after - before);
-    if (here >= before && here >= after && bend < 0.0) most = std::max(most, here - 0.5 * rise * rise / bend);
-  }
-  return most;
+/// How far a place of the spline lies to the left of the track.
+/// @param guess  arc length of the track near it; becomes that of the nearest point
+double offset_at(const Centerline& track, const ArcSpline& spline, double s, double& guess) {
+  const CenterlinePoint at = spline.at(std::min(s, spline.length()));
+  return offset_from(track, {at.x, -at.drop}, guess);
 }
 
-/// How far the spline lies to either side of the track at most.
+/// How far the spline lies to either side of the track at most: at points of each arc, and where parabolas through three
+/// of them have their tops.
 Band measured(const Centerline& track, const ArcSpline& spline) {
-  std::vector<double> offsets;
+  Band found;
+  const auto widen = [&](double offset) {
+    found.left = std::max(found.left, offset);
+    found.right = std::max(found.right, -offset);
+  };
+  std::vector<double> offsets(kPointsPerArc + 1);
   double guess = 0.0;
   for (const TrackArc& arc : spline.arcs()) {
-    for (int k = 0; k < kPointsPerArc; ++k) {
-      const CenterlinePoint at = spline.at(arc.start + arc.length * k / kPointsPerArc);
-      offsets.push_back(offset_from(track, {at.x, -at.drop}, guess));
-      guess += arc.length / kPointsPerArc;
+    const double step = arc.length / kPointsPerArc;
+    for (std::size_t k = 0; k <= kPointsPerArc; ++k) {
+      offsets[k] = offset_at(track, spline, arc.start + step * static_cast<double>(k), guess);
+      widen(offsets[k]);
+      if (k < kPointsPerArc) guess += step;
+    }
+    for (std::size_t k = 1; k < kPointsPerArc; ++k) {
+      const double rise = 0.5 * (offsets[k + 1] - offsets[k - 1]);
+      const double bend = offsets[k - 1] - 2.0 * offsets[k] + offsets[k + 1];
+      if (!(std::fabs(rise) < std::fabs(bend))) continue;
+      const double ahead = -rise / bend;
+      double near = guess + step * (static_cast<double>(k) + ahead - kPointsPerArc);
+      widen(offset_at(track, spline, arc.start + step * (static_cast<double>(k) + ahead), near));
     }
   }
-  return {greatest(offsets, 1.0), greatest(offsets, -1.0)};
+  return found;
 }
 
 /// Samples so close that each arc has many.
@@ -238,26 +261,41 @@ std::vector<Kept> without_flat_arcs(std::vector<Kept> kept, double tolerance) {
   return kept;
 }
 
-MasterCurve fitted(const Centerline& track, const TrackSamples& samples, const MasterCurveOptions& options,
-                   const std::vector<Kept>& kept) {
-  const Band band = band_of(options.side, options.tolerance);
+/// Whether there are no more arcs than are to be expected.
+bool as_expected(const MasterCurve& curve) {
+  return static_cast<double>(curve.arcs) <=
+         std::ceil(kExpectedShare * static_cast<double>(curve.lower_bound)) + kExpectedMore;
+}
+
+/// The band for a fit that was found to leave the one wanted.
+Band narrowed(const Band& aim, const Band& found, const Band& wanted) {
+  const double more = 2e-3 * wanted.half_width();
+  const auto side = [&](double aimed, double reached, double bound) {
+    return reached > bound ? std::max(aimed - (reached - bound) - more, 0.2 * bound) : aimed;
+  };
+  Band next{side(aim.left, found.left, wanted.left), side(aim.right, found.right, wanted.right)};
+  if (wanted.left == wanted.right) next.left = next.right = std::min(next.left, next.right);
+  return next;
+}
+
+MasterCurve fitted(Fit& fit, const std::vector<Kept>& kept) {
+  const Band band = band_of(fit.options.side, fit.options.tolerance);
   MasterCurve master;
-  master.tolerance = options.tolerance;
+  master.tolerance = fit.options.tolerance;
   master.kept = kept.size();
-  master.lower_bound = least_arcs(samples, kept, band);
+  master.lower_bound = least_arcs(fit.samples, kept, band);
   // What lies between two samples, and on the wrong arc beside a joint, is seen by the measurement alone.
-  double aim = 1.0;
-  for (int round = 0; round < 4; ++round) {
-    master.spline = std::make_shared<ArcSpline>(assembled(track, samples, kept, band.scaled(aim)));
-    const Band found = measured(track, *master.spline);
+  Band aim = band;
+  for (int round = 0; round < 6; ++round) {
+    master.spline = std::make_shared<ArcSpline>(assembled(fit, kept, aim));
+    const Band found = measured(fit.track, *master.spline);
     master.max_deviation = std::max(found.left, found.right);
-    const double excess = std::max(found.left / band.left, found.right / band.right);
-    if (excess <= 1.0) {
+    if (found.left <= band.left && found.right <= band.right) {
       master.arcs = master.spline->arcs().size();
       for (const TrackArc& arc : master.spline->arcs()) master.lines += arc.curvature == 0.0 ? 1 : 0;
       return master;
     }
-    aim *= 0.995 / excess;
+    aim = narrowed(aim, found, band);
   }
   throw ConvergenceError(
       {"", "arcs depart from the track by " + length_text(master.max_deviation, 3), "", ""});
@@ -269,15 +307,18 @@ MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options)
   require_fine(track, options.tolerance);
   const TrackSamples samples = close_samples(track, band_of(options.side, options.tolerance).half_width());
   const std::vector<Kept> kept = kept_pieces(track, options.tolerance);
-  MasterCurve master = fitted(track, samples, options, kept);
-  if (static_cast<double>(master.arcs) <=
-      std::ceil(kExpectedShare * static_cast<double>(master.lower_bound)) + kExpectedMore)
-    return master;
+  Fit fit{track, samples, options, false, {}};
+  MasterCurve best = fitted(fit, kept);
+  if (as_expected(best)) return best;
+  fit.thorough = true;
+  const auto take = [&best](MasterCurve other) {
+    if (other.arcs < best.arcs) best = std::move(other);
+  };
+  take(fitted(fit, kept));
   // A search that just touches a limit on the radius leaves short arcs, each of which costs several more.
   const std::vector<Kept> seen = without_flat_arcs(kept, options.tolerance);
-  if (seen.size() == kept.size()) return master;
-  MasterCurve other = fitted(track, samples, options, seen);
-  return other.arcs < master.arcs ? other : master;
+  if (!as_expected(best) && seen.size() < kept.size()) take(fitted(fit, seen));
+  return best;
 }
 
 }  // namespace glissade

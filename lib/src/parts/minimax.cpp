@@ -12,7 +12,6 @@ namespace {
 using Vector = std::vector<double>;
 
 constexpr int kMostSteps = 60;
-constexpr double kGap = 1e-6;      // of t, between the value and its bound from below
 constexpr double kToWall = 0.995;  // share of the way to the nearest bound that a step goes
 
 /// Symmetric positive definite with two diagonals beside the main one; solved by L D L'.
@@ -68,9 +67,9 @@ class Method {
   Method(const std::vector<MinimaxRow>& rows, const std::vector<bool>& dropped)
       : rows_(rows), dropped_(dropped), x_(dropped.size(), 0.0) {}
 
-  MinimaxResult run() {
+  MinimaxResult run(double most_gap) {
     start();
-    for (int step = 0; step < kMostSteps && gap() > kGap * t_; ++step) improve();
+    for (int step = 0; step < kMostSteps && gap() > most_gap * t_; ++step) improve();
     return {x_, t_};
   }
 
@@ -248,8 +247,8 @@ class Method {
 
 }  // namespace
 
-MinimaxResult minimax(const std::vector<MinimaxRow>& rows, const std::vector<bool>& dropped) {
-  return Method(rows, dropped).run();
+MinimaxResult minimax(const std::vector<MinimaxRow>& rows, const std::vector<bool>& dropped, double gap) {
+  return Method(rows, dropped).run(gap);
 }
 
 }  // namespace glissade::parts

@@ -25,6 +25,8 @@ struct MinimaxResult {
 /// Minimax of a piecewise quadratic by a primal-dual interior point method (S. Mehrotra, SIAM J. Optim. 2(4), 1992):
 /// the normal equations have three diagonals and a border, so that a step costs O(rows + columns).
 /// @param dropped  one a column; true: it stays 0
-[[nodiscard]] MinimaxResult minimax(const std::vector<MinimaxRow>& rows, const std::vector<bool>& dropped);
+/// @param gap      of t, between the value and its bound from below, at which it ends
+[[nodiscard]] MinimaxResult minimax(const std::vector<MinimaxRow>& rows, const std::vector<bool>& dropped,
+                                    double gap = 1e-6);
 
 }  // namespace glissade::parts

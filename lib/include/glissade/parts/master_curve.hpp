@@ -37,9 +37,10 @@ struct MasterCurve {
 ///
 /// Curve: straight lines and arcs of the track are kept on their lines and circles, from end to end; where the tolerance
 ///   allows they reach on into what lies beside them. Arcs that lie within the tolerance of a line go where that saves
-///   some and the chain would have more than 1.16 times the lower bound and two. In between, dynamic programming over places and headings within
-///   the band finds a chain of few arcs, and moving its joints finds those with fewer. Start and finish are those of the
-///   track; the tangent there may turn by some 16 tolerances a length of the arc.
+///   some and the chain would have more than 1.16 times the lower bound and two. In between, joints are moved until their
+///   arcs come as close as so many can, first from even ones, then from those that dynamic programming over places and
+///   headings within the band finds. Start and finish are those of the track; the tangent there may turn by some 16
+///   tolerances a length of the arc.
 /// Source: docs/fabrication.md. |dkappa/ds| h^3/192 is the error of separate arcs of length h, h^3/124.7 that of arcs
 ///   with common tangents, so that some 1.16 times the lower bound is the least to hope for.
 /// Accuracy: max_deviation is measured at kPointsPerArc points of each arc by the nearest point of the track. The
