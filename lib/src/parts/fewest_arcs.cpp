@@ -6,6 +6,7 @@
 #include "parts/fewest_arcs.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
 #include "parts/joint_fit.hpp"
@@ -26,7 +27,7 @@ constexpr double kSearched = 0.98;
 constexpr double kFitted = 0.998;
 constexpr double kFittedJoints = 0.995;   // of that, to first order
 constexpr std::size_t kSteps = 8;         // of the searches
-constexpr std::size_t kFineSteps = 16;    // where the first ones meet nothing
+constexpr std::size_t kFineSteps = 16;    // where the first ones meet nothing, or more than there should be
 constexpr std::size_t kFinestSteps = 64;  // before the search gives up
 constexpr std::size_t kFewPieces = 3;     // for which the search itself is quick enough
 constexpr double kMostReach = 0.8;        // of a stretch, by a kept piece
@@ -34,7 +35,7 @@ constexpr double kLeastWider = 1.05;      // bands of the search, one to the nex
 constexpr double kMostWider = 1.5;
 constexpr double kWidest = 4.0;
 constexpr int kMostSearches = 4;
-constexpr std::size_t kVeryFewArcs = 10;  // of which no more than needed are worth a search
+constexpr std::size_t kVeryFewArcs = 12;  // of which no more than needed are worth a search
 constexpr std::size_t kFewArcs = 24;      // the same of a thorough one
 constexpr double kNearly = 1.1;           // tolerances, of true arcs on joints that are within one
 constexpr int kMostFits = 8;              // from one start
@@ -128,7 +129,8 @@ class Fewer {
     if (!known() || arcs() > fewest_)
       close_in(even_joints(samples_, inner, band_, known() ? std::min(likely_, arcs() - 1) : likely_));
     if (!known() || worth()) from_joints(kSteps);
-    if (!known()) from_joints(kFineSteps);
+    const bool close = known() && thorough_ && arcs() <= kVeryFewArcs && worth();
+    if (!known() || close) from_joints(kFineSteps);
     if (!known()) search();
     return std::move(best_);
   }
@@ -167,7 +169,7 @@ class Fewer {
   /// How many arcs a chain that stays outside seems to need, fewer than are known to do; 0 where that is far off.
   [[nodiscard]] std::size_t more_than(const FittedJoints& fitted) const {
     const std::size_t count = fitted.deviations.size();
-    const double wanted = static_cast<double>(count) * std::cbrt(fitted.deviation / tolerance_);
+    const double wanted = static_cast<double>(count) * math::cbrt(fitted.deviation / tolerance_);
     if (!(wanted < kMostMore * static_cast<double>(count))) return 0;
     const auto next = std::max(count + 1, static_cast<std::size_t>(std::ceil(wanted - kRoundedDown)));
     // A few that stay outside are cut where they are.
@@ -278,7 +280,7 @@ class Fewer {
   /// The joints but the one between the two arcs that would make the closest one.
   [[nodiscard]] ChainStart without_least(const FittedJoints& fitted) const {
     const auto sum_at = [&](std::size_t joint) {
-      return std::cbrt(fitted.deviations[joint - 1]) + std::cbrt(fitted.deviations[joint]);
+      return math::cbrt(fitted.deviations[joint - 1]) + math::cbrt(fitted.deviations[joint]);
     };
     std::size_t least = 1;
     for (std::size_t i = 2; i < fitted.deviations.size(); ++i) {
@@ -295,7 +297,7 @@ class Fewer {
     const std::vector<double>& knots = fitted.joints.knots;
     std::vector<double> shares{0.0};
     for (const double deviation : fitted.deviations)
-      shares.push_back(shares.back() + std::cbrt(std::max(deviation / fitted.deviation, kLeastShare)));
+      shares.push_back(shares.back() + math::cbrt(std::max(deviation / fitted.deviation, kLeastShare)));
     ChainStart start{{knots.front()}, {}, fitted.joints.heading};
     std::size_t cell = 0;
     for (std::size_t i = 1; i < count; ++i) {
