@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace glissade::parts {
 namespace {
@@ -16,6 +15,7 @@ constexpr double kUsualSlot = 2.5;  // of the bolt's diameter, overall: long slo
 constexpr double kAtTop = 1.5;      // hole diameters below the top of a frame
 constexpr double kLongerBy = 1e-3;  // than wide: slots that are less are round holes [m]
 constexpr double kStep = 0.5e-3;    // of what is advised [m]
+constexpr int kTries = 1000;        // of such steps
 
 double widest_hole(const FlangeOptions& flange) {
   return clearance_hole(flange.bolt, HoleFit::coarse);
@@ -61,18 +61,19 @@ std::string slots_advice(const PlateOptions& options, const FrameBolts& bolts) {
   };
   std::string ways;
   FlangeOptions other = told;
-  const double most = 4.0 * (told.pitch + least + slot_reach(told));
-  do {
-    other.pitch = kStep * (std::floor(other.pitch / kStep + 1e-9) + 1.0);
-  } while (other.pitch < most && !does(other));
-  if (other.pitch < most) ways += "pitch: " + length_text(other.pitch) + ", ";
+  for (int k = 1; k <= kTries; ++k) {
+    other.pitch = kStep * (std::floor(told.pitch / kStep + 1e-9) + k);
+    if (!does(other)) continue;
+    ways += "pitch: " + length_text(other.pitch) + ", ";
+    break;
+  }
   other = told;
   const double shortest = widest_hole(told) + kLongerBy;
-  for (double slot = kStep * std::ceil(slot_length(told) / kStep - 1e-9) - kStep; slot > shortest;
-       slot -= kStep) {
-    other.slot = slot;
+  for (int k = 1; k <= kTries; ++k) {
+    other.slot = kStep * (std::ceil(slot_length(told) / kStep - 1e-9) - k);
+    if (*other.slot < shortest) break;
     if (!does(other)) continue;
-    ways += "slot: " + length_text(slot) + ", ";
+    ways += "slot: " + length_text(*other.slot) + ", ";
     break;
   }
   return ways + (ways.empty() ? "" : "or ") + "a smaller bolt";
