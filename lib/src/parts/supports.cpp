@@ -93,7 +93,16 @@ double saddle_on_left(const SectionOutside& outside) {
     // A whole saddle inside of walls that reach below the floor.
     if (tip.x > 0.0 && tip.x < aside + kSaddle) aside = std::min(aside, tip.x - 0.5 * kSaddle);
   }
-  return std::max(aside - kFromEdge, kAtLeast * widest);
+  double seat = std::max(aside - kFromEdge, kAtLeast * widest);
+  double thick = 0.0;
+  for (const OutsideLap& lap : outside.laps) thick = std::max(thick, lap.thickness);
+  for (const Vec2 tip : lap_tips(outside)) {
+    // Below a narrow floor what walls reach inwards goes first.
+    constexpr double kOffLap = 1e-3;  // [m]
+    const double clear = tip.x - thick - 0.5 * kSaddle - kOffLap;
+    if (clear > kSaddle && tip.x < seat + thick + kSaddle) seat = std::min(seat, clear);
+  }
+  return seat;
 }
 
 Saddles saddles_at(const Shell& shell, double s, double half) {
