@@ -272,6 +272,23 @@ TEST_CASE("shells: random sections with corners, rims, liners and all that is se
   CHECK(set > 60);
 }
 
+TEST_CASE("shells: saddles stand inside of walls that reach far below a narrow floor") {
+  const ClothoidSpline track(Angle::from_degrees(45.0), {{3.0, 0.0, 0.3}, {2.0, 0.3, 0.1}});
+  for (const double width : {0.12, 0.146, 0.2, 0.3}) {
+    PlateOptions options;
+    options.corners.kind = CornerJoint::lap;
+    options.liner.emplace();
+    options.flanges.wanted = false;
+    options.supports.emplace();
+    options.supports->ground = {{0.0, -8.0}};
+    options.split.longest = 1.8;
+    INFO(width);
+    const WorkshopBuild build = plates_of(
+        track, section::Trapezoid{WidthLaw(width), 0.174, Angle::from_degrees(36.5), 6e-3}, options);
+    CHECK(pieces(build, "saddle") > 0);
+  }
+}
+
 TEST_CASE("shells: what no section holds is refused with place, value, bound and a way out") {
   PlateOptions stiff;
   stiff.stiffeners.emplace();
