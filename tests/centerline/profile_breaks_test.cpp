@@ -150,7 +150,7 @@ TEST_CASE("a millimetre of noise at a hundred points hides neither radius nor lo
 }
 
 TEST_CASE("stations of a spline of clothoids, its joints among them, give that very spline") {
-  testing::Random random = testing::seeded_random();
+  Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   for (int draw = 0; draw < 6; ++draw) {
     std::vector<ClothoidSegment> segments;

@@ -356,11 +356,10 @@ bool follows_better(const FollowedProfile& followed, const Found& found, const s
   const double missed = std::sqrt(mean_square_deviation(found.fitted.curve, seen)) / length;
   const auto count = static_cast<double>(std::min(points.size(), kMostFollowed));
   const double noise = std::sqrt(followed.cost.mean_square) / (1.0 - followed.cost.freedom / count);
-  // Few pieces, as near as this, tell more than many; a smooth curve has to meet the points.
+  // Few pieces, as near as this, tell more than many.
   constexpr double kFewPieces = 3e-8;
-  constexpr double kRounding = 1e-10;
-  if (followed.recovered) return missed > (found.described ? kFewPieces : kRounding);
   const double open = found.fitted.between;
+  if (followed.recovered) return found.described ? missed > kFewPieces : open > kLittleOpen * length;
   const bool leaves_less_open = followed.between < open && open > kLittleOpen * length;
   if (!found.described && followed.exact && leaves_less_open) return true;
   return points.size() >= kFewestToValidate &&
