@@ -117,9 +117,7 @@ class Distance final : public Measure {
   static bool has_envelope(const RowAt& at) { return at.problem.envelope_high > at.problem.envelope_low; }
   static Vec2 forbidden(const RowAt& at) {
     const Obstacle& obstacle = obstacle_of(at);
-    return obstacle.endless
-               ? obstacle.forbidden
-               : edge_normal(obstacle.corners[at.row.edge], obstacle.corners[at.row.edge + 1], obstacle.side);
+    return obstacle.endless ? obstacle.forbidden : obstacle.normals[at.row.edge];
   }
 };
 

@@ -257,7 +257,7 @@ Vec2 EnvelopeRows::forbidden(const Obstacle& obstacle, std::size_t edge) {
     const auto& [from, to] = obstacle.other_sides[edge - chained];
     return edge_normal(from, to, 1.0);
   }
-  return edge_normal(obstacle.corners[edge], obstacle.corners[edge + 1], obstacle.side);
+  return obstacle.normals[edge];
 }
 
 Vec2 EnvelopeRows::on_edge(const Obstacle& obstacle, std::size_t edge) {

@@ -8,6 +8,7 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "optimize/change_knots.hpp"
+#include "optimize/feet.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,12 @@ namespace {
 /// +1: at most, -1: at least, 0: exactly.
 int side_of(Bound bound) {
   return bound == Bound::highest ? 1 : bound == Bound::lowest ? -1 : 0;
+}
+
+void set_normals(Obstacle& obstacle) {
+  obstacle.normals.clear();
+  for (std::size_t i = 0; i + 1 < obstacle.corners.size(); ++i)
+    obstacle.normals.push_back(edge_normal(obstacle.corners[i], obstacle.corners[i + 1], obstacle.side));
 }
 
 /// What an area's outline has beside its chain.
@@ -80,6 +87,7 @@ class LimitList {
     for (Vec2& corner : obstacle.corners) corner = (1.0 / out_.chord) * corner;
     for (Vec2& corner : obstacle.outline) corner = (1.0 / out_.chord) * corner;
     if (!obstacle.outline.empty()) add_others(obstacle);
+    set_normals(obstacle);
     LimitSpec& limit = add(name, clearance);
     limit.measure = Measure::distance;
     limit.obstacle = out_.obstacles.size();
@@ -479,6 +487,7 @@ void round_off(const Rounding& rounding, ScaledProblem& out) {
       rounding.place(from);
       rounding.place(to);
     }
+    set_normals(obstacle);
   }
   for (Vec2& waypoint : out.waypoints) rounding.place(waypoint);
   for (double& change : out.changes) rounding.place(change);

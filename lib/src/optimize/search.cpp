@@ -376,13 +376,14 @@ class Minimiser {
     constexpr double kNear = 0.5;  // taste
     if (control_.stop()) stopped_ = true;
     if (stopped_ || has_arrived(point_)) return;
-    if (solved(point_) && point_.distance <= kNear) {
-      take_steps();
+    bool goes_on = solved(point_);
+    if (goes_on && point_.distance <= kNear) {
+      goes_on = take_steps();
       if (has_arrived(point_)) return;
     }
     Point begun = point_;
     if (solved(point_)) {
-      take_steps();
+      if (goes_on) take_steps();
       if (has_arrived(point_)) return;
       if (is_guessed_) {
         // Multipliers of another mesh may be no good guess.
@@ -399,13 +400,15 @@ class Minimiser {
     if (!has_arrived(point_) && !(solved(point_) && is_progress(begun))) point_ = begun;
   }
 
-  void take_steps() {
+  /// @return whether more of them may be taken
+  bool take_steps() {
     constexpr int kMostSteps = 12;  // budget
     for (int step = 0; step < kMostSteps; ++step) {
-      if (!advance() || !solved(point_) || has_arrived(point_)) return;
+      if (!advance() || !solved(point_) || has_arrived(point_)) return false;
       if (control_.stop()) stopped_ = true;
-      if (stopped_) return;
+      if (stopped_) return false;
     }
+    return true;
   }
 
   /// Where no step gets shorter: from further away, and on a fine mesh at a tenth of the cost of a round of NLopt.

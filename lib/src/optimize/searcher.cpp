@@ -696,18 +696,12 @@ std::optional<Found> Searcher::following_closely(const ScaledProblem& problem, c
   for (const LiftOff& lift : lifts) lifting.push_back(lift.sigma);
   const std::optional<Mesh> closer = following_loads(problem, found, lifting);
   if (!closer || closer->fine.size() <= found.track->mesh().fine.size()) return std::nullopt;
-  // Steps of our own stay in the valley; a descent may leave it for a dearer one, for which the load is no reason.
-  constexpr int kRounds[] = {0, 10};  // budget
-  for (const int rounds : kRounds) {
-    aim_at(kAimed * options_.tolerance, rounds);
-    Found next = minimise(problem, *closer, found.z, margins_, control_, &found);
-    const bool stays = next.objective <= found.objective + kElsewhere * std::fabs(found.objective);
-    const bool ends = next.residual <= options_.tolerance || rounds > 0;
-    if (next.stopped || (stays && ends && next.feasible(options_.limit_tolerance))) {
-      return next.feasible(options_.limit_tolerance) ? std::optional(std::move(next)) : std::nullopt;
-    }
-  }
-  return std::nullopt;
+  // Steps of our own stay in the valley mostly. Another one may be dearer, for which the load is no reason.
+  aim_at(kAimed * options_.tolerance, 0);
+  Found next = minimise(problem, *closer, found.z, margins_, control_, &found);
+  const bool stays = next.objective <= found.objective + kElsewhere * std::fabs(found.objective);
+  const bool takes = (next.stopped || stays) && next.feasible(options_.limit_tolerance);
+  return takes ? std::optional(std::move(next)) : std::nullopt;
 }
 
 void Searcher::tighten(const ScaledProblem& problem, const referee::Judgement& judgement,
