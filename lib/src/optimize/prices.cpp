@@ -289,8 +289,8 @@ struct Kink {
 /// @param at  the optimum on the other mesh, where one of its own kinks does not last
 std::vector<Kink> kinks_of(const ScaledProblem& problem, Priced& at, const OptimizeOptions& options,
                            SearchControl& control) {
-  constexpr double kAsWide =
-      0.75;  // theory: a half where it goes with the length of pieces, 1 where it lasts
+  // A kink of the mesh is half as wide on one twice as fine, one of the problem as wide.
+  constexpr double kAsWide = 0.75;  // theory: between the two
   const auto told_all = [](const std::vector<OneSidedPrice>& prices, const auto& lasts) {
     std::vector<Kink> kinks;
     for (const OneSidedPrice& price : prices) kinks.push_back({price, lasts(price)});

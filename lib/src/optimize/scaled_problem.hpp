@@ -37,7 +37,8 @@ struct LimitSpec {
 /// A chain of straight edges that forbids what lies behind it.
 struct Obstacle {
   std::vector<Vec2> corners;  ///< ascending run; two for a half-plane
-  std::vector<Vec2> normals;  ///< of the edges between them, unit vectors into what is forbidden; none of a half-plane
+  std::vector<Vec2>
+      normals;  ///< of the edges between them, unit vectors into what is forbidden; none of a half-plane
   bool endless = false;       ///< a half-plane: the line goes on beyond its corners
   double side = 1.0;          ///< +1: forbidden below (larger drop), -1: forbidden above; of chains
   Vec2 forbidden;             ///< unit vector, of half-planes

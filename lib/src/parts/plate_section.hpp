@@ -21,7 +21,8 @@ struct SectionPlate {
   /// Edges that stay where they are where the section widens: of tiles beside other tiles.
   bool from_stays = false;
   bool to_stays = false;
-  double out = 0.0;  ///< by how much half the section is wider where its corners are told than where it is narrowest [m]
+  double out =
+      0.0;  ///< by how much half the section is wider where its corners are told than where it is narrowest [m]
 
   /// Its unit direction along the face.
   [[nodiscard]] Vec2 way() const { return (1.0 / norm(face_to - face_from)) * (face_to - face_from); }
