@@ -106,6 +106,33 @@ std::vector<double> spaced(const std::vector<double>& places, double least) {
   return kept;
 }
 
+/// Whether flats that touch at two places are one, or meet between them.
+bool meet_between(const ArcSpline& track, double a, double b) {
+  const TrackFrame first = frame_at(track, a);
+  const TrackFrame second = frame_at(track, b);
+  if (std::fabs(slope_at(track, a) - slope_at(track, b)) < kSame)
+    return std::fabs(cross(first.along, second.at - first.at)) < kSame;
+  const Vec2 corner = corner_between(track, a, b);
+  return dot(corner - first.at, first.along) > 0.0 && dot(second.at - corner, second.along) > 0.0;
+}
+
+/// As many of the places as leave flats long enough, and one behind the other: beside a turning point that is left out they
+/// could meet behind where they touch. All of them where no choice does both: what flats are too short for is refused elsewhere.
+std::vector<double> chosen(const ArcSpline& track, const std::vector<double>& places, double least) {
+  std::vector<double> kept = spaced(places, least);
+  for (std::size_t i = 0; i + 1 < kept.size();) {
+    if (meet_between(track, kept[i], kept[i + 1])) {
+      ++i;
+      continue;
+    }
+    if (kept.size() == 2) return places;
+    const bool at_end = i + 2 == kept.size();
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(at_end ? i : i + 1));
+    if (i > 0) --i;
+  }
+  return kept;
+}
+
 std::string flat_text(std::size_t flat) {
   return "flat " + std::to_string(flat + 1);
 }
@@ -119,7 +146,7 @@ Facets facets_by_angle(const ArcSpline& track, const Span& span, double largest_
     for (double k = 1.0; k <= count; k += 1.0) append(touches, place_at(track, bow, k / count));
   }
   touches.back() = span.to;
-  return facets_at(track, spaced(touches, least_flat));
+  return facets_at(track, chosen(track, touches, least_flat));
 }
 
 Facets facets_by_length(const ArcSpline& track, const Span& span, double longest, double least_flat) {
@@ -129,7 +156,7 @@ Facets facets_by_length(const ArcSpline& track, const Span& span, double longest
     for (double k = 1.0; k <= count; k += 1.0) append(touches, bow.from + (bow.to - bow.from) * k / count);
   }
   touches.back() = span.to;
-  return facets_at(track, spaced(touches, least_flat));
+  return facets_at(track, chosen(track, touches, least_flat));
 }
 
 Facets facets_by_chord(const ArcSpline& track, const Span& span, double tolerance, double least_flat) {
@@ -158,7 +185,7 @@ Facets facets_by_chord(const ArcSpline& track, const Span& span, double toleranc
     }
   }
   touches.back() = span.to;
-  return facets_at(track, spaced(touches, least_flat));
+  return facets_at(track, chosen(track, touches, least_flat));
 }
 
 ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness) {

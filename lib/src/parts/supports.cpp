@@ -384,6 +384,13 @@ Span unit_at(const Shell& shell, double s) {
   return *(next - 1);
 }
 
+/// The least slope angle, which an arc has at one of its ends [rad].
+double flattest_of(const ArcSpline& track) {
+  double least = track.slope_angle(track.length());
+  for (const TrackArc& arc : track.arcs()) least = std::min(least, track.slope_angle(arc.start));
+  return least;
+}
+
 }  // namespace
 
 void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
@@ -392,15 +399,14 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
   const double whole = shell.track.length();
   const double room = std::max(0.0, whole - 2.0 * kApart);
   const double gaps = std::max(1.0, std::ceil(room / supports.spacing - 1e-9));
+  const double steepest = supports.steepest.radians();
   int number = 0;
-  bool flat_enough = false;
   for (double k = 0.0; k <= gaps; k += 1.0) {
     const double about = kApart + room * k / gaps;
     const double saddle_height = saddles_at(shell, about, 0.0).height[0];
     const double clear = clear_of(shell, about, saddle_height);
     const auto place = free_place(shell, about, clear);
-    if (!place || shell.track.at(place->at).slope_angle > supports.steepest.radians()) continue;
-    flat_enough = true;
+    if (!place || shell.track.at(place->at).slope_angle > steepest) continue;
     const Saddles saddles = saddles_at(shell, place->at, place->half);
     if (!seat_line(shell, place->at, place->half, saddles.height[0]) ||
         !seat_line(shell, place->at, place->half, saddles.height[1]))
@@ -417,8 +423,9 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
                                      "support " + text, place->at));
   }
   if (number > 0) return;
-  if (flat_enough) {
-    shell.workshop.notes.emplace_back("No trestle finds a place that is straight enough for its saddles.");
+  if (flattest_of(shell.track) <= steepest) {
+    shell.workshop.notes.emplace_back(
+        "No trestle finds a place that is flat and straight enough for its saddles.");
     return;
   }
   throw InputError({"supports.steepest",
