@@ -3,7 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/parts/plates.hpp"
 
-#include "parts/bolted.hpp"
+#include "parts/bolt_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/joint_steps.hpp"
 #include "support/catch.hpp"
@@ -36,16 +36,6 @@ std::vector<Circle>* holes_of(PartBody& body) {
   if (auto* const swept = std::get_if<SweptBody>(&body)) return &swept->holes;
   if (auto* const sheet = std::get_if<RolledSheet>(&body)) return &sheet->region.holes;
   return nullptr;
-}
-
-/// @return what is wrong with holes; empty: nothing
-std::string bolt_fault(const Workshop& workshop) {
-  try {
-    (void)parts::require_bolts_meet(workshop);
-  } catch (const InternalError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 std::size_t bolts_in(const Workshop& workshop) {

@@ -4,7 +4,7 @@
 #include "glissade/parts/plates.hpp"
 
 #include "parts/body_geometry.hpp"
-#include "parts/bolted.hpp"
+#include "parts/bolt_faults.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"
@@ -48,15 +48,6 @@ std::vector<Slot> slots_of(const PlaneRegion& region) {
 std::string refused(const PlateOptions& options, const ChannelMeasures& channel = kChannel) {
   const ClothoidSpline track(Angle::from_degrees(40.0), {{1.5, 0.0, 0.0}});
   return refusal_of([&] { return plates(track, options, channel); });
-}
-
-std::string bolt_fault(const Workshop& workshop) {
-  try {
-    (void)parts::require_bolts_meet(workshop);
-  } catch (const InternalError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 std::size_t bought(const WorkshopBuild& build, const std::string& name) {
