@@ -4,6 +4,7 @@
 
 #include "optimize/feet.hpp"
 #include "optimize/measure.hpp"
+#include "optimize/round_rows.hpp"
 #include "optimize/rows.hpp"
 
 namespace glissade::optimizer {
@@ -46,6 +47,7 @@ class Distance final : public Measure {
       const Vec2 corner = obstacle.corners[at.row.place];
       return corner_distance(foot_of(at, corner), corner, obstacle.side);
     }
+    if (at.row.around) return round_distance(at.state, obstacle, at.row);
     const Vec2 station{at.state.shape.x[at.row.place], at.state.shape.y[at.row.place]};
     return dot(obstacle.corners[at.row.edge] - station, forbidden(at));
   }
@@ -57,6 +59,7 @@ class Distance final : public Measure {
       const Vec2 corner = obstacle.corners[at.row.place];
       return foot_gradient(at, foot_of(at, corner), corner, obstacle.side, out);
     }
+    if (at.row.around) return add_round_gradient(at.track, at.state, obstacle, at.row, out);
     at.track.add(at.state.shape.dx, at.row.place, -forbidden(at).x, out);
     at.track.add(at.state.shape.dy, at.row.place, -forbidden(at).y, out);
   }
@@ -67,6 +70,7 @@ class Distance final : public Measure {
     if (at.row.foot) {
       return add_foot_weights(foot_of(at, obstacle.corners[at.row.place]), factor * obstacle.side, weights);
     }
+    if (at.row.around) return add_round_weights(at.state, obstacle, at.row, factor, weights);
     weights.x[at.row.place] -= factor * forbidden(at).x;
     weights.y[at.row.place] -= factor * forbidden(at).y;
   }
@@ -74,6 +78,7 @@ class Distance final : public Measure {
   void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
     const Obstacle& obstacle = obstacle_of(at);
     if (has_envelope(at)) return at.envelope.add_direct_terms(at.state, obstacle, at.row, factor, hessian);
+    if (at.row.around) return add_round_terms(at.track, at.state, obstacle, at.row, factor, hessian);
     if (!at.row.foot) return;
     const Vec2 corner = obstacle.corners[at.row.place];
     add_terms_at_foot(at, foot_of(at, corner), corner, obstacle.side, factor, hessian);
@@ -100,9 +105,18 @@ class Distance final : public Measure {
       const Vec2 to = obstacle.corners[row.edge + 1];
       add_stations([&](Vec2 station) { return concerns(station, from, to, obstacle.side); });
     }
+    const auto stands = [&](std::size_t station) { return stations[station].watched; };
     row.foot = true;
     row.edge = 0;
-    for (row.place = 0; row.place < obstacle.corners.size(); ++row.place) rows.push_back(row);
+    for (row.place = 0; row.place < obstacle.corners.size(); ++row.place) {
+      Row round = at.row;
+      round.edge = row.place;
+      const Vec2 corner = obstacle.corners[row.place];
+      const bool bends =
+          add_round_rows(at.state, obstacle, round, at.limit.bound, stands, rows) &&
+          runs_round(at.track, at.state, corner, obstacle.side, foot_of(at, corner), at.limit.bound);
+      if (!bends) rows.push_back(row);
+    }
   }
 
   [[nodiscard]] double place(const RowAt& at) const override {

@@ -3,6 +3,7 @@
 #include "glissade/core/units.hpp"
 
 #include "optimize/feet.hpp"
+#include "optimize/round_rows.hpp"
 #include "optimize/rows.hpp"
 
 #include <algorithm>
@@ -266,60 +267,74 @@ Vec2 EnvelopeRows::on_edge(const Obstacle& obstacle, std::size_t edge) {
                                             : obstacle.other_sides[edge - chained].first;
 }
 
-std::vector<Row> EnvelopeRows::rows(const State& state, std::size_t limit) const {
-  const Obstacle& obstacle = problem_.obstacles[problem_.limits[limit].obstacle];
+// The end faces' corners stand for the normals of the ends, and for those that the end planes cut.
+bool EnvelopeRows::stands(const State& state, std::size_t station, std::size_t level) const {
+  return track_.stations()[station].watched && !cut(state, station, height(level)).is_cut;
+}
+
+void EnvelopeRows::add_edge_rows(const State& state, const Obstacle& obstacle, Row row,
+                                 std::vector<Row>& rows) const {
   const std::size_t last = state.shape.zeta.size() - 1;
-  std::vector<Row> rows;
-  Row row;
-  row.limit = limit;
-  const auto level_point = [&](std::size_t station) {
-    return point_of(state.shape, station) + height(row.level) * normal_of(state.shape, station);
-  };
   const auto nearer_level = [&](std::size_t station, Vec2 direction) {
     return dot(normal_of(state.shape, station), direction) > 0.0 ? std::size_t{1} : std::size_t{0};
   };
-  // The end faces' corners stand for the normals of the ends, and for those that the end planes cut.
-  const auto stands = [&](std::size_t station) {
-    return track_.stations()[station].watched && !cut(state, station, height(row.level)).is_cut;
-  };
+  if (obstacle.endless) {
+    for (row.place = 1; row.place < last; ++row.place) {
+      row.level = nearer_level(row.place, obstacle.forbidden);
+      if (stands(state, row.place, row.level)) rows.push_back(row);
+    }
+    return;
+  }
   const auto against = [&](Vec2 from, Vec2 to, bool chained) {
     const double side = chained ? obstacle.side : 1.0;
     for (row.place = 1; row.place < last; ++row.place) {
       if (!chained) row.level = nearer_level(row.place, forbidden(obstacle, row.edge));
-      const Vec2 point = level_point(row.place);
-      if (!concerns(point, from, to, side) || !stands(row.place)) continue;
+      const Vec2 point =
+          point_of(state.shape, row.place) + height(row.level) * normal_of(state.shape, row.place);
+      if (!concerns(point, from, to, side) || !stands(state, row.place, row.level)) continue;
       // What lies behind another side lies behind the chain, or beside the area.
       if (!chained && dot(from - point, forbidden(obstacle, row.edge)) < 0.0) continue;
       rows.push_back(row);
     }
   };
-  if (!obstacle.endless) {
-    row.level = level_towards(obstacle.side);
-    for (; row.edge + 1 < obstacle.corners.size(); ++row.edge) {
-      against(obstacle.corners[row.edge], obstacle.corners[row.edge + 1], true);
-    }
-    for (const auto& [from, to] : obstacle.other_sides) {
-      against(from, to, false);
-      ++row.edge;
-    }
+  row.level = level_towards(obstacle.side);
+  for (; row.edge + 1 < obstacle.corners.size(); ++row.edge) {
+    against(obstacle.corners[row.edge], obstacle.corners[row.edge + 1], true);
   }
-  row.edge = 0;
-  if (obstacle.endless) {
-    for (row.place = 1; row.place < last; ++row.place) {
-      row.level = nearer_level(row.place, obstacle.forbidden);
-      if (stands(row.place)) rows.push_back(row);
-    }
-  } else {
-    row.foot = true;
-    row.level = 0;
-    for (row.place = 0; row.place < obstacle.corners.size() + obstacle.other_corners.size(); ++row.place) {
-      const CornerView seen = view(state, obstacle, row);
-      if (!seen.beyond || seen.between) rows.push_back(row);
-    }
-    row.foot = false;
+  for (const auto& [from, to] : obstacle.other_sides) {
+    against(from, to, false);
+    ++row.edge;
   }
+}
+
+void EnvelopeRows::add_corner_rows(const State& state, const Obstacle& obstacle, const Row& row,
+                                   std::vector<Row>& rows) const {
+  Row round = row;
+  round.level = level_towards(obstacle.side);
+  const double nearest = problem_.limits[row.limit].bound + std::fabs(height(round.level));
+  const auto stands_round = [&](std::size_t station) { return stands(state, station, round.level); };
+  Row foot = row;
+  foot.foot = true;
+  for (foot.place = 0; foot.place < obstacle.corners.size() + obstacle.other_corners.size(); ++foot.place) {
+    const CornerView seen = view(state, obstacle, foot);
+    if (seen.beyond && !seen.between) continue;
+    round.edge = foot.place;
+    const bool bends = !seen.beyond && foot.place < obstacle.corners.size() &&
+                       add_round_rows(state, obstacle, round, nearest, stands_round, rows) &&
+                       runs_round(track_, state, obstacle.corner(foot.place), seen.side, seen.foot, nearest);
+    if (!bends) rows.push_back(foot);
+  }
+}
+
+std::vector<Row> EnvelopeRows::rows(const State& state, std::size_t limit) const {
+  const Obstacle& obstacle = problem_.obstacles[problem_.limits[limit].obstacle];
+  std::vector<Row> rows;
+  Row row;
+  row.limit = limit;
+  add_edge_rows(state, obstacle, row, rows);
+  if (!obstacle.endless) add_corner_rows(state, obstacle, row, rows);
   row.face = true;
-  for (const std::size_t station : {std::size_t{0}, last}) {
+  for (const std::size_t station : {std::size_t{0}, state.shape.zeta.size() - 1}) {
     row.place = station;
     for (row.level = 0; row.level < 2; ++row.level) {
       // A line has one corner at each end.
@@ -332,6 +347,7 @@ std::vector<Row> EnvelopeRows::rows(const State& state, std::size_t limit) const
 double EnvelopeRows::measure(const State& state, const Obstacle& obstacle, const Row& row) const {
   const Shape& shape = state.shape;
   if (row.face) return distance(obstacle, face_corner(state, row.place != 0, row.level).point).value;
+  if (row.around) return round_distance(state, obstacle, row) - std::fabs(height(row.level));
   if (!row.foot) {
     const double height = cut(state, row.place, this->height(row.level)).height;
     const Vec2 point = point_of(shape, row.place) + height * normal_of(shape, row.place);
@@ -406,6 +422,8 @@ void EnvelopeRows::gradient(const State& state, const Obstacle& obstacle, const 
                         distance(obstacle, corner.point).away, out);
   } else if (row.foot) {
     corner_gradient(state, obstacle, row, out);
+  } else if (row.around) {
+    add_round_gradient(track_, state, obstacle, row, out);
   } else {
     station_gradient(state, obstacle, row, out);
   }
@@ -425,6 +443,7 @@ void EnvelopeRows::add_weights(const State& state, const Obstacle& obstacle, con
     add_point(row.place, corner.along, distance(obstacle, corner.point).away);
     return;
   }
+  if (row.around) return add_round_weights(state, obstacle, row, factor, weights);
   if (!row.foot) {
     add_point(row.place, cut(state, row.place, height(row.level)).height,
               -1.0 * forbidden(obstacle, row.edge));
@@ -455,6 +474,7 @@ void EnvelopeRows::add_direct_terms(const State& state, const Obstacle& obstacle
     add_symmetric(hessian, 0.5 * factor / apart.value, across, across);
     return;
   }
+  if (row.around) return add_round_terms(track_, state, obstacle, row, factor, hessian);
   if (!row.foot) return;
   const Vec2 corner = obstacle.corner(row.place);
   const CornerView seen = view(state, obstacle, row);

@@ -14,13 +14,15 @@ struct State;
 
 /// Clearances measured from an envelope instead of from the centerline, as rows with exact gradients.
 ///
-/// Rows of one obstacle, of three sorts; each keeps its meaning for every track, wherever its place moves:
+/// Rows of one obstacle, of four sorts; each keeps its meaning for every track, wherever its place moves:
 ///   - a station's normal, at the height of the underside or of the top, against an edge of the chain, or
 ///     another side of an area in front of which it lies. Where the normal passes behind an end plane, it is
 ///     cut there;
 ///   - a corner of the obstacle. At its foot on the track a level is a parallel curve: its distance is that of
 ///     the centerline less the height. Beyond an end of the track, or of the level, it is the distance from
 ///     the end face;
+///   - a station of the track, against a corner of the chain, past both edges beside it: a track that runs round
+///     the corner (round_rows.hpp);
 ///   - a corner of an end face, against the whole outline. Where the level at the top leaves the end plane
 ///     only later along the track, the corner is there (docs/solid.md, trims).
 /// Normals that fold over beyond a centre of curvature are no special case: their points lie in the solid.
@@ -104,6 +106,11 @@ class EnvelopeRows {
   [[nodiscard]] CornerView view(const State& state, const Obstacle& obstacle, const Row& row) const;
   [[nodiscard]] static Vec2 forbidden(const Obstacle& obstacle, std::size_t edge);
   [[nodiscard]] static Vec2 on_edge(const Obstacle& obstacle, std::size_t edge);
+  /// Whether a station's normal counts by itself.
+  [[nodiscard]] bool stands(const State& state, std::size_t station, std::size_t level) const;
+  void add_edge_rows(const State& state, const Obstacle& obstacle, Row row, std::vector<Row>& rows) const;
+  void add_corner_rows(const State& state, const Obstacle& obstacle, const Row& row,
+                       std::vector<Row>& rows) const;
   void station_gradient(const State& state, const Obstacle& obstacle, const Row& row, double* out) const;
   void corner_gradient(const State& state, const Obstacle& obstacle, const Row& row, double* out) const;
 

@@ -1,6 +1,7 @@
 #include "optimize/switches.hpp"
 
 #include "optimize/jump_fit.hpp"
+#include "optimize/short_wraps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -262,7 +263,28 @@ std::vector<Switch> switches_of(const ScaledProblem& problem, const Found& found
     return limit.measure == Measure::curvature_rate;
   });
   if (smooth) return {};
-  return JumpFinder(problem, found).switches();
+  std::vector<Switch> switches = JumpFinder(problem, found).switches();
+  const std::vector<Switch> wraps = short_wraps(problem, found);
+  // What is seen of an arc's ends beside it are its ripples.
+  const Vector& knots = found.track->mesh().knots;
+  for (std::size_t i = 0; i + 1 < wraps.size(); i += 2) {
+    constexpr double kRipples = 2.5;  // taste: pieces
+    const double from = count_pieces(knots, wraps[i].jump->from) - kRipples;
+    const double to = count_pieces(knots, wraps[i + 1].jump->to) + kRipples;
+    std::erase_if(switches, [&](const Switch& change) {
+      const Span& at = change.jump ? *change.jump : change.blurred;
+      const double middle = count_pieces(knots, 0.5 * (at.from + at.to));
+      return middle > from && middle < to;
+    });
+  }
+  switches.insert(switches.end(), wraps.begin(), wraps.end());
+  std::stable_sort(switches.begin(), switches.end(), [](const Switch& a, const Switch& b) {
+    const auto place = [](const Switch& change) {
+      return change.jump ? change.jump->from : change.blurred.from;
+    };
+    return place(a) < place(b);
+  });
+  return switches;
 }
 
 bool settled(const std::vector<Switch>& switches) {
