@@ -122,6 +122,35 @@ TEST_CASE("sines and cosines of many angles are those of each, whatever stands b
   }
 }
 
+TEST_CASE("exponentials of many values are those of each, whatever stands beside it") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (const std::size_t count : {0, 1, 2, 3, 7, 2000}) {
+    std::vector<double> values(count);
+    for (double& value : values) {
+      const double widths[] = {1e-9, 0.5, 3.0, 40.0, 1000.0};
+      const double width = widths[static_cast<std::size_t>(random.between(0.0, 5.0)) % 5];
+      value = random.between(-width, width);
+    }
+    if (count > 3) {
+      values[1] = std::numeric_limits<double>::infinity();
+      values[2] = -values[1];
+      values[3] = std::numeric_limits<double>::quiet_NaN();
+    }
+    std::vector<double> results(count);
+    math::exponentials(values, results);
+    for (std::size_t i = 0; i < count; ++i) {
+      CAPTURE(values[i]);
+      const double alone = math::exp(values[i]);
+      if (std::isnan(alone)) {
+        CHECK(std::isnan(results[i]));
+      } else {
+        CHECK(std::bit_cast<std::uint64_t>(results[i]) == std::bit_cast<std::uint64_t>(alone));
+      }
+    }
+  }
+}
+
 TEST_CASE("elementary functions are exact where geometry counts on it") {
   CHECK(math::sin(0.0) == 0.0);
   CHECK(math::cos(0.0) == 1.0);

@@ -71,3 +71,23 @@ TEST_CASE("sums of products have the same bits on whatever processor they are") 
     CHECK(single == expected);
   }
 }
+
+TEST_CASE("rows turn into each other with the same bits on whatever processor they are") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const double cosine = 0.8;
+  const double sine = 0.6;
+  for (std::size_t n = 0; n < 20; ++n) {
+    CAPTURE(n);
+    const Vector a = drawn(random, n);
+    const Vector b = drawn(random, n);
+    Vector first = a;
+    Vector second = b;
+    optimizer::rotate_rows(first.data(), second.data(), cosine, sine, n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const volatile double products[] = {cosine * a[i], sine * b[i], cosine * b[i], sine * a[i]};
+      CHECK(first[i] == products[0] + products[1]);
+      CHECK(second[i] == products[2] - products[3]);
+    }
+  }
+}

@@ -12,6 +12,7 @@
 #include "optimize/transcription.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <memory>
@@ -387,5 +388,33 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
     }
     equality.back() = 0.8;
     CHECK(hessian_error(setup.z, rows, equality, {}, {}) < kFootError);
+  }
+}
+
+TEST_CASE("derivatives added to a state are those of a state that was made with them") {
+  const auto same = [](const Derivatives& a, const Derivatives& b) {
+    REQUIRE(a.starts.rows() == b.starts.rows());
+    bool all = a.local == b.local;
+    for (std::size_t i = 0; i < a.starts.rows(); ++i)
+      all = all && std::equal(a.starts.row(i), a.starts.row(i) + a.starts.columns(), b.starts.row(i));
+    return all;
+  };
+  for (const Setup& setup : setups()) {
+    const Transcription track(setup.mesh);
+    const Rows rows(setup.problem, track);
+    const State at_once = rows.state(setup.z, true);
+    State later = rows.state(setup.z, false);
+    CHECK(later.shape.dx.empty());
+    rows.add_derivatives(later);
+    CHECK(later.shape.x == at_once.shape.x);
+    CHECK(later.shape.y == at_once.shape.y);
+    CHECK(same(later.shape.dx, at_once.shape.dx));
+    CHECK(same(later.shape.dy, at_once.shape.dy));
+    for (std::size_t ride = 0; ride < at_once.flows.size(); ++ride) {
+      CHECK(later.flows[ride].v == at_once.flows[ride].v);
+      CHECK(later.flows[ride].time == at_once.flows[ride].time);
+      CHECK(later.flows[ride].dtime == at_once.flows[ride].dtime);
+      CHECK(same(later.flows[ride].dv, at_once.flows[ride].dv));
+    }
   }
 }

@@ -1,29 +1,11 @@
 #include "optimize/dense.hpp"
 
+#include "optimize/four.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-
-// Of processors that add four numbers at once these two take half the time, to the same bits: the order of the
-// additions stays, and no variant fuses them with the multiplications.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define GLISSADE_WIDE_VARIANT __attribute__((target_clones("avx2", "default")))
-#else
-#define GLISSADE_WIDE_VARIANT
-#endif
 
 namespace glissade::optimizer {
-
-namespace {
-
-/// Four numbers side by side: one register, or two where the processor has none so wide.
-using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
-
-inline void load(Four& four, const double* from) {
-  std::memcpy(&four, from, sizeof four);
-}
-
-}  // namespace
 
 GLISSADE_WIDE_VARIANT double dot(const double* a, const double* b, std::size_t n) {
   // Four sums side by side: the order is fixed, and the processor need not wait for each addition.
@@ -47,7 +29,7 @@ GLISSADE_WIDE_VARIANT void add_scaled(double* y, double k, const double* a, std:
     load(sum, y + i);
     load(right, a + i);
     sum += k * right;
-    std::memcpy(y + i, &sum, sizeof sum);
+    store(sum, y + i);
   }
   for (int left = 0; left < 3 && i < n; ++left, ++i) y[i] += k * a[i];
 }
@@ -116,7 +98,7 @@ GLISSADE_WIDE_VARIANT void add_four_scaled(double* y, const double* k, const dou
     sum += k1 * tile.a1;
     sum += k2 * tile.a2;
     sum += k3 * tile.a3;
-    std::memcpy(y + i, &sum, sizeof sum);
+    store(sum, y + i);
   }
   for (int left = 0; left < 3 && i < n; ++left, ++i)
     y[i] = (((y[i] + k0 * rows.r0[i]) + k1 * rows.r1[i]) + k2 * rows.r2[i]) + k3 * rows.r3[i];
@@ -137,10 +119,29 @@ void add_scaled_rows(double* y, std::span<const double> k, std::span<const doubl
   for (; row < rows.size(); ++row) add_scaled(y, k[row], rows[row], n);
 }
 
+GLISSADE_WIDE_VARIANT void rotate_rows(double* a, double* b, double cosine, double sine, std::size_t n) {
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    Four left, right;
+    load(left, a + i);
+    load(right, b + i);
+    const Four first = cosine * left + sine * right;
+    const Four second = cosine * right - sine * left;
+    store(first, a + i);
+    store(second, b + i);
+  }
+  for (int left = 0; left < 3 && i < n; ++left, ++i) {
+    const double first = cosine * a[i] + sine * b[i];
+    b[i] = cosine * b[i] - sine * a[i];
+    a[i] = first;
+  }
+}
+
 void add_symmetric(Matrix& matrix, double factor, const Vector& a, const Vector& b) {
+  // Of most rows one of the two has nothing.
   for (std::size_t i = 0; i < a.size(); ++i) {
-    add_scaled(matrix.row(i), factor * a[i], b.data(), b.size());
-    add_scaled(matrix.row(i), factor * b[i], a.data(), a.size());
+    if (a[i] != 0.0) add_scaled(matrix.row(i), factor * a[i], b.data(), b.size());
+    if (b[i] != 0.0) add_scaled(matrix.row(i), factor * b[i], a.data(), a.size());
   }
 }
 

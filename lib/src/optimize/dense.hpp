@@ -34,6 +34,8 @@ void dots(std::span<const double* const> rows, const double* b, std::size_t n, d
 /// y += sum of k[i] rows[i], in their order
 void add_scaled_rows(double* y, std::span<const double> k, std::span<const double* const> rows,
                      std::size_t n);
+/// (a, b) := (cosine a + sine b, cosine b - sine a)
+void rotate_rows(double* a, double* b, double cosine, double sine, std::size_t n);
 /// matrix += factor (a b^T + b a^T)
 void add_symmetric(Matrix& matrix, double factor, const Vector& a, const Vector& b);
 [[nodiscard]] double norm(const Vector& a);

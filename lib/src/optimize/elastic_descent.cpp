@@ -99,8 +99,7 @@ class ElasticDescent {
     program_ = QuadraticProgram{};
     program_.gradient = rows_.objective_gradient(state_);
     rows_.equalities(state_, program_.equality_value, program_.equality);
-    set_ = rows_.candidates(state_, kBand);
-    program_.inequality_value = values_of(rows_, state_, set_);
+    set_ = rows_.candidates(state_, kBand, &program_.inequality_value);
     program_.inequality = jacobian_of(rows_, state_, set_, n_);
     Vector equality = known_.equality;
     equality.resize(program_.equality_value.size(), 0.0);
@@ -317,7 +316,8 @@ class ElasticDescent {
     if (share >= kGood) stiffness_ = stiffness_ <= kSoftest * price_ ? 0.0 : kSofter * stiffness_;
     growth_ = kHarder;
     known_ = step_.multipliers;
-    state_ = rows_.state(trial.state.z, true);
+    state_ = std::move(trial.state);
+    rows_.add_derivatives(state_);
     violation_ = trial.violation;
     return true;
   }

@@ -1,7 +1,8 @@
 // Speed and time: of the sliding point in closed form from node to node, of all other bodies by law_flow.cpp.
 
-#include "glissade/core/math.hpp"
+#include "glissade/core/many_angles.hpp"
 
+#include "optimize/four.hpp"
 #include "optimize/quadrature.hpp"
 #include "optimize/transcription.hpp"
 
@@ -60,15 +61,42 @@ double Transcription::slowest(const Ride& ride, std::size_t station) const {
 
 void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
                          bool derivatives) const {
+  out.growth.clear();
+  if (ride.sliding_point()) set_growth(z, shape, ride, out);
+  flow_through_all(z, shape, ride, out, derivatives);
+}
+
+void Transcription::add_derivatives(const Vector& z, const Shape& shape, const Ride& ride, Flow& flow) const {
+  flow_through_all(z, shape, ride, flow, true);
+}
+
+// Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay small; v
+// carries over from panel to panel.
+void Transcription::set_growth(const Vector& z, const Shape& shape, const Ride& ride, Flow& out) const {
+  const double length = z[layout_.length()];
+  Vector exponents(stations_.size(), 0.0);
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Panel& panel = panels_[p];
+    const std::size_t start = start_station(p);
+    const double mu = ride.friction_in(panel.zone);
+    for (std::size_t at = panel.first; at <= panel.first + kNodes; ++at) {
+      const double s = stations_[at].arc_length(length) - stations_[start].arc_length(length);
+      exponents[at] = 2.0 * mu * (shape.zeta[at] - shape.zeta[start]) - 2.0 * ride.drag * s;
+    }
+  }
+  out.growth.resize(stations_.size());
+  math::exponentials(exponents, out.growth);
+}
+
+void Transcription::flow_through_all(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
+                                     bool derivatives) const {
   out.v.assign(stations_.size(), 0.0);
-  out.growth.assign(stations_.size(), 1.0);
   out.time = 0.0;
   out.dv = derivatives ? no_derivatives() : Derivatives{};
   if (derivatives) out.dtime.assign(layout_.size(), 0.0);
   if (ride.sliding_point()) {
     out.v[0] = ride.entry_speed2;
   } else {
-    out.growth.clear();
     enter(shape, ride, out);
   }
   LocalRow by_time{};  // of the section
@@ -86,10 +114,8 @@ void Transcription::flow(const Vector& z, const Shape& shape, const Ride& ride, 
   }
 }
 
-// Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay small; v
-// carries over from panel to panel.
-void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t p,
-                                 Flow& out, LocalRow* by_time) const {
+GLISSADE_WIDE_VARIANT void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride& ride,
+                                                       std::size_t p, Flow& out, LocalRow* by_time) const {
   const PanelRule& rule = panel_rule();
   const Panel& panel = panels_[p];
   const std::size_t start = start_station(p);
@@ -97,25 +123,24 @@ void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride
   const double mu = ride.friction_in(panel.zone);
   const double scale = panel.scale(length);
   const LocalRow dz_start = dzeta_at_start(p);
+  Four turning_at_start;
+  load(turning_at_start, &dz_start[kZeta]);
   double f[kNodes] = {};
-  std::array<LocalRow, kNodes> df{};
-  for (std::size_t q = 0; q <= kNodes; ++q) {
+  // By the last four of a LocalRow: nothing depends on the first, the speed at the start.
+  Four df[kNodes] = {};
+  for (std::size_t q = 0; q < kNodes; ++q) {
     const std::size_t at = panel.first + q;
-    const double s = stations_[at].arc_length(length) - stations_[start].arc_length(length);
-    out.growth[at] = math::exp(2.0 * mu * (shape.zeta[at] - shape.zeta[start]) - 2.0 * ride.drag * s);
-    if (q == kNodes) break;
     const double weight = panel.ds[q] / out.growth[at];
     const double drive = 2.0 * (shape.sin[at] - mu * shape.cos[at]);
     f[q] = drive * weight;
     if (by_time == nullptr) continue;
     const double by_zeta = (2.0 * (shape.cos[at] + mu * shape.sin[at]) - 2.0 * mu * drive) * weight;
     const double by_start = 2.0 * mu * f[q];
-    const LocalRow& dz = local_dzeta_[at];
-    for (const std::size_t j : {kZeta, kFirst, kSecond}) {
-      df[q][j] = scale * (by_zeta * dz[j] + by_start * dz_start[j]);
-    }
+    Four dz;
+    load(dz, &local_dzeta_[at][kZeta]);
+    df[q] = scale * (by_zeta * dz + by_start * turning_at_start);
     const double ds_dlength = stations_[at].by_length - stations_[start].by_length;
-    df[q][kLength] = panel.by_length * f[q] + scale * f[q] * 2.0 * ride.drag * ds_dlength;
+    df[q][kLength - kZeta] = panel.by_length * f[q] + scale * f[q] * 2.0 * ride.drag * ds_dlength;
   }
   const LocalRow dv_start = by_time != nullptr ? at_start(p, out.dv) : LocalRow{};
   for (std::size_t q = 0; q <= kNodes; ++q) {
@@ -126,14 +151,15 @@ void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride
     out.v[at] = w * out.growth[at];
     if (by_time != nullptr) {
       LocalRow& dv = out.dv.local[at];
-      dv = dv_start;
-      for (std::size_t k = 0; k < kNodes; ++k) {
-        for (std::size_t j = kZeta; j <= kLength; ++j) dv[j] += row[k] * df[k][j];
-      }
-      for (double& entry : dv) entry *= out.growth[at];
+      Four sum, dz;
+      load(sum, &dv_start[kZeta]);
+      load(dz, &local_dzeta_[at][kZeta]);
+      for (std::size_t k = 0; k < kNodes; ++k) sum += row[k] * df[k];
+      sum *= out.growth[at];
       const double turning = 2.0 * mu * out.v[at];
-      const LocalRow& dz = local_dzeta_[at];
-      for (const std::size_t j : {kZeta, kFirst, kSecond}) dv[j] += turning * (dz[j] - dz_start[j]);
+      sum += turning * (dz - turning_at_start);  // nothing by the length
+      dv[kOwn] = dv_start[kOwn] * out.growth[at];
+      store(sum, &dv[kZeta]);
       dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].by_length - stations_[start].by_length);
     }
     if (q == kNodes) continue;
@@ -141,9 +167,8 @@ void Transcription::flow_through(const Vector& z, const Shape& shape, const Ride
     const double part = rule.weight[q] * panel.ds[q];
     out.time += scale * part * slow.value;
     if (by_time == nullptr) continue;
-    for (std::size_t j = 0; j < by_time->size(); ++j) {
-      (*by_time)[j] += scale * part * slow.first * out.dv.local[at][j];
-    }
+    const double by_v = scale * part * slow.first;
+    for (std::size_t j = 0; j < by_time->size(); ++j) (*by_time)[j] += by_v * out.dv.local[at][j];
     (*by_time)[kLength] += panel.by_length * part * slow.value;
   }
 }

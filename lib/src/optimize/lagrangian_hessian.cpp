@@ -1,6 +1,7 @@
 // The Hessian of a Lagrangian over the stations of a transcription: what each section adds is gathered over the
 // five vectors that its stations share, and told over those of the section before it, up to the start.
 
+#include "optimize/four.hpp"
 #include "optimize/quadrature.hpp"
 #include "optimize/transcription.hpp"
 
@@ -23,9 +24,17 @@ void Transcription::add_square(LocalMatrix& matrix, double factor, const LocalRo
 }
 
 void Transcription::add_pair(LocalMatrix& matrix, double factor, const LocalRow& a, const LocalRow& b) {
+  // Four entries of each row at once, of the upper triangle too, which nobody reads.
+  Four left, right;
+  load(left, a.data());
+  load(right, b.data());
   for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) matrix[i][j] += factor * (a[i] * b[j] + a[j] * b[i]);
+    Four sum;
+    load(sum, matrix[i].data());
+    sum += factor * (a[i] * right + left * b[i]);
+    store(sum, matrix[i].data());
   }
+  matrix[kLength][kLength] += factor * (a[kLength] * b[kLength] + a[kLength] * b[kLength]);
 }
 
 void Transcription::add_turning(LocalMatrix& matrix, double square, double with_length, const LocalRow& dz) {
@@ -101,9 +110,10 @@ void Transcription::add_exponent(StationTerms& terms, double mu, const Ride& rid
 // v = e^phi w with phi = 2 mu zeta - 2 k s, w' = drive e^-phi. phi is linear in the unknowns:
 // d2v = e^phi d2w + dv dphi + dphi dv - v dphi dphi, dphi = 2 mu dzeta - 2 k ds/dL e_L. Where friction changes v goes
 // on, and w = v e^-phi begins anew.
-void Transcription::add_flow_parts(const Vector& z, const Shape& shape, const Ride& ride, const Flow& flow,
-                                   const StationWeights& weights, std::size_t index,
-                                   std::vector<LocalMatrix>& parts) const {
+GLISSADE_WIDE_VARIANT void Transcription::add_flow_parts(const Vector& z, const Shape& shape,
+                                                         const Ride& ride, const Flow& flow,
+                                                         const StationWeights& weights, std::size_t index,
+                                                         std::vector<LocalMatrix>& parts) const {
   const PanelRule& rule = panel_rule();
   const double length = z[layout_.length()];
   const double drag = ride.drag;

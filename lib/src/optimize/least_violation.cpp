@@ -143,8 +143,10 @@ class Search {
     for (std::size_t i = 0; i < equality.size(); ++i) {
       if (gives_way(i)) t = std::max(t, std::fabs(equality[i]));
     }
-    for (const Row& row : rows_->candidates(state_, 0.0)) {
-      if (gives_way(row)) t = std::max(t, rows_->value(state_, row));
+    Vector values;
+    const std::vector<Row> broken = rows_->candidates(state_, 0.0, &values);
+    for (std::size_t i = 0; i < broken.size(); ++i) {
+      if (gives_way(broken[i])) t = std::max(t, values[i]);
     }
     return t;
   }
@@ -154,9 +156,9 @@ class Search {
     double t = 0.0;
     const Vector equality = rows_->equality_values(state);
     for (std::size_t i = 0; i < equality.size(); ++i) t = std::max(t, std::fabs(equality[i]) / weight(i));
-    for (const Row& row : rows_->candidates(state, 0.0)) {
-      t = std::max(t, rows_->value(state, row) / weight(row));
-    }
+    Vector values;
+    const std::vector<Row> broken = rows_->candidates(state, 0.0, &values);
+    for (std::size_t i = 0; i < broken.size(); ++i) t = std::max(t, values[i] / weight(broken[i]));
     return t;
   }
 
@@ -166,8 +168,10 @@ class Search {
     for (std::size_t i = 0; i < equality.size(); ++i) {
       if (!gives_way(i)) kept = std::max(kept, std::fabs(equality[i]));
     }
-    for (const Row& row : rows_->candidates(state_, 0.0)) {
-      if (!gives_way(row)) kept = std::max(kept, rows_->value(state_, row));
+    Vector values;
+    const std::vector<Row> broken = rows_->candidates(state_, 0.0, &values);
+    for (std::size_t i = 0; i < broken.size(); ++i) {
+      if (!gives_way(broken[i])) kept = std::max(kept, values[i]);
     }
     return kept;
   }
@@ -186,7 +190,8 @@ class Search {
         active_rows.push_back(set_[i - 2 * equalities]);
       }
     }
-    set_ = rows_->candidates(state_, kBand);
+    Vector values;
+    set_ = rows_->candidates(state_, kBand, &values);
     for (const Row& row : active_rows) {
       const auto found = std::find(set_.begin(), set_.end(), row);
       if (found == set_.end()) continue;
@@ -211,20 +216,25 @@ class Search {
       row[n_] = -weight(set_[i]);
     }
     program_.inequality(row_count() - 1, n_) = -1.0;
-    program_.inequality_value = row_values(state_);
+    program_.inequality_value = row_values(equality, values);
     update_curvature();
   }
 
   /// Values of the program's rows at a state, less what they are given by t now.
   [[nodiscard]] Vector row_values(const State& state) const {
+    Vector of_set;
+    of_set.reserve(set_.size());
+    for (const Row& row : set_) of_set.push_back(rows_->value(state, row));
+    return row_values(rows_->equality_values(state), of_set);
+  }
+  [[nodiscard]] Vector row_values(const Vector& equality, const Vector& of_set) const {
     Vector values;
     values.reserve(row_count());
-    const Vector equality = rows_->equality_values(state);
     for (std::size_t i = 0; i < equality.size(); ++i) {
       values.push_back(equality[i] - weight(i) * t_);
       values.push_back(-equality[i] - weight(i) * t_);
     }
-    for (const Row& row : set_) values.push_back(rows_->value(state, row) - weight(row) * t_);
+    for (std::size_t i = 0; i < set_.size(); ++i) values.push_back(of_set[i] - weight(set_[i]) * t_);
     values.push_back(-t_);
     return values;
   }
@@ -309,17 +319,17 @@ class Search {
   }
 
   struct Trial {
-    Vector z;
+    State state;  ///< without derivatives; none where the step leads to no track
     double t = HUGE_VAL;
   };
-  [[nodiscard]] Trial tried(const Vector& step, State& state) const {
+  [[nodiscard]] Trial tried(const Vector& step) const {
     Trial trial;
-    trial.z = z_;
-    add_scaled(trial.z.data(), 1.0, step.data(), n_);
-    if (!track_->is_track(trial.z)) return trial;
-    state = rows_->state(trial.z, false);
+    Vector z = z_;
+    add_scaled(z.data(), 1.0, step.data(), n_);
+    if (!track_->is_track(z)) return trial;
+    trial.state = rows_->state(z, false);
     ++control_.evaluations;
-    trial.t = violation(state);
+    trial.t = violation(trial.state);
     return trial;
   }
 
@@ -331,8 +341,7 @@ class Search {
     for (std::size_t i = 0; i + 1 < there.size(); ++i) {
       program.inequality_value[i] = there[i] - dot(program.inequality.row(i), solution_.step.data(), n_);
     }
-    State state;
-    return tried(solve(program, metric_, solution_.active).step, state);
+    return tried(solve(program, metric_, solution_.active).step);
   }
 
   /// Takes the step if it keeps part of its promise, and sets the price of the next one. @return if it did
@@ -340,11 +349,10 @@ class Search {
     constexpr double kGood = 0.75;        // theory: usual bounds of a trust region
     constexpr double kFall = 0.25;        // theory: usual bounds of a trust region
     constexpr double kWorthwhile = 1e-3;  // theory: usual bounds of a trust region
-    State reached;
-    Trial trial = tried(solution_.step, reached);
+    Trial trial = tried(solution_.step);
     double share = (t_ - trial.t) / promised;
-    if (share < kGood && !reached.z.empty()) {
-      Trial again = corrected(reached);
+    if (share < kGood && !trial.state.z.empty()) {
+      Trial again = corrected(trial.state);
       if (again.t < trial.t) {
         trial = std::move(again);
         share = (t_ - trial.t) / promised;
@@ -359,8 +367,9 @@ class Search {
     const double shift = 2.0 * std::min(share, 1.0) - 1.0;
     price_ = std::max(kLowestPrice, price_ * std::max(kFall, 1.0 - shift * shift * shift));
     growth_ = 2.0;
-    z_ = std::move(trial.z);
-    state_ = rows_->state(z_, true);
+    state_ = std::move(trial.state);
+    rows_->add_derivatives(state_);
+    z_ = state_.z;
     t_ = trial.t;
     linearise();
     return true;

@@ -42,8 +42,10 @@ bool concerns(const RowAt& at, std::size_t station) {
 void add_stations(const RowAt& at, std::size_t ride, std::size_t first, std::vector<Row>& rows) {
   Row row = at.row;
   row.ride = ride;
-  for (row.place = first; row.place <= last_station(at); ++row.place) {
-    if (at.track.stations()[row.place].watched && concerns(at, row.place)) rows.push_back(row);
+  for (const std::size_t station : at.track.watched()) {
+    if (station < first || !concerns(at, station)) continue;
+    row.place = station;
+    rows.push_back(row);
   }
 }
 

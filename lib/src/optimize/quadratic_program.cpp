@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -53,11 +54,10 @@ class ActiveBasis {
     return split;
   }
 
-  void append(const Split& split) {
-    Vector column = split.along;
-    column.push_back(split.rest_norm);
-    r_.push_back(std::move(column));
-    q_.push_back(split.rest);
+  void append(Split split) {
+    split.along.push_back(split.rest_norm);
+    r_.push_back(std::move(split.along));
+    q_.push_back(std::move(split.rest));
     for (double& entry : q_.back()) entry /= split.rest_norm;
   }
 
@@ -71,7 +71,7 @@ class ActiveBasis {
       const double cosine = a / size;
       const double sine = b / size;
       for (std::size_t k = j; k < r_.size(); ++k) rotate(r_[k][j], r_[k][j + 1], cosine, sine);
-      for (std::size_t i = 0; i < q_[j].size(); ++i) rotate(q_[j][i], q_[j + 1][i], cosine, sine);
+      rotate_rows(q_[j].data(), q_[j + 1].data(), cosine, sine, q_[j].size());
       r_[j].pop_back();
     }
     q_.pop_back();
@@ -81,7 +81,7 @@ class ActiveBasis {
   [[nodiscard]] Vector solve(Vector value) const {
     for (std::size_t i = size(); i-- > 0;) {
       value[i] /= r_[i][i];
-      for (std::size_t j = 0; j < i; ++j) value[j] -= value[i] * r_[i][j];
+      add_scaled(value.data(), -value[i], r_[i].data(), i);
     }
     return value;
   }
@@ -150,11 +150,11 @@ class DualMethod {
   /// Enters the equality rows and those likely to hold, whatever their values.
   void begin(const std::vector<std::size_t>& likely) {
     for (std::size_t i = 0; i < program_.equality.rows(); ++i) {
-      const ActiveBasis::Split split = basis_.split(in_metric(program_.equality.row(i)));
+      ActiveBasis::Split split = basis_.split(in_metric(program_.equality.row(i)));
       if (split.dependent) {
         depending_.push_back(i);
       } else {
-        enter(split, i);
+        enter(std::move(split), i);
       }
     }
     fixed_ = source_.size();
@@ -165,9 +165,9 @@ class DualMethod {
     for (std::size_t k = 0; k < likely.size(); ++k) {
       const std::size_t i = likely[k];
       if (is_active_[i]) continue;
-      const ActiveBasis::Split split = basis_.split(rows.row(k), gradient_.size());
+      ActiveBasis::Split split = basis_.split(rows.row(k), gradient_.size());
       if (split.dependent) continue;
-      enter(split, i);
+      enter(std::move(split), i);
       is_active_[i] = true;
       ++changes_;
     }
@@ -214,8 +214,8 @@ class DualMethod {
   /// y and the multipliers anew from the active set alone: steps leave rounding behind.
   void refresh() { basis_.minimum(gradient_, wanted_, y_, multipliers_); }
 
-  void enter(const ActiveBasis::Split& split, std::size_t row) {
-    basis_.append(split);
+  void enter(ActiveBasis::Split split, std::size_t row) {
+    basis_.append(std::move(split));
     source_.push_back(row);
   }
 
@@ -263,8 +263,8 @@ class DualMethod {
                                                 double& value) const {
     const Vector d = step();
     std::vector<std::size_t> rows;
-    std::vector<const double*> jacobian;
-    for (const std::size_t i : among) jacobian.push_back(program_.inequality.row(i));
+    std::vector<const double*> jacobian(among.size());
+    for (std::size_t k = 0; k < among.size(); ++k) jacobian[k] = program_.inequality.row(among[k]);
     Vector along(among.size());
     dots(jacobian, d.data(), d.size(), along.data());
     value = program_.tolerance;
@@ -307,7 +307,7 @@ class DualMethod {
     const Vector normal = in_metric(program_.inequality.row(row));
     double multiplier = 0.0;
     while (changes_++ < most_changes_) {
-      const ActiveBasis::Split split = basis_.split(normal);
+      ActiveBasis::Split split = basis_.split(normal);
       const Vector share = basis_.solve(split.along);
       double dual_step = kUnlimited;
       std::size_t leaving = 0;
@@ -329,7 +329,7 @@ class DualMethod {
         value -= taken * split.rest_norm * split.rest_norm;
       }
       if (full_step <= dual_step) {
-        enter(split, row);
+        enter(std::move(split), row);
         wanted_.push_back(-(*inequality_value_)[row]);
         multipliers_.push_back(multiplier);
         is_active_[row] = true;

@@ -49,6 +49,7 @@ Rows::Rows(const ScaledProblem& problem, const Transcription& track)
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
     const LimitSpec& limit = problem.limits[i];
     if (limit.side != 0) continue;
+    if (limit.measure == Measure::entry_slope_angle && !entry_cosine_) entry_cosine_ = math::cos(limit.bound);
     equality_limits_.emplace_back(i, 0);
     const std::size_t last = problem.rides.size() - 1;
     if (limit.measure->is_met_at_each_end_of_range() && last > 0) equality_limits_.emplace_back(i, last);
@@ -69,6 +70,18 @@ State Rows::state(const Vector& z, bool derivatives) const {
     track_.flow(z, state.shape, problem_.rides[r], state.flows[r], derivatives);
   }
   return state;
+}
+
+void Rows::add_derivatives(State& state) const {
+  if (problem_.places_from == PlacesFrom::finish) {
+    // To the same bits: from where positions count from the finish their differences are rounded otherwise.
+    track_.shape(state.z, state.shape, true);
+    track_.count_from_finish(state.shape);
+  } else {
+    track_.add_derivatives(state.z, state.shape);
+  }
+  for (std::size_t r = 0; r < problem_.rides.size(); ++r)
+    track_.add_derivatives(state.z, state.shape, problem_.rides[r], state.flows[r]);
 }
 
 double Rows::objective(const State& state) const {
@@ -203,14 +216,10 @@ double Rows::margin(const Row& row) const {
   // Where a fixed slope angle makes the load there is no more margin than that leaves, none on the way straight down;
   // and from rest hardly more right behind the start.
   constexpr double kNear = 0.01;  // [chords]; taste
+  if (!entry_cosine_) return wanted;
   const double way = straight ? 0.0 : station.arc_length(track_.mesh().core_length) - problem_.lead_in;
-  for (const auto& [fixed, ride] : equality_limits_) {
-    const LimitSpec& angle = problem_.limits[fixed];
-    if (angle.measure != Measure::entry_slope_angle) continue;
-    const double left = (math::cos(angle.bound) - effective_bound(limit)) / effective_scale(limit);
-    return std::min(wanted, 0.5 * std::max(0.0, left) + wanted * way / kNear);
-  }
-  return wanted;
+  const double left = (*entry_cosine_ - effective_bound(limit)) / effective_scale(limit);
+  return std::min(wanted, 0.5 * std::max(0.0, left) + wanted * way / kNear);
 }
 
 void Rows::gradient(const State& state, const Row& row, double* out) const {
@@ -226,22 +235,26 @@ double Rows::place(const State& state, const Row& row) const {
 }
 
 std::vector<Row> Rows::candidates(const State& state, double band, Vector* values) const {
+  std::vector<Row> near;
   std::vector<Row> rows;
+  if (values != nullptr) values->clear();
   for (std::size_t i = 0; i < problem_.limits.size(); ++i) {
     const LimitSpec& limit = problem_.limits[i];
     if (limit.side == 0) continue;
     Row first;
     first.limit = i;
+    rows.clear();
     limit.measure->add_rows(at(state, limit, first), rows);
+    const double bound = effective_bound(limit);
+    const double scale = effective_scale(limit);
+    for (const Row& row : rows) {
+      const double there = limit.side * (measure(state, limit, row) - bound) / scale + margin(row);
+      if (!(there > -band)) continue;
+      near.push_back(row);
+      if (values != nullptr) values->push_back(there);
+    }
   }
-  if (values != nullptr) values->clear();
-  std::erase_if(rows, [&](const Row& row) {
-    const double there = value(state, row);
-    const bool is_near = there > -band;
-    if (is_near && values != nullptr) values->push_back(there);
-    return !is_near;
-  });
-  return rows;
+  return near;
 }
 
 void Rows::add_measure_weights(const State& state, const LimitSpec& limit, const Row& row, double factor,

@@ -8,6 +8,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -54,6 +55,8 @@ class Rows {
   Rows(const ScaledProblem& problem, const Transcription& track);
 
   [[nodiscard]] State state(const Vector& z, bool derivatives) const;
+  /// Adds the derivatives to a state without.
+  void add_derivatives(State& state) const;
 
   [[nodiscard]] double objective(const State& state) const;
   [[nodiscard]] Vector objective_gradient(const State& state) const;
@@ -120,6 +123,7 @@ class Rows {
   EnvelopeRows envelope_;
   std::vector<std::pair<std::size_t, std::size_t>> equality_limits_;  ///< limit, ride
   std::size_t fixed_equalities_ = 0;
+  std::optional<double> entry_cosine_;  ///< where one value is the entry slope angle's
   Vector margins_;
 };
 

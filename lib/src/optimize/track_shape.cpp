@@ -3,6 +3,7 @@
 #include "glissade/core/many_angles.hpp"
 #include "glissade/core/math.hpp"
 
+#include "optimize/four.hpp"
 #include "optimize/quadrature.hpp"
 #include "optimize/transcription.hpp"
 
@@ -32,8 +33,8 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
     out.curvature[i] = curvature(z, i);
   }
   math::sines_cosines(out.zeta, out.sin, out.cos);
-  out.dx = derivatives ? no_derivatives() : Derivatives{};
-  out.dy = out.dx;
+  out.dx = {};
+  out.dy = {};
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Panel& panel = panels_[p];
     const std::size_t start = start_station(p);
@@ -49,8 +50,14 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
       out.x[panel.first + q] = out.x[start] + scale * sum_x;
       out.y[panel.first + q] = out.y[start] + scale * sum_y;
     }
-    if (derivatives) differentiate_shape(z, p, out);
   }
+  if (derivatives) add_derivatives(z, out);
+}
+
+void Transcription::add_derivatives(const Vector& z, Shape& shape) const {
+  shape.dx = no_derivatives();
+  shape.dy = shape.dx;
+  for (std::size_t p = 0; p < panels_.size(); ++p) differentiate_shape(z, p, shape);
 }
 
 void Transcription::count_from_finish(Shape& shape) const {
@@ -72,7 +79,8 @@ void Transcription::count_from_finish(Shape& shape) const {
   }
 }
 
-void Transcription::differentiate_shape(const Vector& z, std::size_t p, Shape& out) const {
+GLISSADE_WIDE_VARIANT void Transcription::differentiate_shape(const Vector& z, std::size_t p,
+                                                              Shape& out) const {
   const PanelRule& rule = panel_rule();
   const Panel& panel = panels_[p];
   const double scale = panel.scale(z[layout_.length()]);
@@ -81,20 +89,25 @@ void Transcription::differentiate_shape(const Vector& z, std::size_t p, Shape& o
   const LocalRow dx_start = at_start(p, out.dx);
   const LocalRow dy_start = at_start(p, out.dy);
   const std::size_t start = start_station(p);
+  // Slope angles know nothing of the length: what is added to that entry is nothing.
+  Four dz[kNodes];
+  for (std::size_t k = 0; k < kNodes; ++k) load(dz[k], &local_dzeta_[panel.first + k][kZeta]);
   for (std::size_t q = 0; q <= kNodes; ++q) {
     const std::size_t at = panel.first + q;
     LocalRow& dx = out.dx.local[at];
     LocalRow& dy = out.dy.local[at];
     dx = dx_start;
     dy = dy_start;
+    Four along, down;
+    load(along, &dx[kZeta]);
+    load(down, &dy[kZeta]);
     for (std::size_t k = 0; k < kNodes; ++k) {
       const double part = scale * (q < kNodes ? rule.to_node[q][k] : rule.weight[k]) * panel.ds[k];
-      const LocalRow& dz = local_dzeta_[panel.first + k];
-      for (const std::size_t j : {kZeta, kFirst, kSecond}) {
-        dx[j] -= part * out.sin[panel.first + k] * dz[j];
-        dy[j] += part * out.cos[panel.first + k] * dz[j];
-      }
+      along -= part * out.sin[panel.first + k] * dz[k];
+      down += part * out.cos[panel.first + k] * dz[k];
     }
+    store(along, &dx[kZeta]);
+    store(down, &dy[kZeta]);
     if (panel.by_length == 0.0) continue;
     dx[kLength] += panel.by_length * (out.x[at] - out.x[start]) / scale;
     dy[kLength] += panel.by_length * (out.y[at] - out.y[start]) / scale;
@@ -140,9 +153,10 @@ Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t bas
   };
   foot.x = shape.x[base];
   foot.y = shape.y[base];
-  std::array<double, kNodes + 1> angles, sine, cosine;
+  // As many as two registers of four hold: one too many costs less than one by itself.
+  std::array<double, kNodes + 2> angles, sine, cosine;
   for (std::size_t k = 0; k < kNodes; ++k) angles[k] = angle(ds * rule.node[k]);
-  angles[kNodes] = angle(ds);
+  angles[kNodes] = angles[kNodes + 1] = angle(ds);
   math::sines_cosines(angles, sine, cosine);
   for (std::size_t k = 0; k < kNodes; ++k) {
     foot.x += rule.weight[k] * ds * cosine[k];

@@ -35,11 +35,13 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.lead_out > 0.0) add_straight(Part::lead_out);
 
   add_sections();
-  station_turn_.resize(stations_.size());
-  station_angle_.resize(stations_.size());
+  station_turn_.assign(stations_.size(), 0.0);
+  station_angle_.assign(stations_.size(), 0.0);
   local_dzeta_.resize(stations_.size());
   for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (stations_[i].watched) watched_.push_back(i);
     local_dzeta_[i] = local_dzeta(stations_[i]);
+    if (fine_.empty()) continue;
     station_turn_[i] = own_turn(stations_[i].sigma);
     station_angle_[i] = own_angle(stations_[i].sigma);
   }
@@ -142,8 +144,9 @@ void Transcription::turning_row(const Station& station, double* row) const {
 void Transcription::expand(const LocalRow& row, std::size_t section, const double* own, double* out) const {
   const std::size_t n = layout_.size();
   if (own != nullptr && row[kOwn] != 0.0) add_scaled(out, row[kOwn], own, n);
-  if (row[kZeta] != 0.0) add_scaled(out, row[kZeta], dzeta_starts_.row(section), n);
   const std::size_t piece = sections_[section].piece;
+  // No angle knows of the knots behind it.
+  if (row[kZeta] != 0.0) add_scaled(out, row[kZeta], dzeta_starts_.row(section), layout_.turn(piece + 2));
   out[layout_.turn(piece)] += row[kFirst];
   out[layout_.turn(piece + 1)] += row[kSecond];
   out[layout_.length()] += row[kLength];
@@ -345,7 +348,7 @@ void Transcription::add_panels(const Stretch& stretch) {
   const double r_first = std::sqrt(a + shift);
   const double r_last = std::sqrt(b + shift);
   int count = 1;
-  if (r_first > 0.0) {
+  if (r_first > 0.0 && r_last > kPanelGrowth * r_first) {
     const double growth = math::log(r_last / r_first) / math::log(kPanelGrowth);
     count = std::max(1, static_cast<int>(std::ceil(growth - 1e-9)));
   }

@@ -193,6 +193,8 @@ class Transcription {
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
+  /// Those at which limits are held, in order.
+  [[nodiscard]] const std::vector<std::size_t>& watched() const { return watched_; }
   /// out += factor dzeta/d(unknown) of a station; constant
   void add_dzeta(std::size_t station, double factor, double* out) const;
   /// out += factor d(.)/d(unknown) of a station
@@ -240,9 +242,13 @@ class Transcription {
   void foot_derivatives(const Vector& z, const Shape& shape, const Foot& foot, Vector& dx, Vector& dy) const;
 
   void shape(const Vector& z, Shape& out, bool derivatives) const;
+  /// Adds the derivatives to a shape without, whose positions count from the start.
+  void add_derivatives(const Vector& z, Shape& shape) const;
   /// Positions of a shape, counted from the start, count from the finish afterwards.
   void count_from_finish(Shape& shape) const;
   void flow(const Vector& z, const Shape& shape, const Ride& ride, Flow& out, bool derivatives) const;
+  /// Adds the derivatives to a flow without.
+  void add_derivatives(const Vector& z, const Shape& shape, const Ride& ride, Flow& flow) const;
 
   /// Second derivative of the Lagrangian that the weights describe.
   [[nodiscard]] Matrix hessian(const Vector& z, const Shape& shape, const std::vector<Ride>& rides,
@@ -293,6 +299,10 @@ class Transcription {
                         const LocalRow& dz);
 
   void differentiate_shape(const Vector& z, std::size_t panel, Shape& out) const;
+  /// By the integrating factor, from the start of each panel.
+  void set_growth(const Vector& z, const Shape& shape, const Ride& ride, Flow& out) const;
+  void flow_through_all(const Vector& z, const Shape& shape, const Ride& ride, Flow& out,
+                        bool derivatives) const;
   /// One panel of a sliding point's flow.
   /// @param by_time  its part of the time's derivatives is added; none: no derivatives
   void flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t panel, Flow& out,
@@ -360,6 +370,7 @@ class Transcription {
   double fixed_share_ = 0.0;      ///< sigma there
   std::vector<Panel> panels_;
   std::vector<Station> stations_;
+  std::vector<std::size_t> watched_;
   std::vector<Section> sections_;
   Matrix dzeta_starts_;                ///< dzeta where the sections begin
   std::vector<LocalRow> local_dzeta_;  ///< of the stations
