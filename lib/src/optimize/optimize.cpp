@@ -106,6 +106,16 @@ class Course {
     if (!stopped_) take(searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
   }
 
+  /// From the best one to another optimum of its problem, where that wins something.
+  void onto(Found found) {
+    constexpr double kPays = 5e-7;  // accuracy: half that of a time
+    const double known = best_->found->objective;
+    if (stopped_ || !(known - found.objective > kPays * std::fabs(known))) return;
+    const Candidate end = searcher_.ended_on(*best_, std::move(found));
+    const bool converged = end.kept && !end.stopped && end.found->residual <= options_.tolerance;
+    if (converged) take(end);
+  }
+
   /// From several, of which the best one counts. On their way there they tell which can be that.
   void from(const std::vector<Foothold>& footholds) {
     if (control_.any_track) {
@@ -222,15 +232,22 @@ std::string ended_text(const Objective& objective, OptimizeStatus status, bool s
 }
 
 /// Tells of the best track that keeps every limit.
-void tell_track(const Candidate& best, const OptimizeOptions& options, SearchControl& control,
+void tell_track(Course& course, const OptimizeOptions& options, SearchControl& control,
                 OptimizeReport& report) {
+  std::optional<Found> moved;
+  {
+    const Candidate& priced = course.best();
+    report.active =
+        priced_limits(*priced.problem, *priced.found, priced.multipliers_ahead, options, control, moved);
+  }
+  if (moved) course.onto(std::move(*moved));
+  const Candidate& best = course.best();
   const Found& found = *best.found;
   report.travel_time = best.judgement.travel_time;
   report.exit_speed = best.judgement.exit_speed;
   report.checks = best.judgement.checks;
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = best.finer_mesh_wins;
-  report.active = priced_limits(*best.problem, found, best.multipliers_ahead, options, control);
 }
 
 /// Tells why there is no track.
@@ -293,8 +310,8 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
     tell_none(std::move(conflict), certain, course.stopped(), report);
     return optimum;
   }
+  tell_track(course, options, control, report);
   optimum.centerline = course.best().track;
-  tell_track(course.best(), options, control, report);
   const bool converged = report.first_order_residual <= options.tolerance && !course.stopped();
   report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
   report.message = ended_text(problem.objective, report.status, course.stopped(), patience.out_of_time());

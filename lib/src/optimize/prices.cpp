@@ -150,22 +150,22 @@ class Sequence {
 };
 
 /// Where the mesh holds jumps of the curvature beside where they belong.
-Found with_knots_at_rest(const ScaledProblem& problem, Found found, const OptimizeOptions& options,
-                         SearchControl& control) {
+std::optional<Found> with_knots_at_rest(const ScaledProblem& problem, const Found& found,
+                                        const OptimizeOptions& options, SearchControl& control) {
   // Prices miss by the first order of what the objective misses by the second.
   constexpr KnotMoves kMoves{1e-6, 1e-7, 1e-10, true, 4};  // taste
-  std::optional<Found> moved = with_moved_knots(problem, found, options.tolerance, control, kMoves);
-  return moved ? std::move(*moved) : std::move(found);
+  return with_moved_knots(problem, found, options.tolerance, control, kMoves);
 }
 
 Priced priced(const ScaledProblem& problem, Found found, const Vector& ahead, const OptimizeOptions& options,
-              SearchControl& control) {
+              SearchControl& control, std::optional<Found>& moved) {
   constexpr int kRounds = 3;                // budget
   constexpr std::size_t kMostPieces = 200;  // budget
   const Vector begun = multipliers_of(problem, found);
   bool same = ahead.empty() || same_prices(begun, ahead);
   const bool refined = !same;
-  if (refined) found = with_knots_at_rest(problem, std::move(found), options, control);
+  if (refined) moved = with_knots_at_rest(problem, found, options, control);
+  if (moved) found = *moved;
   if (const std::optional<MeshTrack> finer = halved_beside_jumps(found)) {
     if (auto next = on_finer_mesh(problem, found, *finer, options, control)) found = std::move(*next);
   }
@@ -338,8 +338,9 @@ void set_price(const Kink& kink, double unit, ActiveLimit& active) {
 }  // namespace
 
 std::vector<ActiveLimit> priced_limits(const ScaledProblem& problem, const Found& found, const Vector& ahead,
-                                       const OptimizeOptions& options, SearchControl& control) {
-  Priced at = priced(problem, found, ahead, options, control);
+                                       const OptimizeOptions& options, SearchControl& control,
+                                       std::optional<Found>& moved) {
+  Priced at = priced(problem, found, ahead, options, control, moved);
   const std::vector<Kink> kinks = kinks_of(problem, at, options, control);
   std::vector<ActiveLimit> limits = binding_limits(problem, at.found, at.multipliers, at.error, 1.0);
   for (const Kink& kink : kinks) {

@@ -5,6 +5,7 @@
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -23,8 +24,9 @@ namespace glissade::optimizer {
 /// that nobody should build. Where a mesh whose every piece is halved has other prices, so are all pieces, until prices
 /// stay. Those that still change alike from mesh to mesh are continued (by Aitken), and told with how far that is.
 /// @param ahead  multipliers of each limit on such a mesh (Outlook::by_limit); none where it was not looked at
+/// @param moved  set to the optimum with moved knots, where they were looked for and win something
 [[nodiscard]] std::vector<ActiveLimit> priced_limits(const ScaledProblem& problem, const Found& found,
                                                      const Vector& ahead, const OptimizeOptions& options,
-                                                     SearchControl& control);
+                                                     SearchControl& control, std::optional<Found>& moved);
 
 }  // namespace glissade::optimizer

@@ -323,6 +323,17 @@ Candidate Searcher::ended(Stage stage) {
   return std::move(stage.candidate);
 }
 
+Candidate Searcher::ended_on(const Candidate& known, Found found) {
+  Candidate candidate;
+  candidate.problem = known.problem;
+  candidate.rough = known.rough;
+  margins_ = found.rows->margins();
+  finer_mesh_wins_ = known.finer_mesh_wins;
+  multipliers_ahead_ = known.multipliers_ahead;
+  mend(candidate, laid_anew(*candidate.problem, std::move(found)));
+  return candidate;
+}
+
 Candidate Searcher::mended(const Passages& passages, const Mesh& mesh, const Vector& z) {
   Candidate candidate = begun(passages);
   mend_any(candidate, mesh, z);

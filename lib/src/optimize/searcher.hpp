@@ -50,6 +50,8 @@ class Searcher {
   [[nodiscard]] Stage carried_on(const Passages& passages, const Mesh& mesh, const Vector& z);
   /// The same to its end. Where it comes to nothing, the track that it begins with, mended.
   [[nodiscard]] Candidate ended(Stage stage);
+  /// Another optimum of a candidate's own problem and margins, to its end.
+  [[nodiscard]] Candidate ended_on(const Candidate& known, Found found);
   /// A track that keeps the limits on its mesh, mended so that it keeps them everywhere, however slow it is.
   [[nodiscard]] Candidate mended(const Passages& passages, const Mesh& mesh, const Vector& z);
 
