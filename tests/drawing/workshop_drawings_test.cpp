@@ -1,11 +1,13 @@
 #include "glissade/drawing/workshop_drawings.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/slot.hpp"
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/sheet_file.hpp"
 #include "glissade/io/workshop_tables.hpp"
 
+#include "parts/angle_bar.hpp"
 #include "support/catch.hpp"
 #include "support/shop_parts.hpp"
 
@@ -13,6 +15,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <variant>
 
 using namespace glissade;
 
@@ -73,9 +76,9 @@ TEST_CASE("a cutting file has the part's contour and holes, moved to its corner;
 TEST_CASE("the set of drawings has every part, list and table, each sheet numbered, and is the same twice") {
   const Workshop workshop = testing::upright_workshop();
   const std::vector<Sheet> set = drawing_set(workshop);
-  REQUIRE(set.size() == 19);
+  REQUIRE(set.size() == 22);
   for (std::size_t i = 0; i < set.size(); ++i) {
-    CHECK(set[i].title.sheet == std::to_string(i + 1) + "/19");
+    CHECK(set[i].title.sheet == std::to_string(i + 1) + "/22");
     CHECK(set[i].title.owner == workshop.name);
   }
   for (const char* text : {"General arrangement", "left_wall", "floor", "leaning_wall", "gore", "pipe",
@@ -178,7 +181,7 @@ TEST_CASE("tables as CSV: units in the header, one row each, texts with commas i
         "part,hit,distance_mm,length_mm,angle_deg,sum_deg,radius_mm,chord_error_mm\n"
         "2,1,250,0,1.718873385,1.718873385,2500,0.2\n");
   const std::string cuts = cut_list_csv(workshop);
-  CHECK(std::count(cuts.begin(), cuts.end(), '\n') == 1 + 13);
+  CHECK(std::count(cuts.begin(), cuts.end(), '\n') == 1 + 16);
   CHECK(cuts.find("\n1,left_wall,S235,4,2,") != std::string::npos);
   CHECK(cuts.find("\n4,gore,S235,4,2,,,,,,0,0,") != std::string::npos);
   const std::string out = setting_out_csv(workshop);
@@ -208,6 +211,34 @@ TEST_CASE(
   CHECK(cuts.find("\n1,brace,S235,4,1,2000,120,4240,0,0,") != std::string::npos);
   CHECK(cuts.find("\n2,leg,S235,4,1,1500,60,,,,") != std::string::npos);
   CHECK(cuts.find(",tube 60 x 60 x 4 mm\n") != std::string::npos);
+}
+
+TEST_CASE(
+    "an angle's row tells the straight bar that it takes, its sheet both legs and how its ends are cut") {
+  Workshop workshop;
+  workshop.name = "angles";
+  workshop.parts.push_back(testing::shop_part(1, "frame_angle", testing::mitred_angle()));
+  workshop.parts.push_back(testing::shop_part(2, "pipe_flange", testing::angle_ring()));
+  for (ShopPart& part : workshop.parts)
+    part.pattern = FlatPattern{parts::lying_leg(std::get<AngleBar>(part.body)), {}, {}, {}, {}, 0.0};
+  const std::string cuts = cut_list_csv(workshop);
+  INFO(cuts);
+  // Its longer edge runs from -30 to 560 mm.
+  CHECK(cuts.find("\n1,frame_angle,S235,4,1,590,60,,2,,") != std::string::npos);
+  CHECK(cuts.find(",angle 60 x 60 x 6 mm\n") != std::string::npos);
+  // Round the centroid of an L of 50 x 50 x 5 mm, 13.82 mm from its heel (1312.5 + 4375 over 475 mm^2, by its two legs).
+  const double around = 2.0 * std::numbers::pi * (200.0 + (250.0 * 25.0 + 225.0 * 2.5) / 475.0);
+  CHECK(cuts.find("\n2,pipe_flange,S235,4,1," + rounded_text(around, 7)) != std::string::npos);
+  std::string texts;
+  for (const Sheet& sheet : drawing_set(workshop)) {
+    for (const DrawnText& text : sheet.texts) texts += text.text + "\n";
+    for (const SheetView& view : sheet.views) texts += view.caption + "\n";
+  }
+  INFO(texts);
+  CHECK(texts.find("angle 60 x 60 x 6 mm, EN 10056-1\n590 mm of bar\nends cut at 63.4 and 45 deg\n") !=
+        std::string::npos);
+  CHECK(texts.find("rolled, the drilled leg outwards\n") != std::string::npos);
+  CHECK(texts.find("Drilled leg, the other one towards you") != std::string::npos);
 }
 
 TEST_CASE("the table of sheets tells the stock, its pieces, and the share of it that they use") {

@@ -219,6 +219,23 @@ double volume_of(const TroughGore& gore) {
   return ring - wedge + sides;
 }
 
+/// Both legs: by Green over lines and arcs between heel and toe, heel and root.
+double volume_of(const AngleBar& bar) {
+  const auto area = [](const ArcPath& line, const ArcPath& left) {
+    if (line.closed) return std::fabs(signed_area(line) - signed_area(left));
+    ArcPath round = line;
+    round.closed = true;
+    round.vertices.back().bulge = 0.0;
+    for (const PathVertex& vertex : reversed(left).vertices) round.vertices.push_back(vertex);
+    round.vertices.back().bulge = 0.0;
+    return std::fabs(signed_area(round));
+  };
+  double lying = area(bar.heel, bar.toe);
+  for (const ArcPath& slot : bar.slots) lying -= std::fabs(signed_area(slot));
+  return lying * bar.thickness + area(bar.heel, bar.root) * (bar.height - bar.thickness) -
+         drilled(bar.holes, bar.thickness);
+}
+
 }  // namespace
 
 TEST_CASE("Open CASCADE reads STEP as valid closed solids with the volumes of their closed forms",

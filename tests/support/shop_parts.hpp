@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/slot.hpp"
 #include "glissade/parts/shop_part.hpp"
 
 #include "support/workshop_shapes.hpp"
@@ -137,6 +138,38 @@ inline glissade::RolledSheet leaning_sheet(double lean = 0.5) {
   return sheet;
 }
 
+/// An angle between two mitres, with holes and slots.
+inline glissade::AngleBar mitred_angle() {
+  const auto line = [](double from, double to, double y) {
+    return glissade::ArcPath{{{{from, y}, 0.0}, {{to, y}, 0.0}}, false};
+  };
+  glissade::AngleBar bar{line(0.0, 0.5, 0.0), line(-0.003, 0.506, 0.006), line(-0.03, 0.56, 0.06), 0.006,
+                         0.06};
+  bar.holes = {{{0.1, 0.037}, 5.5e-3}, {{0.4, 0.037}, 5.5e-3}};
+  bar.slots = {path_of(glissade::Slot{{0.25, 0.037}, {5e-3, 4e-3}, 6e-3})};
+  return bar;
+}
+
+/// Angles rolled to a whole ring and to half a one with straight ends, their drilled legs outwards.
+inline glissade::AngleBar angle_ring() {
+  const auto line = [](double radius) { return reversed(path_of(glissade::Circle{{}, radius})); };
+  glissade::AngleBar bar{line(0.2), line(0.205), line(0.25), 0.005, 0.05};
+  for (int k = 0; k < 6; ++k)
+    bar.holes.push_back({{0.23 * std::cos(k + 0.5), 0.23 * std::sin(k + 0.5)}, 5.5e-3});
+  return bar;
+}
+
+inline glissade::AngleBar half_angle_ring() {
+  const auto line = [](double radius) {
+    return glissade::ArcPath{
+        {{{radius, 0.04}, 0.0}, {{radius, 0.0}, -1.0}, {{-radius, 0.0}, 0.0}, {{-radius, 0.04}, 0.0}}, false};
+  };
+  glissade::AngleBar bar{line(0.2), line(0.205), line(0.25), 0.005, 0.05};
+  bar.holes = {{{0.0, -0.23}, 6e-3}};
+  bar.slots = {path_of(glissade::Slot{{0.23, 0.01}, {0.0, 6e-3}, 6e-3})};
+  return bar;
+}
+
 /// Plates, a floor, a leaning wall, gores of a pipe: one of each kind, some in several places.
 inline glissade::Workshop sample_workshop() {
   glissade::Workshop workshop;
@@ -181,6 +214,9 @@ inline glissade::Workshop sample_workshop() {
   workshop.parts.push_back(shop_part(11, "drilled_floor", drilled_floor()));
   workshop.parts.push_back(shop_part(12, "drilled_wall", drilled_leaning_plate()));
   workshop.parts.push_back(shop_part(13, "slotted_wall", leaning_sheet()));
+  workshop.parts.push_back(shop_part(14, "mitred_angle", mitred_angle()));
+  workshop.parts.push_back(shop_part(15, "ring_of_angle", angle_ring()));
+  workshop.parts.push_back(shop_part(16, "half_ring_of_angle", half_angle_ring()));
   workshop.items.push_back({"bolt M12 x 40", "ISO 4017 8.8", 24, "joint 1"});
   workshop.bends.push_back(
       {2, 1, 0.25, 0.0, glissade::Angle::from_radians(0.03), glissade::Angle::from_radians(0.03), 2.5, 2e-4});

@@ -90,6 +90,8 @@ FlangeOptions read_flanges(const Value& value, Findings& findings) {
       map, "slotted", flanges.slotted,
       {{"none", std::nullopt}, {"downstream", FlangeSide::downstream}, {"upstream", FlangeSide::upstream}});
   flanges.slot = map.quantity("slot", Dimension::length);
+  flanges.section = chosen<FlangeSection>(map, "section", flanges.section,
+                                          {{"flat", FlangeSection::flat}, {"angle", FlangeSection::angle}});
   map.refuse_unknown_keys();
   return flanges;
 }

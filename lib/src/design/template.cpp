@@ -60,7 +60,7 @@ fabrication:                           # {process: plate} alone will do; docs/de
   bend: {speed_loss: 1 %}              # as many bends as cost no more of the exit speed
   corners: butt                        # or lap, tab-and-slot
   split: {longest: 2.9 m, sheet: [3 m, 1.5 m]}
-  flanges: {width: 50 mm, thickness: 6 mm, bolt: M10, pitch: 150 mm}  # slotted: downstream for slots on that side of joints
+  flanges: {width: 50 mm, thickness: 6 mm, bolt: M10, pitch: 150 mm}  # slotted: downstream for slots on that side; section: angle
   rim: {width: 40 mm, thickness: 5 mm}
   # liner: {thickness: 6 mm}           # tiles; with floor: rolled
   # lifting: {hole: 22 mm}

@@ -40,6 +40,7 @@ std::string split(const SplitOptions& options) {
 std::string flanges(const FlangeOptions& options) {
   if (!options.wanted) return "none";
   Group group;
+  if (options.section == FlangeSection::angle) group.add("section", "angle");
   group.add("width", options.width, Dimension::length);
   group.add("thickness", options.thickness, Dimension::length);
   group.add("bolt", "M" + std::to_string(options.bolt));

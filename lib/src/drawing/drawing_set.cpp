@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/slot.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/parts/bend_hits.hpp"
@@ -8,11 +9,13 @@
 #include "drawing/ordinates.hpp"
 #include "drawing/sheet_words.hpp"
 #include "drawing/views.hpp"
+#include "parts/angle_bar.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace glissade {
@@ -180,12 +183,32 @@ void add_holes(const ShopPart& part, Drawing& view, SheetTable& table) {
   add_slots(part, view, layer, table);
 }
 
+/// The angles between a straight bar's edges and the cuts at its ends, seen on the drilled leg.
+std::string cut_text(const AngleBar& bar) {
+  const auto at = [&](bool start) {
+    const Vec2 from = start ? bar.heel.vertices.front().at : bar.heel.vertices.back().at;
+    const Vec2 to = start ? bar.toe.vertices.front().at : bar.toe.vertices.back().at;
+    const Vec2 along = bar.heel.vertices.back().at - bar.heel.vertices.front().at;
+    const double angle = math::atan2(std::fabs(cross(along, to - from)), std::fabs(dot(along, to - from)));
+    return fixed(Angle::from_radians(angle).degrees(), 1);
+  };
+  return at(true) + " and " + at(false) + " deg";
+}
+
 std::vector<std::string> facts_of(const ShopPart& part) {
   constexpr double kWorthTelling = 0.98;  // of the area
   std::vector<std::string> facts{std::to_string(part.quantity()) + " off",
                                  "mass " + fixed(part.mass, 3) + " kg each"};
   if (!part.pattern) return facts;
   const FlatPattern& pattern = *part.pattern;
+  if (const auto* const angle = std::get_if<AngleBar>(&part.body)) {
+    facts.push_back("angle " + mm(angle->height) + " x " + mm(angle->height) + " x " + mm(angle->thickness) +
+                    " mm, EN 10056-1");
+    facts.push_back(mm(parts::stock_length(*angle)) + " mm of bar");
+    facts.push_back(parts::is_rolled(*angle) ? "rolled, the drilled leg outwards"
+                                             : "ends cut at " + cut_text(*angle));
+    return facts;
+  }
   const PlaneBox box = bounds(pattern.region.outline);
   facts.push_back("flat " + mm(box.width()) + " x " + mm(box.height()) + " mm");
   const Vec2 least = core::least_size(pattern.region.outline);
@@ -228,6 +251,23 @@ void add_body_views(const ShopPart& part, Sheet& sheet, const PlaneBox& room) {
   sheet.views = {std::move(left), std::move(right)};
 }
 
+/// The drilled leg of an angle, and from its end, or of a ring from the side, both legs at a scale of their own.
+void add_angle_views(const ShopPart& part, Drawing leg, Sheet& sheet, const PlaneBox& room) {
+  constexpr double kEnd = 0.3;  // of the room's height
+  const auto& bar = std::get<AngleBar>(part.body);
+  const bool rolled = parts::is_rolled(bar);
+  Projection beside(rolled ? drawing::Eye{{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}
+                           : drawing::Eye{{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
+  beside.add(part, {});
+  Drawing end = beside.drawing("legs");
+  add_overall_dimensions(end);
+  const double split = room.low.y + kEnd * (room.high.y - room.low.y);
+  sheet.views.push_back(fitted_view(std::move(leg), {{room.low.x, split + 12.0}, room.high},
+                                    "Drilled leg, the other one towards you"));
+  sheet.views.push_back(fitted_view(std::move(end), {room.low, {room.high.x, split - 12.0}},
+                                    rolled ? "From the side" : "From its end"));
+}
+
 std::vector<Sheet> part_sheets(const Workshop& workshop, const ShopPart& part) {
   Sheet sheet = blank_sheet(PaperSize::a4);
   sheet.title = title_of(workshop, part.name);
@@ -253,7 +293,11 @@ std::vector<Sheet> part_sheets(const Workshop& workshop, const ShopPart& part) {
     room.high.x -= kTableWidth + 4.0;
     holes.at = {area.high.x - kTableWidth, area.high.y};
   }
-  sheet.views.push_back(fitted_view(std::move(view), room, "Flat pattern"));
+  if (std::holds_alternative<AngleBar>(part.body)) {
+    add_angle_views(part, std::move(view), sheet, room);
+  } else {
+    sheet.views.push_back(fitted_view(std::move(view), room, "Flat pattern"));
+  }
   std::vector<Sheet> sheets;
   std::vector<std::vector<std::string>> rest;
   while (drawing::table_height(holes, holes.rows.size()) > area.height() && !holes.rows.empty()) {

@@ -5,6 +5,7 @@
 #include "glissade/parts/bend_hits.hpp"
 
 #include "core/least_rectangle.hpp"
+#include "parts/angle_bar.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,24 +71,37 @@ double degrees(Angle angle) {
   return clean(angle.degrees());
 }
 
-/// Length along the bar, and its section, of a part that is sawn from a hollow one; of others nothing.
+/// Length along the bar, and its section, of a part that is sawn from a tube or an angle; of others nothing.
 struct Bar {
   double length = 0.0;  ///< [m]
   double width = 0.0;   ///< [m]
   std::string section;  ///< "tube 60 x 60 x 4 mm"
 };
 
+std::string shown(double metres) {
+  return rounded_text(kMillimetres * metres, 6);
+}
+
 Bar bar_of(const ShopPart& part) {
+  if (const auto* const angle = std::get_if<AngleBar>(&part.body)) {
+    return {parts::stock_length(*angle), angle->height,
+            "angle " + shown(angle->height) + " x " + shown(angle->height) + " x " + shown(angle->thickness) +
+                " mm"};
+  }
   const auto* const prism = std::get_if<Prism>(&part.body);
-  if (prism == nullptr || prism->region.cutouts.empty()) return {};
+  if (prism == nullptr || part.pattern || prism->region.cutouts.empty()) return {};
   const PlaneBox box = bounds(prism->region.outline);
-  const auto shown = [](double metres) { return rounded_text(kMillimetres * metres, 6); };
   return {prism->depth, std::max(box.width(), box.height()),
           "tube " + shown(box.width()) + " x " + shown(box.height()) + " x " + shown(part.thickness) + " mm"};
 }
 
 /// Length, width, length of cut, holes and bends.
 void add_sizes(const ShopPart& part, const Bar& bar, Csv& csv) {
+  if (part.pattern && !bar.section.empty()) {
+    // Sawn and drilled.
+    csv << mm(bar.length) << mm(bar.width) << "" << part.pattern->region.holes.size() << "";
+    return;
+  }
   if (part.pattern) {
     const PlaneRegion& region = part.pattern->region;
     const Vec2 size = core::least_size(region.outline);
@@ -117,7 +131,7 @@ std::string cut_list_csv(const Workshop& workshop) {
       "centre_of_gravity_x_mm,centre_of_gravity_y_mm,centre_of_gravity_z_mm,bought_in,section");
   for (const ShopPart& part : workshop.parts) {
     csv.row() << part.number << part.name << part.material << mm(part.thickness) << part.quantity();
-    const Bar bar = part.pattern ? Bar{} : bar_of(part);
+    const Bar bar = bar_of(part);
     add_sizes(part, bar, csv);
     csv << part.mass << part.mass * static_cast<double>(part.quantity()) << mm(part.centre_of_gravity.x)
         << mm(part.centre_of_gravity.y) << mm(part.centre_of_gravity.z) << (part.bought_in ? "yes" : "no")

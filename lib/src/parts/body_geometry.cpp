@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "core/piece_distance.hpp"
+#include "parts/angle_bar.hpp"
 #include "parts/bores.hpp"
 #include "parts/piece_mesh.hpp"
 
@@ -355,6 +356,16 @@ BodyMoments moments_of(const TroughGore& gore) {
   return {volume, {x / volume, 0.0, z / volume}};
 }
 
+BodyMoments moments_of(const AngleBar& bar) {
+  const AreaMoments lying = glissade::moments(lying_leg(bar));
+  const AreaMoments rising = glissade::moments(rising_leg(bar));
+  const double low = lying.area * bar.thickness;
+  const double high = rising.area * (bar.height - bar.thickness);
+  const Vec2 middle = (1.0 / (low + high)) * (low * lying.centroid + high * rising.centroid);
+  const double level = 0.5 * (low * bar.thickness + high * (bar.thickness + bar.height)) / (low + high);
+  return {low + high, {middle.x, middle.y, level}};
+}
+
 BodyMoments moments_of(const MeshBody& body) {
   const MeshMoments all = mesh_moments(body.mesh);
   return {all.volume, all.centre};
@@ -384,6 +395,14 @@ std::vector<Vec3> points_of(const Prism& prism, double inset) {
   };
   along_path(prism.region.outline, true);
   for (const ArcPath& cutout : prism.region.cutouts) along_path(cutout, false);
+  return points;
+}
+
+std::vector<Vec3> points_of(const AngleBar& bar, double inset) {
+  std::vector<Vec3> points;
+  for (const Prism& leg : legs_of(bar)) {
+    for (const Vec3 point : points_of(leg, inset)) points.push_back(point);
+  }
   return points;
 }
 
@@ -552,6 +571,11 @@ double depth_in(const Prism& prism, Vec3 point) {
   return flat > 0.0 ? std::min(flat, between) : flat;
 }
 
+double depth_in(const AngleBar& bar, Vec3 point) {
+  const auto legs = legs_of(bar);
+  return std::max(depth_in(legs[0], point), depth_in(legs[1], point));
+}
+
 /// Where a point lies beside a piece of a path.
 struct Beside {
   double along = 0.0;  ///< from the piece's start
@@ -712,6 +736,14 @@ std::vector<EdgeLine> lines_of(const Prism& prism, double inset) {
   };
   along_path(prism.region.outline, true);
   for (const ArcPath& cutout : prism.region.cutouts) along_path(cutout, false);
+  return lines;
+}
+
+std::vector<EdgeLine> lines_of(const AngleBar& bar, double inset) {
+  std::vector<EdgeLine> lines;
+  for (const Prism& leg : legs_of(bar)) {
+    for (const EdgeLine& line : lines_of(leg, inset)) lines.push_back(line);
+  }
   return lines;
 }
 

@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/slot.hpp"
 
+#include "parts/angle_bar.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/bores.hpp"
@@ -56,15 +57,25 @@ std::vector<Hole> from_bores(const std::vector<Bore>& bores) {
   return holes;
 }
 
+std::vector<Hole> holes_of(const Prism& prism) {
+  std::vector<Hole> holes = slots_of(prism);
+  for (const Circle& hole : prism.region.holes)
+    holes.push_back({{hole.centre.x, hole.centre.y, 0.0}, {0.0, 0.0, 1.0}, prism.depth, hole.radius, {}});
+  return holes;
+}
+
 std::vector<Hole> holes_of(const PartBody& body) {
+  if (const auto* const bar = std::get_if<AngleBar>(&body)) return holes_of(legs_of(*bar)[0]);
   if (const auto* const swept = std::get_if<SweptBody>(&body)) return from_bores(bores_of(*swept));
   if (const auto* const sheet = std::get_if<RolledSheet>(&body)) return from_bores(bores_of(*sheet));
   const auto* const prism = std::get_if<Prism>(&body);
   if (prism == nullptr) return {};
-  std::vector<Hole> holes = slots_of(*prism);
-  for (const Circle& hole : prism->region.holes)
-    holes.push_back({{hole.centre.x, hole.centre.y, 0.0}, {0.0, 0.0, 1.0}, prism->depth, hole.radius, {}});
-  return holes;
+  return holes_of(*prism);
+}
+
+/// Tubes and boards that are bought.
+bool drilled_on_site(const ShopPart& part) {
+  return part.bought_in && !std::holds_alternative<AngleBar>(part.body);
 }
 
 Vec3 turned(const Frame& place, Vec3 direction) {
@@ -94,7 +105,7 @@ Pieces pieces_of(const Workshop& workshop) {
     const Frame& place = pieces.all[i].place;
     if (pieces.all[i].part != part) {
       part = pieces.all[i].part;
-      holes = part->bought_in ? std::vector<Hole>() : holes_of(part->body);
+      holes = drilled_on_site(*part) ? std::vector<Hole>() : holes_of(part->body);
     }
     for (const Hole& hole : holes) {
       const Vec3 begin = place.to_space(hole.begin);
@@ -255,7 +266,8 @@ BoltedHoles require_bolts_meet(const Workshop& workshop) {
     }
     for (const std::size_t k : sweep.about(mouth.at.x, widest + kTouch)) {
       const PlacedPiece& piece = pieces.all[k];
-      if (k == mouth.piece || (partner != nullptr && k == partner->piece) || piece.part->bought_in) continue;
+      if (k == mouth.piece || (partner != nullptr && k == partner->piece) || drilled_on_site(*piece.part))
+        continue;
       if (covers(piece, mouth))
         tell(own, mouth, "is covered by " + piece.part->name + ", which has none there");
     }

@@ -16,6 +16,8 @@ struct Bolt {
   double nut_height = 0.0;           ///< ISO 4032 [m]
   double washer_height = 0.0;        ///< ISO 7089 [m]
   double large_washer_height = 0.0;  ///< ISO 7093-1 [m]
+  double washer = 0.0;               ///< outer diameter, ISO 7089 [m]
+  double large_washer = 0.0;         ///< outer diameter, ISO 7093-1 [m]
 };
 /// @throws InputError if the size is unknown
 [[nodiscard]] const Bolt& bolt_of(int size);

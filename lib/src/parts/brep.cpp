@@ -6,6 +6,7 @@
 
 #include "parts/bores.hpp"
 #include "parts/brep_building.hpp"
+#include "parts/brep_contour.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,88 +17,6 @@ namespace glissade::parts {
 namespace {
 
 // --- prisms
-
-/// One closed contour with the material on its left: its edges below and above, and the faces between them.
-class ContourFaces {
- public:
-  ContourFaces(Brep& brep, double depth) : brep_(brep), depth_(depth) {}
-
-  void add(const ArcPath& path) {
-    const std::vector<PathPiece> pieces = pieces_of(path);
-    std::vector<std::size_t> low;
-    std::vector<std::size_t> high;
-    std::vector<std::size_t> upright;
-    for (const PathPiece& piece : pieces) {
-      low.push_back(add_vertex(brep_, at_height(piece.from, 0.0)));
-      high.push_back(add_vertex(brep_, at_height(piece.from, depth_)));
-      upright.push_back(add_line(brep_, low.back(), high.back()));
-    }
-    std::vector<BrepUse> below;
-    std::vector<BrepUse> above;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const std::size_t next = (i + 1) % pieces.size();
-      const std::size_t bottom = edge(pieces[i], low[i], low[next]);
-      const std::size_t top = edge(pieces[i], high[i], high[next]);
-      BrepFace face = side(pieces[i]);
-      face.loops = {{{bottom, true}, {upright[next], true}, {top, false}, {upright[i], false}}};
-      brep_.faces.push_back(std::move(face));
-      below.push_back({bottom, false});
-      above.push_back({top, true});
-    }
-    std::reverse(below.begin(), below.end());
-    below_.push_back(std::move(below));
-    above_.push_back(std::move(above));
-  }
-
-  /// A round hole.
-  void add(const Circle& hole) {
-    const Vec2 start = hole.centre + Vec2{hole.radius, 0.0};
-    const std::size_t low = add_vertex(brep_, at_height(start, 0.0));
-    const std::size_t high = add_vertex(brep_, at_height(start, depth_));
-    const std::size_t seam = add_line(brep_, low, high);
-    const std::size_t bottom = add_arc(brep_, low, low, hole.centre, false);
-    const std::size_t top = add_arc(brep_, high, high, hole.centre, false);
-    BrepFace face = upright_cylinder(hole.centre, kAcross, hole.radius, false);
-    face.loops = {{{bottom, true}, {seam, true}, {top, false}, {seam, false}}};
-    brep_.faces.push_back(std::move(face));
-    below_.push_back({{bottom, false}});
-    above_.push_back({{top, true}});
-  }
-
-  void close() {
-    BrepFace bottom = level_plane(0.0, false);
-    bottom.loops = std::move(below_);
-    BrepFace top = level_plane(depth_, true);
-    top.loops = std::move(above_);
-    brep_.faces.push_back(std::move(bottom));
-    brep_.faces.push_back(std::move(top));
-  }
-
- private:
-  std::size_t edge(const PathPiece& piece, std::size_t from, std::size_t to) {
-    if (piece.straight()) return add_line(brep_, from, to);
-    return add_arc(brep_, from, to, arc_of(piece).centre, piece.bulge > 0.0);
-  }
-
-  static BrepFace side(const PathPiece& piece) {
-    if (!piece.straight()) {
-      const CircularArc arc = arc_of(piece);
-      const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
-      return upright_cylinder(arc.centre, spoke, arc.radius, piece.bulge > 0.0);
-    }
-    const Vec2 along = piece.to - piece.from;
-    BrepFace face;
-    face.origin = at_height(piece.from, 0.0);
-    face.axis = unit({along.y, -along.x, 0.0});
-    face.reference = unit(at_height(along, 0.0));
-    return face;
-  }
-
-  Brep& brep_;
-  double depth_;
-  std::vector<std::vector<BrepUse>> below_;
-  std::vector<std::vector<BrepUse>> above_;
-};
 
 Brep brep_of(const Prism& prism, const ShopPart& part) {
   const std::vector<std::string> faults = faults_of(prism.region);
@@ -364,6 +283,10 @@ Brep brep_of(const SweptBody& body, const ShopPart& part) {
 
 Brep brep_of(const RolledSheet& sheet, const ShopPart& part) {
   return brep_of_sheet(sheet, part);
+}
+
+Brep brep_of(const AngleBar& bar, const ShopPart& part) {
+  return brep_of_angle(bar, part);
 }
 
 Brep brep_of(const TroughGore& gore, const ShopPart& part) {

@@ -126,7 +126,7 @@ Span floor_base(const Job& job) {
 }
 
 Span lapped(const Job& job, double length) {
-  const double end = job.options.flanges.wanted ? job.options.flanges.thickness + kLapAside : 0.0;
+  const double end = job.options.flanges.wanted ? job.options.flanges.along() + kLapAside : 0.0;
   return {end, length - end};
 }
 

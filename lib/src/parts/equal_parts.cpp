@@ -3,6 +3,8 @@
 
 #include "parts/equal_parts.hpp"
 
+#include "parts/angle_bar.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -356,6 +358,18 @@ BodyPlace place_of(const TroughGore& body, const TroughGore& other, bool end_for
   return place_of_gore(body, other, end_for_end);
 }
 
+BodyPlace place_of(const AngleBar& body, const AngleBar& other, bool /*end_for_end*/) {
+  if (!near(body.thickness, other.thickness) || !near(body.height, other.height)) return std::nullopt;
+  const PlaneRegion rising = rising_leg(body);
+  const PlaneRegion there = rising_leg(other);
+  const auto motion = region_motion(lying_leg(body), lying_leg(other), false, [&](const PlaneMotion& way) {
+    return same_cutouts({{}, {rising.outline}, {}}, {{}, {there.outline}, {}}, way) &&
+           same_cutouts(rising, there, way);
+  });
+  if (!motion) return std::nullopt;
+  return in_space(*motion, 0.0);
+}
+
 BodyPlace place_of(const MeshBody& /*body*/, const MeshBody& /*other*/, bool end_for_end) {
   if (end_for_end) return std::nullopt;
   return Frame{};
@@ -376,6 +390,8 @@ bool mirror_images(const ShopPart& part, const ShopPart& other) {
   if (part.thickness != other.thickness || part.material != other.material ||
       !in_ratio(part.volume, other.volume) || !part.pattern || !other.pattern)
     return false;
+  // Turned over, an angle has its other leg on the wrong side.
+  if (std::holds_alternative<AngleBar>(part.body)) return false;
   return region_motion(part.pattern->region, other.pattern->region, true,
                        [](const PlaneMotion&) { return true; })
       .has_value();

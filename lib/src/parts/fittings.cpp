@@ -39,7 +39,7 @@ double outside(const Job& job) {
 Span between_frames(const Job& job, const Span& unit) {
   if (!job.options.flanges.wanted) return unit;
   const double high = job.channel.wall_height + (job.options.cover ? job.options.cover->thickness : 0.0);
-  const double taken = job.options.flanges.thickness + kAsideOfFrame;
+  const double taken = job.options.flanges.along() + kAsideOfFrame;
   return {beyond_frame(job.track, taken, unit.from, 1.0, high),
           beyond_frame(job.track, taken, unit.to, -1.0, high)};
 }
@@ -379,7 +379,7 @@ namespace {
 
 /// Whether a lid, which is straight, keeps off the frames at both ends of its unit.
 bool lid_keeps_off(const Job& job, const Span& unit, double at, double reach, const Span& heights) {
-  const double taken = (job.options.flanges.wanted ? job.options.flanges.thickness : 0.0) + kAsideOfFrame;
+  const double taken = (job.options.flanges.wanted ? job.options.flanges.along() : 0.0) + kAsideOfFrame;
   for (const PathVertex& corner : window(job.track, at, reach, heights).vertices) {
     for (const double sense : {1.0, -1.0}) {
       const TrackFrame end = frame_at(job.track, sense > 0.0 ? unit.from : unit.to);

@@ -21,10 +21,6 @@ double widest_hole(const FlangeOptions& flange) {
   return clearance_hole(flange.bolt, HoleFit::coarse);
 }
 
-double slot_length(const FlangeOptions& flange) {
-  return flange.slot.value_or(kUsualSlot * 1e-3 * flange.bolt);
-}
-
 bool is_loose(const FlangeOptions& flange, FlangeSide side) {
   return side == flange.slotted.value_or(FlangeSide::downstream);
 }
@@ -80,6 +76,10 @@ std::string slots_advice(const PlateOptions& options, const FrameBolts& bolts) {
 }
 
 }  // namespace
+
+double slot_length(const FlangeOptions& flange) {
+  return flange.slot.value_or(kUsualSlot * 1e-3 * flange.bolt);
+}
 
 double slot_reach(const FlangeOptions& flange) {
   return flange.slotted ? 0.5 * (slot_length(flange) - widest_hole(flange)) : 0.0;
@@ -138,6 +138,7 @@ void add_slot_problems(const PlateOptions& options, std::vector<Issue>& issues) 
                       "slot: " + length_text(kUsualSlot * 1e-3 * flange.bolt)});
     return;
   }
+  if (flange.section == FlangeSection::angle) return;  // add_angle_problems() tells
   const double edge = 0.5 * flange.width - 0.5 * (slot - hole);
   const double least = least_to_edge(options);
   if (!(edge < least - 1e-9)) return;

@@ -13,6 +13,8 @@ namespace glissade::parts {
 /// coarse, so that they fit as they come; that one is the frame downstream, or the one that is asked for with slots. Slots are as
 /// wide as coarse holes and upright in the frame, square to the floor: a unit may be raised or lowered against the next one.
 
+/// @return from end to end of a slot [m]
+[[nodiscard]] double slot_length(const FlangeOptions& flange);
 /// @return from the middle of a slot to that of its ends; 0 if no frame is slotted [m]
 [[nodiscard]] double slot_reach(const FlangeOptions& flange);
 

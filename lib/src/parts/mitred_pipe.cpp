@@ -4,6 +4,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/angle_bar.hpp"
+#include "parts/angle_frames.hpp"
 #include "parts/as_built.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/bolted.hpp"
@@ -15,6 +17,7 @@
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"
+#include "parts/shop_facts.hpp"
 #include "parts/strip_shell.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -68,7 +71,7 @@ struct PipeJob {
   [[nodiscard]] double radius() const { return 0.5 * pipe.inner_diameter; }
   [[nodiscard]] double mean_radius() const { return radius() + 0.5 * pipe.thickness; }
   [[nodiscard]] double least_crown() const {
-    return std::max(kLeastCrown, options.flanges.wanted ? options.flanges.thickness + 9e-3 : 0.0);
+    return std::max(kLeastCrown, options.flanges.wanted ? options.flanges.along() + 9e-3 : 0.0);
   }
 };
 
@@ -381,10 +384,42 @@ std::vector<Vec2> round_whole(double pitch_radius, double pitch) {
   return middles;
 }
 
+/// Of a ring's bolts.
+std::vector<Vec2> ring_bolts(const PipeJob& job, const FlangeOptions& with, double pitch_radius) {
+  return job.side ? round_half(job, with, pitch_radius) : round_whole(pitch_radius, with.pitch);
+}
+
+/// The line round the end of a unit, from the left rim below it to the right one or all round, what is outside on its left.
+ArcPath line_round(const PipeJob& job, double radius) {
+  if (!job.side) return reversed(path_of(Circle{{}, radius}));
+  ArcPath line;
+  if (*job.side > 0.0) line.vertices.push_back({{radius, *job.side}, 0.0});
+  line.vertices.push_back({{radius, 0.0}, -1.0});
+  line.vertices.push_back({{-radius, 0.0}, 0.0});
+  if (*job.side > 0.0) line.vertices.push_back({{-radius, *job.side}, 0.0});
+  return line;
+}
+
+/// A ring rolled from an angle. Its other leg stands along the tubes, downstream of its plane as it is drawn.
+ShopPart angle_ring(const PipeJob& job, FlangeSide of_joint) {
+  const FlangeOptions& flange = job.options.flanges;
+  const double inner = job.radius() + job.pipe.thickness + flange.gap;
+  PlaneRegion drilled;
+  drill_frame(
+      job.options, of_joint,
+      [&](const FlangeOptions& with) { return ring_bolts(job, with, inner + bolt_line(flange)); }, drilled);
+  AngleBar bar = rolled_angle(line_round(job, inner), flange);
+  bar.holes = drilled.holes;
+  bar.slots = drilled.cutouts;
+  return angle_part(job.options, frame_name(job.side ? "trough_flange" : "pipe_flange", flange, of_joint),
+                    std::move(bar));
+}
+
 /// A ring round the end of a unit; of half a pipe, up to its rims.
 /// @param of_joint  the side on which it lies
 ShopPart ring_of(const PipeJob& job, FlangeSide of_joint) {
   const FlangeOptions& flange = job.options.flanges;
+  if (flange.section == FlangeSection::angle) return angle_ring(job, of_joint);
   const double inner = job.radius() + job.pipe.thickness + flange.gap;
   const double pitch_radius = inner + 0.5 * flange.width;
   ShopPart part;
@@ -400,10 +435,7 @@ ShopPart ring_of(const PipeJob& job, FlangeSide of_joint) {
     pattern.region.cutouts = {path_of(Circle{{}, inner})};
   }
   drill_frame(
-      job.options, of_joint,
-      [&](const FlangeOptions& with) {
-        return job.side ? round_half(job, with, pitch_radius) : round_whole(pitch_radius, with.pitch);
-      },
+      job.options, of_joint, [&](const FlangeOptions& with) { return ring_bolts(job, with, pitch_radius); },
       pattern.region);
   part.body = Prism{pattern.region, flange.thickness};
   part.pattern = std::move(pattern);
@@ -418,21 +450,42 @@ Frame ring_place(const PipeJob& job, const Gore& gore, double at, double shift) 
           direction_in_space(job.placement, gore.along)};
 }
 
+/// The row of the schedule that makes a ring of a straight angle: over the length at its centroid.
+void add_ring_rolling(const PipeJob& job, int number, Workshop& workshop) {
+  const FlangeOptions& flange = job.options.flanges;
+  const double inner = job.radius() + job.pipe.thickness + flange.gap;
+  const Angle turn = job.side ? kHalfTurn : kWholeTurn;
+  const double length = turn.radians() * (inner + angle_centroid(flange.width, flange.thickness));
+  workshop.bends.push_back({number, 1, job.side.value_or(0.0), length, turn, turn, inner, 0.0});
+}
+
+void note_rings(const PipeJob& job, Workshop& workshop) {
+  const FlangeOptions& flange = job.options.flanges;
+  const double inner = job.radius() + job.pipe.thickness + flange.gap;
+  workshop.notes.push_back("Flanges are angles rolled leg out to " + length_text(2.0 * inner, 5) +
+                           " inside, drilled afterwards.");
+}
+
 void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
   if (!job.options.flanges.wanted) return;
+  const bool angles = job.options.flanges.section == FlangeSection::angle;
   ShopPart before = ring_of(job, FlangeSide::upstream);
   ShopPart after = ring_of(job, FlangeSide::downstream);
   for (const GoreUnit& unit : units) {
     const Gore& last = unit.gores.back();
     after.places.push_back(ring_place(job, unit.gores.front(), 0.0, 0.0));
-    before.places.push_back(ring_place(job, last, last.body.length, -job.options.flanges.thickness));
+    before.places.push_back(angles ? turned_about(ring_place(job, last, last.body.length, 0.0))
+                                   : ring_place(job, last, last.body.length, -job.options.flanges.thickness));
   }
   // Those that are not slotted are round.
   const std::size_t bolts = std::max(before.pattern->region.holes.size(), after.pattern->region.holes.size());
   for (ShopPart* part : {&before, &after}) {
     weigh(*part);
-    add_part(workshop, *part, kFrameColour);
+    const std::size_t listed = workshop.parts.size();
+    const int number = add_part(workshop, *part, kFrameColour);
+    if (angles && workshop.parts.size() > listed) add_ring_rolling(job, number, workshop);
   }
+  if (angles) note_rings(job, workshop);
   add_joint_bolts(workshop, job.options.flanges, bolts * (units.size() - 1), units.size() - 1);
 }
 
@@ -440,7 +493,7 @@ void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop&
 void add_trough_rims(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
   if (!job.side || !job.options.rim) return;
   const RimOptions& rim = *job.options.rim;
-  const double taken = job.options.flanges.wanted ? job.options.flanges.thickness + kAsideOfFrame : 0.0;
+  const double taken = job.options.flanges.wanted ? job.options.flanges.along() + kAsideOfFrame : 0.0;
   const double outer = job.radius() + job.pipe.thickness;
   const double high = *job.side;
   const double low = high - rim.thickness;
@@ -666,6 +719,11 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
                        facets.bends(), units.size() - 1);
   measure_plates(options, workshop);
   measure_rolling(job.radius(), workshop.parts.front(), "every " + std::string(job.word()), workshop);
+  if (options.flanges.wanted && options.flanges.section == FlangeSection::angle) {
+    const double inner = job.radius() + pipe.thickness + options.flanges.gap;
+    ShopFacts(workshop).at("every flange", "angle_elongation", elongation_of(options.flanges, inner), 1.0,
+                           Dimension::number);
+  }
   workshop.notes.insert(
       workshop.notes.begin(),
       side ? "Troughs are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +

@@ -6,6 +6,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 
+#include "parts/angle_frames.hpp"
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
@@ -77,7 +78,10 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
                        asked_by(shop.hole_pitch_diameters, ShopLeast{}.hole_pitch_diameters),
                    "pitch: " + length_text(next_up(pitch)) + ", or a smaller bolt");
   }
-  if (0.5 * flange.width < edge) {
+  if (flange.section == FlangeSection::angle) {
+    add_slot_problems(options, objections.issues());
+    add_angle_problems(options, objections.issues());
+  } else if (0.5 * flange.width < edge) {
     objections.add("flanges.width",
                    "width: " + length_text(flange.width) + " puts holes for " + bolt + " " +
                        length_text(0.5 * flange.width) + " from the edge",
@@ -96,12 +100,19 @@ void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& optio
   if (!flange.wanted || !known) return;
   const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
   const std::string bolt = "M" + std::to_string(flange.bolt);
-  if (channel.wall_height <= 0.0) return;
+  if (channel.wall_height <= 0.0) {
+    add_angle_seat_problems(channel_seat(channel, options), options, objections.issues());
+    return;
+  }
   if (flange.width > channel.wall_height) {
     objections.add("flanges.width",
                    "width: " + length_text(flange.width) + " is more than the walls are high, " +
                        length_text(channel.wall_height),
                    "The frame would stand out farther than the channel is deep.", "a smaller width");
+    return;
+  }
+  if (flange.section == FlangeSection::angle) {
+    add_angle_seat_problems(channel_seat(channel, options), options, objections.issues());
     return;
   }
   const double column =

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <variant>
 
 namespace glissade::parts {
 namespace {
@@ -104,13 +105,14 @@ void measure_plates(const PlateOptions& options, Workshop& workshop) {
   const Vec2 sheet = options.split.sheet;
   for (const ShopPart& part : workshop.parts) {
     if (!part.pattern) continue;
+    measure_holes(part, facts);
+    measure_frame_slots(part, facts);
+    if (std::holds_alternative<AngleBar>(part.body)) continue;  // cut from no sheet
     const PlaneBox box = bounds(part.pattern->region.outline);
     const auto [shorter, longer] = std::minmax({box.width(), box.height()});
     facts.of(part, "part_sheet_share", longer, std::max(sheet.x, sheet.y));
     facts.of(part, "part_sheet_share", shorter, std::min(sheet.x, sheet.y));
     facts.of(part, "part_width", shorter);
-    measure_holes(part, facts);
-    measure_frame_slots(part, facts);
   }
 }
 

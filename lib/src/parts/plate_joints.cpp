@@ -83,11 +83,11 @@ void require_frame_room(const ArcSpline& track, const std::vector<double>& joint
     const double height = arc.curvature < 0.0 ? lowest : highest.value_or(0.0);
     if (arc.curvature == 0.0 || (arc.curvature > 0.0 && !highest)) continue;
     const bool beside = std::any_of(joints.begin(), joints.end(), [&](double s) {
-      return arc.start < s + frame.thickness && arc.start + arc.length > s - frame.thickness;
+      return arc.start < s + frame.along() && arc.start + arc.length > s - frame.along();
     });
     if (!beside) continue;
     const double radius = std::fabs(1.0 / arc.curvature - height);
-    const double out = radius - std::sqrt(std::max(0.0, radius * radius - frame.thickness * frame.thickness));
+    const double out = radius - std::sqrt(std::max(0.0, radius * radius - frame.along() * frame.along()));
     if (out > most) where = arc.start;
     most = std::max(most, out);
   }
@@ -95,16 +95,17 @@ void require_frame_room(const ArcSpline& track, const std::vector<double>& joint
   throw InputError({"flanges.gap",
                     "gap: " + length_text(frame.gap) + " is closed where the track bends, at " +
                         length_text(where, 3) + " along it",
-                    "Within a frame of " + length_text(frame.thickness) + " the section departs by " +
+                    "Within a frame of " + length_text(frame.along()) + " the section departs by " +
                         length_text(most, 3) + " from the straight.",
-                    "gap: " + length_text(1e-4 * std::ceil(1.05e4 * most)) + ", or a thinner frame"});
+                    "gap: " + length_text(1e-4 * std::ceil(1.05e4 * most)) + ", or a " +
+                        (frame.section == FlangeSection::angle ? "narrower angle" : "thinner frame")});
 }
 
 double least_flat(double thickness, const PlateOptions& options, double more) {
   constexpr double kBeyondFrame = 1e-3;
   const FlangeOptions& frame = options.flanges;
   const double pressed = std::max(options.shop.flat_thicknesses * thickness, options.shop.flat);
-  return frame.wanted ? std::max(pressed, frame.thickness + kBeyondFrame + more) : pressed;
+  return frame.wanted ? std::max(pressed, frame.along() + kBeyondFrame + more) : pressed;
 }
 
 Facets facets_of(const Job& job, const Span& span, double largest_kink) {

@@ -225,7 +225,7 @@ double least_frame_gap(const Job& job, const std::vector<Unit>& units) {
     const TrackFrame frame = frame_at(job.track, at == 0.0 ? unit.span.from : unit.span.to);
     constexpr int kPlaces = 8;
     for (int k = 0; k <= kPlaces; ++k) {
-      const double s = at + sense * flange.thickness * k / kPlaces;
+      const double s = at + sense * flange.along() * k / kPlaces;
       const TrackFrame floor = frame_at(unit.face.line, s);
       const Vec2 under = floor.at + unit.face.origin - job.channel.thickness * floor.up;
       const double drop = -floor_depth(job) - job.channel.thickness - dot(under - frame.at, frame.up);

@@ -7,6 +7,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/angle_frames.hpp"
 #include "parts/as_built.hpp"
 #include "parts/bolts.hpp"
 #include "parts/channel_shell.hpp"
@@ -71,8 +72,24 @@ void add_units(const Job& job, const std::vector<Unit>& units, Workshop& worksho
   note_seams(seams, workshop);
 }
 
+void add_angle_frames(const Job& job, Workshop& workshop, const std::vector<double>& joints) {
+  const AngleSeat seat = channel_seat(job.channel, job.options);
+  std::size_t bolts = 0;
+  for (const FlangeSide side : {FlangeSide::upstream, FlangeSide::downstream}) {
+    const std::size_t first = side == FlangeSide::upstream ? 1 : 0;
+    std::vector<Frame> places;
+    for (std::size_t i = first; i + 1 < joints.size() + first; ++i)
+      places.push_back(frame_place(job, joints[i], true));
+    AngleFrame frame = angle_frame(seat, job.options, side, places);
+    bolts = frame.bolts;
+    for (ShopPart& piece : frame.pieces) add_part(workshop, std::move(piece), kFrameColour);
+  }
+  add_joint_bolts(workshop, job.options.flanges, bolts * (joints.size() - 2), joints.size() - 2);
+}
+
 void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& joints) {
   if (!job.options.flanges.wanted) return;
+  if (job.options.flanges.section == FlangeSection::angle) return add_angle_frames(job, workshop, joints);
   std::vector<Frame> upstream;    // at the upstream end of each unit
   std::vector<Frame> downstream;  // at its downstream end
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
@@ -94,7 +111,7 @@ void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& j
 /// What is set on the channel, in the order in which each leaves room for the next.
 void add_fittings(const Job& job, const std::vector<Unit>& units, Workshop& workshop) {
   TakenUp below;
-  const double frame = job.options.flanges.wanted ? job.options.flanges.thickness : 0.0;
+  const double frame = job.options.flanges.wanted ? job.options.flanges.along() : 0.0;
   for (const Unit& unit : units) {
     below.add(unit.span.from, unit.span.from + frame);
     below.add(unit.span.to - frame, unit.span.to);

@@ -75,7 +75,7 @@ std::optional<double> best_seat(const Shell& shell, const SeatNeed& need, const 
 Span between_frames(const Shell& shell, const Span& unit) {
   Span room{std::max(unit.from, shell.whole.from), std::min(unit.to, shell.whole.to)};
   if (!shell.options.flanges.wanted) return room;
-  const double taken = shell.options.flanges.thickness + kAsideOfFrame;
+  const double taken = shell.options.flanges.along() + kAsideOfFrame;
   return {std::max(room.from, beyond_frame(shell.track, taken, unit.from, 1.0, shell.highest)),
           std::min(room.to, beyond_frame(shell.track, taken, unit.to, -1.0, shell.highest))};
 }
@@ -104,7 +104,7 @@ ShopPart cross_plate(const Shell& shell, const std::string& name, const PlaneReg
 }
 
 void take_frames(const Shell& shell) {
-  const double frame = shell.options.flanges.wanted ? shell.options.flanges.thickness : 0.0;
+  const double frame = shell.options.flanges.wanted ? shell.options.flanges.along() : 0.0;
   for (const Span& unit : shell.units) {
     shell.taken.add(unit.from, unit.from + frame);
     shell.taken.add(unit.to - frame, unit.to);

@@ -139,7 +139,7 @@ double square_beyond(const StripJob& job, double taken, double end, double sense
 Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate) {
   if (job.bent()) {
     const bool frames = job.options.flanges.wanted && job.section.convex;
-    const double taken = frames ? job.options.flanges.thickness + kAsideOfFrame : 0.0;
+    const double taken = frames ? job.options.flanges.along() + kAsideOfFrame : 0.0;
     const Span heights{std::min(plate.face_from.y, plate.back_from.y),
                        std::max(plate.face_from.y, plate.back_from.y)};
     const Span whole = unfolded(job, plate);
@@ -151,7 +151,7 @@ Span room_of(const StripJob& job, const Span& unit, const SectionPlate& plate) {
   Span room = unit;
   const double high = std::max(plate.face_from.y, plate.back_from.y);
   if (job.options.flanges.wanted && job.section.convex) {
-    const double taken = job.options.flanges.thickness + kAsideOfFrame;
+    const double taken = job.options.flanges.along() + kAsideOfFrame;
     room = {beyond_frame(job.track, taken, unit.from, 1.0, high),
             beyond_frame(job.track, taken, unit.to, -1.0, high)};
   }
@@ -191,7 +191,7 @@ std::vector<Strip> add_bent_rims(const StripJob& job, const BentStrips& bent, Wo
   std::vector<Strip> listed;
   if (!job.options.rim) return listed;
   const bool frames = job.options.flanges.wanted && job.section.convex;
-  const double taken = frames ? job.options.flanges.thickness + kAsideOfFrame : 0.0;
+  const double taken = frames ? job.options.flanges.along() + kAsideOfFrame : 0.0;
   for (const SectionPlate& rim : rims_of(job)) {
     BentStrips own = bent;
     for (Strip& strip : own.set(rim, job.options.rim->thickness, taken)) {

@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/angle_frames.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/frame_holes.hpp"
 #include "parts/frame_room.hpp"
@@ -60,7 +61,7 @@ std::optional<double> along_to(const std::vector<Vec2>& chain, double below) {
 
 /// The outside of the section over the thickness of the frames on both sides of a joint: farther out nowhere.
 std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
-  const double t = job.options.flanges.thickness;
+  const double t = job.options.flanges.along();
   double wider = 0.0;
   for (const double place : {s - t, s, s + t}) wider = std::max(wider, job.wider_at(place));
   std::vector<Vec2> corners;
@@ -128,6 +129,26 @@ Frame place_of_frame(const StripJob& job, double s, double shift) {
           direction_in_space(job.placement, at.up), direction_in_space(job.placement, at.along)};
 }
 
+/// @return how many bolts
+std::size_t add_angles(const StripJob& job, const std::optional<BentStrips>& bent,
+                       const std::vector<double>& joints, Workshop& workshop) {
+  std::size_t bolts = 0;
+  for (const FlangeSide side : {FlangeSide::upstream, FlangeSide::downstream}) {
+    const bool before = side == FlangeSide::upstream;
+    for (std::size_t i = before ? 1 : 0; i + (before ? 0 : 1) < joints.size(); ++i) {
+      const double lean = bent ? bent->lean_at(joints[i]) : job.lean_at(joints[i]);
+      AngleFrame frame = angle_frame({outside_at(job, lean, joints[i]), job.section.ring}, job.options, side,
+                                     {place_of_frame(job, joints[i], 0.0)});
+      if (before && i + 1 < joints.size()) bolts += frame.bolts;
+      for (ShopPart& piece : frame.pieces) {
+        if (job.widens()) piece.name += "_" + std::to_string(i);
+        add_part(workshop, std::move(piece), kFrameColour);
+      }
+    }
+  }
+  return bolts;
+}
+
 }  // namespace
 
 void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent,
@@ -136,6 +157,10 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
   if (!job.section.convex) {
     workshop.notes.emplace_back("The section is hollow below: no frame fits round it, ends are welded.");
     return;
+  }
+  if (job.options.flanges.section == FlangeSection::angle) {
+    const std::size_t bolts = add_angles(job, bent, joints, workshop);
+    return add_joint_bolts(workshop, job.options.flanges, bolts, joints.size() - 2);
   }
   std::size_t bolts = 0;
   for (const FlangeSide side : {FlangeSide::upstream, FlangeSide::downstream}) {
@@ -167,11 +192,11 @@ FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& 
   for (const Strip& strip : strips) plates.push_back(placed_facets(strip.part));
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.ring};
-    for (const double shift : {0.0, -flange.thickness}) {
+    for (const double shift : {0.0, -flange.along()}) {
       if (shift == 0.0 ? i + 1 == joints.size() : i == 0) continue;
       const Frame place = place_of_frame(job, joints[i], shift);
       for (const PlacedFacets& plate : plates) {
-        const double out = standing_out(plate, opening, place, flange.thickness, 0.5 * flange.width);
+        const double out = standing_out(plate, opening, place, flange.along(), 0.5 * flange.width);
         if (out > most) where = joints[i];
         most = std::max(most, out);
       }
@@ -186,7 +211,8 @@ FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& 
                           " is closed by plates that begin or bend behind a frame, at " +
                           length_text(where, 3) + " along the track",
                       "They stand " + length_text(most, 3) + " out of the section there.",
-                      "gap: " + length_text(enough) + ", or a thinner frame"});
+                      "gap: " + length_text(enough) + ", or a " +
+                          (flange.section == FlangeSection::angle ? "narrower angle" : "thinner frame")});
   }
   flange.gap = enough;
   return flange;

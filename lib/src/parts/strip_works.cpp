@@ -96,7 +96,7 @@ Span laps_of(const StripJob& job, const Span& unit) {
   const Span all = all_unfolded(job);
   Span laps{std::max(unit.from, all.from), std::min(unit.to, all.to)};
   if (!job.options.flanges.wanted || !job.section.convex) return laps;
-  const double end = job.options.flanges.thickness + kLapAside;
+  const double end = job.options.flanges.along() + kLapAside;
   if (job.bent()) {
     const Span heights = lap_heights(job);
     return {job.off_bends(std::max(laps.from, unit.from + end), 1.0, heights),

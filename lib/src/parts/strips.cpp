@@ -6,6 +6,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "core/plane_geometry.hpp"
+#include "parts/angle_frames.hpp"
 #include "parts/as_built.hpp"
 #include "parts/bent_strips.hpp"
 #include "parts/flats_line.hpp"
@@ -136,6 +137,7 @@ void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent, c
 
 std::vector<Issue> strip_problems(const PlateSection& section, const PlateOptions& options) {
   std::vector<Issue> issues;
+  if (section.convex) add_angle_seat_problems({section.outside, section.ring}, options, issues);
   if (options.floor == FloorMake::bent) {
     if (auto issue = too_tight_a_bend(section.thickness, options)) issues.push_back(std::move(*issue));
   }

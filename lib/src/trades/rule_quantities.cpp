@@ -105,6 +105,7 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"liner_life_share", number, "time in which a tile is worn through over the life that the design asks"},
     {"bolt_pitch", length, "distance of neighbouring bolts of a frame"},
     {"rolling_radius_thicknesses", number, "radius of a rolled plate over its thickness"},
+    {"angle_elongation", number, "elongation of the toe of an angle that is rolled to a flange"},
     {"bend_radius_thicknesses", number, "inner radius of a bend over the thickness of its plate"},
     {"flat", length, "flat between bends, or beside the last"},
     {"flat_thicknesses", number, "flat between bends, or beside the last, over the thickness of its plate"},

@@ -13,8 +13,8 @@ namespace glissade {
 /// kilograms; `inf` where a radius is unbounded.
 
 /// Columns: number, name, material, thickness_mm, quantity, length_mm, width_mm (of the least rectangle round the flat pattern: what it is
-/// cut from; of a tube its length and the width of its section; else empty), cut_length_mm, holes, bends, mass_kg, total_mass_kg,
-/// centre_of_gravity_x_mm, _y_mm, _z_mm, bought_in, section ("tube 60 x 60 x 4 mm").
+/// cut from; of a tube or angle the length of straight bar that it takes and the width of its section; else empty), cut_length_mm, holes, bends, mass_kg, total_mass_kg,
+/// centre_of_gravity_x_mm, _y_mm, _z_mm, bought_in, section ("tube 60 x 60 x 4 mm", "angle 50 x 50 x 6 mm").
 [[nodiscard]] std::string cut_list_csv(const Workshop& workshop);
 
 /// Columns: name, standard, quantity, where.

@@ -77,10 +77,13 @@ struct SplitOptions {
 /// On which side of a joint a frame lies, seen the way that the body goes.
 enum class FlangeSide { upstream, downstream };
 
+/// What flanges are made of: a plate or ring cut from the sheet, or equal angles whose one leg is welded along the channel.
+enum class FlangeSection { flat, angle };
+
 /// Frames round both ends of every transport unit, bolted together at the joints.
 struct FlangeOptions {
   bool wanted = true;
-  double width = 50e-3;     ///< of the bar, from the channel outwards [m]
+  double width = 50e-3;     ///< of the bar, from the channel outwards; of an angle of both legs [m]
   double thickness = 6e-3;  ///< [m]
   int bolt = 10;            ///< nominal diameter of a metric bolt [mm]; one of bolt_sizes()
   double pitch = 150e-3;    ///< greatest distance of bolts [m]
@@ -91,6 +94,10 @@ struct FlangeOptions {
   std::optional<FlangeSide> slotted = std::nullopt;
   std::optional<double> slot =
       std::nullopt;  ///< overall length of the slots [m]; none: 2.5 bolt diameters (EN 1090-2)
+  FlangeSection section = FlangeSection::flat;
+
+  /// How far it reaches along the track from the joint [m].
+  [[nodiscard]] double along() const { return section == FlangeSection::angle ? width : thickness; }
 
   friend bool operator==(const FlangeOptions&, const FlangeOptions&) = default;
 };

@@ -108,12 +108,27 @@ struct TroughGore {
   Angle end_tilt;             ///< z of the second one is length + x tan(end_tilt)
 };
 
+/// A bar of angle section, straight or rolled to an arc or ring. One leg lies in the x-y plane between heel and toe, from z = 0 to
+/// `thickness`, with holes and slots; the other one rises along the heel up to z = `height`, its inner face above the root. The three
+/// lines run side by side, root and toe to the left of the heel: open, their ends at either end on one line, or all closed.
+/// Corners are sharp; fillets of rolled bars hold up to 2 % more.
+struct AngleBar {
+  ArcPath heel;
+  ArcPath root;
+  ArcPath toe;
+  double thickness = 0.0;  ///< of the leg that lies [m]; > 0
+  double height = 0.0;     ///< of the leg that rises [m]; > thickness
+  std::vector<Circle> holes = {};
+  std::vector<ArcPath> slots = {};  ///< closed
+};
+
 /// What only facets show: printed pieces with holes and numbers.
 struct MeshBody {
   TriangleMesh mesh;  ///< closed, outward, in the part's own frame [m]
 };
 
-using PartBody = std::variant<Prism, SweptBody, RolledSheet, FoldedPlate, TubeGore, TroughGore, MeshBody>;
+using PartBody =
+    std::variant<Prism, SweptBody, RolledSheet, FoldedPlate, TubeGore, TroughGore, AngleBar, MeshBody>;
 
 /// A straight bend across a flat pattern.
 struct BendLine {
