@@ -5,8 +5,10 @@
 #include "app/console.hpp"
 #include "app/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace glissade::app {
 namespace {
@@ -30,6 +32,34 @@ std::string pieces_text(const Workshop& workshop, const PartsProof& proof) {
   return counted(workshop.parts.size(), "part") + ", " + counted(pieces, "piece") + ", " +
          rounded_text(mass, 4) + " kg; they add up to the solid, none clash" +
          (proof.bolted > 0 ? ", " + counted(proof.bolted, "pair") + " of holes meet" : "");
+}
+
+/// One line a stock: "6 of 400 HB, 6 mm, 3 m x 1.5 m: 67 % used".
+std::string stock_text(const std::vector<NestedSheet>& sheets) {
+  std::string text;
+  for (auto first = sheets.begin(); first != sheets.end();) {
+    const auto next = std::find_if(first, sheets.end(), [&](const NestedSheet& sheet) {
+      return sheet.material != first->material || sheet.thickness != first->thickness;
+    });
+    const auto count = static_cast<std::size_t>(next - first);
+    double used = 0.0;
+    for (auto sheet = first; sheet != next; ++sheet) used += sheet->utilisation / static_cast<double>(count);
+    text += (text.empty() ? "" : "\n") + counted(count, "sheet") + " of " + first->material + ", " +
+            length_text(first->thickness) + ", " + length_text(first->stock.width) + " x " +
+            length_text(first->stock.height) + ": " + rounded_text(100.0 * used, 2) + " % used";
+    first = next;
+  }
+  return text;
+}
+
+/// What has to be printed, and how much less it would be on larger paper.
+std::string templates_text(const TemplatePages& pages, TemplatePaper paper) {
+  const std::string roll = counted(pages.roll, "length") + " of a roll";
+  if (paper == TemplatePaper::roll) return roll;
+  if (paper == TemplatePaper::a3)
+    return counted(pages.a3, "page") + " of A3; export: {paper: roll} takes " + roll;
+  return counted(pages.a4, "page") + " of A4; export: {paper: a3} takes " + counted(pages.a3, "page") +
+         ", {paper: roll} " + roll;
 }
 
 std::string ride_text(const AsBuiltRide& ride) {
@@ -74,9 +104,13 @@ std::string checks_text(const std::vector<ShopCheck>& checks) {
 
 }  // namespace
 
-std::string parts_lines(const WorkshopBuild& build) {
+std::string parts_lines(const WorkshopBuild& build, TemplatePaper paper) {
   return labelled("Master curve", arcs_text(build.master)) +
          labelled("Parts", pieces_text(build.workshop, build.proof)) +
+         (build.nests.empty() ? "" : labelled("Stock", stock_text(build.nests))) +
+         (build.template_pages.roll == 0
+              ? ""
+              : labelled("Templates", templates_text(build.template_pages, paper))) +
          labelled("As built", ride_text(build.ride)) + labelled("Shop", checks_text(build.workshop.checks));
 }
 

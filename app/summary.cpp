@@ -303,7 +303,7 @@ std::string build_summary(const Design& design, const Build& build) {
   return track_summary(design, build.track) + "\n" +
          (build.has_solid() ? labelled("Solid", solid_lines(design, build)) + labelled("Mesh", verdict) + "\n"
                             : std::string()) +
-         (build.fabrication ? parts_lines(*build.fabrication) + "\n" : "") +
+         (build.fabrication ? parts_lines(*build.fabrication, design.exports.paper) + "\n" : "") +
          labelled("Files", file_lines(build.files)) + earlier_file_lines(build);
 }
 

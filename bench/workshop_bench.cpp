@@ -1,6 +1,5 @@
 // Files for workshops: time and size of a DXF of a side plate, of STEP, the set of drawings and the nests of 40 parts.
 
-#include "glissade/drawing/nest.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/sheet_file.hpp"

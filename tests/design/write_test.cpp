@@ -93,7 +93,8 @@ TEST_CASE("every key of the processes is written back") {
            "cross_members: {width: 60 mm, height: 80 mm, spacing: 350 mm, cheek: 50 mm, reach: 200 mm}, "
            "legs: {ground: [[0 m, -1 m], [4 m, -2 m]], spacing: 1.5 m, side: 100 mm, braced_from: 2 m, "
            "brace_width: 140 mm, brace_thickness: 30 mm}, "
-           "split: {sheet: [3 m, 1.5 m], longest: 9 m, heaviest: 80 kg}, fit: 3 mm, joint_step: 0.5 mm}"),
+           "split: {sheet: [3 m, 1.5 m], longest: 9 m, heaviest: 80 kg, margin: 12 mm, spacing: 6 mm}, fit: "
+           "3 mm, joint_step: 0.5 mm}"),
        std::string("{process: timber, legs: {ground: -2 m}}")}) {
     const Design design = parse_design(
         "glissade: 1\ntrack: {start: {x: 0 m, z: 6 m}, finish: {x: 5 m, z: 1 m}}\nbody: {friction_angle: 17 "

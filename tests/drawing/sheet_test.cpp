@@ -78,31 +78,101 @@ TEST_CASE("a long table goes over as many sheets as it takes, each row once") {
   CHECK(sheets[1].title.sheet == "2/" + std::to_string(sheets.size()));
 }
 
-TEST_CASE("templates at 1:1 cover the drawing with overlapping windows, each point at its place") {
+namespace {
+
+/// What the windows of templates show of the drawing, each in the drawing's own frame.
+std::vector<PlaneBox> windows_of(const std::vector<Sheet>& sheets) {
+  std::vector<PlaneBox> windows;
+  for (const Sheet& sheet : sheets) {
+    const SheetView& view = sheet.views.front();
+    CHECK(view.scale == 1.0);
+    REQUIRE(view.clip.has_value());
+    const Vec2 low = view.anchor + (view.clip->low - view.at);
+    windows.push_back({low, low + Vec2{view.clip->width(), view.clip->height()}});
+    CHECK(view.clip->high.x <= sheet.width_mm);
+    CHECK(view.clip->high.y <= sheet.height_mm);
+  }
+  return windows;
+}
+
+bool holds(const PlaneBox& box, Vec2 point) {
+  return point.x >= box.low.x && point.x <= box.high.x && point.y >= box.low.y && point.y <= box.high.y;
+}
+
+/// Every point of the contours lies in a window, with its neighbourhood where windows overlap; no window is blank.
+void require_covered(const Drawing& drawing, const std::vector<Sheet>& sheets) {
+  const std::vector<PlaneBox> windows = windows_of(sheets);
+  std::vector<Vec2> points;
+  for (const DrawnPath& drawn : drawing.paths) {
+    const std::vector<Vec2> flat = flattened(drawn.path, 0.05);
+    for (std::size_t i = 0; i + 1 < flat.size(); ++i) {
+      for (int k = 0; k < 40; ++k) points.push_back(flat[i] + (k / 40.0) * (flat[i + 1] - flat[i]));
+    }
+  }
+  std::size_t missed = 0;
+  for (const Vec2 point : points) {
+    missed += std::none_of(windows.begin(), windows.end(),
+                           [&](const PlaneBox& window) { return holds(window, point); })
+                  ? 1
+                  : 0;
+  }
+  CHECK(missed == 0);
+  for (const PlaneBox& window : windows) {
+    const bool has_line =
+        std::any_of(points.begin(), points.end(), [&](Vec2 point) { return holds(window, point); });
+    const Vec2 middle = 0.5 * (window.low + window.high);
+    const bool lies_inside = std::any_of(
+        drawing.paths.begin(), drawing.paths.end(),
+        [&](const DrawnPath& drawn) { return drawn.path.closed && contains(drawn.path, middle); });
+    CHECK((has_line || lies_inside));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("templates at 1:1 cover the drawing with overlapping windows and show no blank sheet") {
   const Drawing drawing = plate();
-  const PlaneBox box = bounds(drawing).value();
   for (const PaperSize size : {PaperSize::a4, PaperSize::a3}) {
     const std::vector<Sheet> sheets = tiled_template(drawing, title(), size, 10.0);
-    double left = 1e9;
-    double right = -1e9;
-    double covered = 0.0;
-    for (const Sheet& sheet : sheets) {
-      const SheetView& view = sheet.views.front();
-      CHECK(view.scale == 1.0);
-      REQUIRE(view.clip.has_value());
-      const Vec2 low = view.anchor + (view.clip->low - view.at);
-      left = std::min(left, low.x);
-      right = std::max(right, low.x + view.clip->width());
-      covered += (view.clip->width() - 10.0) * (view.clip->height() - 10.0);
-    }
-    CHECK(left <= box.low.x);
-    CHECK(right >= box.high.x);
-    CHECK(covered + 1e5 >= box.width() * box.height());
-    CHECK(static_cast<double>(sheets.size()) <= covered);
+    CHECK(template_sheets(drawing, size, 10.0) == sheets.size());
+    require_covered(drawing, sheets);
   }
-  const Sheet roll = roll_template(drawing, title());
-  CHECK(roll.width_mm >= box.width());
-  CHECK(roll.views.front().scale == 1.0);
+  const std::vector<Sheet> rolls = roll_template(drawing, title());
+  REQUIRE(rolls.size() == 1);
+  CHECK(template_sheets(drawing, {}) == 1);
+  CHECK(rolls.front().width_mm >= bounds(drawing)->width());
+  require_covered(drawing, rolls);
+}
+
+TEST_CASE("a roll that is longer than a page of a PDF may be is several, with crosses and a key") {
+  Drawing drawing;
+  const std::size_t layer = drawing.layer({"CUT", LineStyle::continuous, 0.25, 7});
+  drawing.add(layer, rectangle({0.0, 0.0}, {12'000.0, 300.0}));
+  const std::vector<Sheet> rolls = roll_template(drawing, title(), 10.0);
+  REQUIRE(rolls.size() == 3);
+  CHECK(template_sheets(drawing, {}, 10.0) == 3);
+  for (const Sheet& sheet : rolls) {
+    CHECK(sheet.width_mm <= 5000.0);
+    CHECK(sheet.views.size() == 3);
+  }
+  require_covered(drawing, rolls);
+  // Crosses of neighbours fall together: they lie in the middle of what both show.
+  const std::vector<PlaneBox> windows = windows_of(rolls);
+  CHECK(windows[0].high.x - windows[1].low.x == Approx(10.0));
+  const std::vector<DrawnText>& texts = rolls[1].views[1].drawing.texts;
+  CHECK(std::any_of(texts.begin(), texts.end(), [](const DrawnText& text) {
+    return text.text.find("sheet 2 of 3, row 1 of 1, column 2 of 3; overlap 10 mm") != std::string::npos;
+  }));
+}
+
+TEST_CASE("an upright picture is tiled over upright sheets where these are fewer") {
+  Drawing drawing;
+  const std::size_t layer = drawing.layer({"CUT", LineStyle::continuous, 0.25, 7});
+  drawing.add(layer, rectangle({0.0, 0.0}, {180.0, 260.0}));
+  const std::vector<Sheet> sheets = tiled_template(drawing, title(), PaperSize::a4);
+  REQUIRE(sheets.size() == 1);
+  CHECK(sheets[0].height_mm == 297.0);
+  CHECK(sheets[0].views.size() == 2);  // one sheet has no neighbours to show
 }
 
 TEST_CASE("PDF and SVG of the same sheets are the same bytes; sheets that are none are refused") {
@@ -164,7 +234,7 @@ TEST_CASE("poppler finds the pages in their sizes, and the words on them", "[ext
                                    {{}, "Stückliste", {20.0, 60.0}, {"no.", "name"}, rows(3), 2.5})) {
     sheets.push_back(sheet);
   }
-  sheets.push_back(roll_template(plate(), title()));
+  sheets.push_back(roll_template(plate(), title()).front());
   const auto file = directory / "set.pdf";
   write_pdf(file, numbered(sheets), "Chute");
   const Outcome info = run_program("pdfinfo", {"-f", "1", "-l", "3", file.string()});

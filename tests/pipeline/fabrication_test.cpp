@@ -169,6 +169,56 @@ TEST_CASE("fabrication: every piece that is cut lies on one sheet of its thickne
 }
 
 TEST_CASE(
+    "fabrication: sheets keep the margin and spacing that are asked for, and --json tells what is used of "
+    "each") {
+  const TempDir place;
+  Design design = quick("{process: plate, split: {sheet: [2.2 m, 1.1 m], margin: 40 mm, spacing: 25 mm}}");
+  design.exports.layers = LayerPreset::sendcutsend;
+  const Build built = build(design, place / "out", {}, {.report = false});
+  const nlohmann::json json = nlohmann::json::parse(build_json(design, built));
+  REQUIRE(json["nests"].size() == built.fabrication->nests.size());
+  REQUIRE(json["nests"].size() > 1);
+  std::size_t pieces = 0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < json["nests"].size(); ++i) {
+    const nlohmann::json& sheet = json["nests"][i];
+    CHECK(sheet["margin_m"] == 0.04);
+    CHECK(sheet["spacing_m"] == 0.025);
+    CHECK(sheet["sheet_m"] == nlohmann::json({2.2, 1.1}));
+    CHECK(sheet["utilisation"].get<double>() * 2.2 * 1.1 == Approx(sheet["parts_area_m2"].get<double>()));
+    pieces += sheet["pieces"].get<std::size_t>();
+    area += sheet["parts_area_m2"].get<double>();
+    const Drawing drawing = read_dxf(place / "out" / sheet["file"].get<std::string>());
+    const PlaneBox box = bounds(drawing).value();
+    CHECK(box.low.x >= 40.0 - 1e-6);
+    CHECK(box.low.y >= 40.0 - 1e-6);
+    CHECK(box.high.x <= 2160.0 + 1e-6);
+    CHECK(box.high.y <= 1060.0 + 1e-6);
+    for (const DrawingLayer& layer : drawing.layers) CHECK(layer.name == "0");
+  }
+  std::size_t ordered = 0;
+  double expected = 0.0;
+  for (const ShopPart& part : built.fabrication->workshop.parts) {
+    if (!part.pattern || part.bought_in) continue;
+    ordered += part.quantity();
+    expected += static_cast<double>(part.quantity()) * moments(part.pattern->region).area;
+  }
+  CHECK(pieces == ordered);
+  CHECK(area == Approx(expected).epsilon(1e-12));
+}
+
+TEST_CASE("fabrication: margins and spacings that leave nothing of a sheet are refused where they stand") {
+  using Catch::Matchers::Contains;
+  CHECK_THAT(refusal("{process: plate, split: {margin: 0.75 m}}"),
+             Contains("margin: 750 mm leaves nothing of a sheet that is 1.5 m wide") &&
+                 Contains("less than 750 mm"));
+  CHECK_THAT(refusal("{process: plate, split: {spacing: 1.5 m, margin: -1 mm}}"),
+             Contains("spacing: 1.5 m is no less than the width of the sheet") &&
+                 Contains("margin: -1 mm is negative"));
+  CHECK_THAT(refusal("{process: plate, margin: 5 mm}"), Contains("split: {margin: 5 mm}"));
+}
+
+TEST_CASE(
     "fabrication: a print gives its pieces as one 3MF file, each whole, and meshes of single pieces on "
     "request") {
   const TempDir place;

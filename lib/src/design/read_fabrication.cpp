@@ -67,7 +67,8 @@ std::optional<FabricationDesign> read_fabrication(MapReader& top, const std::fil
   for (const auto& [key, place] :
        {std::pair("bed", "split: {bed: [220 mm, 220 mm, 250 mm]}, of a print"),
         std::pair("sheet", "split: {sheet: [3 m, 1.5 m]}"), std::pair("longest", "split: {longest: 3 m}"),
-        std::pair("heaviest", "split: {heaviest: 50 kg}")})
+        std::pair("heaviest", "split: {heaviest: 50 kg}"), std::pair("margin", "split: {margin: 5 mm}"),
+        std::pair("spacing", "split: {spacing: 10 mm}")})
     map.add_stranger(key, place);
   map.expect({"process", "material", "arc_tolerance", "rules"});
   FabricationDesign design;

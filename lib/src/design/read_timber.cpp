@@ -81,6 +81,8 @@ TimberSplit read_split(const Value& value, Findings& findings) {
   if (const auto sheet = map.find("sheet")) split.sheet = as_point(*sheet, findings).value_or(split.sheet);
   split.longest = map.quantity("longest", Dimension::length).value_or(split.longest);
   split.heaviest = map.quantity("heaviest", Dimension::mass);
+  set_length(map, "margin", split.margin);
+  set_length(map, "spacing", split.spacing);
   map.refuse_unknown_keys();
   return split;
 }

@@ -59,7 +59,7 @@ fabrication:                           # {process: plate} alone will do; docs/de
   floor: bent                          # or rolled
   bend: {speed_loss: 1 %}              # as many bends as cost no more of the exit speed
   corners: butt                        # or lap, tab-and-slot
-  split: {longest: 2.9 m, sheet: [3 m, 1.5 m]}
+  split: {longest: 2.9 m, sheet: [3 m, 1.5 m], margin: 5 mm, spacing: 10 mm}  # stock, and what parts keep on it
   flanges: {width: 50 mm, thickness: 6 mm, bolt: M10, pitch: 150 mm}  # slotted: downstream for slots on that side; section: angle
   rim: {width: 40 mm, thickness: 5 mm}
   # liner: {thickness: 6 mm}           # tiles; with floor: rolled

@@ -52,6 +52,8 @@ std::string split(const TimberSplit& options) {
   group.add("sheet", point(options.sheet));
   group.add("longest", options.longest, Dimension::length);
   group.add("heaviest", options.heaviest, Dimension::mass);
+  group.add("margin", options.margin, Dimension::length);
+  group.add("spacing", options.spacing, Dimension::length);
   return group.inlined();
 }
 

@@ -152,15 +152,14 @@ std::string nests_csv(const Workshop& workshop, const std::vector<NestedSheet>& 
   Csv csv(
       "sheet,material,thickness_mm,length_mm,width_mm,margin_mm,spacing_mm,pieces,parts_area_m2,"
       "utilisation_percent,parts");
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    const NestedSheet& sheet = sheets[i];
+  for (const NestedSheet& sheet : sheets) {
     std::map<int, std::size_t> counts;
     for (const NestedPiece& piece : sheet.pieces) ++counts[workshop.parts[piece.part].number];
     std::string parts;
     for (const auto& [number, count] : counts) {
       parts += (parts.empty() ? "" : "; ") + std::to_string(count) + " x no. " + std::to_string(number);
     }
-    csv.row() << nest_stem(sheets, i) << sheet.material << mm(sheet.thickness) << mm(sheet.stock.width)
+    csv.row() << sheet.name << sheet.material << mm(sheet.thickness) << mm(sheet.stock.width)
               << mm(sheet.stock.height) << mm(sheet.stock.margin) << mm(sheet.stock.spacing)
               << sheet.pieces.size() << clean(sheet.utilisation * sheet.stock.width * sheet.stock.height)
               << clean(100.0 * sheet.utilisation) << parts;

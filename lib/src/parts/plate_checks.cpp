@@ -128,8 +128,7 @@ void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& optio
 }
 
 void object_to_split(const SplitOptions& split, Objections& objections) {
-  objections.positive(split.sheet.x, "split.sheet");
-  objections.positive(split.sheet.y, "split.sheet");
+  for (Issue& issue : stock_problems(split.stock())) objections.add(std::move(issue));
   if (split.longest) objections.positive(*split.longest, "split.longest");
   if (split.widest && !(*split.widest >= kLeastStrip)) {
     objections.add(

@@ -143,14 +143,14 @@ std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split,
 
 std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
   const PlaneBox box = bounds(part.pattern->region.outline);
-  const double longer = std::max(box.width(), box.height()) + 2.0 * kSheetMargin;
-  const double shorter = std::min(box.width(), box.height()) + 2.0 * kSheetMargin;
-  const double sheet_longer = std::max(split.sheet.x, split.sheet.y);
-  const double sheet_shorter = std::min(split.sheet.x, split.sheet.y);
-  if (longer > sheet_longer || shorter > sheet_shorter) {
-    return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of 5 mm",
-                  "the sheet is " + length_text(sheet_longer) + " x " + length_text(sheet_shorter),
-                  std::max(longer / sheet_longer, shorter / sheet_shorter)};
+  const NestStock stock = split.stock();
+  const double longer = std::max(box.width(), box.height()) + 2.0 * split.margin;
+  const double shorter = std::min(box.width(), box.height()) + 2.0 * split.margin;
+  if (longer > stock.width || shorter > stock.height) {
+    return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of " +
+                      length_text(split.margin),
+                  "the sheet is " + length_text(stock.width) + " x " + length_text(stock.height),
+                  std::max(longer / stock.width, shorter / stock.height)};
   }
   if (split.heaviest && part.mass > *split.heaviest) {
     return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",

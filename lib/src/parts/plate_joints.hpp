@@ -11,7 +11,6 @@
 namespace glissade::parts {
 
 /// Round a part on its sheet [m].
-inline constexpr double kSheetMargin = 5e-3;
 inline constexpr std::size_t kMostUnits = 400;
 
 /// Why a part cannot be had in one piece.

@@ -66,8 +66,7 @@ double widest_of(const std::vector<Span>& strips) {
 double widest_strip(double width, bool straight, const SplitOptions& split) {
   if (!split.allowed) return std::numeric_limits<double>::infinity();
   const double share = straight ? 1.0 : kOfSheet;
-  const double longer = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
-  const double shorter = std::min(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  const auto [longer, shorter] = split.stock().room();
   double most = std::numeric_limits<double>::infinity();
   if (width > share * longer + kTouch) most = share * shorter;
   return std::min(most, split.widest.value_or(most));

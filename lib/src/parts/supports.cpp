@@ -288,7 +288,7 @@ void add_braces(const Shell& shell, const Trestle& trestle, const Measures& meas
                 const std::string& number) {
   const SupportOptions& supports = *shell.options.supports;
   if (trestle.leg(supports) < supports.braced_from) return;
-  const double longest = std::max(shell.options.split.sheet.x, shell.options.split.sheet.y);
+  const double longest = shell.options.split.stock().room().x;
   const double width = 2.0 * measures.leg_aside;
   const double room = trestle.leg(supports) - 200e-3;
   // Crosses no steeper than 60 deg, one above the other.
@@ -314,7 +314,7 @@ void add_braces(const Shell& shell, const Trestle& trestle, const Measures& meas
       Frame place{origin, x, side > 0.0 ? y : -1.0 * y, run};
       ShopPart brace = plate_part(shell, "brace_" + number, region, kBrace, {place});
       // Flat bar where no sheet is as long.
-      brace.bought_in = bounds(region.outline).width() + 2.0 * kSheetMargin > longest;
+      brace.bought_in = bounds(region.outline).width() > longest;
       add_part(shell.workshop, std::move(brace), kSupportColour);
     }
   }

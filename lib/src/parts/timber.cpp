@@ -105,14 +105,14 @@ double add_lining(const Lining& lining, Workshop& workshop) {
 
 /// Whether curbs between joints are cut from the sheet; of those that fold over another check tells.
 bool curbs_fit(const TimberJob& job, const std::vector<double>& joints) {
-  const Vec2 sheet = job.options.split.sheet;
+  const auto [longer, shorter] = job.options.split.sawn().room();
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
     const Span span{joints[i], joints[i + 1]};
     const auto outline = band(job.track, span, 0.0, job.channel.curb_height);
     if (!outline) continue;
     const PlaneBox box = bounds(moved(*outline, PlaneMotion::turn(-chord_angle(job, span))));
-    if (std::max(box.width(), box.height()) > std::max(sheet.x, sheet.y) - 2.0 * kSheetMargin) return false;
-    if (std::min(box.width(), box.height()) > std::min(sheet.x, sheet.y) - 2.0 * kSheetMargin) return false;
+    if (std::max(box.width(), box.height()) > longer) return false;
+    if (std::min(box.width(), box.height()) > shorter) return false;
   }
   return true;
 }
@@ -120,7 +120,7 @@ bool curbs_fit(const TimberJob& job, const std::vector<double>& joints) {
 /// Joints of the curbs, apart from the seams of the upper layer.
 std::vector<double> curb_joints(const TimberJob& job, const std::vector<DeckRow>& upper) {
   const TimberSplit& split = job.options.split;
-  const double stock = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin - 2.0 * kSeamClear;
+  const double stock = split.sawn().room().x - 2.0 * kSeamClear;
   const bool sawn = job.channel.curb_thickness > kThickestSheet;
   const double per_metre = job.channel.curb_height * job.channel.curb_thickness *
                            (sawn ? job.options.lumber : job.options.material).density;
@@ -145,13 +145,13 @@ std::vector<double> curb_joints(const TimberJob& job, const std::vector<DeckRow>
     }
     if (sawn || curbs_fit(job, joints)) return joints;
   }
-  throw InputError(
-      {"split.sheet",
-       "sheet: curbs of " + length_text(job.channel.curb_height) + " fit no sheet of " +
-           length_text(split.sheet.x) + " x " + length_text(split.sheet.y),
-       "Each takes its height and what its curve rises, " + length_text(kSheetMargin) + " from the edges.",
-       "a larger sheet, lower curbs, or ones of more than " + length_text(kThickestSheet) +
-           ", which are sawn"});
+  throw InputError({"split.sheet",
+                    "sheet: curbs of " + length_text(job.channel.curb_height) + " fit no sheet of " +
+                        length_text(split.sheet.x) + " x " + length_text(split.sheet.y),
+                    "Each takes its height and what its curve rises, " + length_text(split.sawn().margin) +
+                        " from the edges.",
+                    "a larger sheet, lower curbs, or ones of more than " + length_text(kThickestSheet) +
+                        ", which are sawn"});
 }
 
 double add_curbs(const TimberJob& job, const std::vector<DeckRow>& upper, Workshop& workshop) {

@@ -71,8 +71,7 @@ void check_members(const TimberOptions& options, bool templates, Problems& probl
 }
 
 void check_stock(const TimberOptions& options, Problems& problems) {
-  for (const double side : {options.split.sheet.x, options.split.sheet.y})
-    problems.positive("split.sheet", side, "sheet: [2.5 m, 1.25 m]");
+  for (Issue& issue : stock_problems(options.split.stock())) problems.issues.push_back(std::move(issue));
   problems.positive("split.longest", options.split.longest, "12 m");
   constexpr int kMostLayers = 12;
   if (options.deck.layers < 1 || options.deck.layers > kMostLayers) {

@@ -195,8 +195,7 @@ bool piece_fits(const TimberJob& job, const Span& span) {
   const double area = glissade::moments(PlaneRegion{*outline, {}, {}}).area;
   if (split.heaviest && area * job.options.bearer_width() * stock.density > *split.heaviest) return false;
   if (job.options.frame == TimberFrame::beams) return std::max(box.width(), box.height()) <= split.longest;
-  const double longer = std::max(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
-  const double shorter = std::min(split.sheet.x, split.sheet.y) - 2.0 * kSheetMargin;
+  const auto [longer, shorter] = split.sawn().room();
   return std::max(box.width(), box.height()) <= longer && std::min(box.width(), box.height()) <= shorter;
 }
 
@@ -258,8 +257,7 @@ Leg leg_below(const TimberJob& job, double s) {
 /// Length of a sheet of the deck: that of the stock, or what its mass allows.
 double sheet_length(const TimberJob& job) {
   const auto& boards = job.options.deck.boards;
-  const double stock =
-      boards ? boards->length : std::max(job.options.split.sheet.x, job.options.split.sheet.y);
+  const double stock = boards ? boards->length : job.options.split.stock().room().x;
   if (!job.options.split.heaviest) return stock;
   const double per_metre = job.layer() * job.strip_width() * job.deck_material().density;
   const double allowed = *job.options.split.heaviest / per_metre;
@@ -281,7 +279,7 @@ int TimberJob::strips() const {
     const double count = std::ceil((channel.overall() + boards->gap) / (boards->width + boards->gap) - 1e-9);
     return std::max(1, static_cast<int>(count));
   }
-  const double sheet = std::min(options.split.sheet.x, options.split.sheet.y);
+  const double sheet = options.split.stock().room().y;
   return std::max(1, static_cast<int>(std::ceil(channel.overall() / sheet - 1e-9)));
 }
 

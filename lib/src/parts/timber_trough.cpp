@@ -26,12 +26,12 @@ constexpr double kLeastRow = 0.3;         // of a lining, along the track [m]
 
 double stock_width(const TimberOptions& options) {
   if (options.deck.boards) return options.deck.boards->width;
-  return std::min(options.split.sheet.x, options.split.sheet.y) - 2.0 * kSheetMargin;
+  return options.split.sawn().room().y;
 }
 
 double stock_length(const TimberOptions& options) {
   if (options.deck.boards) return options.deck.boards->length;
-  return std::max(options.split.sheet.x, options.split.sheet.y) - 2.0 * kSheetMargin;
+  return options.split.sawn().room().x;
 }
 
 /// What a side of the section is cut into across: its edges on the face and on the back.
@@ -224,8 +224,7 @@ std::vector<Issue> lining_problems(const TimberChannel& channel, const TimberOpt
   const double longer = std::max(box.width(), box.height());
   const double shorter = std::min(box.width(), box.height());
   const Vec2 sheet = options.split.sheet;
-  const double long_side = std::max(sheet.x, sheet.y) - 2.0 * kSheetMargin;
-  const double short_side = std::min(sheet.x, sheet.y) - 2.0 * kSheetMargin;
+  const auto [long_side, short_side] = options.split.sawn().room();
   if (longer <= long_side && shorter <= short_side) return issues;
   // Templates that are cut off lower down fit where only their height is too much.
   const double over = box.height() - (box.width() <= short_side ? long_side : short_side);
@@ -235,7 +234,7 @@ std::vector<Issue> lining_problems(const TimberChannel& channel, const TimberOpt
                     "sheet: templates of " + length_text(box.width(), 4) + " x " +
                         length_text(box.height(), 4) + " fit no sheet of " + length_text(sheet.x) + " x " +
                         length_text(sheet.y),
-                    "Each is cut in one piece, " + length_text(kSheetMargin) +
+                    "Each is cut in one piece, " + length_text(options.split.sawn().margin) +
                         " from the edges; it reaches up to the rim, or to cross_members.reach.",
                     lower_do ? "a larger sheet, or cross_members: {reach: " + length_text(reach) + "}"
                              : "a larger sheet, or a narrower section"});

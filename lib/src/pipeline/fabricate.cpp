@@ -113,6 +113,8 @@ std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track
   const Vec3 offset = track.placement.start() - frame.start();
   for (SettingOutPoint& point : build.workshop.setting_out) point.site = point.site + offset;
   name_part_files(design, build.workshop);
+  at_keys(design, [&] { lay_on_sheets(design, build); });
+  count_templates(design, build);
   return std::make_shared<const WorkshopBuild>(std::move(build));
 }
 

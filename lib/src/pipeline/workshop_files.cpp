@@ -2,7 +2,6 @@
 
 #include "pipeline/workshop_files.hpp"
 
-#include "glissade/drawing/nest.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/dxf_file.hpp"
@@ -12,7 +11,6 @@
 #include "glissade/io/three_mf_file.hpp"
 #include "glissade/io/workshop_tables.hpp"
 
-#include "parts/plate_joints.hpp"
 #include "pipeline/fabricate.hpp"
 #include "pipeline/formats.hpp"
 
@@ -20,6 +18,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace glissade::pipeline {
@@ -96,17 +95,14 @@ PendingFile pdf_of(std::string name, const std::shared_ptr<const WorkshopBuild>&
   return file;
 }
 
-/// Every piece that is cut from a sheet, laid out on the stock of the design.
-std::vector<PendingFile> nests_of(const std::string& stem, const Workshop& workshop, const NestStock& stock,
-                                  const DxfOptions& options) {
-  std::vector<PendingFile> files;
-  const std::vector<NestedSheet> sheets = nest(workshop, stock);
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    files.push_back(dxf_file(stem + ".nests/" + nest_stem(sheets, i) + ".dxf",
-                             nest_drawing(workshop, sheets[i]), options));
+/// Every sheet of stock with what is cut from it, and their table.
+void add_nests(const Design& design, const WorkshopBuild& build, std::vector<PendingFile>& files) {
+  for (const NestedSheet& sheet : build.nests) {
+    files.push_back(dxf_file(sheet.file, nest_drawing(build.workshop, sheet, design.exports.layers),
+                             {design.exports.dxf_version}));
   }
-  if (!sheets.empty()) files.push_back(table(stem + ".nests.csv", nests_csv(workshop, sheets)));
-  return files;
+  if (!build.nests.empty())
+    files.push_back(table(stem_of(design) + ".nests.csv", nests_csv(build.workshop, build.nests)));
 }
 
 /// Every piece of a print on its bed.
@@ -139,18 +135,12 @@ PendingFile stl_of(std::string name, const TriangleMesh& mesh, LengthUnit unit) 
   return file;
 }
 
-/// Stock of the design's sheets; of a process that names none, what a sheet is by default.
-NestStock stock_of(const FabricationDesign& fabrication) {
-  constexpr double kSpacing = 10e-3;
-  constexpr double kSawCut = 4e-3;
-  // Sheets of a deck keep the stock's size: no margin, and no saw between two of them.
-  if (const auto* const timber = std::get_if<TimberOptions>(&fabrication.process)) {
-    const Vec2 sheet = timber->split.sheet;
-    return {std::max(sheet.x, sheet.y), std::min(sheet.x, sheet.y), 0.0, kSawCut};
-  }
-  const auto* const plate = std::get_if<PlateOptions>(&fabrication.process);
-  const Vec2 sheet = plate != nullptr ? plate->split.sheet : SplitOptions{}.sheet;
-  return {std::max(sheet.x, sheet.y), std::min(sheet.x, sheet.y), parts::kSheetMargin, kSpacing};
+/// @return the sheets that a process cuts its parts from; none of prints
+std::optional<NestStock> stock_of(const FabricationDesign& fabrication) {
+  if (const auto* const plate = std::get_if<PlateOptions>(&fabrication.process)) return plate->split.stock();
+  if (const auto* const timber = std::get_if<TimberOptions>(&fabrication.process))
+    return timber->split.stock();
+  return std::nullopt;
 }
 
 /// Whether a shape is worth a template: rectangles without holes are marked with a rule.
@@ -170,10 +160,6 @@ std::vector<Sheet> templates(const Workshop& workshop, TemplatePaper paper) {
     for (Sheet& sheet : part_template(workshop, part, paper)) sheets.push_back(std::move(sheet));
   }
   return sheets;
-}
-
-bool has_templates(const Workshop& workshop) {
-  return std::any_of(workshop.parts.begin(), workshop.parts.end(), wants_template);
 }
 
 /// Whether meshes of single pieces are written: they are on request alone.
@@ -226,7 +212,7 @@ void add_sheets(const Design& design, const std::shared_ptr<const WorkshopBuild>
       files.push_back(table(stem + ".drawings/" + number + ".svg", svg_text(sheets[i])));
     }
   }
-  if (wanted(WorkshopFormat::templates) && has_templates(build->workshop)) {
+  if (build->template_pages.roll > 0) {
     files.push_back(
         pdf_of(stem + ".templates.pdf", build,
                [paper = design.exports.paper](const Workshop& shop) { return templates(shop, paper); }));
@@ -279,6 +265,24 @@ void name_part_files(const Design& design, Workshop& workshop) {
   }
 }
 
+void lay_on_sheets(const Design& design, WorkshopBuild& build) {
+  const auto stock = stock_of(*design.fabrication);
+  if (!stock || !Choice(design)(WorkshopFormat::nests)) return;
+  build.nests = nest(build.workshop, *stock);
+  for (NestedSheet& sheet : build.nests) sheet.file = stem_of(design) + ".nests/" + sheet.name + ".dxf";
+}
+
+void count_templates(const Design& design, WorkshopBuild& build) {
+  if (!Choice(design)(WorkshopFormat::templates)) return;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (!wants_template(part)) continue;
+    const TemplatePages pages = template_pages(part);
+    build.template_pages.a4 += pages.a4;
+    build.template_pages.a3 += pages.a3;
+    build.template_pages.roll += pages.roll;
+  }
+}
+
 std::vector<PendingFile> workshop_files(const Design& design,
                                         const std::shared_ptr<const WorkshopBuild>& build) {
   const Choice wanted(design);
@@ -290,12 +294,7 @@ std::vector<PendingFile> workshop_files(const Design& design,
     files.push_back(step_of(stem + ".step", std::shared_ptr<const Workshop>(build, &workshop)));
   add_prints(design, build, files);
   add_sheets(design, build, files);
-  if (wanted(WorkshopFormat::nests)) {
-    for (PendingFile& file :
-         nests_of(stem, workshop, stock_of(*design.fabrication), {design.exports.dxf_version})) {
-      files.push_back(std::move(file));
-    }
-  }
+  if (wanted(WorkshopFormat::nests)) add_nests(design, *build, files);
   if (wanted(WorkshopFormat::tables)) add_tables(stem, workshop, files);
   return files;
 }

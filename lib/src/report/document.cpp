@@ -257,6 +257,16 @@ Json fabrication_of(const ReportInput& input) {
   add_parts(json, input.workshop);
   const std::vector<ShopPart>& parts = input.workshop->workshop.parts;
   for (std::size_t i = 0; i < parts.size(); ++i) json["parts"][i]["pattern"] = pattern_json(parts[i]);
+  for (std::size_t i = 0; i < input.workshop->nests.size(); ++i) {
+    Json& laid = json["nests"][i]["laid"] = Json::array();
+    for (const NestedPiece& piece : input.workshop->nests[i].pieces) {
+      const PlaneMotion& motion = piece.motion;
+      laid.push_back({{"part", piece.part},
+                      {"cosine", motion.cosine},
+                      {"sine", motion.sine},
+                      {"shift_m", {motion.shift.x, motion.shift.y}}});
+    }
+  }
   json["design_exit_speed_m_per_s"] = input.workshop->ride.design_exit_speed;
   json["view"] = parts_view_json(input);
   return json;

@@ -159,6 +159,32 @@ describe("parts of a workshop", () => {
     assert.ok(Math.abs(volume / doc.parts[i].volume_m3 - 1) < 5e-3, `${volume} against ${doc.parts[i].volume_m3}`);
   });
 
+  test("lie on pictures of the sheets of stock, where a click chooses them, too", async () => {
+    const { nests } = made.json;
+    assert.equal(await page.locator(".nest").count(), nests.length);
+    assert.equal(await page.locator(".nest .sheet").count(), nests.reduce((sum, nest) => sum + nest.pieces, 0));
+    const captions = await page.locator(".nest-holder figcaption").allTextContents();
+    captions.forEach((text, i) => {
+      assert.ok(text.includes(`${nests[i].material}, `) && text.includes("% used"), text);
+      const used = Number(text.match(/([0-9.]+)\u00a0% used/)[1]);
+      assert.ok(Math.abs(used - 100 * nests[i].utilisation) < 0.06 * Math.max(1, used / 10), `${used} against ${nests[i].utilisation}`);
+    });
+    // Each piece is drawn inside its sheet.
+    const outside = await page.evaluate(() => [...document.querySelectorAll(".nest")].flatMap((svg) => {
+      const stock = svg.querySelector(".stock").getBBox();
+      return [...svg.querySelectorAll(".sheet")].map((shape) => shape.getBBox()).filter((box) => box.x < stock.x - 0.02 || box.y < stock.y - 0.02
+        || box.x + box.width > stock.x + stock.width + 0.02 || box.y + box.height > stock.y + stock.height + 0.02);
+    }));
+    assert.deepEqual(outside, []);
+    const last = nests.at(-1).parts.at(-1).number;
+    await page.locator(`.nest .sheet[data-part="${last}"]`).first().click();
+    assert.equal(made.json.parts[await chosen()].number, last);
+    const marked = await page.locator(".nest .sheet.chosen").evaluateAll((all) => all.map((shape) => Number(shape.dataset.part)));
+    assert.ok(marked.length > 0 && marked.every((number) => number === last), String(marked));
+    const files = await page.locator(".nest-holder a").evaluateAll((all) => all.map((link) => decodeURIComponent(link.getAttribute("href"))));
+    assert.deepEqual(files, nests.map((nest) => nest.file));
+  });
+
   test("are drawn apart by a slider, and one of them alone", async () => {
     const spread = async (share) => {
       await page.locator("#apart").fill(String(share));

@@ -2,6 +2,7 @@
 
 #include "glissade/drawing/drawing.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,13 +76,20 @@ struct Sheet {
 /// A table that does not fit one sheet, over as many as it takes.
 [[nodiscard]] std::vector<Sheet> table_sheets(const TitleBlock& title, PaperSize size, SheetTable table);
 
-/// 1:1 templates: a drawing over as many sheets as it takes, to be glued together at crosses; every sheet says its row and
-/// column and carries bars of 100 mm in both directions.
+/// 1:1 templates: a drawing over as many sheets as it takes, lying or upright, whichever are fewer, to be glued together at crosses;
+/// sheets that would show nothing of it, neither a line nor the inside of a contour, are left out. Every sheet says which of how many
+/// it is, its row and column, shows its place among the others small, and carries bars of 100 mm in both directions.
 /// @param overlap_mm  of neighbouring sheets
 [[nodiscard]] std::vector<Sheet> tiled_template(const Drawing& drawing, const TitleBlock& title,
                                                 PaperSize size, double overlap_mm = 10.0);
 
-/// 1:1 template on a roll: one sheet as long as it takes.
-[[nodiscard]] Sheet roll_template(const Drawing& drawing, const TitleBlock& title);
+/// 1:1 template on a roll: one sheet as long as it takes; sheets of 5 m where it takes more, which no PDF page may have.
+[[nodiscard]] std::vector<Sheet> roll_template(const Drawing& drawing, const TitleBlock& title,
+                                               double overlap_mm = 10.0);
+
+/// @param size  of the paper; none: a roll
+/// @return how many sheets the two above have
+[[nodiscard]] std::size_t template_sheets(const Drawing& drawing, std::optional<PaperSize> size,
+                                          double overlap_mm = 10.0);
 
 }  // namespace glissade

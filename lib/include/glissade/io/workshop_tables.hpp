@@ -1,6 +1,6 @@
 #pragma once
 
-#include "glissade/drawing/nest.hpp"
+#include "glissade/parts/nest.hpp"
 #include "glissade/parts/shop_part.hpp"
 
 #include <string>

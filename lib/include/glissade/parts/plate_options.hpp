@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
+#include "glissade/parts/nest_stock.hpp"
 
 #include <optional>
 #include <string>
@@ -70,6 +71,10 @@ struct SplitOptions {
   bool allowed = true;             ///< false: everything in one piece, or an error
   /// Of a strip of a plate, across the track [m]; what is wider is strips side by side, welded along the track. None: as the sheet asks.
   std::optional<double> widest = std::nullopt;
+  double margin = NestStock{}.margin;    ///< of the sheet's edges that stays free of parts [m]; >= 0
+  double spacing = NestStock{}.spacing;  ///< between parts on one sheet [m]; >= 0
+
+  [[nodiscard]] NestStock stock() const { return NestStock::of(sheet, margin, spacing); }
 
   friend bool operator==(const SplitOptions&, const SplitOptions&) = default;
 };

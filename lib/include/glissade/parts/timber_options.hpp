@@ -2,9 +2,11 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/vec.hpp"
+#include "glissade/parts/nest_stock.hpp"
 #include "glissade/parts/plate_options.hpp"
 #include "glissade/section/measures.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -75,6 +77,13 @@ struct TimberSplit {
   Vec2 sheet{2.5,
              1.25};  ///< stock of deck, ribs and curbs; of the deck its longer side lies along the track [m]
   std::optional<double> heaviest;  ///< mass of a part [kg]
+  /// Of the sheet's edges that stays free of parts [m]; >= 0. Sheets of the deck are the stock less both margins.
+  double margin = 0.0;
+  double spacing = 4e-3;  ///< between parts on one sheet, for the saw [m]; >= 0
+
+  [[nodiscard]] NestStock stock() const { return NestStock::of(sheet, margin, spacing); }
+  /// Its margin is that of outlines which are sawn out of a sheet: 5 mm at least.
+  [[nodiscard]] NestStock sawn() const { return NestStock::of(sheet, std::max(margin, 5e-3), spacing); }
 
   friend bool operator==(const TimberSplit&, const TimberSplit&) = default;
 };

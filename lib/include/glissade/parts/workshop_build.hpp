@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/parts/master_curve.hpp"
+#include "glissade/parts/nest.hpp"
 #include "glissade/parts/print_piece.hpp"
 #include "glissade/parts/shop_part.hpp"
 
@@ -36,6 +37,13 @@ struct VolumeDifference {
   double volume = 0.0;  ///< [m^3]
 };
 
+/// How many pages 1:1 templates have on each paper.
+struct TemplatePages {
+  std::size_t a4 = 0;
+  std::size_t a3 = 0;
+  std::size_t roll = 0;  ///< one a part, as long as it takes
+};
+
 /// How the parts stand to the solid that they make.
 struct PartsProof {
   double volume = 0.0;        ///< of all parts that make up the solid [m^3]
@@ -57,6 +65,9 @@ struct WorkshopBuild {
   AsBuiltRide ride;
   PartsProof proof;
   std::vector<PrintPiece> prints;  ///< what a printer makes, each as it lies on a bed, one of a count a piece
+  std::vector<NestedSheet> nests;  ///< of what is cut from sheets; none where the design asks for no nests
+  /// Of the 1:1 templates, on each paper; zeros where none are made.
+  TemplatePages template_pages;
 };
 
 }  // namespace glissade

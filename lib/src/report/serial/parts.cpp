@@ -1,6 +1,8 @@
 #include "report/serial/parts.hpp"
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace glissade::report {
 namespace {
@@ -21,6 +23,25 @@ Json part_json(const ShopPart& part) {
           {"quantity", part.quantity()}, {"mass_kg", part.mass},
           {"volume_m3", part.volume},    {"centre_of_gravity_m", {centre.x, centre.y, centre.z}},
           {"files", part.files}};
+}
+
+Json nest_json(const NestedSheet& sheet, const Workshop& workshop) {
+  std::map<int, std::size_t> counts;
+  for (const NestedPiece& piece : sheet.pieces) ++counts[workshop.parts[piece.part].number];
+  Json parts = Json::array();
+  for (const auto& [number, count] : counts) parts.push_back({{"number", number}, {"quantity", count}});
+  const NestStock& stock = sheet.stock;
+  return {{"name", sheet.name},
+          {"material", sheet.material},
+          {"thickness_m", sheet.thickness},
+          {"sheet_m", {stock.width, stock.height}},
+          {"margin_m", stock.margin},
+          {"spacing_m", stock.spacing},
+          {"pieces", sheet.pieces.size()},
+          {"parts", std::move(parts)},
+          {"parts_area_m2", sheet.utilisation * stock.width * stock.height},
+          {"utilisation", sheet.utilisation},
+          {"file", sheet.file}};
 }
 
 Json ride_json(const AsBuiltRide& ride) {
@@ -66,8 +87,9 @@ Json shop_checks_json(const std::vector<ShopCheck>& checks) {
 }
 
 void add_parts(Json& json, const WorkshopBuild* build) {
-  for (const char* const key : {"master_curve", "parts", "items", "as_built", "shop_checks",
-                                "parts_volume_m3", "channel_volume_m3", "bolted_holes", "joints_m"}) {
+  for (const char* const key :
+       {"master_curve", "parts", "items", "nests", "template_pages", "as_built", "shop_checks",
+        "parts_volume_m3", "channel_volume_m3", "bolted_holes", "joints_m"}) {
     json[key] = nullptr;
   }
   if (build == nullptr) return;
@@ -82,6 +104,10 @@ void add_parts(Json& json, const WorkshopBuild* build) {
                              {"standard", item.standard},
                              {"where", item.where}});
   }
+  json["nests"] = Json::array();
+  for (const NestedSheet& sheet : build->nests) json["nests"].push_back(nest_json(sheet, workshop));
+  const TemplatePages& pages = build->template_pages;
+  json["template_pages"] = {{"a4", pages.a4}, {"a3", pages.a3}, {"roll", pages.roll}};
   json["as_built"] = ride_json(build->ride);
   json["shop_checks"] = shop_checks_json(workshop.checks);
   json["parts_volume_m3"] = build->proof.volume + build->proof.added_volume;

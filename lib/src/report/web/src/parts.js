@@ -8,7 +8,7 @@ import {
 import { decodeArray } from "./data.js";
 import { button, element, scrollable, section, select } from "./dom.js";
 import { exportButtons, standAlone } from "./export.js";
-import { patternDrawing, viewsDrawing } from "./pattern.js";
+import { nestDrawing, patternDrawing, viewsDrawing } from "./pattern.js";
 import { DIRECTIONS, paintedSize, Stage } from "./stage.js";
 import { stillPicture } from "./still.js";
 import { NO_BREAK, SIGNS } from "./summary.js";
@@ -318,6 +318,26 @@ function partsTable(parts, store) {
   return { table, mark };
 }
 
+// Every sheet of stock with its picture, and how much of each is used.
+function stockSheets({ nests, parts }, store) {
+  const figures = nests.map((nest) => {
+    const [length, width] = nest.sheet_m;
+    const what = `${nest.material}, ${millimetres(nest.thickness_m)}, ${millimetres(length)} \u00d7 ${millimetres(width)}: `
+      + `${countText(nest.pieces)} ${nest.pieces === 1 ? "piece" : "pieces"}, ${number(100 * nest.utilisation, 3)}${NO_BREAK}% used`;
+    const address = nest.file.split("/").map(encodeURIComponent).join("/");
+    return element("figure", { class: "nest-holder" }, nestDrawing(nest, parts, (part) => store.set("part", part)),
+      element("figcaption", {}, what, " ", element("a", { href: address }, "DXF")));
+  });
+  const node = element("div", { class: "nests" }, figures);
+  const mark = () => {
+    const chosen = store.get("part");
+    const number = chosen === null ? "" : String(parts[chosen].number);
+    for (const shape of node.querySelectorAll(".sheet")) shape.classList.toggle("chosen", shape.dataset.part === number);
+  };
+  mark();
+  return { node, mark };
+}
+
 function itemsTable(items) {
   return scrollable("Table of bought-in items", element("table", { class: "items" },
     element("thead", {}, element("tr", {}, ["Pieces", "Item", "Standard", "Where"].map((head) => element("th", { scope: "col" }, head)))),
@@ -381,9 +401,14 @@ class PartsSection {
     const { made, units } = this;
     this.built.textContent = builtText(made, units);
     const { table, mark } = partsTable(this.parts, this.store);
-    this.mark = mark;
+    const stock = stockSheets(made, this.store);
+    this.mark = (scroll) => {
+      mark(scroll);
+      stock.mark();
+    };
     this.lists.replaceChildren(...[
       ...scrollable("Table of parts", table),
+      ...(made.nests.length > 0 ? [element("h3", {}, "Sheets of stock"), stock.node] : []),
       ...(made.items.length > 0 ? [element("h3", {}, "Bought in"), ...itemsTable(made.items)] : []),
       element("h3", {}, "Rules of the shop"), ...shopRules(made.shop_checks),
     ]);

@@ -134,6 +134,27 @@ export function patternDrawing(part, units) {
     svgElement("path", { class: "sheet", d: region.join(""), "fill-rule": "evenodd" }), holes, rolls, bends, marks, figure.measures());
 }
 
+// A stock sheet with the outlines of what is cut from it.
+// @param laid  pieces: `part` (index), and the motion of its pattern: `cosine`, `sine`, `shift_m`
+// @param onchoose  takes the index of a part that is clicked
+export function nestDrawing(nest, parts, onchoose) {
+  const [width, height] = nest.sheet_m;
+  const figure = new Figure({ x0: 0, x1: width, y0: 0, y1: height, width, height }, (WIDE - 2) / width, 1, 1);
+  const pieces = nest.laid.map(({ part, cosine, sine, shift_m: [dx, dy] }) => {
+    const { pattern, number, name } = parts[part];
+    const placed = ([x, y, bulge]) => [cosine * x - sine * y + dx, sine * x + cosine * y + dy, bulge];
+    const d = [pattern.outline_m, ...pattern.cutouts_m].map((path) => figure.path(path.map(placed), true)).join("");
+    const shape = svgElement("path", { class: "sheet", d, "fill-rule": "evenodd", "data-part": number },
+      svgElement("title", {}, `${number} ${name.replaceAll("_", " ")}`));
+    shape.addEventListener("click", () => onchoose(part));
+    return shape;
+  });
+  const svg = drawing(`Sheet ${nest.name} with ${nest.pieces} pieces`, figure.scale * height + 2,
+    svgElement("rect", { class: "stock", x: 1, y: 1, width: figure.scale * width, height: figure.scale * height }), pieces);
+  svg.classList.add("nest");
+  return svg;
+}
+
 // Three views of a body by its edges, a list of six coordinates each: from above, from the side, from the end.
 export function viewsDrawing(part, edges) {
   const views = [[0, 1], [0, 2], [1, 2]].map(([across, up]) => {

@@ -1,4 +1,4 @@
-#include "glissade/drawing/nest.hpp"
+#include "glissade/parts/nest.hpp"
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
@@ -234,17 +234,6 @@ bool lay(SheetInWork& sheet, const Piece& piece) {
   return true;
 }
 
-void require_stock(const NestStock& stock) {
-  const auto bad = [](const std::string& what, double value) {
-    return InputError(
-        {"stock sheet", what + ": " + length_text(value), "A sheet is wider than its margins.", ""});
-  };
-  if (!(stock.spacing >= 0.0)) throw bad("spacing", stock.spacing);
-  if (!(stock.margin >= 0.0)) throw bad("margin", stock.margin);
-  if (!(stock.width > 2.0 * stock.margin) || !std::isfinite(stock.width)) throw bad("width", stock.width);
-  if (!(stock.height > 2.0 * stock.margin) || !std::isfinite(stock.height)) throw bad("height", stock.height);
-}
-
 double column_of(const NestStock& stock) {
   constexpr double kMost = 4000.0;
   constexpr double kLeast = 20.0;
@@ -273,15 +262,16 @@ Piece piece_of(const ShopPart& part, std::size_t index, double column) {
 
 Issue too_large(const ShopPart& part, const Piece& piece, const NestStock& stock) {
   const Attitude& lying = piece.attitudes.front();
-  return {"part " + std::to_string(part.number) + ", " + part.name,
-          "its pattern of " + length_text(lying.width) + " x " + length_text(lying.height) + " fits no sheet",
+  return {"split.sheet",
+          "part " + std::to_string(part.number) + ", " + part.name + ": its pattern of " +
+              length_text(lying.width) + " x " + length_text(lying.height) + " fits no sheet",
           "Sheets are " + length_text(stock.width) + " x " + length_text(stock.height) +
               " with a margin of " + length_text(stock.margin) + ".",
           "a larger sheet, a smaller margin, or shorter parts"};
 }
 
 SheetInWork fresh_sheet(const ShopPart& part, const NestStock& stock, double column) {
-  return {Heap(stock, column), {part.material, part.thickness, stock, {}, 0.0}, {}};
+  return {Heap(stock, column), {.material = part.material, .thickness = part.thickness, .stock = stock}, {}};
 }
 
 /// @param pieces  each fits an empty sheet
@@ -302,78 +292,8 @@ void lay_group(std::vector<Piece>& pieces, const Workshop& workshop, const NestS
   for (SheetInWork& sheet : sheets) done.push_back(std::move(sheet.sheet));
 }
 
-/// A place inside a region for its number: beside its centre of area where that is a hollow.
-Vec2 place_for_number(const PlaneRegion& region) {
-  const Vec2 centre = moments(region).centroid;
-  if (contains(region.outline, centre)) return centre;
-  const PlaneBox box = bounds(region.outline);
-  // Up from below the centre: the middle of the first stretch inside; a curved band is crossed by this upright.
-  constexpr int kSteps = 256;
-  int first = -1;
-  for (int i = 0; i <= kSteps; ++i) {
-    const Vec2 point{centre.x, box.low.y + box.height() * i / kSteps};
-    const bool inside = i < kSteps && contains(region.outline, point);
-    if (inside && first < 0) first = i;
-    if (!inside && first >= 0) return {centre.x, box.low.y + box.height() * (first + i - 1) / (2.0 * kSteps)};
-  }
-  return centre;
-}
-
-/// Thicknesses that are one stock [m].
-constexpr double kSameStock = 1e-9;
-
-}  // namespace
-
-std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock) {
-  require_stock(stock);
-  const double column = column_of(stock);
-  // By nanometres: what measures add up to is off by rounding.
-  std::map<std::pair<std::string, double>, std::vector<Piece>> groups;
-  std::vector<Issue> issues;
-  for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
-    const ShopPart& part = workshop.parts[i];
-    if (!part.pattern || part.bought_in || part.places.empty()) continue;
-    const Piece piece = piece_of(part, i, column);
-    SheetInWork fresh = fresh_sheet(part, stock, column);
-    if (!lay(fresh, piece)) issues.push_back(too_large(part, piece, stock));
-    auto& group = groups[{part.material, std::nearbyint(part.thickness / kSameStock)}];
-    group.insert(group.end(), part.quantity(), piece);
-  }
-  if (!issues.empty()) throw InputError(std::move(issues));
-  std::vector<NestedSheet> sheets;
-  for (auto& [kind, pieces] : groups) lay_group(pieces, workshop, stock, column, sheets);
-  return sheets;
-}
-
-Drawing nest_drawing(const Workshop& workshop, const NestedSheet& sheet) {
-  Drawing drawing;
-  drawing.name = "nest of " + sheet.material + ", " + length_text(sheet.thickness);
-  const std::size_t edge = drawing.layer({"SHEET", LineStyle::chain, 0.18, 8});
-  const std::size_t cut = drawing.layer({"CUT", LineStyle::continuous, 0.25, 7});
-  const std::size_t mark = drawing.layer({"MARK", LineStyle::continuous, 0.18, 5});
-  const double width = kMillimetres * sheet.stock.width;
-  const double height = kMillimetres * sheet.stock.height;
-  drawing.add(edge, rectangle({0.0, 0.0}, {width, height}));
-  // The bar lies above the sheet, where nothing is cut.
-  drawing.line(edge, {0.0, height + 20.0}, {100.0, height + 20.0});
-  for (const double x : {0.0, 100.0}) drawing.line(edge, {x, height + 15.0}, {x, height + 25.0});
-  for (const ArcPath& stroke : stroked_text("100 mm", {110.0, height + 15.0}, 10.0))
-    drawing.add(edge, stroke);
-  for (const NestedPiece& piece : sheet.pieces) {
-    const ShopPart& part = workshop.parts[piece.part];
-    const PlaneRegion region = scaled(moved(part.pattern->region, piece.motion), kMillimetres);
-    drawing.add(cut, region);
-    const PlaneBox box = bounds(region.outline);
-    const double size = std::clamp(0.05 * std::min(box.width(), box.height()), 3.0, 20.0);
-    const std::string digits = (part.number < 10 ? "0" : "") + std::to_string(part.number);
-    const Vec2 at = place_for_number(region) - Vec2{0.0, 0.5 * size};
-    for (const ArcPath& stroke : stroked_text(digits, at, size, {}, TextAnchor::centre))
-      drawing.add(mark, stroke);
-  }
-  return drawing;
-}
-
-std::string nest_stem(const std::vector<NestedSheet>& sheets, std::size_t index) {
+/// @return "nest_S235_4mm_1_of_2"
+std::string name_of(const std::vector<NestedSheet>& sheets, std::size_t index) {
   const NestedSheet& sheet = sheets[index];
   const auto shown = [](double thickness) { return rounded_text(kMillimetres * thickness, 6); };
   // By what the name says: no two sheets are one file.
@@ -391,6 +311,65 @@ std::string nest_stem(const std::vector<NestedSheet>& sheets, std::size_t index)
   }
   return "nest_" + material + "_" + shown(sheet.thickness) + "mm_" + std::to_string(number) + "_of_" +
          std::to_string(count);
+}
+
+/// Thicknesses that are one stock [m].
+constexpr double kSameStock = 1e-9;
+
+}  // namespace
+
+std::vector<Issue> stock_problems(const NestStock& stock) {
+  std::vector<Issue> issues;
+  const auto object = [&](const char* key, std::string what, const char* why, std::string hint) {
+    issues.push_back({std::string("split.") + key, key + (": " + std::move(what)), why, std::move(hint)});
+  };
+  for (const double side : {stock.width, stock.height}) {
+    if (!(std::isfinite(side) && side > 0.0))
+      object("sheet", length_text(side) + " is not positive", "", "sheet: [3 m, 1.5 m]");
+  }
+  const bool whole = issues.empty();
+  if (!(stock.margin >= 0.0)) {
+    object("margin", length_text(stock.margin) + " is negative", "It stays free along the sheet's edges.",
+           "margin: 5 mm");
+  } else if (whole && !(2.0 * stock.margin < stock.height)) {
+    object("margin",
+           length_text(stock.margin) + " leaves nothing of a sheet that is " + length_text(stock.height) +
+               " wide",
+           "Both of its edges keep it free.", "less than " + length_text(0.5 * stock.height));
+  }
+  if (!(stock.spacing >= 0.0)) {
+    object("spacing", length_text(stock.spacing) + " is negative", "Parts on a sheet do not overlap.",
+           "spacing: 10 mm");
+  } else if (whole && !(stock.spacing < stock.height)) {
+    object(
+        "spacing",
+        length_text(stock.spacing) + " is no less than the width of the sheet, " + length_text(stock.height),
+        "Parts on a sheet would never lie side by side.", "spacing: 10 mm");
+  }
+  return issues;
+}
+
+std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock) {
+  if (std::vector<Issue> problems = stock_problems(stock); !problems.empty())
+    throw InputError(std::move(problems));
+  const double column = column_of(stock);
+  // By nanometres: what measures add up to is off by rounding.
+  std::map<std::pair<std::string, double>, std::vector<Piece>> groups;
+  std::vector<Issue> issues;
+  for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
+    const ShopPart& part = workshop.parts[i];
+    if (!part.pattern || part.bought_in || part.places.empty()) continue;
+    const Piece piece = piece_of(part, i, column);
+    SheetInWork fresh = fresh_sheet(part, stock, column);
+    if (!lay(fresh, piece)) issues.push_back(too_large(part, piece, stock));
+    auto& group = groups[{part.material, std::nearbyint(part.thickness / kSameStock)}];
+    group.insert(group.end(), part.quantity(), piece);
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
+  std::vector<NestedSheet> sheets;
+  for (auto& [kind, pieces] : groups) lay_group(pieces, workshop, stock, column, sheets);
+  for (std::size_t i = 0; i < sheets.size(); ++i) sheets[i].name = name_of(sheets, i);
+  return sheets;
 }
 
 }  // namespace glissade

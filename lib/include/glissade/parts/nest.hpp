@@ -1,6 +1,7 @@
 #pragma once
 
-#include "glissade/drawing/drawing.hpp"
+#include "glissade/core/arc_path.hpp"
+#include "glissade/parts/nest_stock.hpp"
 #include "glissade/parts/shop_part.hpp"
 
 #include <cstddef>
@@ -11,14 +12,6 @@ namespace glissade {
 
 /// Flat patterns laid out on stock sheets, for ordering and for cutting several parts at once.
 
-/// A stock sheet, all of one material and thickness. Metres.
-struct NestStock {
-  double width = 3.0;      ///< along x; > 0
-  double height = 1.5;     ///< along y; > 0
-  double margin = 0.010;   ///< of parts from the sheet's edges; >= 0
-  double spacing = 0.010;  ///< between parts; >= 0
-};
-
 /// One piece on a sheet.
 struct NestedPiece {
   std::size_t part = 0;  ///< index in Workshop::parts
@@ -27,11 +20,13 @@ struct NestedPiece {
 
 /// One sheet of stock with the pieces that are cut from it.
 struct NestedSheet {
+  std::string name;  ///< of its file, "nest_S235_4mm_1_of_2": no two of one nest() have the same
   std::string material;
   double thickness = 0.0;  ///< [m]
   NestStock stock;
   std::vector<NestedPiece> pieces;
   double utilisation = 0.0;  ///< area of the parts, without their holes, over that of the sheet
+  std::string file = {};     ///< below the folder of the build; empty where none is written
 };
 
 /// Lays every piece with a flat pattern on sheets, one group of sheets for each material and thickness.
@@ -42,17 +37,11 @@ struct NestedSheet {
 /// kNestColumn; distances hold exactly.
 /// Identity: pieces are at least `spacing` apart and `margin` from the edges (tests measure it).
 /// Source: bottom-left filling on a skyline (B. Chazelle, IEEE Trans. Comput. C-32(8), 1983), with curved undersides.
-/// @throws InputError if a stock size is out of its bound, or with all parts that fit no sheet: size, bound, what to try
+/// @throws InputError if a stock size is out of its bound, or with all parts that fit no sheet: size, bound, what to try; both at
+///         "split.sheet"
 [[nodiscard]] std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock = {});
 
 /// Width of the columns that decide where pieces fall [m]; a sheet has 20 to 4000.
 inline constexpr double kNestColumn = 0.003;
-
-/// A sheet with its pieces, 1:1 in millimetres: contours and holes on CUT, numbers in single strokes on MARK, edge of the sheet and
-/// a bar of 100 mm on SHEET.
-[[nodiscard]] Drawing nest_drawing(const Workshop& workshop, const NestedSheet& sheet);
-
-/// @return "nest_S235_4mm_1_of_2", for file names
-[[nodiscard]] std::string nest_stem(const std::vector<NestedSheet>& sheets, std::size_t index);
 
 }  // namespace glissade
