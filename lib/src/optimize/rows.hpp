@@ -20,7 +20,7 @@ struct Row {
   std::size_t place = 0;  ///< station; knot (fine ones behind the others) or piece; corner of a foot row
   std::size_t edge = 0;   ///< of an obstacle's chain; of a row around it, the corner
   bool foot = false;      ///< measured at the foot of a corner instead of at a station
-  bool around = false;  ///< measured from a corner to a station
+  bool around = false;    ///< measured from a corner to a station
   bool face = false;      ///< of an envelope: measured at a corner of the end face at that station
   std::size_t level = 0;  ///< of an envelope: 0 at the underside, 1 at the top
 
