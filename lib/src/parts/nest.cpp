@@ -271,7 +271,11 @@ Issue too_large(const ShopPart& part, const Piece& piece, const NestStock& stock
 }
 
 SheetInWork fresh_sheet(const ShopPart& part, const NestStock& stock, double column) {
-  return {Heap(stock, column), {.material = part.material, .thickness = part.thickness, .stock = stock}, {}};
+  NestedSheet sheet;
+  sheet.material = part.material;
+  sheet.thickness = part.thickness;
+  sheet.stock = stock;
+  return {Heap(stock, column), std::move(sheet), {}};
 }
 
 /// @param pieces  each fits an empty sheet
