@@ -75,6 +75,17 @@ MeshTrack with_all_halved(const Transcription& track, const Vector& z) {
   return with_halved_pieces(track, z, worth_a_knot(track.mesh()));
 }
 
+MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z) {
+  MeshTrack result{track.mesh(), z};
+  const auto last_width = [&] { return 1.0 - result.mesh.knots[result.mesh.knots.size() - 2]; };
+  while (last_width() > 4.0 * kShortest) {
+    std::vector<bool> halved(result.mesh.knots.size() - 1, false);
+    halved.back() = true;
+    result = with_halved_pieces(Transcription(result.mesh), result.z, halved);
+  }
+  return result;
+}
+
 Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchControl& control) {
   const std::vector<bool> halved = worth_a_knot(found.track->mesh());
   const MeshTrack finer = with_halved_pieces(*found.track, found.z, halved);

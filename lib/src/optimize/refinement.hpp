@@ -20,6 +20,9 @@ struct MeshTrack {
 /// The same with a knot more in every piece that does not stand for a jump.
 [[nodiscard]] MeshTrack with_all_halved(const Transcription& track, const Vector& z);
 
+/// The same with pieces ever shorter towards the finish, each half as long as the one before.
+[[nodiscard]] MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z);
+
 /// What is left to win by a finer mesh: the step of the quadratic program on the mesh whose every piece is
 /// halved, which knows the rows that hold between the stations of the coarser one.
 struct Remainder {

@@ -21,6 +21,9 @@ constexpr std::size_t kCoarsePieces = 12;  // taste
 constexpr std::size_t kMiddlePieces = 16;  // taste: meshes grow by some 4/3
 constexpr std::size_t kFinerPieces = 24;   // taste
 constexpr std::size_t kMovedLevels = 4;    // budget
+// More of them while each wins as much of a share.
+constexpr std::size_t kMoreLevels = 8;  // budget
+constexpr double kWinsMuch = 2e-5;      // accuracy: twenty times that of a time
 // By such a share a smoother track may be slower.
 constexpr double kDearer = 1e-7;  // accuracy: below that of a time
 // By more than such a share a track that follows a load more closely is another one.
@@ -446,6 +449,7 @@ void Searcher::settle(Candidate& candidate, Found found) {
   finer_mesh_wins_.reset();
   multipliers_ahead_.clear();
   if (!found.stopped) found = followed(problem, std::move(found));
+  if (!found.stopped) found = bent_at_finish(problem, std::move(found));
   if (!found.stopped) found = halved(problem, std::move(found));
   std::optional<Found> moved;
   if (is_optimum(found) && !is_smooth(problem))
@@ -485,15 +489,17 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, const ScaledProble
   if (begun <= kMiddlePieces && pieces > kMiddlePieces) levels.push_back(kMiddlePieces);
   if (pieces > kFinerPieces) levels.push_back(kFinerPieces);
   levels.insert(levels.end(), 1 + kMovedLevels, pieces);
+  const std::size_t usual = levels.size();
+  levels.insert(levels.end(), kMoreLevels, pieces);
   double done = 0.2;
   int hopeless = 0;
   bool is_rough = true;
   for (std::size_t level = 0; level < levels.size() && !found.stopped; ++level) {
     const std::vector<Switch> switches = switches_of(problem, found);
-    const bool last_ones = level + kMovedLevels >= levels.size();
+    const bool last_ones = level + kMovedLevels >= usual;
     if (last_ones && settled(switches)) break;
     tell("finer track", done);
-    done += 0.7 / static_cast<double>(levels.size());
+    done = std::min(0.9, done + 0.7 / static_cast<double>(usual));
     const bool finest = levels[level] == pieces;
     aim_at(finest ? kAimed * options_.tolerance : kCoarseTolerance, finest ? 3 : 5);
     const Mesh mesh = mesh_with(problem, refined_knots(*found.track, found.z, switches, levels[level]),
@@ -517,7 +523,8 @@ Found Searcher::on_finer_meshes(const ScaledProblem& problem, const ScaledProble
     const bool still = last_ones && is_optimum(found) && pays && std::fabs(dearer) <= kWithoutEffect * size;
     found = std::move(next);
     is_rough = !finest;
-    if (still || hopeless > 1) break;
+    const bool goes_on = level + 1 < usual || (pays && -dearer > kWinsMuch * size);
+    if (still || hopeless > 1 || !goes_on) break;
   }
   if (!is_rough) return found;
   aim_at(kAimed * options_.tolerance, 3);
@@ -538,6 +545,18 @@ Found Searcher::followed(const ScaledProblem& problem, Found found) {
     if (std::fabs(won) < kPays * std::fabs(found.objective)) break;
   }
   return found;
+}
+
+Found Searcher::bent_at_finish(const ScaledProblem& problem, Found found) {
+  constexpr double kPays = 1e-6;  // accuracy: that of a time
+  if (problem.speed_weight == 0.0 || problem.lead_out > 0.0 || is_smooth(problem) || !is_optimum(found))
+    return found;
+  const MeshTrack finer = with_short_pieces_at_finish(*found.track, found.z);
+  const Outlook outlook = look_ahead(problem, finer.mesh, finer.z, margins_, control_, found);
+  if (!(outlook.won > kPays * std::fabs(found.objective))) return found;
+  aim_at(kAimed * options_.tolerance, 0);
+  Found next = minimise(problem, finer.mesh, finer.z, margins_, control_, &found);
+  return is_optimum(next) && next.objective < found.objective ? next : found;
 }
 
 Found Searcher::halved(const ScaledProblem& problem, Found found) {
