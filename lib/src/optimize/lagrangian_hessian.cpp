@@ -51,8 +51,8 @@ void Transcription::add_turning(LocalMatrix& matrix, double square, double with_
   matrix[kLength][kSecond] += with_length * second;
 }
 
-void Transcription::add_terms(LocalMatrix& matrix, const StationTerms& terms, const LocalRow& dv,
-                              const LocalRow& dz) {
+GLISSADE_WIDE_VARIANT void Transcription::add_terms(LocalMatrix& matrix, const StationTerms& terms,
+                                                    const LocalRow& dv, const LocalRow& dz) {
   // All that goes together with dv in one go.
   LocalRow with_v = dv;
   for (double& entry : with_v) entry *= 0.5 * terms.v_v;

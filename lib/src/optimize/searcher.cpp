@@ -458,18 +458,25 @@ void Searcher::settle(Candidate& candidate, Found found) {
     if (!end.stopped) end = laid_anew(problem, std::move(end));
     mend(end_of, std::move(end));
   };
-  mend_on(candidate, std::move(found));
-  if (!moved || candidate.stopped) return;
-  // What it wins a limit between its stations may take again, or the last digits: the better optimum counts.
-  begin_margins(problem);
+  if (!moved) {
+    mend_on(candidate, std::move(found));
+    return;
+  }
+  // What it wins a limit between its stations may take again, or the last digits: the better optimum counts. The other one
+  // is mended only where that may be the better: what is mended gets no better.
   Candidate other;
   other.problem = candidate.problem;
   other.rough = candidate.rough;
   mend_on(other, followed(problem, *std::move(moved)));
-  candidate.stopped = other.stopped;
-  const bool takes = other.kept && is_optimum(*other.found) &&
-                     (!candidate.kept || other.found->objective < candidate.found->objective);
+  const bool is_good = other.kept && is_optimum(*other.found);
+  if (!is_good || !(other.found->objective < found.objective)) {
+    begin_margins(problem);
+    mend_on(candidate, std::move(found));
+  }
+  const bool stopped = candidate.stopped || other.stopped;
+  const bool takes = is_good && (!candidate.kept || other.found->objective < candidate.found->objective);
   if (takes) candidate = std::move(other);
+  candidate.stopped = stopped;
 }
 
 Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
@@ -580,6 +587,9 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
     // What a curvature of few pieces breaks between its stations is followed by finer ones where nothing jumps.
     const bool breaks = smooth && left.lost > kLostAtMost * std::fabs(found.objective);
     if (!breaks && left.objective <= left_at_most * std::fabs(found.objective)) break;
+    // A finer mesh never has so much left: where a program promises it, its step leads away from the track.
+    constexpr double kMost = 0.01;  // taste: twice what any promised that kept part of it
+    if (left.objective > kMost * std::fabs(found.objective)) break;
     if (found.track->mesh().knots.size() > kMostPieces) break;
     // A few pieces that promise the most of it, and win nothing, are not where it is to be won.
     const bool spread = smooth && found.track->mesh().knots.size() <= kMostSpread &&

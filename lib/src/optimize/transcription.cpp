@@ -41,9 +41,19 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (stations_[i].watched) watched_.push_back(i);
     local_dzeta_[i] = local_dzeta(stations_[i]);
-    if (fine_.empty()) continue;
-    station_turn_[i] = own_turn(stations_[i].sigma);
-    station_angle_[i] = own_angle(stations_[i].sigma);
+  }
+  if (!fine_.empty()) add_fine_to_stations();
+}
+
+void Transcription::add_fine_to_stations() {
+  // Stations come in the order of their places, so that the fine knots before each need not be looked for.
+  std::size_t knot = 0;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const double sigma = stations_[i].sigma;
+    while (knot + 2 < own_sigma_.size() && own_sigma_[knot + 1] <= sigma) ++knot;
+    station_turn_[i] = own_turn(sigma, knot);
+    station_angle_[i] =
+        own_angle_[knot] - 0.5 * (sigma - own_sigma_[knot]) * (own_turn_[knot] + station_turn_[i]);
   }
 }
 
@@ -74,9 +84,12 @@ void Transcription::add_fine_knots() {
 double Transcription::own_turn(double sigma) const {
   if (own_sigma_.empty()) return 0.0;
   const auto above = std::upper_bound(own_sigma_.begin() + 1, own_sigma_.end() - 1, sigma);
-  const auto i = static_cast<std::size_t>(above - own_sigma_.begin()) - 1;
-  const double share = (sigma - own_sigma_[i]) / (own_sigma_[i + 1] - own_sigma_[i]);
-  return own_turn_[i] + share * (own_turn_[i + 1] - own_turn_[i]);
+  return own_turn(sigma, static_cast<std::size_t>(above - own_sigma_.begin()) - 1);
+}
+
+double Transcription::own_turn(double sigma, std::size_t knot) const {
+  const double share = (sigma - own_sigma_[knot]) / (own_sigma_[knot + 1] - own_sigma_[knot]);
+  return own_turn_[knot] + share * (own_turn_[knot + 1] - own_turn_[knot]);
 }
 
 double Transcription::own_angle(double sigma) const {

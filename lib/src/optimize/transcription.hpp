@@ -361,6 +361,10 @@ class Transcription {
   void add_exponent(StationTerms& terms, double mu, const Ride& ride, const Flow& flow, std::size_t station,
                     double by_v) const;
   void add_fine_knots();
+  /// What the fine knots add at the stations.
+  void add_fine_to_stations();
+  /// own_turn() behind a knot, of both kinds
+  [[nodiscard]] double own_turn(double sigma, std::size_t knot) const;
   void add_sections();
   [[nodiscard]] std::size_t start_station(std::size_t panel) const;
 
