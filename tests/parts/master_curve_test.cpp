@@ -213,7 +213,8 @@ TEST_CASE("master curve: every shipped design reaches the goal at the tolerance 
         std::pair("toboggan_run", 1e-3), std::pair("toboggan_on_terrain", 1e-3),
         std::pair("toboggan_run_with_mats", 1e-3), std::pair("hills/klingenthal_hs140", 1e-3)}) {
     const Track track = solve(read_design(designs_path(std::string(design) + ".yaml")));
-    const MasterCurve curve = fit_arcs(*track.centerline, {tolerance});
+    const MasterCurve curve =
+        fit_arcs(*track.centerline, {tolerance, FitSide::both, track.search.has_value()});
     INFO(design << ", " << curve.arcs << " arcs, " << curve.kept << " kept, bound " << curve.lower_bound);
     CHECK(curve.arcs >= curve.lower_bound);
     CHECK(curve.arcs <= goal(curve.lower_bound));
@@ -278,7 +279,8 @@ TEST_CASE("master curve: a finer tolerance never takes fewer arcs, nor is its bo
   std::size_t arcs = 0;
   std::size_t bound = 0;
   for (const double tolerance : {3e-3, 1e-3, 3e-4, 1e-4, 3e-5}) {
-    const MasterCurve curve = fit_arcs(*track.centerline, {tolerance});
+    const MasterCurve curve =
+        fit_arcs(*track.centerline, {tolerance, FitSide::both, track.search.has_value()});
     CHECK(curve.arcs >= arcs);
     CHECK(curve.lower_bound >= bound);
     arcs = curve.arcs;
@@ -324,7 +326,7 @@ TEST_CASE("master curve: long tracks reach the goal at tolerances not their own,
         std::pair("ski_jump_inrun_with_limits", 1e-4), std::pair("ore_transfer", 1e-5)}) {
     const Track track = solve(read_design(designs_path(std::string(design) + ".yaml")));
     for (const FitSide side : {FitSide::both, FitSide::away, FitSide::into_flow}) {
-      const MasterCurve curve = fit_arcs(*track.centerline, {tolerance, side});
+      const MasterCurve curve = fit_arcs(*track.centerline, {tolerance, side, track.search.has_value()});
       INFO(design << ", side " << static_cast<int>(side) << ", " << curve.arcs << " arcs, bound "
                   << curve.lower_bound);
       CHECK(curve.arcs >= curve.lower_bound);
@@ -340,7 +342,7 @@ TEST_CASE("master curve: short arcs between kept pieces do not narrow a fit to o
   const Track track = solve(read_design(designs_path("toboggan_on_terrain.yaml")));
   for (const double tolerance : {1e-4, 1e-3}) {
     for (const FitSide side : {FitSide::away, FitSide::into_flow}) {
-      const MasterCurve curve = fit_arcs(*track.centerline, {tolerance, side});
+      const MasterCurve curve = fit_arcs(*track.centerline, {tolerance, side, track.search.has_value()});
       INFO(curve.arcs << " arcs, bound " << curve.lower_bound);
       CHECK(static_cast<double>(curve.arcs) <= 1.5 * static_cast<double>(curve.lower_bound) + 2.0);
       CHECK(curve.max_deviation > 0.9 * tolerance);

@@ -37,6 +37,7 @@ constexpr double kWidest = 4.0;
 constexpr int kMostSearches = 4;
 constexpr std::size_t kVeryFewArcs = 12;  // of which no more than needed are worth a search
 constexpr std::size_t kFewArcs = 24;      // the same of a thorough one
+constexpr std::size_t kManyArcs = 40;     // of which one more than needed is let pass
 constexpr double kNearly = 1.1;           // tolerances, of true arcs on joints that are within one
 constexpr int kMostFits = 8;              // from one start
 constexpr double kRoundedDown = 0.35;     // of an arc that seems to be missing
@@ -111,25 +112,28 @@ ChainStart even_joints(const TrackSamples& samples, const Stretch& stretch, cons
 class Fewer {
  public:
   Fewer(const Centerline& track, const TrackSamples& samples, const Stretch& stretch, const Band& band,
-        bool thorough)
+        const FewestSearch& search)
       : track_(track),
         samples_(samples),
         stretch_(reaching(samples, stretch, band)),
         band_(band),
         tolerance_(kFitted * band.half_width()),
-        thorough_(thorough) {}
+        least_(search.least),
+        thorough_(search.thorough),
+        best_(search.known != nullptr ? *search.known : ArcChain{}) {}
 
   ArcChain run() {
     const Stretch inner = inner_part(samples_, stretch_);
     const std::size_t bound = circle_pieces(samples_, inner.first, inner.last, band_.half_width()).count();
-    fewest_ = std::max<std::size_t>(bound, stretch_.before && stretch_.after ? 2 : 1);
+    fewest_ = std::max<std::size_t>(std::max(bound, least_), stretch_.before && stretch_.after ? 2 : 1);
     const auto tangent = static_cast<std::size_t>(std::ceil(kTangentShare * static_cast<double>(bound)));
-    likely_ = std::max(tangent + 1, fewest_);
-    if (bound <= kFewPieces) search();
+    likely_ = std::max(tangent + (tangent > kManyArcs ? 2 : 1), fewest_);
+    if (!known() && bound <= kFewPieces) search();
     if (!known() || arcs() > fewest_)
       close_in(even_joints(samples_, inner, band_, known() ? std::min(likely_, arcs() - 1) : likely_));
     if (!known() || worth()) from_joints(kSteps);
-    const bool close = known() && thorough_ && arcs() <= kVeryFewArcs && worth();
+    const bool few = known() && arcs() <= (arcs() > likely_ + 1 ? kFewArcs : kVeryFewArcs);
+    const bool close = thorough_ && few && worth();
     if (!known() || close) from_joints(kFineSteps);
     if (!known()) search();
     return std::move(best_);
@@ -192,7 +196,10 @@ class Fewer {
       const std::size_t wanted = known() ? arcs() - 1 : likely_;
       const Band band = band_.scaled(wider);
       auto joints = search_joints(samples_, reaching(samples_, stretch_, band), band, steps);
-      if (!joints) return;
+      if (!joints) {  // gates that stand too far apart for a narrow band
+        wider *= kMostWider;
+        continue;
+      }
       const std::size_t count = joints->knots.size() - 1;
       // Arcs are as many as the cube root of the width asks.
       const double ratio = static_cast<double>(count) / static_cast<double>(wanted);
@@ -316,6 +323,7 @@ class Fewer {
   Stretch stretch_;
   Band band_;
   double tolerance_ = 0.0;
+  std::size_t least_ = 1;
   bool thorough_ = false;
   ArcChain best_;
   std::size_t fewest_ = 1;  // arcs that a chain can have
@@ -337,8 +345,8 @@ double reach_of(const TrackSamples& samples, const Stretch& stretch, const ArcAt
 }
 
 ArcChain fewest_arcs(const Centerline& track, const TrackSamples& samples, const Stretch& stretch,
-                     const Band& band, bool thorough) {
-  return Fewer(track, samples, stretch, band, thorough).run();
+                     const Band& band, const FewestSearch& search) {
+  return Fewer(track, samples, stretch, band, search).run();
 }
 
 }  // namespace glissade::parts

@@ -29,6 +29,7 @@ constexpr double kHopeless = 2.0;    // tolerances, after the trial rounds
 constexpr double kSlowGain = 0.01;   // relative gain of a round that is slow
 constexpr double kRowsMiss = 1.005;  // of what the rows tell, by a sample between them
 constexpr double kFarTurn = 100.0;   // deviations by which a free start's arc may rise
+constexpr double kMovingGap = 1e-2;  // of minimax(), where joints move
 constexpr int kMostSlow = 3;         // slow rounds in a row that end the search
 
 class JointFitter {
@@ -249,7 +250,7 @@ class JointFitter {
     for (std::size_t i = 0; i <= cells(); ++i) {
       if (moves(i)) rows.push_back(kink_row(state, i, move));
     }
-    return minimax(rows, dropped_, kSplineGap).x;
+    return minimax(rows, dropped_, kMovingGap).x;
   }
 
   /// The joints where the kinks of the best change vanish: a joint that moves by m has m times its jump.

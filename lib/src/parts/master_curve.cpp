@@ -8,6 +8,7 @@
 #include "parts/arc_search.hpp"
 #include "parts/circle_pieces.hpp"
 #include "parts/fewest_arcs.hpp"
+#include "parts/least_arcs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,9 @@ constexpr std::size_t kSamplesPerArc = 96;
 // What is to be expected of a track whose own arcs do not stand in the way: this share of the lower bound, and so many more.
 constexpr double kExpectedShare = 1.16;
 constexpr double kExpectedMore = 2.0;
+constexpr double kFlat = 2.0;  // tolerances by which an arc rises that a line within them could stand for
+constexpr double kNarrower = 2e-3;  // of the band, where a fit has left it; twice that each time
+constexpr int kMostRounds = 6;
 constexpr double kSameArc = 1e-10;   // relative difference of curvatures within one arc of the track
 constexpr double kSameLine = 1e-12;  // the same of straight lines, times the length of the track
 
@@ -116,7 +120,17 @@ struct Fit {
   MasterCurveOptions options;
   bool thorough = false;
   KnownChains known;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t>
+      least;  // arcs of stretches, by first and last sample
 };
+
+/// The fewest arcs that a stretch takes within the band that is asked for.
+std::size_t least_between(Fit& fit, const Stretch& stretch, const Band& band) {
+  const auto key = std::pair(stretch.first, stretch.last);
+  const auto known = fit.least.find(key);
+  if (known != fit.least.end()) return known->second;
+  return fit.least.emplace(key, least_arcs(fit.samples, stretch, band)).first->second;
+}
 
 /// The chain between a kept piece and the one before it; no vertices where there is nothing in between.
 ArcChain chain_before(Fit& fit, const std::vector<Kept>& kept, std::size_t next, const Band& band) {
@@ -125,7 +139,11 @@ ArcChain chain_before(Fit& fit, const std::vector<Kept>& kept, std::size_t next,
   const auto key = std::tuple(stretch->first, stretch->last, band.left, band.right, fit.thorough);
   const auto known = fit.known.find(key);
   if (known != fit.known.end()) return known->second;
-  ArcChain chain = fewest_arcs(fit.track, fit.samples, *stretch, band, fit.thorough);
+  const Band wanted = band_of(fit.options.side, fit.options.tolerance);
+  FewestSearch search{least_between(fit, *stretch, wanted), fit.thorough};
+  const auto quick = fit.known.find(std::tuple(stretch->first, stretch->last, band.left, band.right, false));
+  if (quick != fit.known.end()) search.known = &quick->second;
+  ArcChain chain = fewest_arcs(fit.track, fit.samples, *stretch, band, search);
   return fit.known.emplace(key, std::move(chain)).first->second;
 }
 
@@ -221,23 +239,15 @@ TrackSamples close_samples(const Centerline& track, double tolerance) {
   return refined(track, samples, pieces, kSamplesPerArc);
 }
 
-/// No chain that keeps the track's lines and arcs has fewer arcs: the pieces that single circles pass, over the whole
-/// track or between what the kept pieces can reach.
-std::size_t least_arcs(const TrackSamples& samples, const std::vector<Kept>& kept, const Band& band) {
-  const TrackSamples middle = moved_left(samples, 0.5 * (band.left - band.right));
-  const double tolerance = band.half_width();
-  const std::size_t whole = circle_pieces(middle, 0, middle.size() - 1, tolerance).count();
+/// No chain that keeps the track's lines and arcs with their tangents has fewer arcs: what is kept and what each stretch between
+/// takes, or the pieces of the whole track that single circles pass, where these are more.
+std::size_t lower_bound_of(Fit& fit, const std::vector<Kept>& kept, const Band& band) {
+  const TrackSamples middle = moved_left(fit.samples, band.middle());
+  const std::size_t whole = circle_pieces(middle, 0, middle.size() - 1, band.half_width()).count();
   std::size_t parts = kept.size();
   for (std::size_t i = 0; i <= kept.size(); ++i) {
-    const std::optional<Stretch> stretch = stretch_before(samples, kept, i);
-    if (!stretch) continue;
-    const auto reach = [&](const std::optional<KeptEnd>& end, int step) {
-      return end ? reach_of(samples, *stretch, end->leg, band, step) : 0.0;
-    };
-    const double from = samples.s[stretch->first] + reach(stretch->before, 1);
-    const double to = samples.s[stretch->last] - reach(stretch->after, -1);
-    if (!(from < to)) continue;
-    parts += circle_pieces(middle, index_at(samples, from), index_at(samples, to), tolerance).count();
+    const std::optional<Stretch> stretch = stretch_before(fit.samples, kept, i);
+    if (stretch) parts += least_between(fit, *stretch, band);
   }
   return std::max(whole, parts);
 }
@@ -251,12 +261,12 @@ void require_fine(const Centerline& track, double tolerance) {
        "0.1 mm for plates, 0.02 mm for prints, 1 mm for timber"});
 }
 
-/// Arcs that no tolerance tells from a straight line left out: lines all of whose points lie within it of them.
-std::vector<Kept> without_flat_arcs(std::vector<Kept> kept, double tolerance) {
+/// @param flattest  rise of the arcs that are left out, at most [m]
+/// Lines, and arcs that are not flat.
+std::vector<Kept> without_arcs(std::vector<Kept> kept, double flattest) {
   std::erase_if(kept, [&](const Kept& piece) {
     const double length = piece.to - piece.from;
-    const double sagitta = 0.125 * std::fabs(piece.curvature) * length * length;
-    return piece.curvature != 0.0 && sagitta <= 2.0 * tolerance;
+    return piece.curvature != 0.0 && 0.125 * std::fabs(piece.curvature) * length * length <= flattest;
   });
   return kept;
 }
@@ -268,8 +278,9 @@ bool as_expected(const MasterCurve& curve) {
 }
 
 /// The band for a fit that was found to leave the one wanted.
-Band narrowed(const Band& aim, const Band& found, const Band& wanted) {
-  const double more = 2e-3 * wanted.half_width();
+/// @param share  of the one wanted, by which it is narrower than would do
+Band narrowed(const Band& aim, const Band& found, const Band& wanted, double share) {
+  const double more = share * wanted.half_width();
   const auto side = [&](double aimed, double reached, double bound) {
     return reached > bound ? std::max(aimed - (reached - bound) - more, 0.2 * bound) : aimed;
   };
@@ -283,10 +294,10 @@ MasterCurve fitted(Fit& fit, const std::vector<Kept>& kept) {
   MasterCurve master;
   master.tolerance = fit.options.tolerance;
   master.kept = kept.size();
-  master.lower_bound = least_arcs(fit.samples, kept, band);
+  master.lower_bound = lower_bound_of(fit, kept, band);
   // What lies between two samples, and on the wrong arc beside a joint, is seen by the measurement alone.
   Band aim = band;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     master.spline = std::make_shared<ArcSpline>(assembled(fit, kept, aim));
     const Band found = measured(fit.track, *master.spline);
     master.max_deviation = std::max(found.left, found.right);
@@ -295,7 +306,7 @@ MasterCurve fitted(Fit& fit, const std::vector<Kept>& kept) {
       for (const TrackArc& arc : master.spline->arcs()) master.lines += arc.curvature == 0.0 ? 1 : 0;
       return master;
     }
-    aim = narrowed(aim, found, band);
+    aim = narrowed(aim, found, band, kNarrower * (1 << round));
   }
   throw ConvergenceError(
       {"", "arcs depart from the track by " + length_text(master.max_deviation, 3), "", ""});
@@ -307,17 +318,22 @@ MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options)
   require_fine(track, options.tolerance);
   const TrackSamples samples = close_samples(track, band_of(options.side, options.tolerance).half_width());
   const std::vector<Kept> kept = kept_pieces(track, options.tolerance);
-  Fit fit{track, samples, options, false, {}};
+  Fit fit{track, samples, options, false, {}, {}};
   MasterCurve best = fitted(fit, kept);
+  const auto take = [&best](MasterCurve other) {
+    const bool better = as_expected(other) == as_expected(best) ? other.arcs < best.arcs : as_expected(other);
+    if (better) best = std::move(other);
+  };
+  if (options.found) {
+    // A search that just touches a limit on the radius leaves short arcs, each of which costs several more.
+    const std::vector<Kept> seen = without_arcs(kept, kFlat * options.tolerance);
+    if (seen.size() < kept.size()) take(fitted(fit, seen));
+  }
   if (as_expected(best)) return best;
   fit.thorough = true;
-  const auto take = [&best](MasterCurve other) {
-    if (other.arcs < best.arcs) best = std::move(other);
-  };
   take(fitted(fit, kept));
-  // A search that just touches a limit on the radius leaves short arcs, each of which costs several more.
-  const std::vector<Kept> seen = without_flat_arcs(kept, options.tolerance);
-  if (!as_expected(best) && seen.size() < kept.size()) take(fitted(fit, seen));
+  const std::vector<Kept> lines = without_arcs(kept, std::numeric_limits<double>::infinity());
+  if (options.found && !as_expected(best) && lines.size() < kept.size()) take(fitted(fit, lines));
   return best;
 }
 

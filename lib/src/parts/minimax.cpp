@@ -45,8 +45,8 @@ class Banded {
       b[i] -= diagonals_[i][1] * b[i - 1];
       if (i >= 2) b[i] -= diagonals_[i][2] * b[i - 2];
     }
-    for (std::size_t i = 0; i < n; ++i) b[i] /= diagonals_[i][0];
     for (std::size_t i = n; i-- > 0;) {
+      b[i] /= diagonals_[i][0];
       if (i + 1 < n) b[i] -= diagonals_[i + 1][1] * b[i + 1];
       if (i + 2 < n) b[i] -= diagonals_[i + 2][2] * b[i + 2];
     }
@@ -65,7 +65,16 @@ struct Pair {
 class Method {
  public:
   Method(const std::vector<MinimaxRow>& rows, const std::vector<bool>& dropped)
-      : rows_(rows), dropped_(dropped), x_(dropped.size(), 0.0) {}
+      : rows_(rows),
+        dropped_(dropped),
+        x_(dropped.size(), 0.0),
+        x_step_(dropped.size(), 0.0),
+        target_(rows.size()),
+        slack_step_(rows.size()),
+        dual_step_(rows.size()),
+        primal_(rows.size()),
+        inverse_(rows.size()),
+        weight_(rows.size()) {}
 
   MinimaxResult run(double most_gap) {
     start();
@@ -104,25 +113,23 @@ class Method {
     residuals();
     factor();
     const double mu = gap() / (2.0 * static_cast<double>(rows_.size()));
-    std::vector<Pair> target(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      target[i] = {slack_[i].upper * dual_[i].upper, slack_[i].lower * dual_[i].lower};
+      target_[i] = {slack_[i].upper * dual_[i].upper, slack_[i].lower * dual_[i].lower};
     }
-    direction(target);
+    direction();
     const double affine = mu_after();
     const double share = affine / mu;
     const double centring = share * share * share;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      target[i].upper += slack_step_[i].upper * dual_step_[i].upper - centring * mu;
-      target[i].lower += slack_step_[i].lower * dual_step_[i].lower - centring * mu;
+      target_[i].upper += slack_step_[i].upper * dual_step_[i].upper - centring * mu;
+      target_[i].lower += slack_step_[i].lower * dual_step_[i].lower - centring * mu;
     }
-    direction(target);
+    direction();
     take();
   }
 
   /// How far the present point is from G y + w = h and G'z = -c.
   void residuals() {
-    primal_.resize(rows_.size());
     stationary_.assign(x_.size(), 0.0);
     stationary_t_ = 1.0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -142,8 +149,10 @@ class Method {
     corner_ = 0.0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const MinimaxRow& row = rows_[i];
-      const double upper = dual_[i].upper / slack_[i].upper;
-      const double lower = dual_[i].lower / slack_[i].lower;
+      inverse_[i] = {1.0 / slack_[i].upper, 1.0 / slack_[i].lower};
+      weight_[i] = {dual_[i].upper * inverse_[i].upper, dual_[i].lower * inverse_[i].lower};
+      const double upper = weight_[i].upper;
+      const double lower = weight_[i].lower;
       for (std::size_t k = 0; k < 3; ++k) {
         if (dropped_[row.first + k]) continue;
         border_[row.first + k] += row.value[k] * (row.below * lower - row.above * upper);
@@ -165,20 +174,18 @@ class Method {
   }
 
   /// The step for which w z becomes w z - target, to first order.
-  void direction(const std::vector<Pair>& target) {
-    Vector right(x_.size());
+  void direction() {
+    Vector& right = x_step_;
     for (std::size_t j = 0; j < x_.size(); ++j) right[j] = -stationary_[j];
     double right_t = -stationary_t_;
-    std::vector<Pair> push(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const MinimaxRow& row = rows_[i];
       // dz = (z (G dy + r) - target) / w.
-      push[i] = {(dual_[i].upper * primal_[i].upper - target[i].upper) / slack_[i].upper,
-                 (dual_[i].lower * primal_[i].lower - target[i].lower) / slack_[i].lower};
-      for (std::size_t k = 0; k < 3; ++k) {
-        right[row.first + k] -= row.value[k] * (push[i].upper - push[i].lower);
-      }
-      right_t += row.above * push[i].upper + row.below * push[i].lower;
+      Pair& push = dual_step_[i];
+      push = {weight_[i].upper * primal_[i].upper - target_[i].upper * inverse_[i].upper,
+              weight_[i].lower * primal_[i].lower - target_[i].lower * inverse_[i].lower};
+      for (std::size_t k = 0; k < 3; ++k) right[row.first + k] -= row.value[k] * (push.upper - push.lower);
+      right_t += row.above * push.upper + row.below * push.lower;
     }
     for (std::size_t j = 0; j < x_.size(); ++j) {
       if (dropped_[j]) right[j] = 0.0;
@@ -187,16 +194,13 @@ class Method {
     double coupled = right_t;
     for (std::size_t j = 0; j < x_.size(); ++j) coupled -= border_[j] * right[j];
     t_step_ = coupled / schur_;
-    x_step_.resize(x_.size());
-    for (std::size_t j = 0; j < x_.size(); ++j) x_step_[j] = right[j] - t_step_ * solved_border_[j];
-    slack_step_.resize(rows_.size());
-    dual_step_.resize(rows_.size());
+    for (std::size_t j = 0; j < x_.size(); ++j) right[j] -= t_step_ * solved_border_[j];
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const double value = at(rows_[i], x_step_);
       const Pair moved{value - rows_[i].above * t_step_, -value - rows_[i].below * t_step_};
       slack_step_[i] = {-primal_[i].upper - moved.upper, -primal_[i].lower - moved.lower};
-      dual_step_[i] = {push[i].upper + dual_[i].upper / slack_[i].upper * moved.upper,
-                       push[i].lower + dual_[i].lower / slack_[i].lower * moved.lower};
+      dual_step_[i].upper += weight_[i].upper * moved.upper;
+      dual_step_[i].lower += weight_[i].lower * moved.lower;
     }
   }
 
@@ -239,7 +243,8 @@ class Method {
   const std::vector<bool>& dropped_;
   Vector x_, x_step_;
   double t_ = 0.0, t_step_ = 0.0;
-  std::vector<Pair> slack_, dual_, slack_step_, dual_step_, primal_;
+  std::vector<Pair> slack_, dual_, target_, slack_step_, dual_step_, primal_;
+  std::vector<Pair> inverse_, weight_;  // 1/w and z/w
   Vector stationary_, border_, solved_border_;
   double stationary_t_ = 0.0, corner_ = 0.0, schur_ = 0.0;
   Banded matrix_{0};

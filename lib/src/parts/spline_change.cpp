@@ -7,7 +7,7 @@
 namespace glissade::parts {
 namespace {
 
-constexpr std::size_t kRowsPerCell = 12;
+constexpr std::size_t kRowsPerCell = 5;
 
 }  // namespace
 

@@ -51,6 +51,11 @@ std::vector<Vec2> in_plane(const TrackDesign& track, const std::vector<Vec2>& gr
   return line;
 }
 
+/// How closely arcs follow the track, and which of its own they keep.
+MasterCurveOptions arcs_of(const Design& design, const Track& track) {
+  return {design.fabrication->arc_tolerance, FitSide::both, track.search.has_value()};
+}
+
 /// What a liner is asked for that only a stream can tell.
 void tell_wear(const Design& design, const Track& track, PlateOptions& options) {
   if (!options.liner) return;
@@ -62,9 +67,8 @@ void tell_wear(const Design& design, const Track& track, PlateOptions& options) 
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PlateOptions options) {
   tell_wear(design, track, options);
   if (options.supports) options.supports->ground = in_plane(design.track, options.supports->ground);
-  WorkshopBuild build =
-      make_plates(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
-                  frame, body_of(design), design.gravity);
+  WorkshopBuild build = make_plates(*track.centerline, *design.cross_section, arcs_of(design, track), options,
+                                    frame, body_of(design), design.gravity);
   if (design.hood && options.hood) add_hood_parts(design, track, frame, options, build);
   return build;
 }
@@ -72,15 +76,14 @@ WorkshopBuild make(const Design& design, const Track& track, const Placement& fr
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PrintOptions options) {
   if (options.stands && !options.stands->ground.empty())
     options.stands->ground = in_plane(design.track, options.stands->ground);
-  return make_prints(*track.centerline, CrossSection(*design.cross_section),
-                     {design.fabrication->arc_tolerance}, options, design.mesh.tolerance, frame,
-                     body_of(design), design.gravity);
+  return make_prints(*track.centerline, CrossSection(*design.cross_section), arcs_of(design, track), options,
+                     design.mesh.tolerance, frame, body_of(design), design.gravity);
 }
 
 WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, TimberOptions options) {
   if (options.legs) options.legs->ground = in_plane(design.track, options.legs->ground);
-  return make_timber(*track.centerline, *design.cross_section, {design.fabrication->arc_tolerance}, options,
-                     frame, body_of(design), design.gravity);
+  return make_timber(*track.centerline, *design.cross_section, arcs_of(design, track), options, frame,
+                     body_of(design), design.gravity);
 }
 
 /// What rules of the shop may ask of parts that stand out of the channel, beside what the design keeps clear of.
