@@ -153,6 +153,56 @@ TEST_CASE("bent works: a plate with nothing but its edges lapped is the mitred o
   }
 }
 
+TEST_CASE("bent works: walls of a channel with a liner, or on the floor, follow its flats") {
+  const section::UChannel channel{WidthLaw(0.4), 0.25, 4e-3};
+  PlateOptions options = bent(CornerJoint::butt);
+  options.walls = WallSeat::on_floor;
+  const WorkshopBuild seated = plates_of(chute(), channel, options);
+  for (const ShopPart* const floor : named(seated, "floor"))
+    CHECK(bounds(floor->pattern->region.outline).height() == Approx(0.408).epsilon(1e-12));
+  options.liner.emplace();
+  const WorkshopBuild lined = plates_of(chute(), channel, options);
+  CHECK(lined.proof.bolted > 100);
+  CHECK(!named(lined, "tile").empty());
+  std::size_t bends = 0;
+  for (const ShopPart* const tile : named(lined, "tile")) bends += tile->pattern->bends.size();
+  CHECK(bends > 10);
+  // Butted or mitred, upright walls add up to one section.
+  const section::Trapezoid upright{WidthLaw(0.4), 0.25, Angle(), 4e-3};
+  const WorkshopBuild mitred = plates_of(chute(), upright, options);
+  CHECK(lined.proof.volume == Approx(mitred.proof.volume).epsilon(1e-12));
+  CHECK(lined.ride.exit_speed == mitred.ride.exit_speed);
+  // Laps and tabs go round the same corners.
+  options.walls = WallSeat::beside_floor;
+  options.corners.kind = CornerJoint::tab_and_slot;
+  const WorkshopBuild tabbed = plates_of(chute(), channel, options);
+  CHECK(listed(tabbed, "tabs") > 0.0);
+  CHECK(tabbed.proof.volume == plates_of(chute(), upright, options).proof.volume);
+}
+
+TEST_CASE("bent works: rule hole-bend sees slots, and no opening that parts a bend") {
+  const auto least = [](const WorkshopBuild& build) {
+    double value = 1e9;
+    std::string at;
+    for (const ShopMeasurement& one : build.workshop.measured) {
+      if (std::string(one.quantity) != "hole_bend_thicknesses" || !(one.value / one.unit < value)) continue;
+      value = one.value / one.unit;
+      at = one.where;
+    }
+    return std::pair(value, at);
+  };
+  PlateOptions options = bent(CornerJoint::tab_and_slot);
+  options.walls = WallSeat::on_floor;
+  const WorkshopBuild slots = plates_of(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}, options);
+  // Slots alone: 2 thicknesses off where a bend begins.
+  CHECK(least(slots).first >= 2.0);
+  CHECK(least(slots).first < 100.0);
+  CHECK(least(slots).second.find("floor") != std::string::npos);
+  PlateOptions openings = bent(CornerJoint::butt);
+  openings.inspection = {{2.5, 0.5, 0.1, 8}};
+  CHECK(least(plates_of(chute(), trapezoid(), openings)).first >= 2.0);
+}
+
 TEST_CASE("bent works: what is set on bent plates is bent as they are, and has its rows of the schedule") {
   const WorkshopBuild build = plates_of(chute(), trapezoid(), with_everything(CornerJoint::butt));
   for (const char* const name : {"cover", "rim", "tile", "floor"}) {
@@ -200,7 +250,8 @@ TEST_CASE(
          {section::Measures(section::Trapezoid{WidthLaw(random.between(0.25, 0.5)), random.between(0.1, 0.25),
                                                Angle::from_degrees(random.between(2.0, 50.0)), t}),
           section::Measures(section::VChannel{Angle::from_degrees(80.0), 0.05, 0.2, t}),
-          section::Measures(section::HalfPipe{0.3, 0.05, t})}) {
+          section::Measures(section::HalfPipe{0.3, 0.05, t}),
+          section::Measures(section::UChannel{WidthLaw(0.35), 0.2, t})}) {
       INFO(section::kind(measures) << " " << run);
       // Throws InternalError where parts clash, do not add up, or bolts do not meet.
       const std::string refusal = refusal_of([&] {

@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/plane_geometry.hpp"
 #include "parts/body_geometry.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
@@ -192,6 +193,26 @@ double BentStrips::lean_at(double s) const {
     if (std::fabs(station.s - s) < std::fabs(nearest->s - s)) nearest = &station;
   }
   return nearest->lean;
+}
+
+BentStrips::Half BentStrips::half_at(Vec2 at) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  Half half;
+  for (const Stretch& unit : units_) {
+    for (std::size_t i = unit.first; i < unit.last; ++i) {
+      const Station& from = stations_[i];
+      const double off = core::distance_to_segment(at, from.at, stations_[i + 1].at);
+      if (!(off < nearest)) continue;
+      nearest = off;
+      const double along = dot(at - from.at, stations_[i + 1].at - from.at) / flat(i);
+      half = {from.wide + taper(i) * along, square_lean(i)};
+    }
+  }
+  return half;
+}
+
+double BentStrips::square_lean(std::size_t i) const {
+  return stations_[i].lean - taper(i) * tan_half(stations_[i].kink);
 }
 
 Vec3 BentStrips::place(const Station& station, Vec2 corner) const {
@@ -399,12 +420,8 @@ std::optional<BentStrips::SquareEnd> BentStrips::square_end(const SectionPlate& 
     }
     if (room - move < kShort) continue;
     const double share = move / whole;
-    // A square ruling leans as all of its flat does.
-    const Station& first = side.downstream ? a : b;
-    const Station& last = side.downstream ? b : a;
-    const double lean = first.lean - (last.wide - first.wide) / whole * tan_half(first.kink);
     return SquareEnd{{a.s + share * (b.s - a.s), a.at + move * way, up, 0.0, 0.0,
-                      a.wide + share * (b.wide - a.wide), lean},
+                      a.wide + share * (b.wide - a.wide), square_lean(side.downstream ? i : i - 1)},
                      i};
   }
   return std::nullopt;

@@ -72,6 +72,13 @@ class BentStrips {
   [[nodiscard]] std::vector<Strip> set(const SectionPlate& plate, double thickness, double taken);
   /// @return out per height where a unit begins or ends
   [[nodiscard]] double lean_at(double s) const;
+  /// How a half of the section stands on a flat, square to it.
+  struct Half {
+    double wide = 0.0;  ///< as StripArc has it
+    double lean = 0.0;  ///< out per height
+  };
+  /// @param at  on the floor line; off it, the flat nearest to that counts
+  [[nodiscard]] Half half_at(Vec2 at) const;
   /// @return the corners of all flats, one where units meet
   [[nodiscard]] std::vector<FlatCorner> corners() const;
   [[nodiscard]] const std::vector<Facets>& facets() const { return facets_; }
@@ -123,6 +130,8 @@ class BentStrips {
   void lean_facets();
   [[nodiscard]] double flat(std::size_t i) const { return norm(stations_[i + 1].at - stations_[i].at); }
   [[nodiscard]] double taper(std::size_t i) const;
+  /// @return how rulings square to flat i lean, out per height: all alike
+  [[nodiscard]] double square_lean(std::size_t i) const;
   /// @return by how much flat i is shorter per height above it
   [[nodiscard]] double narrowing(std::size_t i) const;
   [[nodiscard]] Vec3 place(const Station& station, Vec2 corner) const;

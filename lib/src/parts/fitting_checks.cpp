@@ -91,8 +91,9 @@ void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options
   }
   object_to_tiles(channel, liner, refusals);
   if (options.floor == FloorMake::bent) {
-    refusals.add("liner", "liner: tiles would lie on the bends of a bent floor",
-                 "They are rolled as the floor is.", "floor: rolled");
+    refusals.add("liner", "liner: curbs follow the track where tiles would follow the flats of a bent floor",
+                 "Curbs are cut along arcs; between bends tiles would leave them.",
+                 "floor: rolled, or a cross_section of kind u-channel or trapezoid");
   }
 }
 

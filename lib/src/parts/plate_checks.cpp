@@ -20,8 +20,7 @@
 #include <string>
 #include <utility>
 
-namespace glissade {
-namespace parts {
+namespace glissade::parts {
 namespace {
 
 constexpr double kLeastStrip = 50e-3;  // [m]
@@ -179,10 +178,7 @@ std::vector<Issue> common_problems(const PlateOptions& options) {
   return std::move(objections).all();
 }
 
-}  // namespace parts
-
-std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOptions& options) {
-  using namespace parts;
+std::vector<Issue> channel_problems(const ChannelMeasures& channel, const PlateOptions& options) {
   Objections objections;
   objections.positive(channel.width, "width");
   objections.positive(channel.thickness, "thickness");
@@ -203,4 +199,4 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
   return issues;
 }
 
-}  // namespace glissade
+}  // namespace glissade::parts

@@ -11,6 +11,10 @@ namespace glissade::parts {
 /// What no shop can make of options alone, whatever the section is.
 [[nodiscard]] std::vector<Issue> common_problems(const PlateOptions& options);
 
+/// Of a channel whose walls follow the arcs of the track.
+[[nodiscard]] std::vector<Issue> channel_problems(const ChannelMeasures& channel,
+                                                  const PlateOptions& options);
+
 /// Of a punch that is sharper than the material stands.
 /// @return none of one that is not
 [[nodiscard]] std::optional<Issue> too_tight_a_bend(double thickness, const PlateOptions& options);

@@ -45,15 +45,33 @@ void measure_holes(const ShopPart& part, ShopFacts& facts) {
     facts.of(part, "hole_thicknesses", hole, part.thickness);
     facts.of(part, "hole_edge_diameters", edge, hole);
     facts.of(part, "web_thicknesses", web, part.thickness);
-    for (const BendLine& bend : part.pattern->bends) {
-      const PathPiece line{bend.from, bend.to, 0.0};
-      const PathPiece here{holes[i].centre, holes[i].centre + Vec2{1e-9, 0.0}, 0.0};
-      const double half = 0.5 * (bend.inner_radius + 0.5 * part.thickness) * bend.angle.radians();
-      facts.of(part, "hole_bend_thicknesses", distance(here, line) - holes[i].radius - half, part.thickness);
-    }
     if (holes.size() < 2) continue;
     facts.of(part, "hole_pitch_diameters", nearest, hole);
     if (is_frame(part)) facts.of(part, "bolt_pitch", nearest);
+  }
+}
+
+/// How near holes and slots stand to where bends begin.
+void measure_off_bends(const ShopPart& part, ShopFacts& facts) {
+  constexpr double kOnEdge = 1e-6;  // of an opening, at which a bend ends that it parts [m]
+  for (const BendLine& bend : part.pattern->bends) {
+    const PathPiece line{bend.from, bend.to, 0.0};
+    const double half = 0.5 * (bend.inner_radius + 0.5 * part.thickness) * bend.angle.radians();
+    const auto tell = [&](double apart) {
+      facts.of(part, "hole_bend_thicknesses", apart - half, part.thickness);
+    };
+    for (const Circle& hole : part.pattern->region.holes)
+      tell(distance({hole.centre, hole.centre + Vec2{1e-9, 0.0}, 0.0}, line) - hole.radius);
+    for (const ArcPath& cutout : part.pattern->region.cutouts) {
+      double apart = std::numeric_limits<double>::infinity();
+      bool parted = false;
+      for (const PathPiece& piece : pieces_of(cutout)) {
+        apart = std::min(apart, distance(piece, line));
+        for (const Vec2 end : {bend.from, bend.to})
+          parted = parted || distance(piece, {end, end + Vec2{1e-9, 0.0}, 0.0}) < kOnEdge;
+      }
+      if (!parted) tell(apart);
+    }
   }
 }
 
@@ -106,6 +124,7 @@ void measure_plates(const PlateOptions& options, Workshop& workshop) {
   for (const ShopPart& part : workshop.parts) {
     if (!part.pattern) continue;
     measure_holes(part, facts);
+    measure_off_bends(part, facts);
     measure_frame_slots(part, facts);
     if (std::holds_alternative<AngleBar>(part.body)) continue;  // cut from no sheet
     const PlaneBox box = bounds(part.pattern->region.outline);

@@ -170,6 +170,10 @@ std::optional<PlateSection> section_of(const section::Trapezoid& channel, const 
 
 /// Upright walls beside the floor, or on it: edges are square.
 std::optional<PlateSection> section_of(const section::UChannel& channel, const PlateOptions& options) {
+  // Laps, tabs and slots are those of plates that meet at corners.
+  if (options.corners.kind != CornerJoint::butt && channel.width.is_constant())
+    return section_of(section::Trapezoid{channel.width, channel.wall_height, Angle(), channel.thickness},
+                      options);
   const double t = channel.thickness;
   const double inner = 0.5 * channel.width.narrowest();
   const double outer = inner + t;

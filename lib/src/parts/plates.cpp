@@ -146,6 +146,36 @@ void add_corner_note(const Job& job, Workshop& workshop) {
   workshop.notes.push_back(note + ".");
 }
 
+/// Tiles are bent as the floor is, and walls on a bent floor follow its flats: such channels are made of strips.
+bool follows_flats(const ChannelMeasures& channel, const PlateOptions& options) {
+  const bool curbs = channel.wall_height > 0.0 && channel.wall_thickness > 0.0;
+  const bool on_floor = channel.wall_height > 0.0 && options.walls == WallSeat::on_floor;
+  return options.floor == FloorMake::bent && !curbs && (options.liner || on_floor);
+}
+
+/// The options without what a channel's own plates do not have.
+PlateOptions of_smooth_walls(PlateOptions options) {
+  options.liner.reset();
+  options.walls = WallSeat::beside_floor;
+  return options;
+}
+
+section::Measures section_of(const ChannelMeasures& channel) {
+  if (channel.wall_height > 0.0)
+    return section::UChannel{WidthLaw(channel.width), channel.wall_height, channel.thickness};
+  return section::Slab{WidthLaw(channel.width), channel.thickness};
+}
+
+/// What no shop can make of a section as strips, whatever the track is.
+std::vector<Issue> section_problems(const PlateSection& section, const PlateOptions& options) {
+  std::vector<Issue> issues;
+  for (const auto& problems : {strip_problems, section_corner_problems, section_fitting_problems,
+                               strip_shell_problems, strip_opening_problems}) {
+    for (Issue& issue : problems(section, options)) issues.push_back(std::move(issue));
+  }
+  return issues;
+}
+
 AsBuiltRide ride_as_built(const Job& job, const std::vector<Unit>& units, const Motion& design,
                           const Body& body, double gravity) {
   if (job.options.floor == FloorMake::bent) {
@@ -173,11 +203,11 @@ double k_factor(double inner_radius, double thickness) {
   return std::clamp(factor, 0.0, 0.5);
 }
 
-WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channel,
-                          const MasterCurveOptions& fit, const PlateOptions& options,
-                          const Placement& placement, const Body& body, double gravity) {
-  std::vector<Issue> problems = plate_problems(channel, options);
-  if (!problems.empty()) throw InputError(std::move(problems));
+namespace {
+
+WorkshopBuild make_channel(const Centerline& track, const ChannelMeasures& channel,
+                           const MasterCurveOptions& fit, const PlateOptions& options,
+                           const Placement& placement, const Body& body, double gravity) {
   WorkshopBuild build;
   build.master = fit_arcs(track, fit);
   const Job job{*build.master.spline, channel, options, placement};
@@ -213,6 +243,8 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   note_differences(build.proof, "the plain channel", workshop);
   return build;
 }
+
+}  // namespace
 
 std::optional<ChannelMeasures> channel_of(const section::Measures& measures) {
   if (const auto* const channel = std::get_if<section::UChannel>(&measures)) {
@@ -278,7 +310,7 @@ FlangeOptions fitted_flanges(const ChannelMeasures& channel, const PlateOptions&
       FlangeOptions{true, 30e-3, 5e-3, 6, 100e-3}, FlangeOptions{true, 20e-3, 4e-3, 5, 80e-3},
       FlangeOptions{true, 14e-3, 3e-3, 5, 60e-3}};
   for (const FlangeOptions& frame : kFrames) {
-    PlateOptions with = options;
+    PlateOptions with = of_smooth_walls(options);
     with.flanges = frame;
     const std::vector<Issue> issues = plate_problems(channel, with);
     const bool fits = std::none_of(issues.begin(), issues.end(),
@@ -339,11 +371,39 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
   if (const auto round = mitred_round(measures, options)) return mitred_problems(round->side, options);
   const auto section = plate_section(measures, options);
   if (!section) return width_changes();
-  for (const auto& problems : {strip_problems, section_corner_problems, section_fitting_problems,
-                               strip_shell_problems, strip_opening_problems}) {
-    for (Issue& issue : problems(*section, options)) issues.push_back(std::move(issue));
-  }
-  return issues;
+  return section_problems(*section, options);
+}
+
+std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOptions& options) {
+  if (!follows_flats(channel, options)) return channel_problems(channel, options);
+  std::vector<Issue> issues = channel_problems(channel, of_smooth_walls(options));
+  if (!issues.empty()) return issues;
+  return section_problems(*plate_section(section_of(channel), options), options);
+}
+
+namespace {
+
+WorkshopBuild make_section(const Centerline& track, const section::Measures& measures,
+                           const MasterCurveOptions& fit, const PlateOptions& options,
+                           const Placement& placement, const Body& body, double gravity) {
+  MasterCurve master = fit_arcs(track, fit);
+  const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
+  WorkshopBuild build =
+      make_round_or_strips(*master.spline, measures, options, placement, body, gravity, smooth);
+  build.master = std::move(master);
+  return build;
+}
+
+}  // namespace
+
+WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channel,
+                          const MasterCurveOptions& fit, const PlateOptions& options,
+                          const Placement& placement, const Body& body, double gravity) {
+  std::vector<Issue> problems = plate_problems(channel, options);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  if (follows_flats(channel, options))
+    return make_section(track, section_of(channel), fit, options, placement, body, gravity);
+  return make_channel(track, channel, fit, options, placement, body, gravity);
 }
 
 WorkshopBuild make_plates(const Centerline& track, const section::Measures& measures,
@@ -357,12 +417,7 @@ WorkshopBuild make_plates(const Centerline& track, const section::Measures& meas
     if (options.flanges != told.flanges) note_frames(options.flanges, *channel, build.workshop);
     return build;
   }
-  MasterCurve master = fit_arcs(track, fit);
-  const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
-  WorkshopBuild build =
-      make_round_or_strips(*master.spline, measures, options, placement, body, gravity, smooth);
-  build.master = std::move(master);
-  return build;
+  return make_section(track, measures, fit, options, placement, body, gravity);
 }
 
 }  // namespace glissade

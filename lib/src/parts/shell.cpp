@@ -17,10 +17,10 @@ namespace {
 
 /// The one in which a place lies deepest, or nearest to: flats of a hollow are longer than the track that they touch, so that
 /// their stretches overlap.
-const Straight* straight_at(const Shell& shell, double s) {
+const Straight* straight_at(const std::vector<Straight>& straights, double s) {
   const Straight* best = nullptr;
   double deepest = -std::numeric_limits<double>::infinity();
-  for (const Straight& one : shell.straights) {
+  for (const Straight& one : straights) {
     const double deep = std::min(s - one.span.from, one.span.to - s);
     if (deep <= deepest) continue;
     deepest = deep;
@@ -31,16 +31,20 @@ const Straight* straight_at(const Shell& shell, double s) {
 
 }  // namespace
 
-TrackFrame frame_of(const Shell& shell, double s) {
-  const Straight* const straight = straight_at(shell, s);
-  if (straight == nullptr) return frame_at(shell.track, s);
+TrackFrame frame_on(const std::vector<Straight>& straights, const ArcSpline& track, double s) {
+  const Straight* const straight = straight_at(straights, s);
+  if (straight == nullptr) return frame_at(track, s);
   TrackFrame frame = straight->from;
   frame.at = frame.at + (s - straight->span.from) * straight->stretch * frame.along;
   return frame;
 }
 
+TrackFrame frame_of(const Shell& shell, double s) {
+  return frame_on(shell.straights, shell.track, s);
+}
+
 bool keeps_straight(const Shell& shell, double s, double half, double gap) {
-  if (const Straight* const straight = straight_at(shell, s))
+  if (const Straight* const straight = straight_at(shell.straights, s))
     return s - half >= straight->span.from && s + half <= straight->span.to;
   // Above a hollow what lies within the same thickness is on a longer stretch of the track.
   const double reach = 4.0 * half;

@@ -37,7 +37,9 @@ struct Shell {
   TakenUp& taken;  ///< by frames, bolts and whatever is set on it
 };
 
-/// @return the floor line at a place, as it is made: of straights, on one of them
+/// @return the floor line at a place, as it is made: on the straight in which it lies deepest, or nearest to; of none, on the track
+[[nodiscard]] TrackFrame frame_on(const std::vector<Straight>& straights, const ArcSpline& track, double s);
+/// @return the same of a shell
 [[nodiscard]] TrackFrame frame_of(const Shell& shell, double s);
 
 /// @return whether the shell keeps within a gap of straight for `half` to both sides of a place

@@ -81,18 +81,23 @@ Shell strip_shell(const StripJob& job, const std::optional<BentStrips>& bent, co
   // Over the thickness of what stands there it is as wide as anywhere.
   const double reach = std::max(job.options.lifting ? job.options.lifting->thickness : 0.0,
                                 job.options.stiffeners ? job.options.stiffeners->thickness : 0.0);
-  shell.outside = [&job, narrowest, reach](double s) {
-    if (!job.widens()) return narrowest;
-    SectionOutside here = narrowest;
-    double wider = 0.0;
-    for (const double place : {s - reach, s, s + reach}) wider = std::max(wider, job.wider_at(place));
-    for (PathVertex& vertex : here.line.vertices) vertex.at = job.at(vertex.at, wider, job.lean_at(s));
-    return here;
-  };
   if (bent) {
     for (const Facets& facets : bent->facets())
       add_straights(job.track, facets, {shell.lowest, shell.highest}, shell.straights);
   }
+  const std::vector<Straight>& straights = shell.straights;
+  shell.outside = [&job, &bent, narrowest, reach, straights](double s) {
+    if (!job.widens()) return narrowest;
+    const TrackFrame frame = frame_on(straights, job.track, s);
+    SectionOutside here = narrowest;
+    double wider = 0.0;
+    for (const double aside : {-reach, 0.0, reach})
+      wider = std::max(wider,
+                       bent ? bent->half_at(frame.at + aside * frame.along).wide : job.wider_at(s + aside));
+    const double lean = bent ? bent->half_at(frame.at).lean : job.lean_at(s);
+    for (PathVertex& vertex : here.line.vertices) vertex.at = job.at(vertex.at, wider, lean);
+    return here;
+  };
   take_frames(shell);
   constexpr double kBoltHead = 15e-3;  // round a bolt of the liner [m]
   const auto take = [&](double from, double to) {
@@ -150,12 +155,6 @@ std::vector<Issue> strip_shell_problems(const PlateSection& section, const Plate
   const auto refuse = [&](bool wanted, const char* key, const char* what, const char* why, const char* hint) {
     if (wanted) issues.push_back({key, std::string(key) + ": " + what, why, hint});
   };
-  const bool bent_widths = section.widths && options.floor == FloorMake::bent;
-  const char* const leans =
-      "the sides of bent plates lean otherwise from flat to flat where the width changes";
-  const char* const square = "A plate square to the track fits one of them.";
-  refuse(options.stiffeners && bent_widths, "stiffeners", leans, square, "floor: rolled, or one width");
-  refuse(options.lifting && bent_widths, "lifting", leans, square, "floor: rolled, or one width");
   const char* const hollow = "the section is hollow below, or has no upright sides there";
   const char* const round = "They stand along its outside, from top to top.";
   refuse(options.stiffeners && !section.convex, "stiffeners", hollow, round, "another outline, or none");
@@ -163,7 +162,7 @@ std::vector<Issue> strip_shell_problems(const PlateSection& section, const Plate
   const bool laps_round = section.ring && !outside_of(section, options).laps.empty();
   refuse(options.lifting && laps_round, "lifting", "plates that lap all round the section stand in its way",
          "It is welded to their outside from where that faces half upwards.", "corners: butt, or none");
-  if (options.stiffeners && !bent_widths && section.convex &&
+  if (options.stiffeners && section.convex &&
       !round_laps(outside_of(section, options), options.flanges.gap)) {
     issues.push_back({"stiffeners", "stiffeners: laps of this section leave them no way round",
                       "A side is no longer than what laps over it.", "corners: butt, or a smaller overlap"});

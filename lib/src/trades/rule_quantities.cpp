@@ -95,7 +95,7 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"hole_edge_diameters", number, "distance of a hole's middle from the edge over its diameter"},
     {"hole_pitch_diameters", number, "distance of two holes' middles over their diameter"},
     {"hole_bend_thicknesses", number,
-     "distance of a hole's edge from where a bend begins over the thickness of its plate"},
+     "distance of the edge of a hole or slot from where a bend begins over the thickness of its plate"},
     {"slot_edge_diameters", number, "distance of the middles of a slot's ends from the edge over its width"},
     {"web_thicknesses", number, "width of what stands beside a hole or slot over the thickness of its plate"},
     {"tab_width", length, "width of a tab"},
