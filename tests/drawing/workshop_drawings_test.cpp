@@ -76,9 +76,9 @@ TEST_CASE("a cutting file has the part's contour and holes, moved to its corner;
 TEST_CASE("the set of drawings has every part, list and table, each sheet numbered, and is the same twice") {
   const Workshop workshop = testing::upright_workshop();
   const std::vector<Sheet> set = drawing_set(workshop);
-  REQUIRE(set.size() == 22);
+  REQUIRE(set.size() == 23);
   for (std::size_t i = 0; i < set.size(); ++i) {
-    CHECK(set[i].title.sheet == std::to_string(i + 1) + "/22");
+    CHECK(set[i].title.sheet == std::to_string(i + 1) + "/23");
     CHECK(set[i].title.owner == workshop.name);
   }
   for (const char* text : {"General arrangement", "left_wall", "floor", "leaning_wall", "gore", "pipe",
@@ -181,7 +181,7 @@ TEST_CASE("tables as CSV: units in the header, one row each, texts with commas i
         "part,hit,distance_mm,length_mm,angle_deg,sum_deg,radius_mm,chord_error_mm\n"
         "2,1,250,0,1.718873385,1.718873385,2500,0.2\n");
   const std::string cuts = cut_list_csv(workshop);
-  CHECK(std::count(cuts.begin(), cuts.end(), '\n') == 1 + 16);
+  CHECK(std::count(cuts.begin(), cuts.end(), '\n') == 1 + 17);
   CHECK(cuts.find("\n1,left_wall,S235,4,2,") != std::string::npos);
   CHECK(cuts.find("\n4,gore,S235,4,2,,,,,,0,0,") != std::string::npos);
   const std::string out = setting_out_csv(workshop);

@@ -44,12 +44,12 @@ TEST_CASE(
   write_step(file, workshop);
   require_same_step(file, workshop);
   const StepFacts facts = read_step_facts(file);
-  REQUIRE(facts.solids.size() == 16);
+  REQUIRE(facts.solids.size() == 17);
   for (const StepSolid& solid : facts.solids) {
     CHECK(solid.closed);
     CHECK(solid.worst_gap_mm <= kStepAccuracy);
   }
-  CHECK(facts.occurrences.size() == 18);
+  CHECK(facts.occurrences.size() == 19);
   CHECK(facts.solids[0].name == "01 left_wall");
   // A wall: 7 arcs on both edges, 9 holes, half circles at both ends of a slot; planes: faces, ends, slot.
   CHECK(facts.solids[0].cylinders == 14 + 9 + 2);
@@ -80,6 +80,9 @@ TEST_CASE(
   CHECK(facts.solids[14].planes == 3);
   CHECK(facts.solids[15].cylinders == 3 + 1 + 2);
   CHECK(facts.solids[15].planes == 3 * 2 + 3 + 2 + 2);
+  // A tube: both sides and four holes; both ends and the walls of its window.
+  CHECK(facts.solids[16].cylinders == 2 + 4);
+  CHECK(facts.solids[16].planes == 2 + 4);
   CHECK(facts.solids[11].cones == 4 * 6);
   CHECK(facts.solids[12].cylinders == 7);
   // Both faces, both edges, a slot and, but for one piece, a lap that make more of them.

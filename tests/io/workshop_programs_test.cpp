@@ -122,7 +122,14 @@ double volume_of(const Prism& prism) {
 /// A plane through the tube's axis at its middle cuts off as much as it adds.
 double volume_of(const TubeGore& gore) {
   const double outer = gore.inner_radius + gore.thickness;
-  return kPi * (outer * outer - gore.inner_radius * gore.inner_radius) * gore.length;
+  double volume = kPi * (outer * outer - gore.inner_radius * gore.inner_radius) * gore.length;
+  // Developed: windows by the mean circumference, holes as out of a flat plate.
+  for (const TubeWindow& window : gore.windows) {
+    volume -= (gore.inner_radius + 0.5 * gore.thickness) * (window.high.radians() - window.low.radians()) *
+              (window.to - window.from) * gore.thickness;
+  }
+  for (const TubeHole& hole : gore.holes) volume -= kPi * hole.radius * hole.radius * gore.thickness;
+  return volume;
 }
 
 /// Pappus and Guldin: area times the way of its centre.
@@ -205,6 +212,7 @@ double volume_of(const RolledSheet& sheet) {
 
 bool has_holes(const PartBody& body) {
   if (const auto* const swept = std::get_if<SweptBody>(&body)) return !swept->holes.empty();
+  if (const auto* const tube = std::get_if<TubeGore>(&body)) return !tube->holes.empty();
   const auto* const sheet = std::get_if<RolledSheet>(&body);
   return sheet != nullptr && !sheet->region.holes.empty();
 }

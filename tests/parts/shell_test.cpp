@@ -443,7 +443,7 @@ TEST_CASE("openings: where none is to be had it is refused with place, value, bo
   PlateOptions round;
   round.inspection = {{2.0, 0.2, 0.1, 8}};
   round.round = RoundMake::mitred;
-  CHECK(refused(section::Pipe{0.5, 3e-3}, round).find("round: staves") != std::string::npos);
+  CHECK(refused(section::HalfPipe{0.5, 0.1, 3e-3}, round).find("round: staves") != std::string::npos);
 }
 
 TEST_CASE("lugs: on walls without a rim they keep off stiffeners") {

@@ -170,6 +170,17 @@ inline glissade::AngleBar half_angle_ring() {
   return bar;
 }
 
+/// A tube between two planes that lean, with a window and four holes beside it.
+inline glissade::TubeGore opened_tube() {
+  const auto degrees = [](double angle) { return glissade::Angle::from_degrees(angle); };
+  glissade::TubeGore tube{0.1, 0.003, 0.5, degrees(-6.0), degrees(7.0)};
+  tube.windows = {{0.15, 0.3, degrees(-115.0), degrees(-65.0)}};
+  for (const double along : {0.13, 0.32}) {
+    for (const double angle : {-125.0, -55.0}) tube.holes.push_back({along, degrees(angle), 4.5e-3});
+  }
+  return tube;
+}
+
 /// Plates, a floor, a leaning wall, gores of a pipe: one of each kind, some in several places.
 inline glissade::Workshop sample_workshop() {
   glissade::Workshop workshop;
@@ -217,6 +228,7 @@ inline glissade::Workshop sample_workshop() {
   workshop.parts.push_back(shop_part(14, "mitred_angle", mitred_angle()));
   workshop.parts.push_back(shop_part(15, "ring_of_angle", angle_ring()));
   workshop.parts.push_back(shop_part(16, "half_ring_of_angle", half_angle_ring()));
+  workshop.parts.push_back(shop_part(17, "opened_tube", opened_tube()));
   workshop.items.push_back({"bolt M12 x 40", "ISO 4017 8.8", 24, "joint 1"});
   workshop.bends.push_back(
       {2, 1, 0.25, 0.0, glissade::Angle::from_radians(0.03), glissade::Angle::from_radians(0.03), 2.5, 2e-4});

@@ -8,6 +8,7 @@
 #include "parts/angle_bar.hpp"
 #include "parts/bores.hpp"
 #include "parts/piece_mesh.hpp"
+#include "parts/tube_windows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -332,8 +333,15 @@ BodyMoments moments_of(const TubeGore& gore) {
   // The planes' x terms average out of the volume, not of its moments.
   const double x = second * (end - start);
   const double z = 0.5 * (area * gore.length * gore.length + second * (end * end - start * start));
-  const double volume = area * gore.length;
-  return {volume, {x / volume, 0.0, z / volume}};
+  BodyMoments all{area * gore.length, {}};
+  all.centroid = {x / all.volume, 0.0, z / all.volume};
+  for (const TubeWindow& window : gore.windows) {
+    const BodyMoments cut = parts::moments_of(window, gore);
+    const double left = all.volume - cut.volume;
+    all.centroid = (1.0 / left) * (all.volume * all.centroid - cut.volume * cut.centroid);
+    all.volume = left;
+  }
+  return without(all, bores_of(gore));
 }
 
 BodyMoments moments_of(const TroughGore& gore) {
@@ -528,7 +536,7 @@ std::vector<Vec3> points_of(const TroughGore& gore, double inset) {
 }
 
 std::vector<Vec3> points_of(const TubeGore& gore, double inset) {
-  std::vector<Vec3> points;
+  std::vector<Vec3> points = points_beside(gore, inset);
   constexpr int kPoints = 24;
   for (int k = 0; k < kPoints; ++k) {
     const auto [sine, cosine] = math::sine_cosine(2.0 * std::numbers::pi * k / kPoints);
@@ -536,7 +544,13 @@ std::vector<Vec3> points_of(const TubeGore& gore, double inset) {
       const double x = radius * cosine;
       const double low = x * math::tan(gore.start_tilt.radians()) + 2.0 * inset;
       const double high = gore.length + x * math::tan(gore.end_tilt.radians()) - 2.0 * inset;
-      for (const double z : {low, 0.5 * (low + high), high}) points.push_back({x, radius * sine, z});
+      for (const double z : {low, 0.5 * (low + high), high}) {
+        const Vec3 point{x, radius * sine, z};
+        const bool cut = std::any_of(gore.windows.begin(), gore.windows.end(), [&](const TubeWindow& window) {
+          return parts::beside(window, point) < 0.0;
+        });
+        if (!cut) points.push_back(point);
+      }
     }
   }
   return points;
@@ -699,7 +713,10 @@ double depth_in(const TubeGore& gore, Vec3 point) {
       (point.z - point.x * math::tan(gore.start_tilt.radians())) * math::cos(gore.start_tilt.radians());
   const double end = (gore.length + point.x * math::tan(gore.end_tilt.radians()) - point.z) *
                      math::cos(gore.end_tilt.radians());
-  return std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end});
+  double depth =
+      std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end});
+  for (const TubeWindow& window : gore.windows) depth = std::min(depth, parts::beside(window, point));
+  return depth;
 }
 
 /// A straight edge, just inside its body.

@@ -11,6 +11,7 @@
 #include "parts/bores.hpp"
 #include "parts/equal_parts.hpp"
 #include "parts/placed_piece.hpp"
+#include "parts/tube_windows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,6 +67,7 @@ std::vector<Hole> holes_of(const Prism& prism) {
 
 std::vector<Hole> holes_of(const PartBody& body) {
   if (const auto* const bar = std::get_if<AngleBar>(&body)) return holes_of(legs_of(*bar)[0]);
+  if (const auto* const tube = std::get_if<TubeGore>(&body)) return from_bores(bores_of(*tube));
   if (const auto* const swept = std::get_if<SweptBody>(&body)) return from_bores(bores_of(*swept));
   if (const auto* const sheet = std::get_if<RolledSheet>(&body)) return from_bores(bores_of(*sheet));
   const auto* const prism = std::get_if<Prism>(&body);

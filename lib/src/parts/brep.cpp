@@ -188,53 +188,6 @@ class SweptFaces {
   Brep brep_;
 };
 
-// --- tubes between two planes
-
-/// A closed curve round the axis of a tube where a plane z = height + x slope cuts it.
-std::size_t add_ring(Brep& brep, double radius, double height, double slope, bool left) {
-  BrepEdge edge;
-  edge.from = add_vertex(brep, {radius, 0.0, height + radius * slope});
-  edge.to = edge.from;
-  edge.kind = slope == 0.0 ? CurveKind::circle : CurveKind::ellipse;
-  edge.centre = {0.0, 0.0, height};
-  const double stretch = math::hypot(1.0, slope);
-  edge.reference = {1.0 / stretch, 0.0, slope / stretch};
-  edge.axis = (left ? 1.0 : -1.0) * Vec3{-slope / stretch, 0.0, 1.0 / stretch};
-  edge.radius = radius * stretch;
-  edge.second_radius = radius;
-  brep.edges.push_back(edge);
-  return brep.edges.size() - 1;
-}
-
-Brep brep_of(const TubeGore& gore, const ShopPart& part) {
-  const double inner = gore.inner_radius * kMillimetres;
-  const double outer = inner + gore.thickness * kMillimetres;
-  const double length = gore.length * kMillimetres;
-  const double start = math::tan(gore.start_tilt.radians());
-  const double end = math::tan(gore.end_tilt.radians());
-  if (!(inner > 0.0) || !(outer > inner)) throw bad_body(part, "its radius or thickness is not positive");
-  if (!(length - outer * std::fabs(end - start) > 0.0)) {
-    throw bad_body(part, "its end planes meet inside the tube: length " + length_text(gore.length));
-  }
-  Brep brep;
-  BrepFace bottom = ring_plane(0.0, start, false);
-  BrepFace top = ring_plane(length, end, true);
-  for (const bool outside : {true, false}) {
-    const double radius = outside ? outer : inner;
-    const std::size_t low = add_ring(brep, radius, 0.0, start, outside);
-    const std::size_t high = add_ring(brep, radius, length, end, outside);
-    const std::size_t seam = add_line(brep, brep.edges[low].from, brep.edges[high].from);
-    BrepFace face = upright_cylinder({}, kAcross, radius, outside);
-    face.loops = {{{low, true}, {seam, true}, {high, false}, {seam, false}}};
-    brep.faces.push_back(std::move(face));
-    bottom.loops.push_back({{low, false}});
-    top.loops.push_back({{high, true}});
-  }
-  brep.faces.push_back(std::move(bottom));
-  brep.faces.push_back(std::move(top));
-  return brep;
-}
-
 Brep brep_of(const FoldedPlate& plate, const ShopPart& part) {
   if (plate.corners.size() < 2) throw bad_body(part, "it has no facet");
   Brep brep;
@@ -283,6 +236,10 @@ Brep brep_of(const SweptBody& body, const ShopPart& part) {
 
 Brep brep_of(const RolledSheet& sheet, const ShopPart& part) {
   return brep_of_sheet(sheet, part);
+}
+
+Brep brep_of(const TubeGore& gore, const ShopPart& part) {
+  return brep_of_tube(gore, part);
 }
 
 Brep brep_of(const AngleBar& bar, const ShopPart& part) {

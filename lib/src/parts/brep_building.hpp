@@ -52,6 +52,7 @@ std::size_t add_helix(Brep& brep, std::size_t from, std::size_t to, Vec2 centre,
 
 [[nodiscard]] Brep brep_of_sheet(const RolledSheet& sheet, const ShopPart& part);
 [[nodiscard]] Brep brep_of_angle(const AngleBar& bar, const ShopPart& part);
+[[nodiscard]] Brep brep_of_tube(const TubeGore& gore, const ShopPart& part);
 [[nodiscard]] Brep brep_of_trough(const TroughGore& gore, const ShopPart& part);
 
 }  // namespace glissade::parts

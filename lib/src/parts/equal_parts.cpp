@@ -350,6 +350,10 @@ BodyPlace place_of_gore(const Gore& body, const Gore& other, bool end_for_end) {
 }
 
 BodyPlace place_of(const TubeGore& body, const TubeGore& other, bool end_for_end) {
+  // With an opening, only as it is.
+  const bool whole = body.windows.empty() && body.holes.empty();
+  if (body.windows != other.windows || body.holes != other.holes || (end_for_end && !whole))
+    return std::nullopt;
   return place_of_gore(body, other, end_for_end);
 }
 

@@ -19,6 +19,7 @@
 #include "parts/setting_out.hpp"
 #include "parts/shop_facts.hpp"
 #include "parts/strip_shell.hpp"
+#include "parts/tube_openings.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ struct Gore {
   Vec2 along;
   TubeGore body;
   double floor_length = 0.0;  ///< of its lowest line [m]
+  double begins = 0.0;        ///< of its axis, along all flats [m]
   bool odd = false;           ///< its seam lies on the other side
 };
 
@@ -126,6 +128,15 @@ struct Stretch {
   std::optional<double> to;
 };
 
+/// Distance along the flats to each corner.
+std::vector<double> reached(const Facets& facets) {
+  std::vector<double> sums = {0.0};
+  for (std::size_t i = 0; i + 1 < facets.corners.size(); ++i) {
+    sums.push_back(sums.back() + norm(facets.corners[i + 1] - facets.corners[i]));
+  }
+  return sums;
+}
+
 Gore gore_of(const PipeJob& job, const Facets& facets, const Stretch& stretch) {
   const std::size_t flat = stretch.flat;
   const Vec2 along = facets.corners[flat + 1] - facets.corners[flat];
@@ -142,16 +153,8 @@ Gore gore_of(const PipeJob& job, const Facets& facets, const Stretch& stretch) {
   gore.body = {radius, job.pipe.thickness, end - start, Angle::from_radians(before),
                Angle::from_radians(-after)};
   gore.floor_length = stretch.to.value_or(whole) - stretch.from.value_or(0.0);
+  gore.begins = reached(facets)[flat] + start;
   return gore;
-}
-
-/// Distance along the flats to each corner.
-std::vector<double> reached(const Facets& facets) {
-  std::vector<double> sums = {0.0};
-  for (std::size_t i = 0; i + 1 < facets.corners.size(); ++i) {
-    sums.push_back(sums.back() + norm(facets.corners[i + 1] - facets.corners[i]));
-  }
-  return sums;
 }
 
 /// Joints stand square in a tube, far enough from its mitres for the flange: the nearest such places to even ones.
@@ -301,8 +304,15 @@ FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
   pattern.region.outline.closed = true;
   pattern.region.outline.vertices.back().bulge = 0.0;
   pattern.region.outline.vertices[low.vertices.size() - 1].bulge = 0.0;
+  // Seen from inside, angles about the axis run to the left.
+  for (const TubeWindow& window : gore.body.windows) {
+    pattern.region.cutouts.push_back(rectangle({mean * (phase - window.high.radians()), window.from},
+                                               {mean * (phase - window.low.radians()), window.to}));
+  }
+  for (const TubeHole& hole : gore.body.holes)
+    pattern.region.holes.push_back({{mean * (phase - hole.about.radians()), hole.along}, hole.radius});
   const PlaneBox box = bounds(pattern.region.outline);
-  for (PathVertex& vertex : pattern.region.outline.vertices) vertex.at = vertex.at - box.low;
+  pattern.region = moved(pattern.region, PlaneMotion::turn(0.0, -1.0 * box.low));
   set_number_place(pattern, bounds(pattern.region.outline));
   return pattern;
 }
@@ -537,6 +547,60 @@ void add_trough_rims(const PipeJob& job, const std::vector<GoreUnit>& units, Wor
       "Bars of the rim are cut to the planes between troughs; their lengths are the greatest.");
 }
 
+// --- openings
+
+/// Cuts openings into tubes, whose lids then keep what is set on them away.
+std::vector<TubeOpening> cut_openings(const PipeJob& job, const Facets& facets, std::vector<GoreUnit>& units,
+                                      std::vector<TubeRoom>& rooms) {
+  for (const InspectionOptions& opening : job.options.inspection) {
+    if (opening.at > 0.0 && opening.at < job.track.length()) continue;
+    throw InputError({"inspection",
+                      "at: an opening at " + length_text(opening.at, 4) + " is not on the track",
+                      "It is " + length_text(job.track.length(), 4) + " long.",
+                      "at: " + length_text(0.5 * job.track.length(), 2)});
+  }
+  if (job.options.inspection.empty()) return {};
+  const double taken = job.options.flanges.wanted ? job.options.flanges.along() + kAsideOfFrame : 0.0;
+  for (GoreUnit& unit : units) {
+    for (Gore& gore : unit.gores) {
+      const double from = &gore == &unit.gores.front() ? taken : 0.0;
+      const double to = gore.body.length - (&gore == &unit.gores.back() ? taken : 0.0);
+      rooms.push_back({gore.begins, from, to, &gore.body});
+    }
+  }
+  return cut_tubes(job.options.inspection, rooms, reached(facets).back() / job.track.length());
+}
+
+void add_tube_lids(const PipeJob& job, const std::vector<GoreUnit>& units,
+                   const std::vector<TubeOpening>& openings, Workshop& workshop, TakenUp& taken) {
+  std::vector<const Gore*> gores;
+  for (const GoreUnit& unit : units) {
+    for (const Gore& gore : unit.gores) gores.push_back(&gore);
+  }
+  for (const TubeOpening& opening : openings) {
+    const Gore& gore = *gores[opening.tube];
+    ShopPart lid = tube_lid(opening, gore.body, job.options.material);
+    lid.places = part_of(job, gore).places;
+    lid.places.front().origin = lid.places.front().origin + opening.lid.from * lid.places.front().z;
+    weigh(lid);
+    const Angle turn = Angle::from_radians(opening.lid.high.radians() - opening.lid.low.radians());
+    const double length = bounds(lid.pattern->region.outline).width();
+    const std::size_t listed = workshop.parts.size();
+    const int number = add_part(workshop, std::move(lid), kFittingColour);
+    if (workshop.parts.size() > listed) {
+      workshop.bends.push_back(
+          {number, 1, 0.0, length, turn, turn, gore.body.inner_radius + job.pipe.thickness, 0.0});
+    }
+    add_bolts(workshop, opening.bolt, 2.0 * job.pipe.thickness, opening.bolts.size(), "lids");
+    const double half = 0.5 * (opening.lid.to - opening.lid.from);
+    taken.add(opening.at - half, opening.at + half);
+    constexpr double kTold = 0.5e-3;  // [m]
+    if (std::fabs(opening.at - opening.asked) < kTold) continue;
+    workshop.notes.push_back("The opening that is asked for at " + length_text(opening.asked, 4) +
+                             " along the track is at " + length_text(opening.at, 4) + ", within one tube.");
+  }
+}
+
 // --- proof
 
 /// Area of the section, and its first moment about the floor line, by its figures.
@@ -562,7 +626,8 @@ ArcPath edge_of(const PipeJob& job, Angle tilt, double phase) {
                   : arcs_of({mean * math::tan(tilt.radians()), mean, phase, 0.0});
 }
 
-PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const Workshop& workshop) {
+PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const std::vector<TubeRoom>& rooms,
+                 const Workshop& workshop) {
   PartsProof proof;
   const RoundSection section = section_of(job);
   const Gore* before = nullptr;
@@ -585,10 +650,13 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const W
   double listed = 0.0;
   for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());
   proof.added_volume = listed - proof.volume;
-  if (!(std::fabs(proof.volume - proof.exact_volume) <= kPartsVolumeAccuracy * proof.exact_volume)) {
+  const double cut = openings_volume(rooms);
+  if (cut != 0.0) proof.differences.push_back({"openings", cut});
+  const double wanted = proof.exact_volume + cut;
+  if (!(std::fabs(proof.volume - wanted) <= kPartsVolumeAccuracy * wanted)) {
     throw InternalError({"",
                          "the " + std::string(job.word()) + "s hold " + rounded_text(proof.volume, 12) +
-                             " m^3, the pipe " + rounded_text(proof.exact_volume, 12) + " m^3",
+                             " m^3, the pipe " + rounded_text(wanted, 12) + " m^3",
                          "", ""});
   }
   constexpr double kSameEdge = 1e-9;  // [m]
@@ -701,12 +769,15 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
     return std::nullopt;
   });
   Workshop& workshop = build.workshop;
+  std::vector<TubeRoom> rooms;
+  const std::vector<TubeOpening> openings = cut_openings(job, facets, units, rooms);
   list_tubes(job, units, workshop);
   add_rings(job, units, workshop);
   add_trough_rims(job, units, workshop);
   build.joints = on_track(facets, joints, track.length());
   workshop.setting_out = setting_out(track, build.joints, placement);
   TakenUp taken;
+  add_tube_lids(job, units, openings, workshop, taken);
   const Shell shell =
       pipe_shell(track, pipe, side, options, placement, facets, build.joints, workshop, taken);
   add_stiffeners(shell);
@@ -731,20 +802,24 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
            : "Tubes are rolled to an inside diameter of " + length_text(pipe.inner_diameter) +
                  " and welded along their seams, which lie 20 deg from the crown, to either side in turn.");
   measure_steps(places_of(job, units, build.joints), options, build);
-  build.proof = prove(job, units, workshop);
+  build.proof = prove(job, units, rooms, workshop);
+  note_differences(build.proof, "the plain pipe", workshop);
   return build;
 }
 
-std::vector<Issue> mitred_problems(std::optional<double> side, const PlateOptions& options) {
+std::vector<Issue> mitred_problems(const section::Pipe& pipe, std::optional<double> side,
+                                   const PlateOptions& options) {
   std::vector<Issue> issues;
   const auto add = [&](const char* where, std::string what, std::string why, std::string hint) {
     issues.push_back({where, std::move(what), std::move(why), std::move(hint)});
   };
   const std::string word = side ? "troughs" : "tubes";
   for (Issue& issue : set_on_problems(options)) issues.push_back(std::move(issue));
-  if (!options.inspection.empty())
-    add("inspection", "inspection: mitred " + word + " are cut from round to round, without openings",
-        "Lids would be saddles.", "round: staves");
+  if (!side) {
+    for (Issue& issue : tube_opening_problems(pipe, options)) issues.push_back(std::move(issue));
+  } else if (!options.inspection.empty()) {
+    add("inspection", "inspection: mitred troughs are open above, and have no lids", "", "round: staves");
+  }
   if (options.liner)
     add("liner", "liner: tiles are flat, mitred " + word + " are round inside",
         "They would touch along two lines.", "round: staves");

@@ -22,7 +22,8 @@ namespace glissade::parts {
                                              const Motion& design);
 
 /// What no shop can make of mitred tubes or troughs, whatever the track is.
-[[nodiscard]] std::vector<Issue> mitred_problems(std::optional<double> side, const PlateOptions& options);
+[[nodiscard]] std::vector<Issue> mitred_problems(const section::Pipe& pipe, std::optional<double> side,
+                                                 const PlateOptions& options);
 
 /// Greatest distance of the cut edge of a developed tube from its sine line [m].
 inline constexpr double kSineTolerance = 0.02e-3;

@@ -30,6 +30,7 @@
 #include "parts/strip_shape.hpp"
 #include "parts/strip_shell.hpp"
 #include "parts/strips.hpp"
+#include "parts/tube_openings.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -269,7 +270,9 @@ struct MitredRound {
 std::optional<MitredRound> mitred_round(const section::Measures& measures, const PlateOptions& options) {
   if (options.round == RoundMake::staves) return std::nullopt;
   // What staves alone can have.
-  const bool staves = options.liner || options.cover || !options.inspection.empty() ||
+  const auto* const tube = std::get_if<section::Pipe>(&measures);
+  const bool opened = tube != nullptr && tube_opening_problems(*tube, options).empty();
+  const bool staves = options.liner || options.cover || (!options.inspection.empty() && !opened) ||
                       options.corners.kind != CornerJoint::butt ||
                       (options.rim && std::holds_alternative<section::Pipe>(measures));
   if (staves && options.round == RoundMake::as_fits) return std::nullopt;
@@ -295,7 +298,10 @@ WorkshopBuild make_round_or_strips(const ArcSpline& track, const section::Measur
   try {
     return make_mitred_pipe(track, round->pipe, round->side, options, placement, body, gravity, design);
   } catch (const InputError& error) {
-    if (options.round == RoundMake::mitred) throw;
+    // Nor do staves go with what is asked for.
+    if (options.round == RoundMake::mitred ||
+        !section_problems(*plate_section(measures, options), options).empty())
+      throw;
     WorkshopBuild build = strips();
     build.workshop.notes.push_back(
         "Staves along the track, since it does not go mitred: " + error.issues().front().what + ".");
@@ -368,7 +374,8 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
   }
   std::vector<Issue> issues = common_problems(options);
   if (!issues.empty()) return issues;
-  if (const auto round = mitred_round(measures, options)) return mitred_problems(round->side, options);
+  if (const auto round = mitred_round(measures, options))
+    return mitred_problems(round->pipe, round->side, options);
   const auto section = plate_section(measures, options);
   if (!section) return width_changes();
   return section_problems(*section, options);

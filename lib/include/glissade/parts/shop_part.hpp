@@ -88,6 +88,25 @@ struct FoldedPlate {
   std::vector<std::array<Vec3, 4>> corners;  ///< two or more [m]
 };
 
+/// What is cut out of a tube between two planes square to its axis and two through it.
+struct TubeWindow {
+  double from = 0.0;  ///< along the axis [m]
+  double to = 0.0;    ///< > from
+  Angle low;          ///< about the axis from x to y
+  Angle high;         ///< > low, by less than half a turn
+
+  friend bool operator==(const TubeWindow&, const TubeWindow&) = default;
+};
+
+/// A round hole that is drilled through a tube towards its axis.
+struct TubeHole {
+  double along = 0.0;   ///< of the axis, where that of the hole meets it [m]
+  Angle about;          ///< from x to y
+  double radius = 0.0;  ///< [m]; > 0
+
+  friend bool operator==(const TubeHole&, const TubeHole&) = default;
+};
+
 /// A round tube cut off by two planes: a gore of a mitred pipe. Its axis runs along z through the origin.
 struct TubeGore {
   double inner_radius = 0.0;  ///< [m]; > 0
@@ -95,6 +114,9 @@ struct TubeGore {
   double length = 0.0;        ///< along the axis, between the planes [m]
   Angle start_tilt;           ///< z of the first plane is x tan(start_tilt)
   Angle end_tilt;             ///< z of the second one is length + x tan(end_tilt)
+  /// Between the planes at every angle, clear of one another.
+  std::vector<TubeWindow> windows = {};
+  std::vector<TubeHole> holes = {};
 };
 
 /// A trough cut off by two planes: a gore of a mitred half-pipe. Half a round tube whose lowest line is at -x, with upright
