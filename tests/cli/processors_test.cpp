@@ -46,7 +46,8 @@ std::string without_times(const std::string& text) {
 std::map<std::string, std::string> files_in(const fs::path& directory) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    if (entry.is_regular_file()) files[entry.path().filename().string()] = bytes_of(entry.path());
+    if (!entry.is_regular_file()) continue;
+    files[fs::relative(entry.path(), directory).generic_string()] = bytes_of(entry.path());
   }
   return files;
 }
