@@ -263,3 +263,38 @@ TEST_CASE("the table of sheets tells the stock, its pieces, and the share of it 
   CHECK(sheets[0].utilisation == Approx(share).epsilon(1e-12));
   CHECK(table.find(",65.3") != std::string::npos);
 }
+
+TEST_CASE("no line of the general arrangement runs through the numbers of its overall sizes") {
+  Workshop workshop = testing::sample_workshop();
+  for (int i = 0; i < 800; ++i) {
+    SettingOutPoint joint;
+    joint.what = "joint " + std::to_string(i);
+    joint.x = 0.05 * (i / 4 - 100);
+    joint.z = 0.5 * (i % 4 - 2);
+    workshop.setting_out.push_back(joint);
+  }
+  const Sheet sheet = drawing_set(workshop).front();
+  std::size_t joints = 0;
+  for (const SheetView& view : sheet.views) {
+    for (const DrawnDimension& dimension : view.drawing.dimensions) {
+      const DrawnText text = lines_of(dimension, view.scale).text;
+      // Five points along the number, a little narrower than it is.
+      const Vec2 along = PlaneMotion::turn(text.angle.radians())(Vec2{1.0, 0.0});
+      const Vec2 up{-along.y, along.x};
+      const double half = 0.45 * stroked_width(text.text, text.height_mm) / view.scale;
+      for (int k = -2; k <= 2; ++k) {
+        const Vec2 point = text.at + 0.5 * k * half * along + 0.5 * text.height_mm / view.scale * up;
+        for (const DrawnPath& drawn : view.drawing.paths) {
+          const std::string& layer = view.drawing.layers[drawn.layer].name;
+          if (layer != "JOINTS" && layer != "NUMBERS") continue;
+          joints += layer == "JOINTS" ? 1 : 0;
+          const Vec2 from = drawn.path.vertices.front().at;
+          const Vec2 way = drawn.path.vertices.back().at - from;
+          const double share = std::clamp(dot(point - from, way) / std::max(dot(way, way), 1e-12), 0.0, 1.0);
+          CHECK(norm(from + share * way - point) * view.scale > 0.3);
+        }
+      }
+    }
+  }
+  CHECK(joints > 100);
+}

@@ -11,7 +11,7 @@ constexpr std::size_t kFree = static_cast<std::size_t>(-1);
 constexpr double kLeastGain = 1e-9;
 // In radii of a name: what a line may be longer for not crossing another, and for not running through a name.
 constexpr double kCrossing = 60.0;
-constexpr double kThrough = 20.0;
+constexpr double kThrough = 40.0;
 
 /// Names at their slots.
 class Seating {

@@ -19,9 +19,11 @@ namespace {
 
 constexpr double kBalloons =
     18.0;  // for a row or a column of balloons beside the view from the side, on paper [mm]
-constexpr double kDimension = 20.0;  // for dimensions to the right of both views
-constexpr double kNames = 32.0;      // for names below the view from the side
-constexpr double kAroundPlan = 8.0;  // below and above the plan
+constexpr double kBalloonAway = 12.0;  // of a row or a column from what is seen
+constexpr double kDimension = 28.0;    // for balloons and dimensions to the right of both views
+constexpr double kNames = 32.0;        // for names below the view from the side
+constexpr double kSizeAway = 9.0;      // of dimensions from what is seen, or from balloons beside it
+constexpr double kAroundPlan = 8.0;    // below and above the plan
 
 /// Middles of all pieces of a part as an eye sees them [mm].
 Named pieces_of(const ShopPart& part, const Eye& eye) {
@@ -46,14 +48,16 @@ std::vector<const ShopPart*> numbered_parts(const Workshop& workshop, std::size_
   return parts;
 }
 
-/// Places for balloons round three sides of what is seen: a row above, a column to the left, one to the right
-/// of the dimensions (ISO 6433: in rows and columns).
-/// @param seen   of the view [mm of the drawing]
-/// @param paper  that balloons may take [mm of paper]
-std::vector<Vec2> balloon_places(const SheetView& view, const PlaneBox& seen, const PlaneBox& paper) {
-  constexpr double kStep = 9.0;    // between balloons
-  constexpr double kAway = 12.0;   // of a row or a column from what is seen
-  constexpr double kRadius = 4.0;  // of a balloon, with a little air
+/// Places for balloons round three sides of what is seen: a row above, a column to the left, one to the right (ISO 6433: in rows
+/// and columns). Lines from a row that goes on beyond the columns would run through these: it does so only as far as it must.
+/// @param seen    of the view [mm of the drawing]
+/// @param paper   that balloons may take [mm of paper]
+/// @param wanted  how many balloons there are
+std::vector<Vec2> balloon_places(const SheetView& view, const PlaneBox& seen, const PlaneBox& paper,
+                                 std::size_t wanted) {
+  constexpr double kStep = 9.0;      // between balloons
+  constexpr double kRadius = 4.0;    // of a balloon, with a little air
+  constexpr std::size_t kSpare = 3;  // places to choose from
   const Vec2 low = view.at + view.scale * (seen.low - view.anchor);
   const Vec2 high = view.at + view.scale * (seen.high - view.anchor);
   std::vector<Vec2> on_paper;
@@ -62,25 +66,33 @@ std::vector<Vec2> balloon_places(const SheetView& view, const PlaneBox& seen, co
       on_paper.push_back(at);
     }
   };
+  // Down to the plan, beside the names, clear of the lines of the height's dimension.
+  for (double y = high.y - 0.5 * kStep; y >= low.y - kNames + kRadius; y -= kStep) {
+    add({low.x - kBalloonAway, y});
+    if (std::fabs(y - low.y) > kRadius) add({high.x + kBalloonAway, y});
+  }
   const double middle = 0.5 * (low.x + high.x);
   const int half = static_cast<int>(0.5 * paper.width() / kStep);
-  for (int i = -half; i <= half; ++i) add({middle + i * kStep, high.y + kAway});
-  for (double y = high.y - 0.5 * kStep; y >= low.y; y -= kStep) {
-    add({low.x - kAway, y});
-    add({high.x + kDimension, y});
+  for (int i = 0; i <= half; ++i) {
+    const bool beyond = i * kStep > middle - low.x + kBalloonAway;
+    if (beyond && on_paper.size() >= wanted + kSpare) break;
+    add({middle + i * kStep, high.y + kBalloonAway});
+    if (i > 0) add({middle - i * kStep, high.y + kBalloonAway});
   }
   for (Vec2& at : on_paper) at = view.anchor + (1.0 / view.scale) * (at - view.at);
   return on_paper;
 }
 
 /// Numbers of the parts round a view, each with a line to a piece of the part.
-void add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen,
+/// @return whether some stand to the right of it
+bool add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen,
                   const PlaneBox& paper) {
   const double per_paper = 1.0 / view.scale;
   constexpr double kRadius = 3.5;
   constexpr double kDot = 0.4;  // where a line ends on a part
-  const std::vector<Vec2> places = balloon_places(view, seen, paper);
-  const std::vector<const ShopPart*> parts = numbered_parts(workshop, places.size());
+  const std::size_t most = balloon_places(view, seen, paper, workshop.parts.size()).size();
+  const std::vector<const ShopPart*> parts = numbered_parts(workshop, most);
+  const std::vector<Vec2> places = balloon_places(view, seen, paper, parts.size());
   std::vector<Named> names;
   for (const ShopPart* const part : parts) names.push_back(pieces_of(*part, eye));
   const std::vector<Label> labels = labelled(names, places, (kRadius + 0.5) * per_paper);
@@ -99,6 +111,21 @@ void add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, con
     text.anchor = TextAnchor::centre;
     view.drawing.texts.push_back(std::move(text));
   }
+  return std::any_of(labels.begin(), labels.end(), [&](const Label& one) {
+    return places[one.slot].x > seen.high.x && places[one.slot].y < seen.high.y;
+  });
+}
+
+/// The line down from a place to a height, without what would run through the number of the length.
+std::vector<std::pair<Vec2, Vec2>> clear_of_length(Vec2 from, double low, const PlaneBox& seen,
+                                                   double per_paper) {
+  constexpr double kTextHigh = 4.5;  // with what is free round it, above the dimension's line [mm of paper]
+  const double half = 0.5 * stroked_width("000000.0", 2.5) * per_paper;
+  const Vec2 to{from.x, low};
+  const double line = seen.low.y - kSizeAway * per_paper;
+  const double top = line + kTextHigh * per_paper;
+  if (std::fabs(from.x - 0.5 * (seen.low.x + seen.high.x)) > half || from.y < top) return {{from, to}};
+  return {{from, {from.x, top}}, {{from.x, line}, to}};
 }
 
 /// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn. Of names
@@ -120,7 +147,8 @@ void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const 
     const auto near = [&](double x) { return std::fabs(place.at.x - x) < kApart * per_paper; };
     if (std::any_of(taken.begin(), taken.end(), near)) continue;
     taken.push_back(place.at.x);
-    view.drawing.line(layer, place.at, {place.at.x, low});
+    for (const auto& [from, to] : clear_of_length(place.at, low, seen, per_paper))
+      view.drawing.line(layer, from, to);
     DrawnText text;
     text.layer = layer;
     text.at = {place.at.x + 1.25 * per_paper, low - 1.0 * per_paper};
@@ -132,13 +160,19 @@ void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const 
 }
 
 /// Overall sizes of the parts, not of the balloons round them.
-void add_sizes(SheetView& side, const PlaneBox& beside, SheetView& plan, const PlaneBox& above) {
-  constexpr double kAway = -9.0;
+/// @param numbered  on the right: the height stands beyond, where no line to a part runs through it
+void add_sizes(SheetView& side, const PlaneBox& beside, bool numbered, SheetView& plan,
+               const PlaneBox& above) {
+  constexpr double kAway = -kSizeAway;
   const std::size_t thin = side.drawing.layer({"DIM", LineStyle::continuous, 0.18, 7});
   side.drawing.dimensions.push_back(
       {thin, beside.low, {beside.high.x, beside.low.y}, kAway, DimensionKind::level, ""});
-  side.drawing.dimensions.push_back(
-      {thin, {beside.high.x, beside.low.y}, beside.high, kAway, DimensionKind::upright, ""});
+  side.drawing.dimensions.push_back({thin,
+                                     {beside.high.x, beside.low.y},
+                                     beside.high,
+                                     kAway - (numbered ? kBalloonAway : 0.0),
+                                     DimensionKind::upright,
+                                     ""});
   const std::size_t width = plan.drawing.layer({"DIM", LineStyle::continuous, 0.18, 7});
   plan.drawing.dimensions.push_back(
       {width, {above.high.x, above.low.y}, above.high, kAway, DimensionKind::upright, ""});
@@ -224,9 +258,9 @@ std::vector<Sheet> general_arrangement(const Workshop& workshop) {
   SheetView from_above = fitted_view(std::move(plan), for_plan);
   from_side.scale = from_above.scale = std::min(from_side.scale, from_above.scale);
   const Eye eye = eye_beside(workshop);
-  add_balloons(from_side, workshop, eye, beside, room);
+  const bool numbered = add_balloons(from_side, workshop, eye, beside, room);
   add_marks(from_side, workshop, eye, beside);
-  add_sizes(from_side, beside, from_above, above);
+  add_sizes(from_side, beside, numbered, from_above, above);
   sheet.views = {std::move(from_side), std::move(from_above)};
   const bool all_notes = add_notes(workshop, sheet);
   std::vector<Sheet> sheets{std::move(sheet)};

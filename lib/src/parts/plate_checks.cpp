@@ -75,7 +75,9 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
     objections.add("flanges.pitch", "pitch: " + length_text(flange.pitch) + " is too close for " + bolt,
                    "Holes of " + length_text(hole) + " are at least " + length_text(pitch) + " apart" +
                        asked_by(shop.hole_pitch_diameters, ShopLeast{}.hole_pitch_diameters),
-                   "pitch: " + length_text(next_up(pitch)) + ", or a smaller bolt");
+                   // Spread evenly, bolts come nearer than their pitch, but not twice as near.
+                   "pitch: " + length_text(next_up(pitch)) + " (" + length_text(2.0 * next_up(pitch)) +
+                       " keeps it on every side), or a smaller bolt");
   }
   if (flange.section == FlangeSection::angle) {
     add_slot_problems(options, objections.issues());
