@@ -298,3 +298,31 @@ TEST_CASE("no line of the general arrangement runs through the numbers of its ov
   }
   CHECK(joints > 100);
 }
+
+TEST_CASE("of a round pin of facets both sides are drawn where they turn away, and no other facet's edge") {
+  constexpr int kSides = 36;
+  TriangleMesh mesh;
+  for (const double z : {0.0, 0.03}) {
+    for (int i = 0; i < kSides; ++i) {
+      const double turn = 2.0 * std::numbers::pi * (i + 0.3) / kSides;
+      mesh.vertices.push_back({0.003 * std::cos(turn), 0.003 * std::sin(turn), z});
+    }
+  }
+  const auto corner = [](int ring, int i) { return static_cast<std::uint32_t>(ring * kSides + i % kSides); };
+  for (int i = 0; i < kSides; ++i) {
+    mesh.triangles.push_back({corner(0, i), corner(0, i + 1), corner(1, i + 1)});
+    mesh.triangles.push_back({corner(0, i), corner(1, i + 1), corner(1, i)});
+    if (i < 2) continue;
+    mesh.triangles.push_back({corner(0, 0), corner(0, i), corner(0, i - 1)});
+    mesh.triangles.push_back({corner(1, 0), corner(1, i - 1), corner(1, i)});
+  }
+  Workshop workshop;
+  workshop.parts.push_back(testing::shop_part(1, "pin", MeshBody{mesh}));
+  std::vector<double> sides;
+  for (const DrawnPath& drawn : side_view(workshop).paths) {
+    const PlaneBox box = bounds(drawn.path);
+    if (box.height() > 29.9) sides.push_back(box.low.x);
+  }
+  REQUIRE(sides.size() == 2);
+  CHECK(std::fabs(sides[0] - sides[1]) == Approx(6.0).margin(0.05));
+}

@@ -200,8 +200,13 @@ std::vector<ArcPath> outlines_of(const parts::Brep& brep, const Frame& place, co
   return lines;
 }
 
-/// Edges of a mesh at which its facets meet at an angle.
-std::vector<std::pair<Vec3, Vec3>> sharp_edges(const TriangleMesh& mesh) {
+/// Edges of a mesh that are seen: those at which its facets meet at an angle, and those at which a round side turns away.
+/// @param towards_eye  in the frame of the mesh
+std::vector<std::pair<Vec3, Vec3>> seen_edges(const TriangleMesh& mesh, Vec3 towards_eye) {
+  const auto faces_eye = [&](Vec3 normal) {
+    constexpr double kEdgeOn = 1e-6;
+    return dot(normal, towards_eye) > kEdgeOn;
+  };
   constexpr double kBlunt = 0.94;  // cosine of the angle of normals: 20 deg
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> normals;
   std::vector<std::pair<Vec3, Vec3>> edges;
@@ -215,7 +220,7 @@ std::vector<std::pair<Vec3, Vec3>> sharp_edges(const TriangleMesh& mesh) {
       const auto other = normals.find({to, from});
       if (other == normals.end()) {
         normals[{from, to}] = unit;
-      } else if (dot(unit, other->second) < kBlunt) {
+      } else if (dot(unit, other->second) < kBlunt || faces_eye(unit) != faces_eye(other->second)) {
         edges.emplace_back(mesh.vertices[from], mesh.vertices[to]);
       }
     }
@@ -226,7 +231,9 @@ std::vector<std::pair<Vec3, Vec3>> sharp_edges(const TriangleMesh& mesh) {
 }  // namespace
 
 void Projection::add_mesh(const TriangleMesh& mesh, const Frame& place) {
-  for (const auto& [from, to] : sharp_edges(mesh)) {
+  const Vec3 towards_eye = cross(eye_.right, eye_.up);
+  const Vec3 own{dot(towards_eye, place.x), dot(towards_eye, place.y), dot(towards_eye, place.z)};
+  for (const auto& [from, to] : seen_edges(mesh, own)) {
     ArcPath path{
         {{eye_.see(kMillimetres * place.to_space(from))}, {eye_.see(kMillimetres * place.to_space(to))}},
         false};
