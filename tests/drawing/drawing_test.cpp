@@ -79,6 +79,22 @@ TEST_CASE("a dimension says the distance it measures, and its line keeps its off
         Approx(0.0).margin(1e-12));
 }
 
+TEST_CASE(
+    "the number of a short dimension stands beyond its end, on its line, clear of the lines to what it "
+    "measures") {
+  for (double length = 1.0; length < 30.0; length += 0.7) {
+    const DimensionLines drawn =
+        lines_of({0, {0.0, 0.0}, {length, 0.0}, -8.0, DimensionKind::level, ""}, 1.0);
+    const double half = 0.5 * stroked_width(drawn.text.text, drawn.text.height_mm);
+    const double left = drawn.text.at.x - half;
+    const double right = drawn.text.at.x + half;
+    INFO(length << " mm: " << left << " to " << right);
+    CHECK((left > length || (left > 0.0 && right < length)));
+    const PathVertex& line_end = drawn.lines.back().vertices.back();
+    CHECK(right <= line_end.at.x + 1e-9);
+  }
+}
+
 TEST_CASE("layers are found by their names, and a drawing without figures has no bounds") {
   Drawing drawing;
   const std::size_t first = drawing.layer({"CUT", LineStyle::continuous, 0.25, 7});

@@ -61,9 +61,16 @@ DimensionLines lines_of(const DrawnDimension& dimension, double scale) {
     const Vec2 from = point + (side * kClear * per_paper) * left;
     drawn.lines.push_back({{{from}, {foot + (side * kBeyond * per_paper) * left}}, false});
   }
+  // To a tenth: what a tape or a folding rule shows; the files carry the exact numbers.
+  drawn.text.text = dimension.text.empty() ? decimal_text(std::round(reach * 10.0) / 10.0) : dimension.text;
+  const double width = stroked_width(drawn.text.text, kTextHeight);
   const bool fits = reach * scale > 2.5 * kArrowLength;
-  const Vec2 outside = (fits ? 0.0 : 2.0 * kArrowLength * per_paper) * along;
-  drawn.lines.push_back({{{start - outside}, {end + outside}}, false});
+  const bool text_fits = reach * scale > width + 2.0 * kClear;
+  // A number that is wider than what it measures stands beyond the end, on the line.
+  const double before = fits ? 0.0 : 2.0 * kArrowLength;
+  const double beyond = text_fits ? before : kArrowLength + width + 2.0 * kClear;
+  drawn.lines.push_back(
+      {{{start - (before * per_paper) * along}, {end + (beyond * per_paper) * along}}, false});
   const Vec2 inward = fits ? along : -1.0 * along;
   drawn.arrows = {arrow(start, inward, per_paper), arrow(end, -1.0 * inward, per_paper)};
 
@@ -73,9 +80,9 @@ DimensionLines lines_of(const DrawnDimension& dimension, double scale) {
   drawn.text.height_mm = kTextHeight;
   drawn.text.anchor = TextAnchor::centre;
   drawn.text.angle = Angle::from_radians(angle);
-  drawn.text.at = 0.5 * (start + end) + (kTextAbove * per_paper) * Vec2{-sine, cosine};
-  // To a tenth: what a tape or a folding rule shows; the files carry the exact numbers.
-  drawn.text.text = dimension.text.empty() ? decimal_text(std::round(reach * 10.0) / 10.0) : dimension.text;
+  const Vec2 middle =
+      text_fits ? 0.5 * (start + end) : end + ((kArrowLength + kClear + 0.5 * width) * per_paper) * along;
+  drawn.text.at = middle + (kTextAbove * per_paper) * Vec2{-sine, cosine};
   return drawn;
 }
 
