@@ -265,7 +265,8 @@ TEST_CASE("slotted flanges: too close a pitch is refused, and each way out is th
 TEST_CASE("flanges: a pitch too close for its bolts is refused with the least that builds") {
   PlateOptions options;
   options.flanges.pitch = 20e-3;
-  CHECK(refused(options).find("|pitch: 28.8 mm (57.6 mm keeps it on every side), or a smaller bolt\n") != std::string::npos);
+  CHECK(refused(options).find("|pitch: 28.8 mm (57.6 mm keeps it on every side), or a smaller bolt\n") !=
+        std::string::npos);
   for (const int bolt : bolt_sizes()) {
     options.flanges.bolt = bolt;
     options.flanges.width = 0.12;
