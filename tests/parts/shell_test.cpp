@@ -347,6 +347,64 @@ TEST_CASE("shells: saddles stand inside of walls that reach far below a narrow f
   }
 }
 
+TEST_CASE("shells: saddles keep off bolts of tiles below flats that touch the track off their middles") {
+  const ClothoidSpline track(Angle::from_degrees(50.0),
+                             {{1.0, 0.0, 0.0}, {0.9163, 1.0 / 1.5, 1.0 / 1.5}, {1.0, 0.0, 0.0}});
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  options.liner.emplace();
+  options.liner->thickness = 5e-3;
+  options.liner->tile_length = 0.237;
+  options.liner->tile_width = 96e-3;
+  options.liner->bolt = 8;
+  options.liner->gap = 0.0;
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -4.0}};
+  const section::Trapezoid section{WidthLaw(0.45), 0.2, Angle::from_degrees(4.0), 5e-3};
+  for (const double kink : {5.0, 6.0}) {
+    options.bend = {FacetRule::segment_angle, Angle::from_degrees(kink).radians(), {}, {}};
+    INFO(kink);
+    // Throws InternalError where a saddle covers a hole.
+    CHECK(pieces(plates_of(track, section, options), "saddle") > 0);
+  }
+}
+
+TEST_CASE("shells: trestles stand no nearer than their base plates are wide") {
+  PlateOptions options;
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -7.0}};
+  options.supports->spacing = 0.24;
+  for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+    options.floor = floor;
+    options.bend = {FacetRule::segment_angle, Angle::from_degrees(10.0).radians(), {}, {}};
+    const WorkshopBuild build = plates_of(chute(), section::Slab{WidthLaw(0.42), 3e-3}, options);
+    std::vector<double> places;
+    for (const ShopPart* const plate : named(build, "base_plate")) {
+      for (const Frame& place : plate->places) {
+        if (place.origin.y > 0.0) places.push_back(place.origin.x);
+      }
+    }
+    std::sort(places.begin(), places.end());
+    CHECK(places.size() >= 5);
+    for (std::size_t i = 1; i < places.size(); ++i) CHECK(places[i] - places[i - 1] >= 0.16 - 1e-9);
+  }
+}
+
+TEST_CASE("shells: lugs on bent sides as high as the radius of the first flats stand clear of the frame") {
+  const WidthLaw widths(std::vector<WidthAt>{{0.0, 1.665}, {1.888, 1.665}, {3.167, 1.892}});
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  options.bend = {FacetRule::segment_angle, Angle::from_degrees(1.41).radians(), {}, {}};
+  options.split.longest = 2.11;
+  options.stiffeners.emplace();
+  options.lifting.emplace();
+  for (const double high : {0.4, 0.55, 0.705}) {
+    INFO(high);
+    // Throws InternalError where parts clash.
+    CHECK(pieces(plates_of(chute(), section::UChannel{widths, high, 2e-3}, options), "lug") > 0);
+  }
+}
+
 TEST_CASE("shells: what no section holds is refused with place, value, bound and a way out") {
   PlateOptions stiff;
   stiff.stiffeners.emplace();

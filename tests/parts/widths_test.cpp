@@ -208,6 +208,17 @@ TEST_CASE("widths: random tracks and widths make plates that fit and add up") {
   }
 }
 
+TEST_CASE("widths: units get as short as the heaviest part asks, whatever the sheet asked for before") {
+  PlateOptions options;
+  options.split.heaviest = 16.0;
+  const WidthLaw widths(std::vector<WidthAt>{{0.0, 1.8}, {1.3, 1.8}, {3.1, 1.5}});
+  const WorkshopBuild build = plates_of(chute(), section::Slab{widths, 2e-3}, options);
+  double heaviest = 0.0;
+  for (const ShopPart* const floor : named(build, "floor")) heaviest = std::max(heaviest, floor->mass);
+  CHECK(heaviest <= 16.0);
+  CHECK(heaviest > 12.0);
+}
+
 TEST_CASE("widths: what cannot be made is refused with place, value and bound") {
   const auto refusal = [](const section::Measures& measures, const PlateOptions& options) {
     return refusal_of([&] { return plates_of(chute(), measures, options); });

@@ -90,7 +90,7 @@ std::optional<std::string> fault_of(const FlangeOptions& flange, const ShopLeast
            length_text(*root) + " (EN 10056-1).";
   }
   const double edge = flange.width - line - reach;
-  const double least = flange.slotted ? shop.slot_edge_diameters : shop.hole_edge_diameters;
+  const double least = flange.slotted ? shop.slot_edge_diameters : hole_edge_diameters(shop);
   if (edge < least * hole_of(flange) - kSameSize) {
     return "Middles of holes of " + length_text(hole_of(flange)) + " are " + length_text(edge, 3) +
            " from the toe, at least " + length_text(least * hole_of(flange), 3) + " are asked for.";

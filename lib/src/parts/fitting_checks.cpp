@@ -144,9 +144,9 @@ void object_to_openings(const ChannelMeasures& channel, const PlateOptions& opti
                  "height: " + length_text(opening.height) + " leaves too little of the wall, " +
                      length_text(channel.wall_height),
                  "Its lid laps over by " + length_text(kLidLap) + " all round.",
-                 most > 0.0 ? "height: " + length_text(most, 3)
-                            : "no inspection, or a wall_height of at least " +
-                                  length_text(channel.wall_height - most + opening.height, 3));
+                 most >= kLeastOpening ? "height: " + length_text(most, 3)
+                                       : "no inspection, or a wall_height of at least " +
+                                             length_text(channel.wall_height - most + opening.height, 3));
   }
 }
 

@@ -33,8 +33,9 @@ struct Fitting {
 /// @param sense  +1 from the upstream end, -1 from the downstream one
 [[nodiscard]] double beyond_frame(const ArcSpline& track, double taken, double end, double sense,
                                   double high);
-inline constexpr double kLidLap = 30e-3;       ///< of a lid beyond its opening, all round [m]
-inline constexpr double kAsideOfFrame = 1e-3;  ///< between a rim and the frame that it ends before [m]
+inline constexpr double kLidLap = 30e-3;        ///< of a lid beyond its opening, all round [m]
+inline constexpr double kLeastOpening = 20e-3;  ///< that is proposed where one is too high [m]
+inline constexpr double kAsideOfFrame = 1e-3;   ///< between a rim and the frame that it ends before [m]
 
 /// @return the heights above the floor line between which an opening and its lid lie
 [[nodiscard]] Span lid_heights(const Job& job, const InspectionOptions& opening);

@@ -17,6 +17,9 @@ constexpr double kLongerBy = 1e-3;  // than wide: slots that are less are round 
 constexpr double kStep = 0.5e-3;    // of what is advised [m]
 constexpr int kTries = 1000;        // of such steps
 
+constexpr double kEdgeWithWeb = 0.7;   // diameters
+constexpr double kPitchWithWeb = 1.2;  // diameters
+
 double widest_hole(const FlangeOptions& flange) {
   return clearance_hole(flange.bolt, HoleFit::coarse);
 }
@@ -27,13 +30,11 @@ bool is_loose(const FlangeOptions& flange, FlangeSide side) {
 
 /// Ends of slots are at least as far apart as middles of holes; so far at least that a web is left, whatever the shop's rules.
 double least_apart(const PlateOptions& options) {
-  constexpr double kWithWeb = 1.2;
-  return std::max(options.shop.hole_pitch_diameters, kWithWeb) * widest_hole(options.flanges);
+  return hole_pitch_diameters(options.shop) * widest_hole(options.flanges);
 }
 
 double least_to_edge(const PlateOptions& options) {
-  constexpr double kWithWeb = 0.7;
-  return std::max(options.shop.slot_edge_diameters, kWithWeb) * widest_hole(options.flanges);
+  return std::max(options.shop.slot_edge_diameters, kEdgeWithWeb) * widest_hole(options.flanges);
 }
 
 /// The least distance of two upright slots, from axis to axis.
@@ -79,6 +80,14 @@ std::string slots_advice(const PlateOptions& options, const FrameBolts& bolts) {
 
 double slot_length(const FlangeOptions& flange) {
   return flange.slot.value_or(kUsualSlot * 1e-3 * flange.bolt);
+}
+
+double hole_edge_diameters(const ShopLeast& shop) {
+  return std::max(shop.hole_edge_diameters, kEdgeWithWeb);
+}
+
+double hole_pitch_diameters(const ShopLeast& shop) {
+  return std::max(shop.hole_pitch_diameters, kPitchWithWeb);
 }
 
 double slot_reach(const FlangeOptions& flange) {

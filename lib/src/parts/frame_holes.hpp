@@ -15,6 +15,11 @@ namespace glissade::parts {
 
 /// @return from end to end of a slot [m]
 [[nodiscard]] double slot_length(const FlangeOptions& flange);
+/// Least distances of holes' middles over their diameter, to an edge and to each other: as the rules of the shop have them, and so
+/// far that a web is left, whatever these are.
+[[nodiscard]] double hole_edge_diameters(const ShopLeast& shop);
+[[nodiscard]] double hole_pitch_diameters(const ShopLeast& shop);
+
 /// @return from the middle of a slot to that of its ends; 0 if no frame is slotted [m]
 [[nodiscard]] double slot_reach(const FlangeOptions& flange);
 

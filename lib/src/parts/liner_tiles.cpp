@@ -7,6 +7,7 @@
 #include "glissade/core/quantity.hpp"
 
 #include "parts/bolts.hpp"
+#include "parts/frame_holes.hpp"
 #include "parts/shop_facts.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -95,8 +96,8 @@ struct TileHoles {
 TileHoles tile_holes(const PlateOptions& options) {
   TileHoles holes;
   holes.hole = clearance_hole(options.liner->bolt, HoleFit::medium);
-  holes.edge = options.shop.hole_edge_diameters * holes.hole;
-  holes.pitch = options.shop.hole_pitch_diameters * clearance_hole(options.liner->bolt, HoleFit::coarse);
+  holes.edge = hole_edge_diameters(options.shop) * holes.hole;
+  holes.pitch = hole_pitch_diameters(options.shop) * clearance_hole(options.liner->bolt, HoleFit::coarse);
   constexpr double kForTwo = 6.0;  // holes, where the rules let them stand as close
   holes.for_two = std::max(kForTwo * holes.hole, 2.0 * holes.edge + holes.pitch);
   return holes;
@@ -125,12 +126,19 @@ void set_bolts(const PlateOptions& options, const OnOneArc& arcs, TilePlace& til
       tile.along.push_back(*place);
   }
   if (tile.along.empty()) {
-    throw InputError({"liner.bolt",
-                      "bolt: holes for M" + std::to_string(options.liner->bolt) + " find no place between " +
-                          length_text(span.from, 3) + " and " + length_text(span.to, 3) + " along the track",
-                      "They lie on one arc of the floor each, and none there is as long as a hole is wide, " +
-                          length_text(holes.hole) + ".",
-                      "a smaller bolt, a longer tile_length, or a larger arc_tolerance"});
+    const bool bent = options.floor == FloorMake::bent;
+    throw InputError(
+        {"liner.bolt",
+         "bolt: holes for M" + std::to_string(options.liner->bolt) + " find no place between " +
+             length_text(span.from, 3) + " and " + length_text(span.to, 3) + " along the track",
+         bent ? "They lie on one flat each, clear of where its bends begin at the height of any tile, and "
+                "none "
+                "there has room for a hole of " +
+                    length_text(holes.hole) + "."
+              : "They lie on one arc of the floor each, and none there is as long as a hole is wide, " +
+                    length_text(holes.hole) + ".",
+         bent ? "fewer bends (bend), a smaller bolt, or floor: rolled"
+              : "a smaller bolt, a longer tile_length, or a larger arc_tolerance"});
   }
   tile.across = across_tile(options, tile.width);
 }

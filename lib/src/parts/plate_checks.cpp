@@ -44,7 +44,9 @@ class Objections {
 };
 
 /// Whose bound it is.
-std::string asked_by(double bound, double usual) {
+/// @param asked  by the rules of the shop
+std::string asked_by(double bound, double asked, double usual) {
+  if (bound > asked) return " (less leaves no web).";
   return bound == usual ? " (EN 1993-1-8)." : " (the rules of this shop).";
 }
 
@@ -69,26 +71,28 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
   }
   const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
   const std::string bolt = "M" + std::to_string(flange.bolt);
-  const double pitch = shop.hole_pitch_diameters * hole;
-  const double edge = shop.hole_edge_diameters * hole;
+  const double pitch = hole_pitch_diameters(shop) * hole;
+  const double edge = hole_edge_diameters(shop) * hole;
   if (flange.pitch < pitch) {
-    objections.add("flanges.pitch", "pitch: " + length_text(flange.pitch) + " is too close for " + bolt,
-                   "Holes of " + length_text(hole) + " are at least " + length_text(pitch) + " apart" +
-                       asked_by(shop.hole_pitch_diameters, ShopLeast{}.hole_pitch_diameters),
-                   // Spread evenly, bolts come nearer than their pitch, but not twice as near.
-                   "pitch: " + length_text(next_up(pitch)) + " (" + length_text(2.0 * next_up(pitch)) +
-                       " keeps it on every side), or a smaller bolt");
+    objections.add(
+        "flanges.pitch", "pitch: " + length_text(flange.pitch) + " is too close for " + bolt,
+        "Holes of " + length_text(hole) + " are at least " + length_text(pitch) + " apart" +
+            asked_by(pitch, shop.hole_pitch_diameters * hole, ShopLeast{}.hole_pitch_diameters * hole),
+        // Spread evenly, bolts come nearer than their pitch, but not twice as near.
+        "pitch: " + length_text(next_up(pitch)) + " (" + length_text(2.0 * next_up(pitch)) +
+            " keeps it on every side), or a smaller bolt");
   }
   if (flange.section == FlangeSection::angle) {
     add_slot_problems(options, objections.issues());
     add_angle_problems(options, objections.issues());
   } else if (0.5 * flange.width < edge) {
-    objections.add("flanges.width",
-                   "width: " + length_text(flange.width) + " puts holes for " + bolt + " " +
-                       length_text(0.5 * flange.width) + " from the edge",
-                   "Their centres are at least " + length_text(edge) + " from it" +
-                       asked_by(shop.hole_edge_diameters, ShopLeast{}.hole_edge_diameters),
-                   "a width of at least " + length_text(next_up(2.0 * edge)) + ", or a smaller bolt");
+    objections.add(
+        "flanges.width",
+        "width: " + length_text(flange.width) + " puts holes for " + bolt + " " +
+            length_text(0.5 * flange.width) + " from the edge",
+        "Their centres are at least " + length_text(edge) + " from it" +
+            asked_by(edge, shop.hole_edge_diameters * hole, ShopLeast{}.hole_edge_diameters * hole),
+        "a width of at least " + length_text(next_up(2.0 * edge)) + ", or a smaller bolt");
   } else {
     add_slot_problems(options, objections.issues());
   }
@@ -118,7 +122,7 @@ void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& optio
   }
   const double column =
       channel.wall_height - below_top(flange) + channel.thickness + flange.gap + 0.5 * flange.width;
-  if (column < options.shop.hole_pitch_diameters * hole + 2.0 * slot_reach(flange)) {
+  if (column < hole_pitch_diameters(options.shop) * hole + 2.0 * slot_reach(flange)) {
     objections.add("flanges.bolt",
                    "bolt: " + bolt + " finds no place beside walls of " + length_text(channel.wall_height),
                    "Two " + std::string(flange.slotted ? "slots, as wide as holes" : "holes") + " of " +

@@ -146,16 +146,16 @@ std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
   const NestStock stock = split.stock();
   const double longer = std::max(box.width(), box.height()) + 2.0 * split.margin;
   const double shorter = std::min(box.width(), box.height()) + 2.0 * split.margin;
+  const double mass = split.heaviest ? part.mass / *split.heaviest : 0.0;
   if (longer > stock.width || shorter > stock.height) {
     return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of " +
                       length_text(split.margin),
                   "the sheet is " + length_text(stock.width) + " x " + length_text(stock.height),
-                  std::max(longer / stock.width, shorter / stock.height)};
+                  std::max({longer / stock.width, shorter / stock.height, mass})};
   }
-  if (split.heaviest && part.mass > *split.heaviest) {
+  if (mass > 1.0) {
     return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
-                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg",
-                  part.mass / *split.heaviest};
+                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg", mass};
   }
   return std::nullopt;
 }

@@ -76,10 +76,33 @@ std::optional<double> best_seat(const Shell& shell, const SeatNeed& need, const 
   return best;
 }
 
+namespace {
+
+/// The first place from an end of a unit at which a plate square to its straight stands beyond what a frame takes there.
+double beyond_frame_on_straights(const Shell& shell, double taken, double end, double sense) {
+  constexpr double kStep = 0.5e-3;  // [m]
+  const TrackFrame joint = frame_at(shell.track, end);
+  double place = end + sense * taken;
+  const auto clear = [&] {
+    const TrackFrame here = frame_of(shell, place);
+    return std::min({dot(here.at - joint.at, sense * joint.along),
+                     dot(here.at + shell.highest * here.up - joint.at, sense * joint.along),
+                     dot(here.at + shell.lowest * here.up - joint.at, sense * joint.along)}) >= taken;
+  };
+  while (place > 0.0 && place < shell.track.length() && !clear()) place += sense * kStep;
+  return std::clamp(place, 0.0, shell.track.length());
+}
+
+}  // namespace
+
 Span between_frames(const Shell& shell, const Span& unit) {
   Span room{std::max(unit.from, shell.whole.from), std::min(unit.to, shell.whole.to)};
   if (!shell.options.flanges.wanted) return room;
   const double taken = shell.options.flanges.along() + kAsideOfFrame;
+  if (!shell.straights.empty()) {
+    return {std::max(room.from, beyond_frame_on_straights(shell, taken, unit.from, 1.0)),
+            std::min(room.to, beyond_frame_on_straights(shell, taken, unit.to, -1.0))};
+  }
   return {std::max(room.from, beyond_frame(shell.track, taken, unit.from, 1.0, shell.highest)),
           std::min(room.to, beyond_frame(shell.track, taken, unit.to, -1.0, shell.highest))};
 }

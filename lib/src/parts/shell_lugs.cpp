@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -107,6 +108,23 @@ PlaneRegion mirrored(PlaneRegion region) {
   return region;
 }
 
+/// Whether a lug stands clear of the frames at both ends of its unit up to its upper edge: in a hollow that lies above the tops of
+/// where it stands, and beside frames all the same.
+bool clear_of_frames(const Shell& shell, const Span& unit, const TrackFrame& frame, double top) {
+  const FlangeOptions& flange = shell.options.flanges;
+  if (!flange.wanted) return true;
+  const double taken = flange.along() + 0.5 * shell.options.lifting->thickness;
+  for (const double sense : {1.0, -1.0}) {
+    const TrackFrame joint = frame_at(shell.track, sense > 0.0 ? unit.from : unit.to);
+    const Vec2 away = frame.at - joint.at;
+    const double rise = dot(frame.up, joint.up);
+    const double above = shell.highest + flange.gap - dot(away, joint.up);
+    const double high = rise > 0.0 ? std::min(top, above / rise) : top;
+    if (high > 0.0 && sense * dot(away + high * frame.up, joint.along) < taken) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void add_lugs(const Shell& shell) {
@@ -126,7 +144,12 @@ void add_lugs(const Shell& shell) {
       const TrackFrame frame = frame_of(shell, s);
       return std::fabs(frame.at.x + eye_at(frame) * frame.up.x - centre.x);
     };
-    const auto at = best_seat(shell, {half + kAside, half}, between_frames(shell, shell.units[i]), off_plumb);
+    const auto cost = [&](double s) {
+      const TrackFrame frame = frame_of(shell, s);
+      const bool clear = clear_of_frames(shell, shell.units[i], frame, eye_at(frame) + kOverEye);
+      return clear ? off_plumb(s) : std::numeric_limits<double>::infinity();
+    };
+    const auto at = best_seat(shell, {half + kAside, half}, between_frames(shell, shell.units[i]), cost);
     if (!at) {
       shell.workshop.notes.push_back(unit + "no place for lugs.");
       continue;

@@ -266,7 +266,7 @@ std::vector<Issue> strip_opening_problems(const PlateSection& section, const Pla
                       "height: " + length_text(opening.height) + " leaves too little of the " + plate + ", " +
                           length_text(wide, 3) + " wide",
                       "Its lid laps over by " + length_text(kLidLap) + " all round.",
-                      most > 0.0                ? "height: " + length_text(most, 3)
+                      most >= kLeastOpening     ? "height: " + length_text(most, 3)
                       : section.departure > 0.0 ? "a larger stave_tolerance, or no inspection"
                                                 : "no inspection, or higher sides"});
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -58,6 +59,24 @@ Shell empty_shell(const ArcSpline& track, const PlateOptions& options, const Pla
   return shell;
 }
 
+/// @return the place of a shell whose frame stands at one on the line of flats: shells and lines count along flats from where these
+///         touch the track and from their corners
+double place_of(const std::vector<Straight>& straights, const FlatsLine& flats, double on_line) {
+  const Vec2 at = frame_at(flats.line(), on_line).at;
+  double nearest = std::numeric_limits<double>::infinity();
+  double place = flats.on_track(on_line);
+  for (const Straight& one : straights) {
+    const double along = dot(at - one.from.at, one.from.along);
+    const double whole = (one.span.to - one.span.from) * one.stretch;
+    const double beyond = std::max({0.0, -along, along - whole});
+    const double off = math::hypot(beyond, cross(one.from.along, at - one.from.at));
+    if (!(off < nearest)) continue;
+    nearest = off;
+    place = one.span.from + along / one.stretch;
+  }
+  return place;
+}
+
 }  // namespace
 
 SectionOutside outside_of(const PlateSection& section, const PlateOptions& options) {
@@ -101,7 +120,11 @@ Shell strip_shell(const StripJob& job, const std::optional<BentStrips>& bent, co
   take_frames(shell);
   constexpr double kBoltHead = 15e-3;  // round a bolt of the liner [m]
   const auto take = [&](double from, double to) {
-    taken.add(flats ? flats->flats().on_track(from) : from, flats ? flats->flats().on_track(to) : to);
+    if (flats != nullptr)
+      taken.add(place_of(shell.straights, flats->flats(), from),
+                place_of(shell.straights, flats->flats(), to));
+    else
+      taken.add(from, to);
   };
   for (const UnitWork& work : works) {
     for (const TilePlace& tile : work.tiles) {

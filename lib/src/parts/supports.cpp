@@ -29,6 +29,7 @@ constexpr double kSaddleHalf = 50e-3;   // of a saddle, along the track [m]
 constexpr double kSaddleLeast = 30e-3;  // its height where it is lowest [m]
 constexpr double kSaddle = 8e-3;        // its thickness [m]
 constexpr double kPlate = 10e-3;        // thickness of a base plate [m]
+constexpr double kBaseGap = 10e-3;      // between those of two trestles [m]
 constexpr double kAnchorInset = 25e-3;  // of anchor holes from the plate's edges [m]
 constexpr double kBrace = 6e-3;         // flat bar 50 x 6
 constexpr double kBraceWidth = 50e-3;
@@ -401,6 +402,7 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
   const double gaps = std::max(1.0, std::ceil(room / supports.spacing - 1e-9));
   const double steepest = supports.steepest.radians();
   int number = 0;
+  std::vector<double> stand_at;  // of trestles, along the ground [m]
   for (double k = 0.0; k <= gaps; k += 1.0) {
     const double about = kApart + room * k / gaps;
     const double saddle_height = saddles_at(shell, about, 0.0).height[0];
@@ -412,7 +414,13 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
         !seat_line(shell, place->at, place->half, saddles.height[1]))
       continue;
     const Trestle trestle = trestle_at(shell, place->at, saddles);
+    // Two of them on the only places that are free stand on each other's base plates.
+    const double apart = base_side(supports) + kBaseGap;
+    if (std::any_of(stand_at.begin(), stand_at.end(),
+                    [&](double x) { return std::fabs(x - trestle.x) < apart; }))
+      continue;
     require_room_for_legs(trestle, supports);
+    stand_at.push_back(trestle.x);
     const Measures measures = measures_of(shell, saddles);
     const std::string text = std::to_string(++number);
     add_saddles(shell, trestle, saddles, text);
