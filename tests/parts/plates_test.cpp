@@ -310,9 +310,11 @@ TEST_CASE("plates: what cannot be made is refused with place, value and bound") 
   unruled.shop.hole_pitch_diameters = 0.0;
   unruled.flanges.width = 14e-3;
   unruled.flanges.pitch = 13e-3;
-  CHECK(refusal(unruled).find(
-            "flanges.pitch|pitch: 13 mm is too close for M10|Holes of 12 mm are at least 14.4 mm "
-            "apart (less leaves no web).|pitch: 14.4 mm, or a smaller bolt") != std::string::npos);
+  CHECK(
+      refusal(unruled).find(
+          "flanges.pitch|pitch: 13 mm is too close for M10|Holes of 12 mm are at least 14.4 mm "
+          "apart (less leaves no web).|pitch: 14.4 mm (28.8 mm keeps it on every side), or a smaller bolt") !=
+      std::string::npos);
   CHECK(refusal(unruled).find(
             "flanges.width|width: 14 mm puts holes for M10 7 mm from the edge|Their centres are at "
             "least 8.4 mm from it (less leaves no web).|a width of at least 16.8 mm, or a smaller "
