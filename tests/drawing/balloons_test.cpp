@@ -47,6 +47,16 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("lines from names keep off other words where there is room for it") {
+  // Straight across the word lies the shorter way.
+  const std::vector<Named> names = {{{{0.0, 0.0}}}};
+  const std::vector<Vec2> slots = {{50.0, 0.0}, {50.0, 20.0}, {50.0, 40.0}};
+  CHECK(labelled(names, slots, 4.0)[0].slot == 0);
+  CHECK(labelled(names, slots, 4.0, {{25.0, 0.0}})[0].slot == 1);
+  // With no other way it is crossed.
+  CHECK(labelled(names, {slots[0]}, 4.0, {{25.0, 0.0}})[0].slot == 0);
+}
+
 TEST_CASE("whether lines cross, and pass a point") {
   CHECK(lines_cross({0.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}, {2.0, 0.0}));
   CHECK_FALSE(lines_cross({0.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}, {0.9, 1.1}));

@@ -16,8 +16,9 @@ constexpr double kThrough = 40.0;
 /// Names at their slots.
 class Seating {
  public:
-  Seating(const std::vector<Named>& names, const std::vector<Vec2>& slots, double radius)
-      : slots_(slots), radius_(radius), name_at_(slots.size(), kFree) {
+  Seating(const std::vector<Named>& names, const std::vector<Vec2>& slots, double radius,
+          const std::vector<Vec2>& others)
+      : slots_(slots), radius_(radius), others_(others), name_at_(slots.size(), kFree) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::vector<Vec2> targets;
       for (const Vec2 slot : slots) targets.push_back(nearest(names[i], slot));
@@ -72,6 +73,7 @@ class Seating {
   [[nodiscard]] double cost(std::size_t first, std::size_t second) const {
     double sum = length(first) + (second == kFree ? 0.0 : length(second));
     if (!clear_) return sum;
+    sum += through_others(first) + (second == kFree ? 0.0 : through_others(second));
     if (second != kFree) sum += between(first, second);
     for (std::size_t i = 0; i < slot_of_.size(); ++i) {
       if (i == first || i == second) continue;
@@ -84,6 +86,15 @@ class Seating {
   [[nodiscard]] double length(std::size_t name) const {
     const Label at = label(name);
     return norm(at.target - slots_[at.slot]);
+  }
+
+  [[nodiscard]] double through_others(std::size_t name) const {
+    const Label at = label(name);
+    double sum = 0.0;
+    for (const Vec2 other : others_) {
+      if (line_passes(slots_[at.slot], at.target, other, radius_)) sum += kThrough * radius_;
+    }
+    return sum;
   }
 
   [[nodiscard]] double between(std::size_t one, std::size_t other) const {
@@ -100,6 +111,7 @@ class Seating {
 
   const std::vector<Vec2>& slots_;
   double radius_;
+  const std::vector<Vec2>& others_;
   bool clear_ = false;
   std::vector<std::vector<Vec2>> targets_;  ///< by name and slot
   std::vector<std::size_t> slot_of_;        ///< by name
@@ -121,8 +133,9 @@ bool line_passes(Vec2 from, Vec2 to, Vec2 point, double within) {
   return norm(from + share * along - point) < within;
 }
 
-std::vector<Label> labelled(const std::vector<Named>& names, const std::vector<Vec2>& slots, double radius) {
-  Seating seating(names, slots, radius);
+std::vector<Label> labelled(const std::vector<Named>& names, const std::vector<Vec2>& slots, double radius,
+                            const std::vector<Vec2>& others) {
+  Seating seating(names, slots, radius, others);
   seating.settle(false);
   seating.settle(true);
   std::vector<Label> labels;

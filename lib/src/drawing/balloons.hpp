@@ -24,9 +24,10 @@ struct Label {
 /// lines out of other names. A drawing too full for all of it keeps what is the least.
 /// @param slots   where names may stand; at least as many as there are names
 /// @param radius  of the room that a name takes round its slot
+/// @param others  middles of other words, as large as a name, which lines keep off, too
 /// @return one label a name, in their order
 [[nodiscard]] std::vector<Label> labelled(const std::vector<Named>& names, const std::vector<Vec2>& slots,
-                                          double radius);
+                                          double radius, const std::vector<Vec2>& others = {});
 
 /// @return whether two lines cross between their ends
 [[nodiscard]] bool lines_cross(Vec2 from, Vec2 to, Vec2 other_from, Vec2 other_to);

@@ -49,7 +49,8 @@ std::vector<const ShopPart*> numbered_parts(const Workshop& workshop, std::size_
 }
 
 /// Places for balloons round three sides of what is seen: a row above, a column to the left, one to the right (ISO 6433: in rows
-/// and columns). Lines from a row that goes on beyond the columns would run through these: it does so only as far as it must.
+/// and columns). Columns that go on below the view have lines that run through the names there, a row that goes on beyond the
+/// columns ones that run through these: both do so only where they must.
 /// @param seen    of the view [mm of the drawing]
 /// @param paper   that balloons may take [mm of paper]
 /// @param wanted  how many balloons there are
@@ -66,21 +67,35 @@ std::vector<Vec2> balloon_places(const SheetView& view, const PlaneBox& seen, co
       on_paper.push_back(at);
     }
   };
-  // Down to the plan, beside the names, clear of the lines of the height's dimension.
-  for (double y = high.y - 0.5 * kStep; y >= low.y - kNames + kRadius; y -= kStep) {
-    add({low.x - kBalloonAway, y});
-    if (std::fabs(y - low.y) > kRadius) add({high.x + kBalloonAway, y});
-  }
+  // Clear of the lines of the height's dimension.
+  const auto add_columns = [&](double from, double to) {
+    for (double y = from; y >= to; y -= kStep) {
+      add({low.x - kBalloonAway, y});
+      if (std::fabs(y - low.y) > kRadius) add({high.x + kBalloonAway, y});
+    }
+  };
+  add_columns(high.y - 0.5 * kStep, low.y);
   const double middle = 0.5 * (low.x + high.x);
   const int half = static_cast<int>(0.5 * paper.width() / kStep);
-  for (int i = 0; i <= half; ++i) {
-    const bool beyond = i * kStep > middle - low.x + kBalloonAway;
-    if (beyond && on_paper.size() >= wanted + kSpare) break;
+  const int within = std::min(half, static_cast<int>((middle - low.x + kBalloonAway) / kStep));
+  const auto add_pair = [&](int i) {
     add({middle + i * kStep, high.y + kBalloonAway});
     if (i > 0) add({middle - i * kStep, high.y + kBalloonAway});
-  }
+  };
+  for (int i = 0; i <= within; ++i) add_pair(i);
+  // Then beside the names below the view, and beyond the columns.
+  if (on_paper.size() < wanted + kSpare) add_columns(low.y - kRadius - 0.5 * kStep, low.y - kNames + kRadius);
+  for (int i = within + 1; i <= half && on_paper.size() < wanted + kSpare; ++i) add_pair(i);
   for (Vec2& at : on_paper) at = view.anchor + (1.0 / view.scale) * (at - view.at);
   return on_paper;
+}
+
+/// Where the number of the length stands.
+std::vector<Vec2> words_of_length(const PlaneBox& seen, double per_paper) {
+  constexpr double kHalf = 5.0;  // [mm of paper]
+  const Vec2 middle{0.5 * (seen.low.x + seen.high.x), seen.low.y - (kSizeAway - 2.0) * per_paper};
+  const Vec2 aside{kHalf * per_paper, 0.0};
+  return {middle - aside, middle, middle + aside};
 }
 
 /// Numbers of the parts round a view, each with a line to a piece of the part.
@@ -95,7 +110,8 @@ bool add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, con
   const std::vector<Vec2> places = balloon_places(view, seen, paper, parts.size());
   std::vector<Named> names;
   for (const ShopPart* const part : parts) names.push_back(pieces_of(*part, eye));
-  const std::vector<Label> labels = labelled(names, places, (kRadius + 0.5) * per_paper);
+  const std::vector<Label> labels =
+      labelled(names, places, (kRadius + 0.5) * per_paper, words_of_length(seen, per_paper));
   const std::size_t layer = view.drawing.layer({"NUMBERS", LineStyle::continuous, 0.18, 7});
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const Vec2 at = places[labels[i].slot];
