@@ -591,6 +591,11 @@ TEST_CASE(
   CHECK(stands >= 4);
   CHECK(blocks > stands);  // higher than the printer's 0.12 m
   CHECK(build.workshop.parts.back().name == "stand_pin");
+  options.stands->clear = 2e-3;
+  CHECK(
+      refusal(options, groove()) ==
+      "stands.clear|clear: 2 mm leaves stands no room|They are at least 4 mm high, and end 0.2 mm below the "
+      "run.|clear: 4.2 mm or more\n");
   options.stands->ground = {{0.0, -0.2}};
   CHECK(refusal(options, groove()).find("too high|A stand is at least 4 mm high.|a lower ground") !=
         std::string::npos);

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -366,6 +367,26 @@ TEST_CASE("shells: saddles keep off bolts of tiles below flats that touch the tr
     INFO(kink);
     // Throws InternalError where a saddle covers a hole.
     CHECK(pieces(plates_of(track, section, options), "saddle") > 0);
+  }
+}
+
+TEST_CASE("shells: below narrow floors saddles carry what laps there") {
+  PlateOptions options;
+  options.corners.kind = CornerJoint::lap;
+  options.flanges.wanted = false;
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -6.5}};
+  for (const auto& [width, lean, walls] :
+       {std::tuple(0.016, 30.0, WallSeat::on_floor), std::tuple(0.032, 30.0, WallSeat::beside_floor),
+        std::tuple(0.040, 30.0, WallSeat::beside_floor), std::tuple(0.060, 55.0, WallSeat::beside_floor)}) {
+    for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+      INFO(width << " " << lean);
+      options.walls = walls;
+      options.floor = floor;
+      const section::Trapezoid section{WidthLaw(width), 0.1, Angle::from_degrees(lean), 4e-3};
+      // Throws InternalError where a saddle reaches into a lap.
+      CHECK(pieces(plates_of(chute(), section, options), "saddle") > 0);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/parts/print_options.hpp"
 
+#include "parts/stands.hpp"
 #include "parts/tongue.hpp"
 
 #include <algorithm>
@@ -80,6 +81,14 @@ void check_tongue(const PrintOptions& options, Problems& problems) {
 
 void check_stands(const StandOptions& stands, Problems& problems) {
   problems.positive("stands.clear", stands.clear, length_text(stands.clear), "10 mm");
+  const double low = parts::kLeastStand + stands.fit;
+  if (stands.ground.empty() && stands.clear > 0.0 && stands.fit > 0.0 && stands.clear < low) {
+    problems.issues.push_back({"stands.clear",
+                               "clear: " + length_text(stands.clear) + " leaves stands no room",
+                               "They are at least " + length_text(parts::kLeastStand) + " high, and end " +
+                                   length_text(stands.fit) + " below the run.",
+                               "clear: " + length_text(low) + " or more"});
+  }
   problems.positive("stands.spacing", stands.spacing, length_text(stands.spacing), "200 mm");
   problems.positive("stands.thickness", stands.thickness, length_text(stands.thickness), "10 mm");
   problems.positive("stands.cheek", stands.cheek, length_text(stands.cheek), "5 mm");

@@ -5,6 +5,7 @@
 #include "parts/body_geometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -207,6 +208,27 @@ std::vector<Vec2> lap_tips(const SectionOutside& outside) {
     tips.push_back(way.corner - lap.thickness * way.out);
   }
   return tips;
+}
+
+std::optional<double> underside_of_laps(const SectionOutside& outside, double from, double to) {
+  std::optional<double> lowest;
+  const auto see = [&](double y) { lowest = std::min(y, lowest.value_or(y)); };
+  for (const OutsideLap& lap : outside.laps) {
+    const LapWay way = way_of(outside, lap);
+    const Vec2 reach = lap.reach * way.along;
+    const Vec2 in = lap.thickness * way.out;
+    const std::array<Vec2, 4> corners = {way.corner, way.corner + reach, way.corner + reach - in,
+                                         way.corner - in};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2 a = corners[i];
+      const Vec2 b = corners[(i + 1) % corners.size()];
+      if (a.x >= from && a.x <= to) see(a.y);
+      for (const double x : {from, to}) {
+        if ((a.x < x) != (b.x < x)) see(a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y));
+      }
+    }
+  }
+  return lowest;
 }
 
 std::optional<ArcPath> round_laps(const SectionOutside& outside, double gap) {

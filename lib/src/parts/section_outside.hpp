@@ -40,6 +40,9 @@ struct SectionOutside {
 /// @return corners of what laps reach beyond the line
 [[nodiscard]] std::vector<Vec2> lap_tips(const SectionOutside& outside);
 
+/// @return the lowest that laps reach between two places across; none where there are none
+[[nodiscard]] std::optional<double> underside_of_laps(const SectionOutside& outside, double from, double to);
+
 /// The line that something round a section keeps to at a gap: beyond laps, too.
 /// @return none where laps leave no way round them
 [[nodiscard]] std::optional<ArcPath> round_laps(const SectionOutside& outside, double gap);

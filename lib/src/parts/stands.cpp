@@ -25,7 +25,6 @@ namespace {
 
 constexpr double kSpreadOfBed = 0.25;  // the most of it
 constexpr double kSpread = 0.15;       // of the foot on both sides, over the height
-constexpr double kLeastHeight = 4e-3;  // between ground and run [m]
 constexpr int kTopPieces = 12;         // chords of the top edge
 constexpr double kCheeks = 2.4e-3;     // thickness: six lines of a 0.4 mm nozzle [m]
 
@@ -224,14 +223,14 @@ class StandMesh {
 
 /// Refuses a ground that is in the way.
 void require_room(const PrintJob& job, const Place& place, double s, double clear) {
-  if (clear >= kLeastHeight) return;
+  if (clear >= kLeastStand) return;
   const std::string where =
       "at x = " + length_text(place.x, 3) + " from the start, " + length_text(s, 3) + " along the track";
   throw InputError(
       {"stands.ground",
        "ground: it leaves " + length_text(std::max(clear, 0.0), 3) + " below the run " + where +
            (clear < 0.0 ? ", where it lies " + length_text(-clear, 3) + " too high" : ""),
-       "A stand is at least " + length_text(kLeastHeight) + " high.",
+       "A stand is at least " + length_text(kLeastStand) + " high.",
        "a lower ground, or none: then it is " + length_text(job.options.stands->clear) + " below the run"});
 }
 
@@ -290,7 +289,7 @@ void make_blocks(const PrintJob& job, const Shape& shape, const std::array<doubl
   const double height = std::max(shape.top.front().y, shape.top.back().y) + shape.cheek - stand.ground;
   const double count = std::ceil(height / (job.options.split.bed.z - 1e-6));
   const double lowest = std::min(shape.top.front().y, shape.top.back().y);
-  if (count > 1.0 && stand.ground + height * (count - 1.0) / count > lowest - kStandPinDepth - kLeastHeight) {
+  if (count > 1.0 && stand.ground + height * (count - 1.0) / count > lowest - kStandPinDepth - kLeastStand) {
     throw InputError(
         {"stands.thickness",
          "thickness: " + length_text(job.options.stands->thickness) +

@@ -25,6 +25,7 @@ struct Stand {
   std::vector<Vec3> pins;  ///< middles of the pins between blocks, upright, in the frame of the blocks
 };
 
+inline constexpr double kLeastStand = 4e-3;  ///< between ground and run [m]
 /// Pins between the blocks of stands.
 inline constexpr double kStandPin = 4e-3;       ///< diameter [m]
 inline constexpr double kStandPinDepth = 6e-3;  ///< of each hole [m]

@@ -29,6 +29,7 @@ constexpr double kSaddleHalf = 50e-3;   // of a saddle, along the track [m]
 constexpr double kSaddleLeast = 30e-3;  // its height where it is lowest [m]
 constexpr double kSaddle = 8e-3;        // its thickness [m]
 constexpr double kPlate = 10e-3;        // thickness of a base plate [m]
+constexpr double kOffLap = 1e-3;        // of a saddle that stands beside laps [m]
 constexpr double kBaseGap = 10e-3;      // between those of two trestles [m]
 constexpr double kAnchorInset = 25e-3;  // of anchor holes from the plate's edges [m]
 constexpr double kBrace = 6e-3;         // flat bar 50 x 6
@@ -99,7 +100,6 @@ double saddle_on_left(const SectionOutside& outside) {
   for (const OutsideLap& lap : outside.laps) thick = std::max(thick, lap.thickness);
   for (const Vec2 tip : lap_tips(outside)) {
     // Below a narrow floor what walls reach inwards goes first.
-    constexpr double kOffLap = 1e-3;  // [m]
     const double clear = tip.x - thick - 0.5 * kSaddle - kOffLap;
     if (clear > kSaddle && tip.x < seat + thick + kSaddle) seat = std::min(seat, clear);
   }
@@ -116,8 +116,11 @@ Saddles saddles_at(const Shell& shell, double s, double half) {
       for (const double at : {s - half, s, s + half}) {
         const SectionOutside outside = side == 0 ? shell.outside(at) : mirrored(shell.outside(at));
         if (placed) {
-          height =
-              std::min(height, underside_between(outside.line, aside - 0.5 * kSaddle, aside + 0.5 * kSaddle));
+          const Span across{aside - 0.5 * kSaddle, aside + 0.5 * kSaddle};
+          height = std::min(height, underside_between(outside.line, across.from, across.to));
+          // Where a narrow floor leaves no place beside what laps, it carries the laps.
+          if (const auto laps = underside_of_laps(outside, across.from - kOffLap, across.to + kOffLap))
+            height = std::min(height, *laps);
         } else {
           aside = std::min(aside, saddle_on_left(outside));
         }
