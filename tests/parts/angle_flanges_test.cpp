@@ -257,12 +257,15 @@ TEST_CASE("angle flanges: the legs along a bent floor and a mitred pipe stand on
   PlateOptions options = with_angles();
   options.floor = FloorMake::bent;
   const WorkshopBuild bent = plates(chute(), options);
+  std::size_t looked_at = 0;
   for (const ShopPart* const part : named(bent, "floor")) {
     if (!part->pattern || part->pattern->bends.empty()) continue;
     const double whole = bounds(part->pattern->region.outline).width();
     CHECK(part->pattern->bends.front().from.x > 50e-3);
     CHECK(part->pattern->bends.back().from.x < whole - 50e-3);
+    ++looked_at;
   }
+  CHECK(looked_at >= bent.joints.size() - 1);
   CHECK(bent.proof.smallest_gap > 0.4e-3);
   const WorkshopBuild pipe = plates_of(chute(), section::Pipe{0.3, 3e-3}, with_angles());
   const ShopPart& ring = part_of(pipe, "pipe_flange");
@@ -349,6 +352,23 @@ TEST_CASE("angle flanges: what no shop rolls or bolts is told with a bar that do
   CHECK(
       narrow.find(" mm|Each side has a piece of its own, whose holes of 12 mm keep 18 mm off the cuts at its "
                   "ends.|section: flat, or a smaller bolt\n") != std::string::npos);
+  // A bend within the leg that no choice of flats leaves out.
+  options = with_angles();
+  options.floor = FloorMake::bent;
+  options.split.longest.reset();
+  const ClothoidSpline short_turn(Angle::from_degrees(50.0),
+                                  {{0.01, 0.0, 0.0}, {0.04, 6.0, 6.0}, {1.2, 0.0, 0.0}});
+  const std::string across = refusal_of([&] { return plates(short_turn, options, {0.4, 0.12, 4e-3}); });
+  CHECK(
+      across.find(
+          "flanges.section|section: angle stands across a bend, at 0 m along the track|The flat there is ") ==
+      0);
+  CHECK(across.find(" long, the leg 50 mm.|a narrower angle, section: flat, or floor: rolled\n") !=
+        std::string::npos);
+  options.flanges.width = 25e-3;
+  options.flanges.thickness = 3e-3;
+  options.flanges.bolt = 5;
+  CHECK(refusal_of([&] { return plates(short_turn, options, {0.4, 0.12, 4e-3}); }) == "");
   // A crest that bends out of the gap within the leg.
   options = with_angles();
   const ClothoidSpline crest(Angle::from_degrees(20.0), {{1.0, -0.6, -0.6}, {1.0, -0.6, -0.6}});

@@ -71,7 +71,8 @@ Facets bent_flats(const StripJob& job, const Span& span, double largest_kink) {
   // Within the frames at its ends a unit is straight, down to its lowest corner beside bends of some degrees.
   const double below = kSteep * std::max(job.section.highest, -job.section.lowest);
   const double least = least_flat(job.section.thickness, job.options, below);
-  return facets_by_rule(job.track, span, job.options.bend, largest_kink, least);
+  return facets_by_rule(job.track, span, job.options.bend, largest_kink, least,
+                        least_end_flat(job.options, below));
 }
 
 BentStrips::BentStrips(const StripJob& job, double largest_kink, const std::vector<double>& joints)
@@ -79,6 +80,7 @@ BentStrips::BentStrips(const StripJob& job, double largest_kink, const std::vect
   for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
     const Span span{joints[j], joints[j + 1]};
     facets_.push_back(bent_flats(job, span, largest_kink));
+    if (job.section.convex) require_end_flats(span, facets_.back(), job.options.flanges);
     add_unit(facets_.back(), span);
   }
   lean_facets();

@@ -116,19 +116,44 @@ bool meet_between(const ArcSpline& track, double a, double b) {
   return dot(corner - first.at, first.along) > 0.0 && dot(second.at - corner, second.along) > 0.0;
 }
 
-/// As many of the places as leave flats long enough, and one behind the other: beside a turning point that is left out they
-/// could meet behind where they touch. All of them where no choice does both: what flats are too short for is refused elsewhere.
-std::vector<double> chosen(const ArcSpline& track, const std::vector<double>& places, double least) {
-  std::vector<double> kept = spaced(places, least);
+/// Leaves out places until flats lie one behind the other: beside a turning point that is left out they could meet behind where
+/// they touch.
+/// @return false where no choice does it
+bool in_order(const ArcSpline& track, std::vector<double>& kept) {
   for (std::size_t i = 0; i + 1 < kept.size();) {
     if (meet_between(track, kept[i], kept[i + 1])) {
       ++i;
       continue;
     }
-    if (kept.size() == 2) return places;
+    if (kept.size() == 2) return false;
     const bool at_end = i + 2 == kept.size();
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(at_end ? i : i + 1));
     if (i > 0) --i;
+  }
+  return true;
+}
+
+/// The flat at an end of a stretch, up to where it meets the one beside it.
+double end_flat(const ArcSpline& track, double end, double beside) {
+  if (std::fabs(slope_at(track, end) - slope_at(track, beside)) < kSame) return std::fabs(beside - end);
+  return norm(corner_between(track, end, beside) - frame_at(track, end).at);
+}
+
+/// As many of the places as leave flats long enough, and one behind the other. All of them where no choice does both: what flats are
+/// too short for is refused elsewhere.
+std::vector<double> chosen(const ArcSpline& track, const std::vector<double>& places, double least,
+                           double least_end) {
+  std::vector<double> kept = spaced(places, least);
+  if (!in_order(track, kept)) return places;
+  // Where the radius changes, a flat at an end is shorter than half the way to the next one.
+  while (kept.size() > 2) {
+    const std::size_t last = kept.size() - 1;
+    const bool first_short = end_flat(track, kept[0], kept[1]) < least_end;
+    if (!first_short && !(end_flat(track, kept[last], kept[last - 1]) < least_end)) break;
+    std::vector<double> fewer = kept;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(first_short ? 1 : last - 1));
+    if (!in_order(track, fewer)) break;
+    kept = std::move(fewer);
   }
   return kept;
 }
@@ -139,27 +164,30 @@ std::string flat_text(std::size_t flat) {
 
 }  // namespace
 
-Facets facets_by_angle(const ArcSpline& track, const Span& span, double largest_kink, double least_flat) {
+Facets facets_by_angle(const ArcSpline& track, const Span& span, double largest_kink, double least_flat,
+                       double least_end) {
   std::vector<double> touches = {span.from};
   for (const Bow& bow : bows(track, span)) {
     const double count = std::max(1.0, std::ceil(std::fabs(bow.turned) / largest_kink - kSame));
     for (double k = 1.0; k <= count; k += 1.0) append(touches, place_at(track, bow, k / count));
   }
   touches.back() = span.to;
-  return facets_at(track, chosen(track, touches, least_flat));
+  return facets_at(track, chosen(track, touches, least_flat, least_end));
 }
 
-Facets facets_by_length(const ArcSpline& track, const Span& span, double longest, double least_flat) {
+Facets facets_by_length(const ArcSpline& track, const Span& span, double longest, double least_flat,
+                        double least_end) {
   std::vector<double> touches = {span.from};
   for (const Bow& bow : bows(track, span)) {
     const double count = std::max(1.0, std::ceil((bow.to - bow.from) / longest - kSame));
     for (double k = 1.0; k <= count; k += 1.0) append(touches, bow.from + (bow.to - bow.from) * k / count);
   }
   touches.back() = span.to;
-  return facets_at(track, chosen(track, touches, least_flat));
+  return facets_at(track, chosen(track, touches, least_flat, least_end));
 }
 
-Facets facets_by_chord(const ArcSpline& track, const Span& span, double tolerance, double least_flat) {
+Facets facets_by_chord(const ArcSpline& track, const Span& span, double tolerance, double least_flat,
+                       double least_end) {
   std::vector<double> touches = {span.from};
   for (const Bow& bow : bows(track, span)) {
     double from = bow.from;
@@ -185,7 +213,7 @@ Facets facets_by_chord(const ArcSpline& track, const Span& span, double toleranc
     }
   }
   touches.back() = span.to;
-  return facets_at(track, chosen(track, touches, least_flat));
+  return facets_at(track, chosen(track, touches, least_flat, least_end));
 }
 
 ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness) {

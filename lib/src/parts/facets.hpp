@@ -24,14 +24,15 @@ struct Facets {
 /// Flats over a stretch of track, tangent to it at both ends.
 /// @param largest_kink  [rad]; > 0. Larger where flats would be shorter than `least_flat`
 /// @param least_flat    that a press can hold [m]; >= 0
+/// @param least_end     of the flats at both ends, as far as there is more than one bend [m]
 [[nodiscard]] Facets facets_by_angle(const ArcSpline& track, const Span& span, double largest_kink,
-                                     double least_flat);
+                                     double least_flat, double least_end = 0.0);
 /// @param longest  flats between two bends, about [m]; > 0
 [[nodiscard]] Facets facets_by_length(const ArcSpline& track, const Span& span, double longest,
-                                      double least_flat);
+                                      double least_flat, double least_end = 0.0);
 /// @param tolerance  greatest distance of a corner from the track [m]; > 0
 [[nodiscard]] Facets facets_by_chord(const ArcSpline& track, const Span& span, double tolerance,
-                                     double least_flat);
+                                     double least_flat, double least_end = 0.0);
 
 /// The finished floor's upper face: flats and bends round the punch.
 /// @param inner_radius  of every bend; on a crest the upper face has thickness more

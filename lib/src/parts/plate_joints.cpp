@@ -17,7 +17,8 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kRoom = 0.1;  // of a unit, by which a joint may move to where the track bends less
+constexpr double kBeyondFrame = 1e-3;  // of flats beyond the frames at their ends [m]
+constexpr double kRoom = 0.1;          // of a unit, by which a joint may move to where the track bends less
 
 /// @param face  of the unit's floor
 std::string fold_text(const Job& job, const Span& span, const FloorFace& face) {
@@ -37,6 +38,7 @@ Unit make_unit(const Job& job, const Span& span, std::size_t number, double larg
             bent ? bent_floor_face(job, facets_of(job, span, largest_kink))
                  : rolled_face(job.track, span, floor_depth(job)),
             {}};
+  if (bent) require_end_flats(span, *unit.face.facets, job.options.flanges);
   unit.tabs = tab_places(job, unit.face, number);
   unit.floor = floor_plate(job, unit.face, unit.tabs, unit.steps);
   if (job.channel.wall_height == 0.0) return unit;
@@ -60,18 +62,18 @@ std::vector<Unit> units_between(const Job& job, const std::vector<double>& joint
 }  // namespace
 
 Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOptions& bend, double largest_kink,
-                      double least) {
+                      double least, double least_end) {
   switch (bend.rule) {
     case FacetRule::chord_tolerance:
-      return facets_by_chord(track, span, bend.value, least);
+      return facets_by_chord(track, span, bend.value, least, least_end);
     case FacetRule::segment_length:
-      return facets_by_length(track, span, bend.value, least);
+      return facets_by_length(track, span, bend.value, least, least_end);
     case FacetRule::bends:
     case FacetRule::segment_angle:
     case FacetRule::speed_loss:
       break;
   }
-  return facets_by_angle(track, span, largest_kink, least);
+  return facets_by_angle(track, span, largest_kink, least, least_end);
 }
 
 void require_frame_room(const ArcSpline& track, const std::vector<double>& joints, const FlangeOptions& frame,
@@ -101,16 +103,39 @@ void require_frame_room(const ArcSpline& track, const std::vector<double>& joint
                         (frame.section == FlangeSection::angle ? "narrower angle" : "thinner frame")});
 }
 
+void require_end_flats(const Span& unit, const Facets& facets, const FlangeOptions& frame) {
+  if (!frame.wanted || frame.section != FlangeSection::angle || facets.bends() == 0) return;
+  const std::size_t last = facets.corners.size() - 1;
+  for (const bool first : {true, false}) {
+    const double flat = first ? norm(facets.corners[1] - facets.corners[0])
+                              : norm(facets.corners[last] - facets.corners[last - 1]);
+    const double kink = std::fabs(first ? facets.kinks.front() : facets.kinks.back());
+    if ((frame.along() - flat) * math::tan(kink) <= frame.gap) continue;
+    throw InputError(
+        {"flanges.section",
+         "section: angle stands across a bend, at " + length_text(first ? unit.from : unit.to, 4) +
+             " along the track",
+         "The flat there is " + length_text(flat, 3) + " long, the leg " + length_text(frame.along()) + ".",
+         "a narrower angle, section: flat, or floor: rolled"});
+  }
+}
+
+double least_end_flat(const PlateOptions& options, double more) {
+  const FlangeOptions& frame = options.flanges;
+  if (!frame.wanted || frame.section != FlangeSection::angle) return 0.0;
+  return frame.along() + kBeyondFrame + more;
+}
+
 double least_flat(double thickness, const PlateOptions& options, double more) {
-  constexpr double kBeyondFrame = 1e-3;
   const FlangeOptions& frame = options.flanges;
   const double pressed = std::max(options.shop.flat_thicknesses * thickness, options.shop.flat);
-  return frame.wanted ? std::max(pressed, frame.along() + kBeyondFrame + more) : pressed;
+  return frame.wanted ? std::max(pressed, frame.thickness + kBeyondFrame + more) : pressed;
 }
 
 Facets facets_of(const Job& job, const Span& span, double largest_kink) {
   return facets_by_rule(job.track, span, job.options.bend, largest_kink,
-                        least_flat(job.channel.thickness, job.options, 0.0));
+                        least_flat(job.channel.thickness, job.options, 0.0),
+                        least_end_flat(job.options, 0.0));
 }
 
 double kink_for_speed(const ArcSpline& track, const BendOptions& bend,

@@ -50,9 +50,18 @@ struct Unit {
                                     double gravity, double design_speed);
 
 /// @return flats of a stretch by a rule
+/// @param least,least_end  as facets_by_angle()
 [[nodiscard]] Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOptions& bend,
-                                    double largest_kink, double least);
+                                    double largest_kink, double least, double least_end = 0.0);
 
+/// Refuses the leg of an angle that stands across a bend by more than its gap.
+/// @param facets  of a unit
+/// @throws InputError naming the place, the flat there and ways out
+void require_end_flats(const Span& unit, const Facets& facets, const FlangeOptions& frame);
+
+/// @return that of flats at the ends of a unit along which the leg of an angle stands [m]; 0 of other frames
+/// @param more  as for least_flat()
+[[nodiscard]] double least_end_flat(const PlateOptions& options, double more);
 /// @return the least length of flats: what the shop's press holds, and those at the ends of a unit no shorter than its frame is thick
 /// @param more  for plates that lie off the floor line [m]
 [[nodiscard]] double least_flat(double thickness, const PlateOptions& options, double more);
