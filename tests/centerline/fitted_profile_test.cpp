@@ -322,6 +322,33 @@ TEST_CASE("exact points are followed to millimetres however many they are and ho
   }
 }
 
+TEST_CASE("a wave on so few points that curves through them differ is told to leave gaps, or is followed") {
+  constexpr double kRun = 100.0;
+  constexpr double kHeight = 2.0;
+  // Where cubics and quintics over arc length pass each other by 9 mm, but the wave by 154 mm: 16 points, three waves.
+  for (const int count : {10, 12, 14, 16, 18, 20, 21, 24, 27, 30, 36}) {
+    for (const int periods : {1, 2, 3, 4, 5, 6}) {
+      const double each = (count - 1.0) / periods;
+      if (each < 4.5 || each > 12.0) continue;
+      const auto wave = [&](double x) {
+        return 0.3 * x - kHeight * std::sin(2.0 * std::numbers::pi * periods * x / kRun);
+      };
+      std::vector<Vec2> points;
+      for (int i = 0; i < count; ++i)
+        points.push_back({kRun * i / (count - 1), wave(kRun * i / (count - 1))});
+      const FittedProfile profile(points);
+      double off = 0.0;
+      for (int i = 0; i <= 1000; ++i) {
+        const CenterlinePoint place = profile.at(profile.length() * (i / 1000.0));
+        off = std::max(off, std::fabs(place.drop - wave(place.x)) * std::cos(place.slope_angle));
+      }
+      INFO(count << " points, " << periods << " periods, off by " << off << ", told "
+                 << profile.between_points());
+      if (off > 0.03 * kHeight) CHECK((profile.leaves_gaps() || profile.leaves_out_much()));
+    }
+  }
+}
+
 TEST_CASE("noise on few points is not followed as if it were their shape") {
   Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

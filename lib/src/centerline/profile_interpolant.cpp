@@ -98,6 +98,19 @@ std::optional<Parametrized> by_arc_length(Parametrized rough) {
   return rough;
 }
 
+/// How far the curves over two parameters pass each other between the points.
+double apart(const Parametrized& one, const Parametrized& other) {
+  const InterpolatingSpline here(one.parameters, one.smooth.points, SplineDegree::quintic);
+  const InterpolatingSpline there(other.parameters, other.smooth.points, SplineDegree::quintic);
+  double most = 0.0;
+  for (std::size_t i = 1; i < one.parameters.size(); ++i) {
+    const InterpolatingSpline::Place place = here.at(0.5 * (one.parameters[i - 1] + one.parameters[i]));
+    const Vec2 away = there.at(0.5 * (other.parameters[i - 1] + other.parameters[i])).value - place.value;
+    most = std::max(most, std::fabs(cross(place.first, away)) / norm(place.first));
+  }
+  return most;
+}
+
 std::optional<Parametrized> parametrized(const std::vector<Vec2>& points) {
   std::vector<double> runs;
   for (const Vec2& point : points) runs.push_back(point.x);
@@ -106,8 +119,12 @@ std::optional<Parametrized> parametrized(const std::vector<Vec2>& points) {
   if (!rough) return best;
   auto even = by_arc_length(*std::move(rough));
   if (!even) return best;
-  if (!best || even->uncertainty() < best->uncertainty()) best = std::move(even);
-  return best;
+  if (!best) return even;
+  if (!(even->uncertainty() < best->uncertainty())) return best;
+  // Over arc length cubics and quintics agree by chance where points are few for their waves; over x they do not.
+  const double passed = apart(*even, *best);
+  if (std::isfinite(passed)) even->between = std::max(even->between, passed - best->between);
+  return even;
 }
 
 /// A place on the curve that is led along.
