@@ -93,18 +93,21 @@ TEST_CASE("mirrored, of another size and elsewhere clearances of a whole solid h
 }
 
 TEST_CASE(
-    "no lift-off, no rounding next to a crest, no jump beside knots and no entry speed makes a search end "
-    "elsewhere") {
+    "no lift-off, no rounding next to a crest, no jump beside knots, no entry speed and no detour for speed "
+    "makes a "
+    "search end elsewhere") {
   struct Known {
     int seed;
     int index;
     const char* change;
   };
-  std::vector<Known> all{{3, 257, "wider smallest_valley_radius"},
-                         {5, 25, "wider entry_slope_angle.lowest"},
-                         {5, 105, "wider highest_normal_load"},
-                         {7, 149, "without smallest_crest_radius"}};
-  if (testing::thorough()) all.push_back({3, 298, "without exit_slope_angle.highest"});
+  std::vector<Known> all{{3, 257, "wider smallest_valley_radius"},  {5, 25, "wider entry_slope_angle.lowest"},
+                         {5, 105, "wider highest_normal_load"},     {7, 149, "without smallest_crest_radius"},
+                         {7, 458, "without smallest_crest_radius"}, {7, 127, "wider lead_out"}};
+  if (testing::thorough()) {
+    all.push_back({3, 298, "without exit_slope_angle.highest"});
+    all.push_back({8, 352, "without lead_out"});
+  }
   for (const Known& known : all) {
     std::size_t draw = 0;
     const Problem problem =
@@ -119,6 +122,31 @@ TEST_CASE(
       ++compared;
     }
     CHECK(compared == 1);
+  }
+}
+
+TEST_CASE("a bound that is said to be enough leads to an optimum when it is put in") {
+  struct Known {
+    int seed;
+    int index;
+  };
+  std::vector<Known> all{{8, 254}};
+  if (testing::thorough()) all.insert(all.end(), {{7, 113}, {7, 207}, {8, 101}});
+  for (const Known& known : all) {
+    std::size_t draw = 0;
+    const Problem problem =
+        testing_problems::problem_to_vary(static_cast<std::uint64_t>(known.seed), known.index, draw);
+    const Optimum none = optimize(problem);
+    CAPTURE(known.seed, known.index, none.report.brief());
+    REQUIRE_FALSE(none.centerline);
+    const std::vector<testing_problems::Variation> advised =
+        testing_problems::as_advised(problem, none.report);
+    CHECK_FALSE(advised.empty());
+    for (const testing_problems::Variation& variation : advised) {
+      const Optimum changed = optimize(variation.problem);
+      CAPTURE(variation.name(), changed.report.brief());
+      CHECK(changed.report.status == OptimizeStatus::optimal);
+    }
   }
 }
 

@@ -82,28 +82,30 @@ class Course {
         searcher_(problem, options, control, progress) {}
 
   void from_starts() {
-    for (const Passages& way : ways_) {
+    for (std::size_t way = 0; way < ways_.size(); ++way) {
       if (stopped_ || (control_.any_track && kept())) return;
-      take(searcher_.search(way));
+      take(way, searcher_.search(ways_[way]));
     }
   }
 
   /// Where a track is found: those that go on to smoother ground, which the starts may miss.
   void onto_smoother_ground() {
-    for (const Passages& way : ways_) {
+    for (std::size_t way = 0; way < ways_.size(); ++way) {
       if (!kept() || stopped_) return;
       // The same track by another way differs by less, and that is no reason to prefer it.
       constexpr double kFaster = 1e-6;  // accuracy: that of a time
       const Candidate known = *best_;
       const double enough = known.found->objective - kFaster * std::fabs(known.found->objective);
-      for (Candidate& other : on_smoother_ground(problem_, way, known, options_, control_, progress_)) {
-        if (other.found->objective < enough) take(std::move(other));
+      for (Candidate& other :
+           on_smoother_ground(problem_, ways_[way], known, options_, control_, progress_)) {
+        if (other.found->objective < enough) take(way, std::move(other));
       }
     }
   }
 
   void from(const Foothold& foothold) {
-    if (!stopped_) take(searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
+    if (!stopped_)
+      take(foothold.passages, searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
   }
 
   /// From the best one to another optimum of its problem, where that wins something.
@@ -113,7 +115,7 @@ class Course {
     if (stopped_ || !(known - found.objective > kPays * std::fabs(known))) return;
     const Candidate end = searcher_.ended_on(*best_, std::move(found));
     const bool converged = end.kept && !end.stopped && end.found->residual <= options_.tolerance;
-    if (converged) take(end);
+    if (converged) take(way_, end);
   }
 
   /// From several, of which the best one counts. On their way there they tell which can be that.
@@ -135,11 +137,23 @@ class Course {
       return is_on_limits(stage) && stage.found.objective <= best + kBehind * std::fabs(best);
     };
     for (const bool first : {true, false}) {
-      for (Searcher::Stage& stage : stages) {
+      for (std::size_t i = 0; i < stages.size(); ++i) {
         if (stopped_ || (!first && kept())) return;
-        if (may_win(stage) == first) take(searcher_.ended(std::move(stage)));
+        if (may_win(stages[i]) == first) take(footholds[i].passages, searcher_.ended(std::move(stages[i])));
       }
     }
+  }
+
+  /// Where the starts did not simply lead to an optimum: how good a track is depends on its mesh there.
+  /// @param by_footholds  whether the starts led nowhere
+  void look_again(bool by_footholds) {
+    const auto is_optimum = [&] { return best_->found->residual <= options_.tolerance; };
+    const Passages& way = ways_[way_];
+    if (!kept() || stopped_ || (!by_footholds && is_optimum())) return;
+    if (!by_footholds) best_ = searcher_.from_scattered(way, *std::move(best_));
+    if (!best_->stopped && (by_footholds || !is_optimum()))
+      best_ = searcher_.on_other_meshes(way, *std::move(best_), by_footholds);
+    stopped_ = best_->stopped;
   }
 
   /// Where bends are looked for.
@@ -182,9 +196,11 @@ class Course {
     };
   }
 
-  void take(Candidate candidate) {
+  void take(std::size_t way, Candidate candidate) {
     stopped_ = stopped_ || candidate.stopped;
-    if (is_better(candidate, best_)) best_ = std::move(candidate);
+    if (!is_better(candidate, best_)) return;
+    best_ = std::move(candidate);
+    way_ = way;
   }
 
   const Problem& problem_;
@@ -194,6 +210,7 @@ class Course {
   Searcher searcher_;
   std::vector<Passages> ways_ = all_passages(problem_.limits);
   std::optional<Candidate> best_;
+  std::size_t way_ = 0;  ///< of the best one
   bool stopped_ = false;
 };
 
@@ -303,8 +320,10 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   course.onto_smoother_ground();
   Conflict conflict;
   bool certain = false;
+  const bool by_footholds = !course.kept();
   if (!course.kept() && !course.stopped())
     conflict = course.explained(resolve_with(options, control), certain);
+  course.look_again(by_footholds);
   report.ended_early = course.stopped();
   if (!course.kept()) {
     tell_none(std::move(conflict), certain, course.stopped(), report);

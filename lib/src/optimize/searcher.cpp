@@ -171,7 +171,8 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
                                      const Found& first, bool got_lost) {
   constexpr double kDoubtful = 0.05;  // taste: slower by such a share than without limits
   std::vector<GuessCurve> more;
-  if (got_lost) more.assign(curves.begin() + 1, curves.end());
+  // Of a track that need not be fast, but lead to speed, any detour may be the better one.
+  if (got_lost || problem.speed_weight != 0.0) more.assign(curves.begin() + 1, curves.end());
   if (!is_travel_time(problem)) return more;
   const std::optional<FlyingStart> flying = flying_start(problem);
   if (flying && first.objective > (1.0 + kDoubtful) * flying->travel_time) more.push_back(flying->curve);
@@ -337,6 +338,88 @@ Candidate Searcher::ended_on(const Candidate& known, Found found) {
   return candidate;
 }
 
+namespace {
+
+/// An optimum before what is none, of two the better one.
+bool is_ahead(const Candidate& a, const Candidate& b, double tolerance) {
+  const bool is_optimum = a.found->residual <= tolerance;
+  if (is_optimum != (b.found->residual <= tolerance)) return is_optimum;
+  return a.found->objective < b.found->objective;
+}
+
+}  // namespace
+
+Candidate Searcher::from_scattered(const Passages& passages, Candidate best) {
+  constexpr std::size_t kMostEnded = 3;                           // budget
+  const std::shared_ptr<const ScaledProblem> rough = best.rough;  // which the tracks below refer to
+  std::vector<Found> tracks;
+  for (const GuessCurve& start : scattered_starts(*rough)) {
+    if (control_.stop()) break;
+    begin_margins(*rough);
+    aim_at(kCoarseTolerance, 5);
+    Found found = coarsely(*rough, start, kMiddlePieces);
+    const bool may_win = found.feasible(kNearlyFeasible) && found.objective < best.found->objective;
+    if (may_win) tracks.push_back(std::move(found));
+  }
+  std::stable_sort(tracks.begin(), tracks.end(),
+                   [](const Found& a, const Found& b) { return a.objective < b.objective; });
+  if (tracks.size() > kMostEnded) tracks.resize(kMostEnded);
+  for (Found& track : tracks) {
+    if (best.stopped) break;
+    Candidate end = begun(passages);
+    const Found found = laid_anew(*end.problem, on_finer_meshes(*end.problem, *end.rough, std::move(track)));
+    settle(end, found);
+    if (!end.kept && !end.stopped) mend_any(end, found.track->mesh(), found.z);
+    const bool stopped = end.stopped;
+    if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
+    best.stopped = stopped;
+  }
+  return best;
+}
+
+Candidate Searcher::on_other_meshes(const Passages& passages, Candidate best, bool for_better) {
+  constexpr std::size_t kPieces[] = {24, 32, 40, 60};  // taste
+  constexpr std::size_t kMostForBetter = 40;           // budget
+  constexpr std::size_t kMostKnots = 70;               // budget
+  constexpr int kMostEvaluations = 3000;               // budget: as many as a hard search takes
+  constexpr double kPays = 1e-4;                       // taste: of the objective
+  const auto is_known = [&] { return best.found->residual <= options_.tolerance; };
+  const int before = control_.evaluations;
+  // The track's own mesh, without the places at which limits were held beside it, is another one, too.
+  if (!is_known() && best.found->track->mesh().knots.size() <= kMostKnots) {
+    Mesh mesh = mesh_again(*best.found);
+    mesh.extra_breaks = breaks_of(*best.problem, core_length_of(*best.found));
+    (void)ends_better(passages, mesh, best.found->z, best);
+  }
+  for (const std::size_t pieces : kPieces) {
+    if (best.stopped || control_.stop() || control_.evaluations - before > kMostEvaluations) break;
+    const bool was_known = is_known();
+    if (was_known && (!for_better || pieces > kMostForBetter)) break;
+    const Found& from = *best.found;
+    const double known = from.objective;
+    const std::vector<Switch> switches = switches_of(*best.problem, from);
+    const Mesh mesh =
+        mesh_with(*best.problem, refined_knots(*from.track, from.z, switches, pieces), core_length_of(from));
+    if (mesh.knots.size() > kMostKnots) continue;
+    const bool better =
+        ends_better(passages, mesh, fit(curve_of(*from.track, from.z), Transcription(mesh)), best);
+    const double won = better ? known - best.found->objective : 0.0;
+    if (was_known && won < kPays * std::fabs(known)) break;
+  }
+  return best;
+}
+
+bool Searcher::ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best) {
+  Candidate end = begun(passages);
+  aim_at(kAimed * options_.tolerance, 12);
+  Found next = laid_anew(*end.problem, on_mesh(*end.problem, mesh, z, *best.found));
+  if (next.feasible(kNearlyFeasible)) settle(end, std::move(next));
+  best.stopped = end.stopped;
+  if (!end.kept || !is_ahead(end, best, options_.tolerance)) return false;
+  best = std::move(end);
+  return true;
+}
+
 Candidate Searcher::mended(const Passages& passages, const Mesh& mesh, const Vector& z) {
   Candidate candidate = begun(passages);
   mend_any(candidate, mesh, z);
@@ -411,16 +494,20 @@ std::optional<Found> Searcher::from_exact(const ScaledProblem& problem, const Gu
 
 Searcher::Rough Searcher::coarse(const ScaledProblem& problem, const GuessCurve& start) {
   tell("coarse track", 0.0);
-  const Mesh mesh = mesh_with(problem, graded_knots(start, kCoarsePieces, entry_share(problem, start.length)),
-                              start.length);
   aim_at(kCoarseTolerance, 5);
-  Found found = minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
+  Found found = coarsely(problem, start, kCoarsePieces);
   if (found.feasible(kNearlyFeasible) || found.stopped) return {std::move(found)};
   // The descent lost its way, or the mesh is too coarse: look for any track that keeps the limits first.
   const Mesh finer = mesh_with(
       problem, graded_knots(start, kRescuePieces, entry_share(problem, start.length)), start.length);
   control_.most_rounds = 6;
   return {rescued(problem, finer, fit(start, Transcription(finer))), true};
+}
+
+Found Searcher::coarsely(const ScaledProblem& problem, const GuessCurve& start, std::size_t pieces) {
+  const Mesh mesh =
+      mesh_with(problem, graded_knots(start, pieces, entry_share(problem, start.length)), start.length);
+  return minimise(problem, mesh, fit(start, Transcription(mesh)), margins_, control_);
 }
 
 std::optional<Found> Searcher::rescued(const ScaledProblem& problem, const Mesh& mesh,

@@ -52,6 +52,11 @@ class Searcher {
   [[nodiscard]] Candidate ended(Stage stage);
   /// Another optimum of a candidate's own problem and margins, to its end.
   [[nodiscard]] Candidate ended_on(const Candidate& known, Found found);
+  /// Where the search's own starts led to no optimum: the best of what `best` is and of what curves of no kind lead to.
+  [[nodiscard]] Candidate from_scattered(const Passages& passages, Candidate best);
+  /// The search once more from where it ended, on meshes of other sizes laid for that track, until an optimum is found.
+  /// @param for_better  goes on from there as long as that pays
+  [[nodiscard]] Candidate on_other_meshes(const Passages& passages, Candidate best, bool for_better);
   /// A track that keeps the limits on its mesh, mended so that it keeps them everywhere, however slow it is.
   [[nodiscard]] Candidate mended(const Passages& passages, const Mesh& mesh, const Vector& z);
 
@@ -68,6 +73,10 @@ class Searcher {
     bool got_lost = false;  ///< the descent did, and was led back by way of any track that keeps the limits
   };
   [[nodiscard]] Rough coarse(const ScaledProblem& problem, const GuessCurve& start);
+  /// On a mesh laid for the start alone.
+  [[nodiscard]] Found coarsely(const ScaledProblem& problem, const GuessCurve& start, std::size_t pieces);
+  /// @return whether a search on a mesh ended in a better track than the best one, which it is then
+  bool ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best);
   /// From every start, where the first one's track is doubted: the best of them, then others until one is an optimum.
   void take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,
                  std::vector<Found>& others);
