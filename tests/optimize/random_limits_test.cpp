@@ -97,7 +97,9 @@ double kept_back(const OptimizeReport& report) {
   for (const ActiveLimit& active : report.active) {
     if (active.limit.id == LimitId::arrival) cost += active.price * kCreep;
     for (const LimitCheck& check : report.checks) {
-      if (check.limit == active.limit) cost += active.price * std::fabs(check.reached - check.value);
+      // A track that all but stalls has prices that are told to tens of a hundred: as much as is certain counts.
+      const double certain = active.price * std::max(0.0, 1.0 - active.price_error);
+      if (check.limit == active.limit) cost += certain * std::fabs(check.reached - check.value);
     }
   }
   return cost;
