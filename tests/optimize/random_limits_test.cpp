@@ -95,11 +95,11 @@ double kept_back(const OptimizeReport& report) {
   // where it stalled between stations.
   constexpr double kCreep = 1e-5;
   for (const ActiveLimit& active : report.active) {
-    if (active.limit.id == LimitId::arrival) cost += active.price * kCreep;
+    // A track that all but stalls has prices that are told to tens of a hundred: as much as is certain counts.
+    const double price = active.price * std::max(0.0, 1.0 - active.price_error);
+    if (active.limit.id == LimitId::arrival) cost += price * kCreep;
     for (const LimitCheck& check : report.checks) {
-      // A track that all but stalls has prices that are told to tens of a hundred: as much as is certain counts.
-      const double certain = active.price * std::max(0.0, 1.0 - active.price_error);
-      if (check.limit == active.limit) cost += certain * std::fabs(check.reached - check.value);
+      if (check.limit == active.limit) cost += price * std::fabs(check.reached - check.value);
     }
   }
   return cost;
