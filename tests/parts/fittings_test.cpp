@@ -212,6 +212,37 @@ TEST_CASE("fittings: random ones on random tracks fit without a clash") {
   }
 }
 
+TEST_CASE("fittings: covers that no sheet takes in one are pieces side by side, as heavy as a part may be") {
+  PlateOptions options;
+  options.rim.emplace();
+  options.cover.emplace();
+  // The floor goes across the sheet, the cover over the rims does not.
+  const ChannelMeasures wide{1.45, 0.25, 4e-3};
+  for (const bool lean : {false, true}) {
+    for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+      options.floor = floor;
+      const WorkshopBuild build =
+          lean ? plates_of(chute(), section::Trapezoid{WidthLaw(1.45), 0.25, Angle::from_degrees(5.0), 4e-3},
+                           options)
+               : plates(chute(), options, wide);
+      const std::vector<const ShopPart*> covers = named(build, "cover");
+      CHECK(covers.size() > build.joints.size() - 1);
+      for (const ShopPart* const cover : covers) {
+        const PlaneBox box = bounds(cover->pattern->region.outline);
+        CHECK(std::min(box.width(), box.height()) <= 1.49 + 1e-9);
+        CHECK(cover->pattern->region.holes.size() >= 4);
+      }
+      CHECK(build.proof.bolted > 0);
+    }
+  }
+  options = PlateOptions();
+  options.rim.emplace();
+  options.cover.emplace();
+  options.split.heaviest = 15.0;
+  const WorkshopBuild light = plates(chute(), options, {1.2, 0.25, 2e-3});
+  for (const ShopPart* const cover : named(light, "cover")) CHECK(cover->mass <= 15.0);
+}
+
 TEST_CASE("fittings: what cannot be made is refused with place, value, bound and way out") {
   PlateOptions above;
   above.supports.emplace();

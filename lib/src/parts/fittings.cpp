@@ -4,9 +4,11 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
+#include "parts/plate_joints.hpp"
 #include "parts/seams.hpp"
 #include "parts/shell.hpp"
 #include "parts/workshop_list.hpp"
@@ -123,7 +125,49 @@ std::vector<double> cover_bolts(const Job& job, const Span& span) {
   return places;
 }
 
+/// The pieces of a unit's cover: as the sheet and the heaviest part ask.
+std::vector<Span> cover_pieces(const Job& job, const Span& span) {
+  if (!job.options.split.allowed) return {span};
+  const Span heights{job.channel.wall_height, job.channel.wall_height + job.options.cover->thickness};
+  const double width = 2.0 * (outside(job) + job.options.rim->width);
+  return pieces_that_fit(span, {job.track, 0.5 * kLidGap, heights}, [&](const Span& piece) {
+    auto part = along_track(job, piece, heights, width, {-0.5 * width});
+    if (!part) return true;
+    weigh(*part);
+    return !excess(job.options.split, *part);
+  });
+}
+
+/// Places along a unit at which the pieces of its cover are bolted to rims.
+std::vector<double> rim_bolts(const Job& job, const Span& span) {
+  std::vector<double> places;
+  for (const Span& piece : cover_pieces(job, span)) {
+    const std::vector<double> own = cover_bolts(job, piece);
+    places.insert(places.end(), own.begin(), own.end());
+  }
+  return places;
+}
+
 }  // namespace
+
+std::vector<Span> pieces_that_fit(const Span& span, const OnOneArc& seams,
+                                  const std::function<bool(const Span&)>& fits) {
+  constexpr int kMostPieces = 20;
+  for (int count = 1; count <= kMostPieces; ++count) {
+    std::vector<Span> pieces;
+    double from = span.from;
+    for (int k = 1; k < count; ++k) {
+      const auto seam = seams.nearest(span.from + (span.to - span.from) * k / count, span);
+      if (!seam || !(*seam - kLidGap > from)) break;
+      pieces.push_back({from, *seam - 0.5 * kLidGap});
+      from = *seam + 0.5 * kLidGap;
+    }
+    pieces.push_back({from, span.to});
+    if (static_cast<int>(pieces.size()) == count && std::all_of(pieces.begin(), pieces.end(), fits))
+      return pieces;
+  }
+  return {span};
+}
 
 bool TakenUp::is_free(double s, double half, const Span& within) const {
   if (s - half < within.from || s + half > within.to) return false;
@@ -204,7 +248,7 @@ void add_rims(const Fitting& fitting) {
       const double whole = bounds(part->pattern->region.outline).width();
       const double radius = 0.5 * clearance_hole(job.options.cover->bolt, HoleFit::medium);
       std::vector<Circle> holes;
-      for (const double s : cover_bolts(job, span)) {
+      for (const double s : rim_bolts(job, span)) {
         holes.push_back({{s, 0.5 * rim.width}, radius});
         const double at = whole - flat_from_end(job.track, span, top - 0.5 * rim.thickness, s);
         part->pattern->region.holes.push_back({{at, 0.5 * rim.width}, radius});
@@ -268,33 +312,43 @@ void add_channel_stiffeners(const Fitting& fitting) {
     add_part(fitting.workshop, std::move(piece), kFittingColour);
 }
 
-void add_covers(const Fitting& fitting) {
+namespace {
+
+/// One piece of a unit's cover, bolted to the rims.
+void add_cover(const Fitting& fitting, const Span& span, const std::string& name) {
   const Job& job = fitting.job;
-  if (!job.options.cover) return;
   const CoverOptions& cover = *job.options.cover;
   const RimOptions& rim = *job.options.rim;
   const double top = job.channel.wall_height;
   const double half = outside(job) + rim.width;
-  for (std::size_t i = 0; i < fitting.units.size(); ++i) {
-    const Span span = rim_room(job, fitting.units[i].span);
-    auto part = along_track(job, span, {top, top + cover.thickness}, 2.0 * half, {-half});
-    if (!part) continue;
-    part->thickness = cover.thickness;
-    part->name = "cover" + suffix(fitting, i);
-    const double whole = bounds(part->pattern->region.outline).width();
-    const double radius = 0.5 * clearance_hole(cover.bolt, HoleFit::coarse);
-    std::vector<Circle> holes;
-    for (const double s : cover_bolts(job, span)) {
-      const double at = whole - flat_from_end(job.track, span, top + 0.5 * cover.thickness, s);
-      for (const double y : {0.5 * rim.width, 2.0 * half - 0.5 * rim.width}) {
-        holes.push_back({{s, y}, radius});
-        part->pattern->region.holes.push_back({{at, y}, radius});
-      }
+  auto part = along_track(job, span, {top, top + cover.thickness}, 2.0 * half, {-half});
+  if (!part) return;
+  part->thickness = cover.thickness;
+  part->name = name;
+  const double whole = bounds(part->pattern->region.outline).width();
+  const double radius = 0.5 * clearance_hole(cover.bolt, HoleFit::coarse);
+  std::vector<Circle> holes;
+  for (const double s : cover_bolts(job, span)) {
+    const double at = whole - flat_from_end(job.track, span, top + 0.5 * cover.thickness, s);
+    for (const double y : {0.5 * rim.width, 2.0 * half - 0.5 * rim.width}) {
+      holes.push_back({{s, y}, radius});
+      part->pattern->region.holes.push_back({{at, y}, radius});
     }
-    const std::size_t bolts = holes.size();
-    drill_plate(job, span, top + cover.thickness, 2.0 * half, holes, *part);
-    add_part(fitting.workshop, *part, kFittingColour);
-    add_bolts(fitting.workshop, cover.bolt, rim.thickness + cover.thickness, bolts, "covers to rims");
+  }
+  const std::size_t bolts = holes.size();
+  drill_plate(job, span, top + cover.thickness, 2.0 * half, holes, *part);
+  add_part(fitting.workshop, *part, kFittingColour);
+  add_bolts(fitting.workshop, cover.bolt, rim.thickness + cover.thickness, bolts, "covers to rims");
+}
+
+}  // namespace
+
+void add_covers(const Fitting& fitting) {
+  if (!fitting.job.options.cover) return;
+  for (std::size_t i = 0; i < fitting.units.size(); ++i) {
+    const std::vector<Span> pieces = cover_pieces(fitting.job, rim_room(fitting.job, fitting.units[i].span));
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      add_cover(fitting, pieces[k], "cover" + suffix(fitting, i) + strip_letter(k, pieces.size()));
   }
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "parts/offset_line.hpp"
 #include "parts/plate_joints.hpp"
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -60,6 +62,12 @@ void drill_plate(const Job& job, const Span& span, double upper, double width,
 /// @return distance along a flat that develops an offset of the track, from its downstream end [m]
 /// @param height  of the neutral line above the floor line
 [[nodiscard]] double flat_from_end(const ArcSpline& track, const Span& span, double height, double s);
+
+/// A stretch in as few even pieces as fit, a gap between two of them; whole where no number of them does.
+/// @param seams  where pieces may end
+[[nodiscard]] std::vector<Span> pieces_that_fit(const Span& span, const OnOneArc& seams,
+                                                const std::function<bool(const Span&)>& fits);
+inline constexpr double kLidGap = 1e-3;  ///< between the pieces of a cover [m]
 
 /// Flat bars along the outsides of the walls' tops.
 void add_rims(const Fitting& fitting);

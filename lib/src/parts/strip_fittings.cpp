@@ -8,7 +8,9 @@
 #include "parts/fittings.hpp"
 #include "parts/offset_line.hpp"
 #include "parts/plate_checks.hpp"
+#include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
+#include "parts/seams.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -90,10 +92,24 @@ std::vector<double> cover_bolts(const StripJob& job, const Span& span, const Sec
   return places;
 }
 
+/// As the sheet and the heaviest part ask.
+std::vector<Span> cover_pieces(const StripJob& job, const Span& span, const SectionPlate& cover) {
+  if (!job.options.split.allowed) return {span};
+  const Span heights{cover.back_from.y, cover.face_from.y};
+  const OnOneArc seams(job.track, 0.5 * kLidGap, heights, job.widens() ? job.pieces() : std::vector<double>(),
+                       job.rooms_at_bends(heights));
+  return pieces_that_fit(span, seams, [&](const Span& piece) {
+    return !excess(job.options.split,
+                   set_plate(job, cover, job.options.cover->thickness, piece, job.options.material, {}));
+  });
+}
+
 /// Where rims and cover of a unit lie, and are bolted.
 struct Covered {
   Span span;
   std::vector<double> bolts;
+  std::vector<Span> pieces;                    ///< of the cover
+  std::vector<std::vector<double>> of_pieces;  ///< their bolts
 };
 
 /// How far out the tops of the sides stand at a place, beyond where they are narrowest.
@@ -103,10 +119,15 @@ double out_at(const StripJob& job, double s) {
 }
 
 Covered covered(const StripJob& job, const Span& unit, const std::vector<SectionPlate>& rims) {
-  if (!job.options.cover) return {room_of(job, unit, rims.front()), {}};
+  if (!job.options.cover) return {room_of(job, unit, rims.front()), {}, {}, {}};
   const SectionPlate cover = cover_on(rims, job.options.cover->thickness);
-  const Span span = room_of(job, unit, cover);
-  return {span, cover_bolts(job, span, cover)};
+  Covered all{room_of(job, unit, cover), {}, {}, {}};
+  all.pieces = cover_pieces(job, all.span, cover);
+  for (const Span& piece : all.pieces) {
+    all.of_pieces.push_back(cover_bolts(job, piece, cover));
+    all.bolts.insert(all.bolts.end(), all.of_pieces.back().begin(), all.of_pieces.back().end());
+  }
+  return all;
 }
 
 }  // namespace
@@ -238,17 +259,19 @@ void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Wo
   const double middle = 0.5 * job.options.rim->width;
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
     const Covered unit = covered(job, {joints[i], joints[i + 1]}, rims);
-    std::vector<Circle> holes;
-    for (const double s : unit.bolts) {
-      const double out = out_at(job, s);
-      for (const double y : {middle - out, width - middle + out})
-        holes.push_back({{s, y}, 0.5 * clearance_hole(options.bolt, HoleFit::coarse)});
+    for (std::size_t k = 0; k < unit.pieces.size(); ++k) {
+      std::vector<Circle> holes;
+      for (const double s : unit.of_pieces[k]) {
+        const double out = out_at(job, s);
+        for (const double y : {middle - out, width - middle + out})
+          holes.push_back({{s, y}, 0.5 * clearance_hole(options.bolt, HoleFit::coarse)});
+      }
+      ShopPart part = set_plate(job, cover, options.thickness, unit.pieces[k], job.options.material, holes);
+      part.name += suffix(joints, i) + strip_letter(k, unit.pieces.size());
+      add_part(workshop, std::move(part), kFittingColour);
+      add_bolts(workshop, options.bolt, job.options.rim->thickness + options.thickness, holes.size(),
+                "covers to rims");
     }
-    ShopPart part = set_plate(job, cover, options.thickness, unit.span, job.options.material, holes);
-    part.name += suffix(joints, i);
-    add_part(workshop, std::move(part), kFittingColour);
-    add_bolts(workshop, options.bolt, job.options.rim->thickness + options.thickness, holes.size(),
-              "covers to rims");
   }
 }
 
