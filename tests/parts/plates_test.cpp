@@ -340,6 +340,16 @@ TEST_CASE("plates: what cannot be made is refused with place, value and bound") 
         std::string::npos);
 }
 
+TEST_CASE("plates: units get as short as the heaviest part asks, be it floor or curb") {
+  PlateOptions options;
+  options.split.heaviest = 12.0;
+  const WorkshopBuild build = plates(chute(), options, {0.445, 0.14, 3e-3, 40e-3});
+  double heaviest = 0.0;
+  for (const ShopPart* const wall : named(build, "wall")) heaviest = std::max(heaviest, wall->mass);
+  CHECK(heaviest <= 12.0);
+  CHECK(heaviest > 9.0);
+}
+
 TEST_CASE("k factor: DIN 6935 at 1, 3 and 10 thicknesses") {
   CHECK(std::fabs(k_factor(4e-3, 4e-3) - 0.325) < 1e-12);
   CHECK(std::fabs(k_factor(12e-3, 4e-3) - 0.4443) < 1e-4);

@@ -185,6 +185,12 @@ std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
   return std::nullopt;
 }
 
+void keep_worse(std::optional<Excess> found, const std::string& part, std::optional<Excess>& worst) {
+  if (!found || (worst && !(found->times > worst->times))) return;
+  found->what = part + " " + found->what;
+  worst = std::move(found);
+}
+
 void split_until_it_fits(const SplitOptions& split, double length,
                          const std::function<std::optional<Excess>(std::size_t)>& make) {
   std::size_t count = 1;
@@ -230,19 +236,15 @@ std::vector<Unit> split_units(const Job& job, double largest_kink) {
   std::vector<Unit> units;
   split_until_it_fits(job.options.split, job.track.length(), [&](std::size_t count) {
     units = units_between(job, joints_of(job.track, job.options.split, count), largest_kink);
-    std::optional<Excess> found;
-    for (std::size_t i = 0; i < units.size() && !found; ++i) {
+    std::optional<Excess> worst;
+    for (std::size_t i = 0; i < units.size(); ++i) {
       const std::string number = " of unit " + std::to_string(i + 1);
-      for (const ShopPart& floor : floor_strips(job, units[i], i)) {
-        if (!found && (found = excess(job.options.split, floor)))
-          found->what = "the floor" + number + " " + found->what;
-      }
-      for (const WallStrip& wall : wall_strips(job, units[i])) {
-        if (!found && (found = excess(job.options.split, wall.part)))
-          found->what = "a wall" + number + " " + found->what;
-      }
+      for (const ShopPart& floor : floor_strips(job, units[i], i))
+        keep_worse(excess(job.options.split, floor), "the floor" + number, worst);
+      for (const WallStrip& wall : wall_strips(job, units[i]))
+        keep_worse(excess(job.options.split, wall.part), "a wall" + number, worst);
     }
-    return found;
+    return worst;
   });
   return units;
 }

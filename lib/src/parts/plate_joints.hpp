@@ -10,7 +10,7 @@
 
 namespace glissade::parts {
 
-/// Round a part on its sheet [m].
+/// Of one track.
 inline constexpr std::size_t kMostUnits = 400;
 
 /// Why a part cannot be had in one piece.
@@ -20,6 +20,9 @@ struct Excess {
   double times = 1.0;  ///< what may be, of a length or mass that shorter units make smaller
 };
 [[nodiscard]] std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part);
+/// Of what exceeds, the part that does so most: shorter units are judged by one measure.
+/// @param part  its name, put before what it takes
+void keep_worse(std::optional<Excess> found, const std::string& part, std::optional<Excess>& worst);
 
 /// Calls `make` with growing counts of units until no part exceeds what is allowed.
 /// @param make  units of a count: returns what exceeds, none if nothing does

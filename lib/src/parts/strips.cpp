@@ -199,12 +199,10 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
       works = works_between(job, build.joints);
       strips = strips_between(job, build.joints, works);
     }
-    for (const Strip& strip : strips) {
-      std::optional<Excess> found = excess(options.split, strip.part);
-      if (found) found->what = "the " + strip.part.name + " " + found->what;
-      if (found) return found;
-    }
-    return std::nullopt;
+    std::optional<Excess> worst;
+    for (const Strip& strip : strips)
+      keep_worse(excess(options.split, strip.part), "the " + strip.part.name, worst);
+    return worst;
   });
   // Usual frames get the gap that they need (frames_that_clear()).
   if (!bent && section.convex && options.flanges != FlangeOptions()) {
