@@ -237,6 +237,8 @@ double Rows::place(const State& state, const Row& row) const {
 std::vector<Row> Rows::candidates(const State& state, double band, Vector* values) const {
   std::vector<Row> near;
   std::vector<Row> rows;
+  near.reserve(track_.watched().size());
+  rows.reserve(2 * track_.watched().size());
   if (values != nullptr) values->clear();
   for (std::size_t i = 0; i < problem_.limits.size(); ++i) {
     const LimitSpec& limit = problem_.limits[i];

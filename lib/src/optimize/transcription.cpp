@@ -257,6 +257,8 @@ void Transcription::add_core() {
   breaks.insert(breaks.end(), mesh_.fine.begin(), mesh_.fine.end());
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  stations_.reserve(stations_.size() + (PanelRule::kNodes + 1) * (breaks.size() + 1));
+  panels_.reserve(panels_.size() + breaks.size() + 1);
   Stretch stretch;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     stretch.from = breaks[i];
