@@ -366,9 +366,7 @@ std::vector<Figure> figures_of(const Options& options, const Design& design,
 }
 
 void write_text(const std::string& file, const std::string& text) {
-  AtomicFile target(file);
-  target.write(text);
-  target.commit();
+  write_atomically(file, text);
 }
 
 void write_figures(const Options& options, const Design& design, const Comparison& comparison,

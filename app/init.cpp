@@ -50,9 +50,7 @@ std::string footer() {
 }
 
 void write(const std::filesystem::path& path, std::string_view text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
+  write_atomically(path, text);
 }
 
 std::string profile_note() {

@@ -144,9 +144,7 @@ ExitCode plot(const Options& options) {
   if (png) {
     write_png(file, svg);
   } else {
-    AtomicFile drawing(file);
-    drawing.write(svg);
-    drawing.commit();
+    write_atomically(file, svg);
   }
   return ExitCode::done;
 }

@@ -145,9 +145,7 @@ ExitCode merge_chunks(const Options& options) {
 }
 
 void write_whole(const fs::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
+  write_atomically(path, text);
 }
 
 /// The batch file for Slurm beside the rows that its tasks will write.

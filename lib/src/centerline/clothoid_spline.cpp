@@ -18,7 +18,7 @@ namespace {
 
 // Gauss-Legendre with this many points integrates the tangent of a piece that turns by kPieceTurning with an
 // error of some 1e-22 of its length: nothing but rounding is left.
-constexpr unsigned kGaussPoints = 10;
+constexpr unsigned kClothoidGaussPoints = 10;
 constexpr double kPieceTurning = 0.5;
 
 /// Neumaier's sum: thousands of segments must not pile up rounding.
@@ -50,10 +50,10 @@ Vec2 arc_displacement(double zeta, double kappa, double distance) {
 }
 
 Vec2 clothoid_displacement(double zeta, double kappa, double rate, double distance) {
-  using Rule = boost::math::quadrature::gauss<double, kGaussPoints>;
+  using Rule = boost::math::quadrature::gauss<double, kClothoidGaussPoints>;
   const double half = 0.5 * distance;
   const auto& abscissa = Rule::abscissa();
-  constexpr std::size_t kPairs = (kGaussPoints + 1) / 2;
+  constexpr std::size_t kPairs = (kClothoidGaussPoints + 1) / 2;
   std::array<double, 2 * kPairs> angle, sine, cosine;
   for (std::size_t i = 0; i < kPairs; ++i) {
     angle[2 * i] = slope_after(zeta, kappa, rate, half - half * abscissa[i]);

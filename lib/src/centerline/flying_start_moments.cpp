@@ -19,7 +19,7 @@ namespace {
 // Below it (of q^2 x^2) remainders of the sine come from their power series, above from their definition, which
 // loses less than a digit there.
 constexpr double kSeriesArgument = 4.0;
-constexpr std::size_t kSeriesTerms = 15;
+constexpr std::size_t kMomentTerms = 15;
 
 /// @return S(x) = sin(q x)/q
 double scaled_sine(double q2, double x) {
@@ -33,7 +33,7 @@ double scaled_sine(double q2, double x) {
 /// @return x^order sum of (-argument)^k order!/(order + 2 k)! over k, divided by order!
 double series_remainder(double argument, double power, int order) {
   double sum = 1.0;
-  for (std::size_t k = kSeriesTerms; k-- > 0;) {
+  for (std::size_t k = kMomentTerms; k-- > 0;) {
     const double n = order + 2.0 * static_cast<double>(k);
     sum = 1.0 - argument / ((n + 1.0) * (n + 2.0)) * sum;
   }

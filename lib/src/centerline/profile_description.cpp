@@ -25,8 +25,8 @@ constexpr std::array kLeastScatters = {2e-8, 2e-9};
 constexpr double kLeastScatterAtLast = 1e-9;
 // Steps of the fit that take less than this many variances of a point from the sum of squares do not tell whether
 // a number is worth its price, which is some five.
-constexpr double kSettled = 0.1;
-constexpr int kMostSteps = 40;
+constexpr double kPiecesSettled = 0.1;
+constexpr int kMostRounds = 40;
 constexpr int kFewSteps = 6;
 constexpr int kMostTrials = 40;
 // So many points, means of neighbours, decide what the pieces are; all of them, how long and how curved.
@@ -381,7 +381,7 @@ class Describer {
         places_(std::move(places)),
         fit_(points_, places_, cut),
         number_price_(math::log(static_cast<double>(points_.size()))) {
-    fit_.relax(kSettled * scatter * scatter, kMostSteps);
+    fit_.relax(kPiecesSettled * scatter * scatter, kMostRounds);
     const double spare =
         std::max(1.0, static_cast<double>(points_.size()) - static_cast<double>(fit_.freedom()));
     variance_ = std::max(scatter * scatter, fit_.square_sum() / spare);
@@ -400,7 +400,7 @@ class Describer {
         numbers += step.numbers;
       }
       PieceFit next(points_, places_, std::move(simpler));
-      next.relax(kSettled * variance_, kFewSteps);
+      next.relax(kPiecesSettled * variance_, kFewSteps);
       const double growth = next.square_sum() - fit_.square_sum();
       if (growth < numbers * number_price_ * variance_) {
         const bool renumbered = std::any_of(steps.begin(), steps.end(), [](const Simplification& step) {
@@ -440,7 +440,7 @@ class Describer {
       double least = score(fit_);
       for (PiecewiseProfile& way : ways) {
         PieceFit next(points_, places_, std::move(way));
-        next.relax(kSettled * variance_, kMostSteps);
+        next.relax(kPiecesSettled * variance_, kMostRounds);
         if (score(next) >= least) continue;
         least = score(next);
         best = std::move(next);
@@ -560,7 +560,7 @@ class Descriptions {
     describer.reshape();
     describer.simplify_all();
     PieceFit fit(points_, placed.places, describer.profile());
-    fit.relax(0.0, kMostSteps);
+    fit.relax(0.0, kMostRounds);
     if (best_ && score(fit) >= score(*best_)) return;
     best_ = std::move(fit);
   }

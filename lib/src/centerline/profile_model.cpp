@@ -14,7 +14,8 @@ namespace glissade::centerline {
 namespace {
 
 constexpr std::size_t kCoarseChords = 24;
-constexpr unsigned kGaussPoints = 7;  // of those that Boost has as a table: computed nodes vary by processor
+constexpr unsigned kModelGaussPoints =
+    7;  // of those that Boost has as a table: computed nodes vary by processor
 
 }  // namespace
 
@@ -105,7 +106,7 @@ double ProfileModel::slope_at(const Shape& shape, std::size_t interval, double l
 }
 
 ProfileModel::Local ProfileModel::local_at(const Shape& shape, std::size_t interval, double u) const {
-  using Rule = boost::math::quadrature::gauss<double, kGaussPoints>;
+  using Rule = boost::math::quadrature::gauss<double, kModelGaussPoints>;
   const double local = u - knots_[interval];
   const double half = 0.5 * local;
   Local sum;

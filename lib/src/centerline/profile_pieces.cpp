@@ -16,7 +16,7 @@ namespace glissade::centerline {
 namespace {
 
 // Of those that Boost has as a table: on a panel that turns by so much it is wrong by some 1e-21.
-constexpr unsigned kGaussPoints = 7;
+constexpr unsigned kPieceGaussPoints = 7;
 constexpr double kPanelTurning = 0.7;
 
 // Order of the unknowns in front of those of the pieces.
@@ -316,7 +316,7 @@ PieceFit::Ways PieceFit::ways_at(const ProfilePiece& piece, double t) {
 }
 
 PieceFit::Panel PieceFit::along(const ProfilePiece& piece, const Laid& laid, double distance) const {
-  using Rule = boost::math::quadrature::gauss<double, kGaussPoints>;
+  using Rule = boost::math::quadrature::gauss<double, kPieceGaussPoints>;
   const auto next = std::upper_bound(laid.panels.begin() + 1, laid.panels.end(), distance,
                                      [](double value, const Panel& panel) { return value < panel.from; });
   const Panel& panel = *std::prev(next);

@@ -16,12 +16,12 @@
 namespace glissade {
 namespace {
 
-constexpr unsigned kGaussPoints = 10;  // of those that Boost has as a table
+constexpr unsigned kTableGaussPoints = 10;  // of those that Boost has as a table
 
 /// Integral of density(p) * (cos, sin)(slope(p)) from a to b, in panels that turn little.
 template <typename Slope>
 Vec2 displacement(const Slope& slope, double a, double b, bool root, double turning) {
-  using Rule = boost::math::quadrature::gauss<double, kGaussPoints>;
+  using Rule = boost::math::quadrature::gauss<double, kTableGaussPoints>;
   constexpr double kPanelTurning = 0.5;
   constexpr double kMostPanels = 1000.0;
   const int panels = static_cast<int>(std::clamp(std::ceil(turning / kPanelTurning), 1.0, kMostPanels));

@@ -2,14 +2,15 @@
 
 #include "glissade/core/math.hpp"
 
+#include "core/float_limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace glissade::clearance {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kLeaf = 4;
+constexpr std::size_t kEdgesOfLeaf = 4;
 // Steps along a piece within an area at which its depth is measured.
 constexpr int kDepthSamples = 8;
 
@@ -104,7 +105,7 @@ void Region::add_edges(const std::vector<Vec2>& corners, bool closed) {
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) edges_.push_back({corners[i], corners[i + 1]});
   if (closed) edges_.push_back({corners.back(), corners.front()});
   std::size_t leaves = 1;
-  while (leaves * kLeaf < edges_.size()) leaves *= 2;
+  while (leaves * kEdgesOfLeaf < edges_.size()) leaves *= 2;
   boxes_.resize(2 * leaves);
   build_boxes(1, 0, edges_.size());
 }
@@ -158,7 +159,7 @@ void Region::build_boxes(std::size_t node, std::size_t begin, std::size_t end) {
     }
   }
   boxes_[node] = box;
-  if (end - begin <= kLeaf || 2 * node + 1 >= boxes_.size()) return;
+  if (end - begin <= kEdgesOfLeaf || 2 * node + 1 >= boxes_.size()) return;
   const std::size_t middle = begin + (end - begin) / 2;
   build_boxes(2 * node, begin, middle);
   build_boxes(2 * node + 1, middle, end);
@@ -170,7 +171,7 @@ void Region::search(std::size_t node, std::size_t begin, std::size_t end, std::s
     return math::hypot(std::max({box.low.x - around.high.x, 0.0, around.low.x - box.high.x}),
                        std::max({box.low.y - around.high.y, 0.0, around.low.y - box.high.y}));
   };
-  if (end - begin <= kLeaf || 2 * node + 1 >= boxes_.size()) {
+  if (end - begin <= kEdgesOfLeaf || 2 * node + 1 >= boxes_.size()) {
     for (std::size_t i = begin; i < end; ++i) {
       const Nearest here = between(shape, edges_[i].from, edges_[i].to);
       if (here.value < nearest.value) nearest = here;
@@ -208,7 +209,7 @@ void Region::meet(std::size_t node, std::size_t begin, std::size_t end, Vec2 fro
       std::min(from.y, to.y) > box.high.y || std::max(from.y, to.y) < box.low.y) {
     return;
   }
-  if (end - begin > kLeaf && 2 * node + 1 < boxes_.size()) {
+  if (end - begin > kEdgesOfLeaf && 2 * node + 1 < boxes_.size()) {
     const std::size_t middle = begin + (end - begin) / 2;
     meet(2 * node, begin, middle, from, to, found);
     meet(2 * node + 1, middle, end, from, to, found);

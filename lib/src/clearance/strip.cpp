@@ -3,6 +3,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/units.hpp"
 
+#include "core/float_limits.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,6 @@
 namespace glissade::clearance {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Halving ends here: a cell of a station's distance by 2^40 is a point.
 constexpr int kDeepest = 40;
 // Halvings that find the foot of a point on the track.

@@ -130,7 +130,7 @@ void read_friction_list(const Value& value, BodyDesign& body, Findings& findings
 }
 
 /// The keys of a kind of body, without those that every body has.
-class KeysOfKind {
+class BodyKeys {
  public:
   void resistance(const char* key, const char*) { keys_.emplace_back(key); }
   void length(const char* key, double, double, double, const char*, const char*) { keys_.emplace_back(key); }
@@ -144,7 +144,7 @@ class KeysOfKind {
 };
 
 std::vector<std::string_view> keys_of(const BodyKind& kind) {
-  KeysOfKind keys;
+  BodyKeys keys;
   std::visit([&](const auto& one) { one.visit(one, keys); }, kind);
   return keys.keys();
 }

@@ -82,7 +82,7 @@ class MeasureReader {
 };
 
 /// The keys of a kind, without those that only point elsewhere.
-class KeysOfKind {
+class SectionKeys {
  public:
   void width(const char* key, const WidthLaw&, const char*) { keys_.emplace_back(key); }
   void length(const char* key, double, const char*) { keys_.emplace_back(key); }
@@ -98,7 +98,7 @@ class KeysOfKind {
 };
 
 std::vector<std::string_view> keys_of(const section::Measures& measures) {
-  KeysOfKind keys;
+  SectionKeys keys;
   section::visit_measures(measures, keys);
   return keys.keys();
 }

@@ -46,7 +46,7 @@ Vec2 read_sheet(const Value& value, Findings& findings) {
   return as_point(value, findings).value_or(SplitOptions{}.sheet);
 }
 
-SplitOptions read_split(const Value& value, Findings& findings) {
+SplitOptions read_plate_split(const Value& value, Findings& findings) {
   MapReader map(value, "A split", "{longest: 3 m, sheet: [3 m, 1.5 m]}", findings);
   SplitOptions split;
   split.longest = map.quantity("longest", Dimension::length);
@@ -242,7 +242,7 @@ PlateOptions read_plate(MapReader& map, Findings& findings) {
       chosen<WallSeat>(map, "walls", plate.walls,
                        {{"beside-floor", WallSeat::beside_floor}, {"on-floor", WallSeat::on_floor}});
   if (const auto corners = map.find("corners")) plate.corners = read_corners(map, *corners, findings);
-  if (const auto split = map.find("split")) plate.split = read_split(*split, findings);
+  if (const auto split = map.find("split")) plate.split = read_plate_split(*split, findings);
   if (const auto flanges = map.find("flanges")) plate.flanges = read_flanges(*flanges, findings);
   plate.round = chosen<RoundMake>(
       map, "round", plate.round,

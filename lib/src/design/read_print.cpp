@@ -26,7 +26,7 @@ PrintBed read_bed(const Value& value, PrintBed bed, Findings& findings) {
   return bed;
 }
 
-PrintSplit read_split(const Value& value, Findings& findings) {
+PrintSplit read_print_split(const Value& value, Findings& findings) {
   MapReader map(value, "A split of a print", "{bed: [220 mm, 220 mm, 250 mm]}", findings);
   PrintSplit split;
   if (const auto bed = map.find("bed")) split.bed = read_bed(*bed, split.bed, findings);
@@ -84,7 +84,7 @@ StandOptions read_stands(const Value& value, Findings& findings) {
 
 PrintOptions read_print(MapReader& map, Findings& findings) {
   PrintOptions print;
-  if (const auto split = map.find("split")) print.split = read_split(*split, findings);
+  if (const auto split = map.find("split")) print.split = read_print_split(*split, findings);
   print.joint = chosen<PrintJoint>(
       map, "joint", print.joint,
       {{"dowels", PrintJoint::dowels}, {"tongue", PrintJoint::tongue}, {"dovetail", PrintJoint::dovetail}});

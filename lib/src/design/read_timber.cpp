@@ -75,7 +75,7 @@ LegOptions read_legs(const Value& value, Findings& findings) {
   return legs;
 }
 
-TimberSplit read_split(const Value& value, Findings& findings) {
+TimberSplit read_timber_split(const Value& value, Findings& findings) {
   MapReader map(value, "A split of timber", "{sheet: [2.5 m, 1.25 m], longest: 12 m}", findings);
   TimberSplit split;
   if (const auto sheet = map.find("sheet")) split.sheet = as_point(*sheet, findings).value_or(split.sheet);
@@ -99,7 +99,7 @@ TimberOptions read_timber(MapReader& map, Findings& findings) {
   if (const auto members = map.find("cross_members"))
     timber.cross_members = read_cross_members(*members, findings);
   if (const auto legs = map.find("legs")) timber.legs = read_legs(*legs, findings);
-  if (const auto split = map.find("split")) timber.split = read_split(*split, findings);
+  if (const auto split = map.find("split")) timber.split = read_timber_split(*split, findings);
   timber.fit = map.quantity("fit", Dimension::length).value_or(timber.fit);
   timber.joint_step = map.quantity("joint_step", Dimension::length).value_or(timber.joint_step);
   return timber;

@@ -2,6 +2,7 @@
 #include "glissade/drawing/workshop_drawings.hpp"
 
 #include "core/least_rectangle.hpp"
+#include "core/millimetres.hpp"
 #include "drawing/cut_pen.hpp"
 
 #include <optional>
@@ -11,7 +12,6 @@
 namespace glissade {
 namespace {
 
-constexpr double kMillimetres = 1000.0;  // in a metre
 /// Of the pattern's lower left corner: some viewers draw arcs wrongly that touch the edge of their page.
 constexpr double kCorner = 10.0;
 

@@ -1,13 +1,14 @@
 #include "drawing/cut_pen.hpp"
 
+#include "core/millimetres.hpp"
+
 #include <string>
 #include <utility>
 
 namespace glissade::drawing {
 namespace {
 
-constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr double kWidth = 0.25;          // of lines, on paper [mm]
+constexpr double kWidth = 0.25;  // of lines, on paper [mm]
 
 ArcPath line(Vec2 from, Vec2 to) {
   return {{{from}, {to}}, false};

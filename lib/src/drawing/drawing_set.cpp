@@ -21,7 +21,6 @@
 namespace glissade {
 namespace {
 
-using drawing::kMillimetres;
 using drawing::mm;
 using drawing::number_of;
 using drawing::Projection;

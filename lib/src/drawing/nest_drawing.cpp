@@ -4,6 +4,7 @@
 #include "glissade/core/units.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 
+#include "core/millimetres.hpp"
 #include "drawing/cut_pen.hpp"
 
 #include <algorithm>
@@ -16,11 +17,10 @@ namespace {
 using drawing::CutPen;
 using drawing::kGrey;
 
-constexpr double kMillimetres = 1000.0;  // in a metre
-constexpr double kBar = 100.0;           // [mm]
-constexpr double kTitle = 10.0;          // height of the sheet's title and its distance from the edge [mm]
-constexpr double kLargestLabel = 20.0;   // [mm]
-constexpr double kLeastLabel = 3.0;      // [mm]
+constexpr double kBar = 100.0;          // [mm]
+constexpr double kTitle = 10.0;         // height of the sheet's title and its distance from the edge [mm]
+constexpr double kLargestLabel = 20.0;  // [mm]
+constexpr double kLeastLabel = 3.0;     // [mm]
 
 /// A line of text in single strokes, its middle at a place.
 struct Label {

@@ -4,14 +4,14 @@
 #include "glissade/drawing/sheet.hpp"
 #include "glissade/parts/shop_part.hpp"
 
+#include "core/millimetres.hpp"
+
 #include <cmath>
 #include <string>
 #include <utility>
 
 /// What the sheets of a set say alike: lengths, numbers of parts, titles.
 namespace glissade::drawing {
-
-inline constexpr double kMillimetres = 1000.0;  // in a metre
 
 /// @return a length in millimetres, to a tenth; "-" of one that is not finite
 inline std::string mm(double metres) {

@@ -12,7 +12,7 @@ namespace {
 
 // What office printers leave white [mm].
 constexpr double kUnprinted = 8.0;
-constexpr double kBar = 100.0;
+constexpr double kScaleBar = 100.0;
 constexpr double kFoot = 14.0;           // room for the words below the picture
 constexpr double kKey = 7.0;             // height of the key to the tiles
 constexpr double kLongestPage = 5000.0;  // PDF pages have 14 400 pt at most, 5080 mm
@@ -23,10 +23,10 @@ void scale_bars(Drawing& drawing, Vec2 corner) {
   for (const bool level : {true, false}) {
     const Vec2 along = level ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0};
     const Vec2 aside = level ? Vec2{0.0, 1.0} : Vec2{1.0, 0.0};
-    drawing.line(thin, corner, corner + kBar * along);
+    drawing.line(thin, corner, corner + kScaleBar * along);
     for (int tick = 0; tick <= 10; ++tick) {
       const double size = tick % 5 == 0 ? 3.0 : 1.5;
-      const Vec2 foot = corner + (0.1 * kBar * tick) * along;
+      const Vec2 foot = corner + (0.1 * kScaleBar * tick) * along;
       drawing.line(thin, foot, foot + size * aside);
     }
   }
@@ -214,7 +214,7 @@ std::vector<Sheet> sheets_of(const TilePlan& plan, const Drawing& drawing, const
     sheet.views.push_back(foot_of(words, foot, frame.width()));
     if (plan.kept.size() > 1) {
       constexpr double kBesideBar = 10.0;
-      const Vec2 low = foot + Vec2{kBar + kBesideBar, 0.0};
+      const Vec2 low = foot + Vec2{kScaleBar + kBesideBar, 0.0};
       const PlaneBox room{low, {frame.high.x, low.y + kKey}};
       sheet.views.push_back(life_size(key_of(plan, drawing, tile, room), {}, {}));
     }
@@ -268,8 +268,8 @@ std::vector<Sheet> roll_template(const Drawing& drawing, const TitleBlock& title
   const TilePlan plan = plan_roll(drawing, *box, overlap_mm);
   const Vec2 foot{kRollEdge, kRollEdge};
   const Vec2 low = foot + Vec2{0.0, kRollFoot};
-  const Vec2 paper{std::max(plan.window.x, kBar + 20.0) + 2.0 * kRollEdge,
-                   std::max(plan.window.y, kBar) + 2.0 * kRollEdge + kRollFoot};
+  const Vec2 paper{std::max(plan.window.x, kScaleBar + 20.0) + 2.0 * kRollEdge,
+                   std::max(plan.window.y, kScaleBar) + 2.0 * kRollEdge + kRollFoot};
   return sheets_of(plan, drawing, title, paper, {low, low + plan.window}, foot);
 }
 

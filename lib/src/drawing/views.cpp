@@ -3,6 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 
+#include "core/millimetres.hpp"
 #include "parts/brep.hpp"
 
 #include <algorithm>
@@ -20,7 +21,6 @@ namespace glissade {
 namespace drawing {
 namespace {
 
-constexpr double kMillimetres = 1000.0;  // in a metre
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// An edge in space, placed.

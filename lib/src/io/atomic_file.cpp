@@ -211,4 +211,10 @@ void AtomicFile::commit() {
   state_->unfinished.reset();
 }
 
+void write_atomically(const std::filesystem::path& target, std::string_view bytes) {
+  AtomicFile file(target);
+  file.write(bytes);
+  file.commit();
+}
+
 }  // namespace glissade

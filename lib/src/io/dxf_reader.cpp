@@ -210,14 +210,14 @@ void read_tables(Groups& groups, Drawing& drawing) {
 }
 
 void read_header(Groups& groups) {
-  constexpr int kMillimetres = 4;
+  constexpr int kUnitIsMillimetre = 4;
   std::string_view variable;
   while (true) {
     const Group group = groups.next();
     if (group.code == 0 && Groups::trimmed(group.value) == "ENDSEC") return;
     if (group.code == 9) variable = Groups::trimmed(group.value);
     if (group.code == 70 && variable == "$INSUNITS" &&
-        static_cast<int>(groups.number(group)) != kMillimetres) {
+        static_cast<int>(groups.number(group)) != kUnitIsMillimetre) {
       throw groups.error(group.line, "$INSUNITS is " + std::string(Groups::trimmed(group.value)),
                          "Drawings are read in millimetres, 4.");
     }

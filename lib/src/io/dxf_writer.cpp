@@ -226,7 +226,7 @@ class DxfFile {
   }
 
   void header() {
-    constexpr int kMillimetres = 4;
+    constexpr int kUnitIsMillimetre = 4;
     const PlaneBox box = bounds(drawing_).value_or(PlaneBox{});
     // As many handles as entities and layers need: the seed lies above all of them.
     std::size_t handles =
@@ -237,7 +237,7 @@ class DxfFile {
     out_.group(1, r2000_ ? "AC1015" : "AC1009");
     out_.group(9, "$DWGCODEPAGE");
     out_.group(3, "ANSI_1252");
-    variable("$INSUNITS", 70, kMillimetres);
+    variable("$INSUNITS", 70, kUnitIsMillimetre);
     variable("$MEASUREMENT", 70, 1);
     out_.group(9, "$EXTMIN");
     out_.point3(10, box.low);
@@ -556,9 +556,7 @@ std::string dxf_text(const Drawing& drawing, const DxfOptions& options) {
 
 void write_dxf(const std::filesystem::path& file, const Drawing& drawing, const DxfOptions& options) {
   const std::string text = dxf_text(drawing, options);
-  AtomicFile output(file);
-  output.write(text);
-  output.commit();
+  write_atomically(file, text);
 }
 
 }  // namespace glissade

@@ -41,9 +41,7 @@ void write_gates_csv(const std::filesystem::path& file, const GateTable& table) 
     }
     text += "\n";
   }
-  AtomicFile out(file);
-  out.write(text);
-  out.commit();
+  write_atomically(file, text);
 }
 
 }  // namespace glissade

@@ -254,12 +254,6 @@ void require_success(cairo_status_t status) {
   throw InternalError({"cairo", cairo_status_to_string(status), "", ""});
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  AtomicFile output(file);
-  output.write(text);
-  output.commit();
-}
-
 }  // namespace
 
 std::string pdf_text(const std::vector<Sheet>& sheets, const std::string& title) {
@@ -310,11 +304,11 @@ std::string svg_text(const Sheet& sheet) {
 
 void write_pdf(const std::filesystem::path& file, const std::vector<Sheet>& sheets,
                const std::string& title) {
-  write_text(file, pdf_text(sheets, title));
+  write_atomically(file, pdf_text(sheets, title));
 }
 
 void write_svg(const std::filesystem::path& file, const Sheet& sheet) {
-  write_text(file, svg_text(sheet));
+  write_atomically(file, svg_text(sheet));
 }
 
 }  // namespace glissade

@@ -4,6 +4,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/step_file.hpp"
 
+#include "core/millimetres.hpp"
 #include "io/step_names.hpp"
 #include "parts/bores.hpp"
 #include "parts/brep.hpp"
@@ -27,8 +28,6 @@ using namespace io;
 using namespace parts;
 
 namespace {
-
-constexpr double kMillimetres = 1000.0;  // in a metre
 
 /// Number of an entity: "#12".
 using Id = std::uint32_t;
@@ -449,12 +448,6 @@ class StepFile {
   std::unordered_map<std::string, Id> styles_;
 };
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  AtomicFile output(file);
-  output.write(text);
-  output.commit();
-}
-
 }  // namespace
 
 std::string step_text(const ShopPart& part) {
@@ -476,11 +469,11 @@ std::string step_text(const Workshop& workshop) {
 }
 
 void write_step(const std::filesystem::path& file, const ShopPart& part) {
-  write_text(file, step_text(part));
+  write_atomically(file, step_text(part));
 }
 
 void write_step(const std::filesystem::path& file, const Workshop& workshop) {
-  write_text(file, step_text(workshop));
+  write_atomically(file, step_text(workshop));
 }
 
 }  // namespace glissade

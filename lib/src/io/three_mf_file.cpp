@@ -5,6 +5,7 @@
 #include "glissade/core/version.hpp"
 #include "glissade/io/atomic_file.hpp"
 
+#include "core/millimetres.hpp"
 #include "drawing/glyphs.hpp"
 #include "io/byte_source.hpp"
 #include "io/coordinates.hpp"
@@ -26,7 +27,6 @@ using namespace io;
 
 namespace {
 
-constexpr double kMillimetres = 1000.0;  // in a metre
 constexpr std::string_view kModelName = "3D/3dmodel.model";
 constexpr std::string_view kTypes =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -322,9 +322,7 @@ std::string three_mf_bytes(const std::vector<PrintPiece>& pieces, const std::str
 void write_three_mf(const std::filesystem::path& file, const std::vector<PrintPiece>& pieces,
                     const std::string& title) {
   const std::string bytes = three_mf_bytes(pieces, title);
-  AtomicFile output(file);
-  output.write(bytes);
-  output.commit();
+  write_atomically(file, bytes);
 }
 
 std::vector<PrintPiece> read_three_mf(const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 #include "glissade/parts/bend_hits.hpp"
 
 #include "core/least_rectangle.hpp"
+#include "core/millimetres.hpp"
 #include "parts/angle_bar.hpp"
 
 #include <algorithm>
@@ -18,8 +19,6 @@
 
 namespace glissade {
 namespace {
-
-constexpr double kMillimetres = 1000.0;  // in a metre
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;

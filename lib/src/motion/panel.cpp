@@ -2,14 +2,14 @@
 
 #include "glissade/core/math.hpp"
 
+#include "core/float_limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace glissade::motion {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // A law is continued below the squared speed at which it ends by this share of it.
 constexpr double kContinued = 0.25;

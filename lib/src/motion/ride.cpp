@@ -4,6 +4,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/float_limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,9 +16,6 @@
 
 namespace glissade::motion {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // A panel is fine enough when the last Chebyshev coefficients of push and pace are below this, relative to
 // their largest values; the terms left out are smaller again by orders of magnitude.

@@ -18,7 +18,7 @@ constexpr double kAbove = 2.0;  // theory: above 1
 constexpr double kFirstPrice = 10.0;   // taste
 constexpr double kHighestPrice = 1e3;  // taste
 // A violation below this is none.
-constexpr double kNone = 1e-12;  // rounding
+constexpr double kKept = 1e-12;  // rounding
 // Less is promised only at the end, ...
 constexpr double kSettled = 1e-13;  // rounding
 // ... or not worth the steps, where none of Newton's own does.
@@ -193,7 +193,7 @@ class ElasticDescent {
     Step step;
     step.is_solved = solution.status == QuadraticSolution::Status::solved;
     if (!step.is_solved) return step;
-    step.t = solution.step[n_] > kNone ? solution.step[n_] : 0.0;
+    step.t = solution.step[n_] > kKept ? solution.step[n_] : 0.0;
     step.z.assign(solution.step.begin(), solution.step.end() - 1);
     const double own = solution.step[n_] * solution.step[n_] * kOwnCurvature;
     step.length = std::sqrt(std::max(0.0, solution.length * solution.length - own));

@@ -5,6 +5,7 @@
 #include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
 
+#include "core/float_limits.hpp"
 #include "task/obstacles.hpp"
 
 #include <algorithm>
@@ -19,7 +20,6 @@ namespace {
 
 using WouldDo = std::function<bool(const LimitName&, double)>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kDirections = 2048;  // accuracy: 0.18 deg apart
 
 /// One end of the track, and the directions that it may have.

@@ -12,8 +12,6 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr std::size_t kNodes = PanelRule::kNodes;
-
 // What a second weighs beside a second of speed that is off by all of itself: enough for one optimum to be left.
 constexpr double kFasterOfTwo = 1e-3;  // taste
 

@@ -9,13 +9,6 @@
 #include <utility>
 
 namespace glissade::optimizer {
-namespace {
-
-constexpr std::size_t kNodes = PanelRule::kNodes;
-
-constexpr LocalRow kOfLength = {0.0, 0.0, 0.0, 0.0, 1.0};
-
-}  // namespace
 
 void Transcription::add_square(LocalMatrix& matrix, double factor, const LocalRow& a) {
   for (std::size_t i = 0; i < a.size(); ++i) {

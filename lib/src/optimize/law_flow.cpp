@@ -16,7 +16,6 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr std::size_t kNodes = PanelRule::kNodes;
 using NodeValues = std::array<double, kNodes>;
 using NodeMatrix = std::array<NodeValues, kNodes>;
 
@@ -187,8 +186,6 @@ Solved solve(const Ride& ride, const std::array<Place, kNodes>& places, const No
   for (std::size_t k = 0; k < kNodes; ++k) solved.slopes[k] = slope_at(ride, places[k], solved.v[k]);
   return solved;
 }
-
-constexpr LocalRow kOfLength = {0.0, 0.0, 0.0, 0.0, 1.0};
 
 void add_row(LocalRow& out, double factor, const LocalRow& a) {
   for (std::size_t j = 0; j < a.size(); ++j) out[j] += factor * a[j];

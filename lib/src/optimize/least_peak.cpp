@@ -24,7 +24,7 @@ constexpr std::size_t kFinerPieces = 32;  // taste
 constexpr std::size_t kFollowed = 2;      // budget: ends that finer meshes follow
 constexpr int kMostRounds = 4;            // budget
 constexpr double kKept = 1e-6;            // accuracy: ten times that of a limit
-constexpr double kNone = 1e-9;            // accuracy: a hundredth of that of a limit
+constexpr double kKeptTo = 1e-9;          // accuracy: a hundredth of that of a limit
 constexpr double kSame = 1e-4;            // of the peak: the accuracy of a least one
 // Below this share of the fastest track's peak the stream all but flies: nothing is won by less.
 constexpr double kAllButNone = 1e-3;  // taste
@@ -121,7 +121,7 @@ class LeastPeak {
       const Vector margins(problem->limits.size(), 0.0);
       Relaxed relaxed = least_violation(*problem, mesh, z, wear_alone(*problem), margins, control_);
       if (relaxed.found.violation > kKept) return std::nullopt;
-      const bool kept = relaxed.t <= kNone;
+      const bool kept = relaxed.t <= kKeptTo;
       if (!kept || bound <= hardly_any_ || control_.stop()) {
         const double peak = bound * (1.0 + std::max(0.0, relaxed.t));
         return End{way, problem, mesh, std::move(relaxed), bound, peak};

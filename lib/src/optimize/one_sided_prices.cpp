@@ -1,5 +1,6 @@
 #include "optimize/one_sided_prices.hpp"
 
+#include "core/float_limits.hpp"
 #include "optimize/programs.hpp"
 #include "optimize/quadratic_program.hpp"
 
@@ -13,7 +14,6 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A row this close to its bound may begin to bind; by so much bounds are moved, in scales.
 constexpr double kTight = 1e-6;  // accuracy: ten times that of a limit
 constexpr double kMoved = 1e-7;  // accuracy: that of a limit

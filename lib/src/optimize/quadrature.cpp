@@ -8,8 +8,6 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr std::size_t kNodes = PanelRule::kNodes;
-
 struct Legendre {
   std::array<double, kNodes + 2> value{};
 };

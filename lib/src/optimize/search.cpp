@@ -20,7 +20,7 @@ constexpr double kMultiplierAccuracy = 1e-15;  // rounding
 constexpr std::size_t kCoarse = 18;  // budget: a round of SLSQP costs the cube of rows and unknowns
 constexpr double kMayMatter = 0.05;  // taste
 // A step as short as this leads to no other rows than those.
-constexpr double kShortest = 0.01;  // taste
+constexpr double kShortestStep = 0.01;  // taste
 // ... those that a round without them broke by this much.
 constexpr double kBroken = 0.01;  // taste
 // Finer meshes than this are left to our own steps, ...
@@ -462,7 +462,7 @@ class Minimiser {
       add_scaled(z.data(), part, point_.solution.step.data(), n_);
       if (!track_->is_track(z)) continue;
       ++control_.evaluations;
-      Point next = linearised(rows_->state(z, true), point_.distance < kShortest ? kMayMatter : kBand);
+      Point next = linearised(rows_->state(z, true), point_.distance < kShortestStep ? kMayMatter : kBand);
       next.metric = point_.metric;
       set_solution(next, point_.next);
       if (!solved(next)) continue;

@@ -11,12 +11,6 @@
 #include <cmath>
 
 namespace glissade::optimizer {
-namespace {
-
-constexpr std::size_t kNodes = PanelRule::kNodes;
-
-}  // namespace
-
 void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   const PanelRule& rule = panel_rule();
   const std::size_t count = stations_.size();

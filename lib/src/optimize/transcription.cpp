@@ -12,8 +12,6 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr std::size_t kNodes = PanelRule::kNodes;
-
 // Panels grow at most by this factor in r, so that six nodes resolve the start from rest.
 constexpr double kPanelGrowth = 2.5;  // taste
 
@@ -257,7 +255,7 @@ void Transcription::add_core() {
   breaks.insert(breaks.end(), mesh_.fine.begin(), mesh_.fine.end());
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-  stations_.reserve(stations_.size() + (PanelRule::kNodes + 1) * (breaks.size() + 1));
+  stations_.reserve(stations_.size() + (kNodes + 1) * (breaks.size() + 1));
   panels_.reserve(panels_.size() + breaks.size() + 1);
   Stretch stretch;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {

@@ -135,6 +135,7 @@ inline constexpr std::size_t kZeta = 1;
 inline constexpr std::size_t kFirst = 2;
 inline constexpr std::size_t kSecond = 3;
 inline constexpr std::size_t kLength = 4;
+inline constexpr LocalRow kOfLength = {0.0, 0.0, 0.0, 0.0, 1.0};
 
 /// The derivatives of a quantity at every station.
 struct Derivatives {

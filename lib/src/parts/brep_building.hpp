@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/vec.hpp"
 
+#include "core/millimetres.hpp"
 #include "parts/brep.hpp"
 
 #include <array>
@@ -13,7 +14,6 @@ namespace glissade::parts {
 
 /// Vertices, edges and faces of solids in the making. Millimetres.
 
-inline constexpr double kMillimetres = 1000.0;  // in a metre
 inline constexpr Vec3 kUp{0.0, 0.0, 1.0};
 inline constexpr Vec3 kDown{0.0, 0.0, -1.0};
 inline constexpr Vec3 kAcross{1.0, 0.0, 0.0};

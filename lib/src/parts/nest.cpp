@@ -6,6 +6,7 @@
 #include "glissade/core/units.hpp"
 
 #include "core/least_rectangle.hpp"
+#include "core/millimetres.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,6 @@
 namespace glissade {
 namespace {
 
-constexpr double kMillimetres = 1000.0;  // in a metre
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of chords that stand for arcs where columns are measured; spacing is widened by as much.
 constexpr double kSagitta = 2e-5;

@@ -132,9 +132,7 @@ void write_coordinates_csv(const std::filesystem::path& file, const std::vector<
     for (const Vec3& at : station.parallels) add(at);
     text += "\n";
   }
-  AtomicFile out(file);
-  out.write(text);
-  out.commit();
+  write_atomically(file, text);
 }
 
 }  // namespace glissade

@@ -4,6 +4,8 @@
 #include "glissade/pipeline/profile_drawing.hpp"
 #include "glissade/section/cross_section.hpp"
 
+#include "core/millimetres.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <variant>
@@ -11,9 +13,8 @@
 namespace glissade {
 namespace {
 
-constexpr double kMillimetres = 1000.0;
 /// What the text of a DXF is sized for: a bed of some metres on an A3 sheet.
-constexpr double kTextScale = 10.0;
+constexpr double kLettersPerSection = 10.0;
 
 /// The section's x counts to the left of a body that looks towards the finish; on paper left is left.
 Vec2 on_paper(Vec2 point) {
@@ -71,7 +72,7 @@ std::optional<Drawing> cross_section_drawing(const Design& design) {
   const CrossSection section = CrossSection(*design.cross_section).at(0.0);
   Drawing drawing;
   drawing.name = design.name;
-  drawing.text_scale = kTextScale;
+  drawing.text_scale = kLettersPerSection;
   const std::size_t outline = drawing.layer({"outline", LineStyle::continuous, 0.5, 7});
   Vec2 low{0.0, section.lowest()};
   Vec2 high{0.0, section.highest()};

@@ -10,6 +10,7 @@
 #include "glissade/report/report.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
+#include "core/millimetres.hpp"
 #include "pipeline/cross_section.hpp"
 #include "pipeline/report.hpp"
 
@@ -23,7 +24,6 @@
 namespace glissade::pipeline {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 constexpr int kGrey = 254;
 constexpr int kBlue = 5;
 constexpr int kBlack = 7;

@@ -92,9 +92,7 @@ std::vector<TabulatedPoint> faithful_table(const Track& track) {
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
-  AtomicFile target(file);
-  target.write(text);
-  target.commit();
+  write_atomically(file, text);
 }
 
 }  // namespace

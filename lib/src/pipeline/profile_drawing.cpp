@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/pipeline/rules.hpp"
 
+#include "core/millimetres.hpp"
 #include "pipeline/letters.hpp"
 
 #include <algorithm>
@@ -20,7 +21,6 @@ using namespace pipeline;
 
 namespace {
 
-constexpr double kMillimetres = 1000.0;
 /// What the text of a DXF is sized for: a section of 100 m on an A3 sheet.
 constexpr double kTextScale = 250.0;
 

@@ -168,9 +168,7 @@ void write_verdicts_csv(const std::filesystem::path& file, const std::vector<Jud
             std::string(word(rule.certainty)) + "," + (needs_checking(rule.certainty) ? "true" : "false") +
             "," + quoted(judgement.reason) + "\n";
   }
-  AtomicFile target(file);
-  target.write(text);
-  target.commit();
+  write_atomically(file, text);
 }
 
 }  // namespace glissade

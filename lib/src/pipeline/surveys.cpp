@@ -6,6 +6,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/csv_columns.hpp"
 
+#include "core/millimetres.hpp"
 #include "report/serial/vocabulary.hpp"
 
 #include <algorithm>
@@ -48,9 +49,7 @@ void write_survey_csv(const std::filesystem::path& file, const Survey& survey) {
     }
     text += "\n";
   }
-  AtomicFile out(file);
-  out.write(text);
-  out.commit();
+  write_atomically(file, text);
 }
 
 namespace {
@@ -78,7 +77,6 @@ FigureLine speed_line(const std::string& name, const Motion& motion, double from
 std::vector<Figure> survey_figures(const Track& track, const Survey& survey, const SurveyRides& rides,
                                    const SurveyOptions& options) {
   const double length = track.centerline->length();
-  constexpr double kMillimetres = 1e3;
   Figure deviation{"Deviation square to the profile", "arc length [m]", "deviation [mm]", {}, {}, false};
   Figure slope{"Slope angle as built less designed", "arc length [m]", "deviation [deg]", {}, {}, false};
   FigureLine points{"points", {}, {}, false};

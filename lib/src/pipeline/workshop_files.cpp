@@ -28,12 +28,6 @@ namespace fs = std::filesystem;
 
 constexpr double kSmallFile = 0.02;  // of what a mesh file costs
 
-void write_text(const fs::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 void require_same_text(const fs::path& path, const std::string& text) {
   std::ifstream stream(path, std::ios::binary);
   const std::string found{std::istreambuf_iterator<char>(stream), {}};
@@ -49,7 +43,7 @@ PendingFile table(std::string name, std::string text) {
   PendingFile file;
   file.name = std::move(name);
   file.cost = kSmallFile;
-  file.write = [shared](const fs::path& path, const std::stop_token&) { write_text(path, *shared); };
+  file.write = [shared](const fs::path& path, const std::stop_token&) { write_atomically(path, *shared); };
   file.read_back = [shared](const fs::path& path, const std::stop_token&) {
     require_same_text(path, *shared);
   };
@@ -89,7 +83,7 @@ PendingFile pdf_of(std::string name, const std::shared_ptr<const WorkshopBuild>&
   const auto text = std::make_shared<std::string>();
   file.write = [build, text, sheets_of = std::move(sheets_of)](const fs::path& path, const std::stop_token&) {
     *text = pdf_text(sheets_of(build->workshop), build->workshop.name);
-    write_text(path, *text);
+    write_atomically(path, *text);
   };
   file.read_back = [text](const fs::path& path, const std::stop_token&) { require_same_text(path, *text); };
   return file;

@@ -61,9 +61,7 @@ void write_png(const std::filesystem::path& file, const std::string& svg, double
   if (cairo_surface_write_to_png_stream(surface.get(), append, &png) != CAIRO_STATUS_SUCCESS) {
     throw InternalError({"", "the picture could not be encoded", "", ""});
   }
-  AtomicFile target(file);
-  target.write(png);
-  target.commit();
+  write_atomically(file, png);
 }
 
 }  // namespace glissade

@@ -9,7 +9,7 @@ namespace glissade::solid {
 namespace {
 
 // Fewer facets in a leaf are not worth a box of their own.
-constexpr std::size_t kLeaf = 4;
+constexpr std::size_t kFacetsOfLeaf = 4;
 // Whether facets lean is judged by so many of them, spread evenly. One does if the box along its own edges has
 // less than this share of the surface of that along the coordinates; leaning boxes pay if more than the other
 // share of the facets do.
@@ -255,7 +255,7 @@ FacetBoxes::FacetBoxes(const std::vector<Vec3>& positions, const std::vector<Fac
   }
 
   std::size_t leaves = 1;
-  while (leaves * kLeaf < facets.size()) leaves *= 2;
+  while (leaves * kFacetsOfLeaf < facets.size()) leaves *= 2;
   nodes_.resize(2 * leaves);
   arrange(items, 1, 0, items.size(), pause);
   facets_.reserve(items.size());

@@ -3,6 +3,7 @@
 #include "glissade/core/stop.hpp"
 #include "glissade/core/units.hpp"
 
+#include "core/float_limits.hpp"
 #include "core/plane_geometry.hpp"
 
 #include <algorithm>
@@ -16,7 +17,6 @@
 namespace glissade::solid {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLeaf = 8;
 // Whether the work is to end is asked once in so many stations.
 constexpr std::size_t kStationsBetweenPauses = 256;

@@ -2,6 +2,8 @@
 
 #include "glissade/core/stop.hpp"
 
+#include "core/float_limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +16,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 Point to_point(Vec3 p) {
   return {p.x, p.y, p.z};

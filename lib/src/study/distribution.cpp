@@ -5,6 +5,7 @@
 #include "glissade/study/plan.hpp"
 
 #include "study/sobol.hpp"
+#include "study/trimmed.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,12 +39,6 @@ constexpr std::array<KindWords, 5> kKinds = {{
 const KindWords& words_of(DistributionKind kind) {
   return *std::find_if(kKinds.begin(), kKinds.end(),
                        [&](const KindWords& words) { return words.kind == kind; });
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t") + 1 - from);
 }
 
 [[noreturn]] void refuse(std::string_view name, std::string what, std::string why, std::string hint) {

@@ -87,9 +87,7 @@ std::string differences(const std::string& there, const std::string& here) {
 bool create_exclusively(const fs::path& target, const std::string& text) {
   const fs::path written =
       target.parent_path() / (".manifest-" + std::to_string(std::random_device{}()) + ".part");
-  AtomicFile file(written);
-  file.write(text);
-  file.commit();
+  write_atomically(written, text);
   std::error_code error;
   fs::create_hard_link(written, target, error);
   std::error_code ignored;
@@ -97,9 +95,7 @@ bool create_exclusively(const fs::path& target, const std::string& text) {
   if (!error) return true;
   if (fs::exists(target)) return false;
   // A file system without links: the last resort is to rename.
-  AtomicFile renamed(target);
-  renamed.write(text);
-  renamed.commit();
+  write_atomically(target, text);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "study/table_file.hpp"
+#include "study/trimmed.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -15,12 +16,6 @@
 
 namespace glissade::study {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t") + 1 - from);
-}
 
 struct KeyAndRest {
   std::string key;

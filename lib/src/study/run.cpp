@@ -140,9 +140,7 @@ RunReport run(const Study& study, const RunOptions& options) {
     std::string text;
     arena.execute([&] { text = chunk_text(evaluation, study.plan, chunk, options.stop, row_done); });
     if (options.stop.stop_requested()) throw_interrupted(options.directory);
-    AtomicFile file(chunk_path(options.directory, chunk));
-    file.write(text);
-    file.commit();
+    write_atomically(chunk_path(options.directory, chunk), text);
     ++report.chunks_computed;
   }
   report.complete = Results::open(options.directory).missing().empty();

@@ -3,6 +3,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/report/report.hpp"
 
+#include "study/trimmed.hpp"
+
 #include <cstdint>
 #include <fstream>
 #include <system_error>
@@ -15,12 +17,6 @@ constexpr std::uintmax_t kLargestTable = std::uintmax_t{256} << 20U;
 
 bool is_blank(char letter) {
   return letter == ' ' || letter == '\t' || letter == '\r';
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t from = text.find_first_not_of(" \t\r");
-  if (from == std::string::npos) return "";
-  return text.substr(from, text.find_last_not_of(" \t\r") + 1 - from);
 }
 
 void require_readable(const std::filesystem::path& file) {
@@ -60,7 +56,7 @@ std::vector<std::string> cells_of(std::string_view line) {
   }
   if (quoted) throw InputError({"", "a quotation mark is not closed", "", ""});
   for (std::string& cell : cells) {
-    if (!cell.empty() && (is_blank(cell.front()) || is_blank(cell.back()))) cell = trimmed(cell);
+    if (!cell.empty() && (is_blank(cell.front()) || is_blank(cell.back()))) cell = std::string(trimmed(cell));
   }
   return cells;
 }
@@ -85,12 +81,12 @@ TableFile read_table(const std::filesystem::path& file) {
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
-    const std::string content = trimmed(line);
+    const std::string_view content = trimmed(line);
     if (content.empty() || content.front() == '#') continue;
     table.lines.push_back(number);
     std::vector<std::string> cells;
     try {
-      cells = cells_of(content);
+      cells = cells_of(std::string(content));
     } catch (const InputError& error) {
       Issue issue = error.issues().front();
       issue.where = table.place(table.lines.size() - 1);

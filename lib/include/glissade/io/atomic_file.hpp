@@ -47,4 +47,8 @@ class AtomicFile {
   std::unique_ptr<State> state_;
 };
 
+/// A whole file at a time: created, written and renamed, or nothing of it.
+/// @throws FileError as AtomicFile does
+void write_atomically(const std::filesystem::path& target, std::string_view bytes);
+
 }  // namespace glissade
