@@ -6,8 +6,9 @@
 
 #include "parts/angle_bar.hpp"
 #include "parts/angle_frames.hpp"
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
 #include "parts/body_mesh.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/bolt_faults.hpp"
 #include "parts/bolts.hpp"
 #include "parts/brep_faults.hpp"

@@ -5,7 +5,8 @@
 #include "glissade/parts/bend_hits.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
+#include "parts/body_edges.hpp"
 #include "parts/body_mesh.hpp"
 #include "parts/bores.hpp"
 #include "parts/brep_faults.hpp"

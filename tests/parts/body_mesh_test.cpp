@@ -3,7 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "support/catch.hpp"
 #include "support/shop_parts.hpp"
 

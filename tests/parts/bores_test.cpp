@@ -7,8 +7,10 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
+#include "parts/body_edges.hpp"
 #include "parts/body_mesh.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"

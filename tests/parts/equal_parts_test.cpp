@@ -6,7 +6,9 @@
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
+#include "parts/body_edges.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

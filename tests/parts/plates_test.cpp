@@ -7,8 +7,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
-#include "parts/body_geometry.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/clash.hpp"
 #include "parts/facets.hpp"
 #include "parts/offset_line.hpp"
 #include "parts/random_tracks.hpp"

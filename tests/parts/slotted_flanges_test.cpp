@@ -3,7 +3,6 @@
 #include "glissade/core/slot.hpp"
 #include "glissade/parts/plates.hpp"
 
-#include "parts/body_geometry.hpp"
 #include "parts/bolt_faults.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"

@@ -7,7 +7,8 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/section/cross_section.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"

@@ -9,7 +9,8 @@
 #include "glissade/parts/timber.hpp"
 #include "glissade/section/cross_section.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/refusals.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -9,8 +9,8 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_geometry.hpp"
 #include "parts/body_mesh.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"

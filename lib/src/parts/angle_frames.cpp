@@ -4,7 +4,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/angle_bar.hpp"
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/frame_holes.hpp"
 #include "parts/plate_section.hpp"

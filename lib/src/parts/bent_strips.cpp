@@ -5,7 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "core/plane_geometry.hpp"
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/shop_facts.hpp"

@@ -3,7 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_places.hpp"
 #include "parts/bores.hpp"
 #include "parts/tube_windows.hpp"
 #include "solid/cap_triangulation.hpp"

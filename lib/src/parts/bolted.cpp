@@ -6,7 +6,7 @@
 #include "glissade/core/slot.hpp"
 
 #include "parts/angle_bar.hpp"
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
 #include "parts/bolts.hpp"
 #include "parts/bores.hpp"
 #include "parts/equal_parts.hpp"

@@ -4,7 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_places.hpp"
 #include "parts/bores.hpp"
 #include "parts/brep_building.hpp"
 

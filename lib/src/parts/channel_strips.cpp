@@ -1,6 +1,6 @@
 #include "parts/channel_strips.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"

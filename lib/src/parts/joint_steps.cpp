@@ -2,7 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_depth.hpp"
 #include "parts/bolts.hpp"
 #include "parts/equal_parts.hpp"
 #include "parts/frame_holes.hpp"

@@ -1,6 +1,6 @@
 #include "parts/placed_piece.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_edges.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -7,10 +7,10 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
 #include "parts/bolted.hpp"
 #include "parts/bores.hpp"
 #include "parts/channel_strips.hpp"
+#include "parts/clash.hpp"
 #include "parts/corners.hpp"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "glissade/core/math.hpp"
 
 #include "core/least_rectangle.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/frame_holes.hpp"

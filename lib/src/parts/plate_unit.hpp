@@ -3,7 +3,6 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/parts/shop_part.hpp"
 
-#include "parts/body_geometry.hpp"
 #include "parts/facets.hpp"
 #include "parts/offset_line.hpp"
 

@@ -4,7 +4,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/slot.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "glissade/core/math.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_places.hpp"
 
 #include <algorithm>
 #include <array>

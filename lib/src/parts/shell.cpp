@@ -2,7 +2,7 @@
 
 #include "glissade/core/math.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/nearest_place.hpp"
 #include "parts/plate_unit.hpp"
 

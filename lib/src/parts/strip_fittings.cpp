@@ -3,7 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
 #include "parts/offset_line.hpp"

@@ -5,7 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/angle_frames.hpp"
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/frame_holes.hpp"
 #include "parts/frame_room.hpp"
 #include "parts/plate_unit.hpp"

@@ -4,9 +4,9 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
 #include "parts/bolted.hpp"
 #include "parts/bores.hpp"
+#include "parts/clash.hpp"
 #include "parts/plate_proof.hpp"
 #include "parts/section_corners.hpp"
 #include "parts/strip_sheet.hpp"

@@ -2,7 +2,8 @@
 
 #include "glissade/core/math.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
+#include "parts/body_places.hpp"
 #include "parts/offset_line.hpp"
 #include "parts/plate_unit.hpp"
 

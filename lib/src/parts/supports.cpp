@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/ground.hpp"
 #include "parts/plate_joints.hpp"

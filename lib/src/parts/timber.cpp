@@ -5,8 +5,9 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/as_built.hpp"
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/calm_joints.hpp"
+#include "parts/clash.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/setting_out.hpp"

@@ -1,6 +1,6 @@
 #include "parts/timber_braces.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/plate_unit.hpp"
 
 #include <algorithm>

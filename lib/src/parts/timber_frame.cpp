@@ -6,7 +6,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/calm_joints.hpp"
 #include "parts/ground.hpp"
 #include "parts/plate_joints.hpp"

@@ -3,7 +3,6 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/bores.hpp"
 #include "parts/fittings.hpp"

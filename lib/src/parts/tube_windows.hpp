@@ -2,7 +2,7 @@
 
 #include "glissade/parts/shop_part.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/bores.hpp"
 
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/equal_parts.hpp"
 

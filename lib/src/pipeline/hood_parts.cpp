@@ -5,7 +5,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
-#include "parts/body_geometry.hpp"
+#include "parts/clash.hpp"
 #include "parts/workshop_list.hpp"
 #include "pipeline/hood.hpp"
 
