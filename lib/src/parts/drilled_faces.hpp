@@ -1,0 +1,24 @@
+#pragma once
+
+#include "parts/bores.hpp"
+#include "parts/mesh_chords.hpp"
+
+#include <array>
+#include <vector>
+
+namespace glissade::parts {
+
+/// Holes through plates that are flat between two chords.
+
+/// @return the holes whose middles lie between two places along a path, and between two across
+/// @param bores  of the holes, one each
+[[nodiscard]] std::vector<const Bore*> between(const std::vector<Circle>& holes,
+                                               const std::vector<Bore>& bores, double from, double to,
+                                               Vec2 rows = {-1e300, 1e300});
+
+/// Adds both faces of a plate between two chords with the holes between them, and the walls of the holes.
+/// @param face,back  corners, counter-clockwise seen from outside; holes go in at the face
+void add_drilled(TriangleMesh& mesh, const std::array<Index, 4>& face, const std::array<Index, 4>& back,
+                 const std::vector<const Bore*>& bores, const Fineness& fineness);
+
+}  // namespace glissade::parts

@@ -1,0 +1,214 @@
+#include "parts/path_mesh.hpp"
+
+#include "parts/body_places.hpp"
+#include "parts/drilled_faces.hpp"
+#include "solid/cap_triangulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace glissade::parts {
+namespace {
+
+struct PathFrame {
+  Vec2 at;
+  Vec2 left;
+  std::size_t piece = 0;
+  double share = 0.0;  ///< of the piece
+};
+
+PathFrame frame_on(const PathPiece& piece, double share) {
+  const Vec2 along = tangent_at(piece, share);
+  return {point_on(piece, share), {-along.y, along.x}, 0, share};
+}
+
+std::vector<PathFrame> frames_along(const ArcPath& path, const ChordEnds& ends) {
+  std::vector<PathFrame> frames;
+  const std::vector<PathPiece> pieces = pieces_of(path);
+  const std::vector<double>& starts = ends.starts();
+  std::size_t p = 0;
+  for (const double place : ends.places()) {
+    // A joint belongs to the piece before it.
+    while (p + 1 < pieces.size() && place > starts[p + 1]) ++p;
+    const double share = std::clamp((place - starts[p]) / (starts[p + 1] - starts[p]), 0.0, 1.0);
+    frames.push_back(frame_on(pieces[p], place == starts[p + 1] ? 1.0 : share));
+    frames.back().piece = p;
+  }
+  return frames;
+}
+
+/// A grid on a sheet: all places along it at which an edge, a joint or a chord ends, and all across; and which of its cells
+/// are of the sheet.
+struct SheetGrid {
+  std::vector<double> along;
+  std::vector<double> across;
+  std::vector<Vec2> points;  ///< of the path at the places along
+  std::vector<Vec2> lefts;
+
+  [[nodiscard]] std::size_t cells() const { return across.size() - 1; }
+};
+
+constexpr double kSamePlace = 1e-9;  // along a sheet [m]
+
+SheetGrid grid_of(const RolledSheet& sheet, const Fineness& fineness) {
+  SheetGrid grid;
+  const std::vector<PathPiece> pieces = pieces_of(sheet.path);
+  double reach = 0.0;
+  for (const PathVertex& vertex : sheet.region.outline.vertices) {
+    for (const bool upper : {true, false})
+      reach = std::max(reach, std::fabs(sheet_place(sheet, vertex.at.y, upper).x));
+  }
+  ChordEnds ends(pieces, reach, fineness);
+  ends.leave_out(sheet.region.holes, bores_of(sheet));
+  const std::vector<double>& starts = ends.starts();
+  grid.along = ends.places();
+  for (std::size_t l = 0; l <= sheet.region.cutouts.size(); ++l) {
+    const ArcPath& loop = l == 0 ? sheet.region.outline : sheet.region.cutouts[l - 1];
+    for (const PathVertex& vertex : loop.vertices) {
+      grid.along.push_back(std::clamp(vertex.at.x, 0.0, starts.back()));
+      grid.across.push_back(vertex.at.y);
+    }
+  }
+  sort_apart(grid.along);
+  sort_apart(grid.across);
+  const std::vector<double> mitres = mitres_of(sheet);
+  for (const double x : grid.along) {
+    std::size_t i = 0;
+    while (i + 1 < pieces.size() && x > starts[i + 1]) ++i;
+    const PathFrame frame = frame_on(pieces[i], std::clamp((x - starts[i]) / length(pieces[i]), 0.0, 1.0));
+    grid.points.push_back(frame.at);
+    grid.lefts.push_back(frame.left);
+    const Vec2 along{frame.left.y, -frame.left.x};
+    for (const std::size_t joint : {i, i + 1}) {
+      if (mitres[joint] == 0.0 || std::fabs(x - starts[joint]) >= kSamePlace) continue;
+      grid.lefts.back() = frame.left + (joint == i ? 1.0 : -1.0) * mitres[joint] * along;
+    }
+  }
+  return grid;
+}
+
+class SheetMesh {
+ public:
+  SheetMesh(const RolledSheet& sheet, const Fineness& fineness)
+      : sheet_(sheet), fineness_(fineness), grid_(grid_of(sheet, fineness)), bores_(bores_of(sheet)) {}
+
+  TriangleMesh whole() {
+    for (std::size_t i = 0; i + 1 < grid_.along.size(); ++i) {
+      for (std::size_t j = 0; j < grid_.cells(); ++j) {
+        if (filled(i, j)) add_cell(i, j);
+      }
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  [[nodiscard]] bool filled(std::size_t i, std::size_t j) const {
+    if (i + 1 >= grid_.along.size() || j >= grid_.cells()) return false;
+    const Vec2 middle{0.5 * (grid_.along[i] + grid_.along[i + 1]),
+                      0.5 * (grid_.across[j] + grid_.across[j + 1])};
+    if (!contains(sheet_.region.outline, middle)) return false;
+    return std::none_of(sheet_.region.cutouts.begin(), sheet_.region.cutouts.end(),
+                        [&](const ArcPath& cutout) { return contains(cutout, middle); });
+  }
+
+  Index vertex(std::size_t i, std::size_t j, bool upper) {
+    const auto [entry, fresh] = vertices_.try_emplace({i, j, upper ? 1U : 0U}, count_of(mesh_));
+    if (fresh) {
+      const Vec2 place = sheet_place(sheet_, grid_.across[j], upper);
+      const Vec2 at = grid_.points[i] + place.x * grid_.lefts[i];
+      mesh_.vertices.push_back({at.x, at.y, place.y});
+    }
+    return entry->second;
+  }
+
+  /// A side below an edge of the upper face that has the sheet on its left, seen from below.
+  void add_side(std::size_t i, std::size_t j, std::size_t to_i, std::size_t to_j) {
+    add_quad(mesh_, vertex(i, j, true), vertex(to_i, to_j, true), vertex(to_i, to_j, false),
+             vertex(i, j, false));
+  }
+
+  void add_cell(std::size_t i, std::size_t j) {
+    const std::array<Index, 4> lower = {vertex(i, j, false), vertex(i + 1, j, false),
+                                        vertex(i + 1, j + 1, false), vertex(i, j + 1, false)};
+    const std::array<Index, 4> upper = {vertex(i, j + 1, true), vertex(i + 1, j + 1, true),
+                                        vertex(i + 1, j, true), vertex(i, j, true)};
+    const std::vector<const Bore*> holes =
+        between(sheet_.region.holes, bores_, grid_.along[i], grid_.along[i + 1],
+                {grid_.across[j], grid_.across[j + 1]});
+    if (holes.empty()) {
+      add_quad(mesh_, lower[0], lower[1], lower[2], lower[3]);
+      add_quad(mesh_, upper[0], upper[1], upper[2], upper[3]);
+    } else {
+      add_drilled(mesh_, upper, lower, holes, fineness_);
+    }
+    if (j == 0 || !filled(i, j - 1)) add_side(i, j, i + 1, j);
+    if (!filled(i + 1, j)) add_side(i + 1, j, i + 1, j + 1);
+    if (!filled(i, j + 1)) add_side(i + 1, j + 1, i, j + 1);
+    if (i == 0 || !filled(i - 1, j)) add_side(i, j + 1, i, j);
+  }
+
+  const RolledSheet& sheet_;
+  Fineness fineness_;
+  SheetGrid grid_;
+  std::vector<Bore> bores_;
+  TriangleMesh mesh_;
+  std::map<std::array<std::size_t, 3>, Index> vertices_;
+};
+
+}  // namespace
+
+TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
+  std::vector<Vec2> section = body.section;
+  run(section, true);
+  const bool turned = section != body.section;
+  double reach = 0.0;
+  for (const Vec2 corner : section) reach = std::max(reach, std::fabs(corner.x));
+  TriangleMesh mesh;
+  ChordEnds ends(pieces_of(body.path), reach, fineness);
+  const std::vector<Bore> bores = bores_of(body);
+  ends.leave_out(body.holes, bores);
+  const std::vector<PathFrame> frames = frames_along(body.path, ends);
+  for (const PathFrame& frame : frames) {
+    for (std::size_t j = 0; j < section.size(); ++j) {
+      const Vec2 corner = section[j];
+      const Vec2 at = frame.at + corner.x * frame.left;
+      const std::size_t own = turned ? section.size() - 1 - j : j;
+      const double shift = body.shifts.empty() ? 0.0
+                                               : (1.0 - frame.share) * body.shifts[frame.piece][own] +
+                                                     frame.share * body.shifts[frame.piece + 1][own];
+      mesh.vertices.push_back({at.x, at.y, corner.y + shift});
+    }
+  }
+  const auto size = static_cast<Index>(section.size());
+  const Index last = count_of(mesh) - size;
+  for (Index ring = 0; ring + 1 < frames.size(); ++ring) {
+    const auto quad = [&](Index i) {
+      const Index a = ring * size + i;
+      const Index b = ring * size + (i + 1) % size;
+      return std::array<Index, 4>{a, b, b + size, a + size};
+    };
+    const std::vector<const Bore*> holes =
+        between(body.holes, bores, ends.places()[ring], ends.places()[ring + 1]);
+    for (Index i = 0; i < size; ++i) {
+      if (!holes.empty() && i % 2 == 0) continue;
+      const auto [a, b, c, d] = quad(i);
+      add_quad(mesh, a, b, c, d);
+    }
+    if (!holes.empty()) add_drilled(mesh, quad(0), quad(2), holes, fineness);
+  }
+  for (const auto& [a, b, c] : solid::triangulate_loops({section})) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({last + a, last + b, last + c});
+  }
+  return mesh;
+}
+
+TriangleMesh mesh_of(const RolledSheet& sheet, const Fineness& fineness) {
+  return SheetMesh(sheet, fineness).whole();
+}
+
+}  // namespace glissade::parts
