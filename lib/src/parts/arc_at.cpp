@@ -30,18 +30,23 @@ ArcAt ArcAt::after(double length) const {
   return {from + (length * sinc(half)) * direction_of(heading + half), heading + 2.0 * half, curvature};
 }
 
+// Both centres and the place that is touched lie on one line: C - T = N/k, O - T = N/kappa. Multiplied by k and kappa, so
+// that either may be 0.
+
+TouchingCurvature touching_curvature(const ArcAt& from, const ArcAt& other) {
+  const Vec2 away = from.from - other.from;
+  const double half_turn = math::sin(0.5 * wrapped(other.heading - from.heading));
+  return {other.curvature * dot(away, left_of(direction_of(from.heading))) + 2.0 * half_turn * half_turn,
+          0.5 * other.curvature * dot(away, away) - dot(away, left_of(direction_of(other.heading)))};
+}
+
 std::optional<Touching> touching(const ArcAt& from, const ArcAt& other) {
-  // Both centres and the place that is touched lie on one line: C - T = N/k, O - T = N/kappa. Multiplied by k and kappa,
-  // so that either may be 0.
   const Vec2 away = from.from - other.from;
   const Vec2 normal = left_of(direction_of(from.heading));
   const Vec2 other_normal = left_of(direction_of(other.heading));
   const double kappa = other.curvature;
-  const double half_turn = math::sin(0.5 * wrapped(other.heading - from.heading));
-  const double above = kappa * dot(away, normal) + 2.0 * half_turn * half_turn;
-  const double below = 0.5 * kappa * dot(away, away) - dot(away, other_normal);
   Touching found{from, 0.0, 0.0};
-  const double k = -above / below;
+  const double k = touching_curvature(from, other).value();
   if (!std::isfinite(k) || k == 0.0 || k == kappa) return std::nullopt;
   found.leg.curvature = k;
   const Vec2 at_touch = (1.0 / (kappa - k)) * ((k * kappa) * away + kappa * normal - k * other_normal);

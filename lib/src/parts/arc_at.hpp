@@ -39,6 +39,15 @@ struct ArcAt {
   return {-along.y, along.x};
 }
 
+/// The curvature of the circle that touches one leg where it begins, and another leg anywhere.
+struct TouchingCurvature {
+  double above = 0.0;
+  double below = 0.0;  ///< where its sign changes the curvature goes through infinity
+
+  [[nodiscard]] double value() const { return -above / below; }
+};
+[[nodiscard]] TouchingCurvature touching_curvature(const ArcAt& from, const ArcAt& other);
+
 /// An arc from the end of one leg that touches the circle of another.
 struct Touching {
   ArcAt leg;

@@ -8,11 +8,11 @@
 
 #include "glissade/core/math.hpp"
 
+#include "parts/arc_fronts.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace glissade::parts {
@@ -77,42 +77,27 @@ double heading_of(Vec2 along) {
   return math::atan2(along.y, along.x);
 }
 
-class Search {
+class Search : private ArcFronts<Search, Gate, State, Closing> {
+  friend ArcFronts;
+
  public:
   Search(const Centerline& track, const TrackSamples& samples, const Stretch& stretch, const Band& band,
          std::size_t steps)
       : track_(track), samples_(samples), stretch_(stretch), band_(band) {
     place_gates(steps);
-    lowest_.resize(gates_.size());
-    highest_.resize(gates_.size());
-    seen_.assign(gates_.size() * kOffsets * kMostHeadings, 0);
+    make_room();
     start();
     arrive();
   }
 
   std::optional<FoundChain> run() {
-    for (std::size_t arcs = 0; !front_.empty(); ++arcs) {
-      if (in_two_.state >= 0 && in_two_.arcs == arcs) return found(in_two_);
-      std::size_t foremost = 0;
-      for (const int index : front_) foremost = std::max(foremost, state(index).gate);
-      if (arcs == 0) foremost = 0;
-      next_.clear();
-      for (const int index : front_) {
-        const std::size_t farthest = look_ahead(state(index));
-        if (const auto closing = closed(index, farthest, arcs)) return found(*closing);
-        close_in_two(index, farthest, arcs);
-        spread(index, farthest, foremost);
-      }
-      std::swap(front_, next_);
-    }
-    if (in_two_.state >= 0) return found(in_two_);
-    return std::nullopt;
+    const auto closing = search();
+    if (!closing) return std::nullopt;
+    return found(*closing);
   }
 
  private:
-  [[nodiscard]] const State& state(int index) const { return states_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] double end() const { return samples_.s[stretch_.last]; }
-  [[nodiscard]] std::size_t last_gate() const { return gates_.size() - 1; }
 
   void add_gate(double s, double piece, bool joint) {
     const CenterlinePoint at = track_.at(std::min(s, track_.length()));
@@ -168,9 +153,7 @@ class Search {
   void start() {
     const double begin = samples_.s[stretch_.first];
     if (stretch_.before) {
-      const double reach = stretch_.before->reach;
-      for (std::size_t i = 0; i <= (reach > 0.0 ? kReaches : 0); ++i) {  // the farthest first
-        const double part = reach * static_cast<double>(kReaches - i) / static_cast<double>(kReaches);
+      for (const double part : places_within(stretch_.before->reach)) {
         const ArcAt leg = stretch_.before->leg.after(part);
         std::size_t gate = 0;
         while (gate + 1 < gates_.size() && gates_[gate + 1].s <= begin + part) ++gate;
@@ -181,26 +164,18 @@ class Search {
       return;
     }
     const Gate& first = gates_.front();
-    for (std::size_t i = 0; i < kFreeHeadings; ++i) {
-      const double share = 2.0 * static_cast<double>(i) / static_cast<double>(kFreeHeadings - 1) - 1.0;
-      const Vec2 along = first.along + share * kSteepest * first.heading * left_of(first.along);
-      if (along.x < 0.0 && share != 0.0) continue;  // an upright start does not lean over
+    for (const double off : free_headings()) {
+      const Vec2 along = first.along + off * first.heading * left_of(first.along);
+      if (along.x < 0.0 && off != 0.0) continue;  // an upright start does not lean over
       push({first.point, (1.0 / norm(along)) * along, 0, -1});
     }
-  }
-
-  void push(const State& state) {
-    states_.push_back(state);
-    front_.push_back(static_cast<int>(states_.size()) - 1);
   }
 
   /// Where the kept piece after the stretch may be met, and the first gate from which one arc gets there.
   void arrive() {
     earliest_ = last_gate();
     if (!stretch_.after) return;
-    const double reach = stretch_.after->reach;
-    for (std::size_t i = 0; i <= (reach > 0.0 ? kReaches : 0); ++i) {
-      const double part = reach * static_cast<double>(kReaches - i) / static_cast<double>(kReaches);
+    for (const double part : places_within(stretch_.after->reach)) {
       const ArcAt leg = stretch_.after->leg.after(-part);
       arrivals_.push_back({leg, direction_of(leg.heading), part});
       const State back{leg.from, -1.0 * arrivals_.back().along, 0, -1};
@@ -216,6 +191,9 @@ class Search {
     }
   }
 
+  static bool narrows(const State& from, const Gate& next, double& lowest, double& highest) {
+    return narrows(from, next.left, next.right, lowest, highest);
+  }
   /// Leaves the curvatures that pass between two posts; false where none does or the posts are not ahead.
   static bool narrows(const State& state, Vec2 left, Vec2 right, double& lowest, double& highest) {
     if (!(dot(state.along, left - state.at) > 0.0) || !(dot(state.along, right - state.at) > 0.0))
@@ -223,33 +201,6 @@ class Search {
     highest = std::min(highest, curvature_to(state, left));
     lowest = std::max(lowest, curvature_to(state, right));
     return lowest <= highest;
-  }
-
-  /// @return the last gate that some arc passes
-  std::size_t look_ahead(const State& state) {
-    double lowest = -std::numeric_limits<double>::infinity();
-    double highest = std::numeric_limits<double>::infinity();
-    std::size_t gate = state.gate;
-    while (gate < last_gate()) {
-      const Gate& next = gates_[gate + 1];
-      if (!narrows(state, next.left, next.right, lowest, highest)) break;
-      ++gate;
-      lowest_[gate] = lowest;
-      highest_[gate] = highest;
-    }
-    return gate;
-  }
-
-  /// Whether an arc keeps the band from its state up to a gate.
-  [[nodiscard]] bool passes(const State& state, double curvature, std::size_t gate) const {
-    return gate <= state.gate || (curvature >= lowest_[gate] && curvature <= highest_[gate]);
-  }
-
-  /// The last gate before a place on the track.
-  [[nodiscard]] std::size_t gate_before(double s, std::size_t from) const {
-    std::size_t gate = from;
-    while (gate < last_gate() && gates_[gate + 1].s < s) ++gate;
-    return gate;
   }
 
   /// @return one arc from a state to the end, if it keeps the band
@@ -304,50 +255,25 @@ class Search {
     return true;
   }
 
-  /// The states that arcs from one reach beyond the front.
-  void spread(int index, std::size_t farthest, std::size_t foremost) {
-    const std::size_t back = kStepsBack * kGatesPerStep;
-    const std::size_t first = foremost > back ? foremost - back + 1 : 1;
-    for (std::size_t gate = std::max(first, state(index).gate + 1);
-         gate <= std::min(farthest, last_gate() - 1); ++gate) {
-      if (!gates_[gate].joint) continue;
-      const double low = lowest_[gate] + kInside * (highest_[gate] - lowest_[gate]);
-      const double wide = (1.0 - 2.0 * kInside) * (highest_[gate] - lowest_[gate]);
-      for (std::size_t i = 0; i < kCurvatures; ++i) {
-        const double share = static_cast<double>(i) / static_cast<double>(kCurvatures - 1);
-        State reached = foot(state(index), low + share * wide, gates_[gate].point);
-        if (!(dot(reached.along, gates_[gate].along) > 0.0)) continue;
-        reached.gate = gate;
-        reached.before = index;
-        std::uint8_t& seen = seen_[cell_of(reached)];
-        if (seen != 0) continue;
-        seen = 1;
-        states_.push_back(reached);
-        next_.push_back(static_cast<int>(states_.size()) - 1);
-      }
-    }
+  /// The states in which arcs from one stand beside the middle of a gate.
+  [[nodiscard]] auto onto(const State& from, std::size_t gate) const {
+    return [&from, &to = gates_[gate]](double curvature) -> std::optional<State> {
+      const State reached = foot(from, curvature, to.point);
+      if (!(dot(reached.along, to.along) > 0.0)) return std::nullopt;
+      return reached;
+    };
   }
 
-  /// Number of the states that are alike.
-  [[nodiscard]] std::size_t cell_of(const State& state) const {
+  [[nodiscard]] CellPlace place_of(const State& state) const {
     const Gate& gate = gates_[state.gate];
-    const auto within = [](double value, std::size_t count) {
-      return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count) - 1.0));
-    };
     const double offset = dot(state.at - gate.point, left_of(gate.along)) + band_.right;
-    const double heading = cross(gate.along, state.along) / (kHeadings * gate.heading);
-    const std::size_t i =
-        within(static_cast<double>(kOffsets) * offset / (2.0 * band_.half_width()), kOffsets);
-    const std::size_t j =
-        within(std::floor(heading) + 0.5 * static_cast<double>(kMostHeadings), kMostHeadings);
-    return (state.gate * kOffsets + i) * kMostHeadings + j;
+    return {static_cast<double>(kOffsets) * offset / (2.0 * band_.half_width()),
+            cross(gate.along, state.along) / (kHeadings * gate.heading)};
   }
 
   /// The chain that a closing ends.
   [[nodiscard]] FoundChain found(const Closing& closing) const {
-    std::vector<int> states;
-    for (int index = closing.state; index >= 0; index = state(index).before) states.push_back(index);
-    std::reverse(states.begin(), states.end());
+    const std::vector<int> states = chain_to(closing.state);
     FoundChain found;
     found.arcs = closing.arcs;
     const State& first = state(states.front());
@@ -405,15 +331,8 @@ class Search {
   const TrackSamples& samples_;
   const Stretch& stretch_;
   Band band_;
-  std::vector<Gate> gates_;
-  std::vector<State> states_;
-  std::vector<double> reached_;           // by the kept piece before, one a first state [m]
-  std::vector<int> front_, next_;         // states of as many arcs, and of one more
-  std::vector<double> lowest_, highest_;  // curvatures that pass all gates from the present state on
-  std::vector<std::uint8_t> seen_;
+  std::vector<double> reached_;  // by the kept piece before, one a first state [m]
   std::vector<Arrival> arrivals_;
-  std::size_t earliest_ = 0;
-  Closing in_two_;
 };
 
 }  // namespace

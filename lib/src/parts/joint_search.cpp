@@ -5,12 +5,12 @@
 
 #include "parts/joint_search.hpp"
 
+#include "parts/arc_fronts.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace glissade::parts {
@@ -52,43 +52,27 @@ struct Closing {
   double reach = 0.0;
 };
 
-class Search {
+class Search : private ArcFronts<Search, Gate, State, Closing> {
+  friend ArcFronts;
+
  public:
   Search(const TrackSamples& samples, const Stretch& stretch, const Band& band, std::size_t steps)
       : samples_(samples), stretch_(stretch), band_(band) {
     sum_headings();
     place_gates(steps);
-    lowest_.resize(gates_.size());
-    highest_.resize(gates_.size());
-    seen_.assign(gates_.size() * kOffsets * kMostHeadings, 0);
+    make_room();
     start();
     arrive();
   }
 
   std::optional<ChainStart> run() {
-    for (std::size_t arcs = 0; !front_.empty(); ++arcs) {
-      if (in_two_.state >= 0 && in_two_.arcs == arcs) return found(in_two_);
-      std::size_t foremost = 0;
-      if (arcs > 0) {
-        for (const int index : front_) foremost = std::max(foremost, state(index).gate);
-      }
-      next_.clear();
-      for (const int index : front_) {
-        const std::size_t farthest = look_ahead(state(index));
-        if (const auto closing = closed(index, farthest, arcs)) return found(*closing);
-        close_in_two(index, farthest, arcs);
-        spread(index, farthest, foremost);
-      }
-      std::swap(front_, next_);
-    }
-    if (in_two_.state >= 0) return found(in_two_);
-    return std::nullopt;
+    const auto closing = search();
+    if (!closing) return std::nullopt;
+    return found(*closing);
   }
 
  private:
-  [[nodiscard]] const State& state(int index) const { return states_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] double end() const { return samples_.s[stretch_.last]; }
-  [[nodiscard]] std::size_t last_gate() const { return gates_.size() - 1; }
   [[nodiscard]] double sum_at(std::size_t sample) const { return sums_[sample - stretch_.first]; }
 
   /// The integral of the heading, less that of the start, which nothing depends on.
@@ -157,10 +141,6 @@ class Search {
     return {-leg.distance(samples_.point[sample]), wrapped(heading - samples_.heading[sample])};
   }
 
-  void push(const State& state) {
-    states_.push_back(state);
-    front_.push_back(static_cast<int>(states_.size()) - 1);
-  }
   [[nodiscard]] State state_at(std::size_t sample, const Beside& lies, std::size_t gate) const {
     return {samples_.s[sample], heading_at(sample), sum_at(sample), lies.offset, lies.slope, gate, -1};
   }
@@ -169,7 +149,7 @@ class Search {
   void start() {
     const double begin = samples_.s[stretch_.first];
     if (stretch_.before) {
-      for (const double part : parts_of(stretch_.before->reach)) {
+      for (const double part : places_within(stretch_.before->reach)) {
         const std::size_t sample =
             std::clamp(index_at(samples_, begin + part), stretch_.first, stretch_.last);
         std::size_t gate = 0;
@@ -179,11 +159,10 @@ class Search {
       }
       return;
     }
-    for (std::size_t i = 0; i < kFreeHeadings; ++i) {
-      const double share = 2.0 * static_cast<double>(i) / static_cast<double>(kFreeHeadings - 1) - 1.0;
-      const double slope = share * kSteepest * gates_.front().unit;
+    for (const double off : free_headings()) {
+      const double slope = off * gates_.front().unit;
       const bool leans = samples_.heading[stretch_.first] + slope < -0.5 * std::numbers::pi;
-      if (leans && share != 0.0) continue;  // an upright start does not lean over
+      if (leans && off != 0.0) continue;  // an upright start does not lean over
       push(state_at(stretch_.first, {0.0, slope}, 0));
     }
   }
@@ -193,7 +172,7 @@ class Search {
     if (!stretch_.after) return;
     for (const Gate& gate : gates_) after_.push_back(beside(stretch_.after->leg, gate.sample, end()));
     earliest_ = last_gate();
-    for (const double part : parts_of(stretch_.after->reach)) {
+    for (const double part : places_within(stretch_.after->reach)) {
       const double place = end() - part;
       double lowest = -std::numeric_limits<double>::infinity();
       double highest = std::numeric_limits<double>::infinity();
@@ -209,51 +188,19 @@ class Search {
     }
   }
 
-  /// Places along what a kept piece may reach, the farthest first.
-  [[nodiscard]] static std::vector<double> parts_of(double reach) {
-    if (!(reach > 0.0)) return {0.0};
-    std::vector<double> parts;
-    for (std::size_t i = 0; i <= kReaches; ++i)
-      parts.push_back(reach * static_cast<double>(kReaches - i) / static_cast<double>(kReaches));
-    return parts;
-  }
-
   /// How far the track falls behind a line along a state.
   static double behind(const State& from, double s, double sum) {
     const double u = s - from.s;
     return sum - from.sum - from.heading * u - from.offset - from.slope * u;
   }
 
-  /// @return the last gate that some arc passes
-  std::size_t look_ahead(const State& from) {
-    double lowest = -std::numeric_limits<double>::infinity();
-    double highest = std::numeric_limits<double>::infinity();
-    std::size_t gate = from.gate;
-    while (gate < last_gate()) {
-      const Gate& next = gates_[gate + 1];
-      const double u = next.s - from.s;
-      const double per = 2.0 / (u * u);
-      const double straight = behind(from, next.s, next.sum);
-      highest = std::min(highest, per * (straight + band_.left));
-      lowest = std::max(lowest, per * (straight - band_.right));
-      if (lowest > highest) break;
-      ++gate;
-      lowest_[gate] = lowest;
-      highest_[gate] = highest;
-    }
-    return gate;
-  }
-
-  /// Whether an arc keeps the band from its state up to a gate.
-  [[nodiscard]] bool passes(const State& from, double curvature, std::size_t gate) const {
-    return gate <= from.gate || (curvature >= lowest_[gate] && curvature <= highest_[gate]);
-  }
-
-  /// The last gate before a place on the track.
-  [[nodiscard]] std::size_t gate_before(double s, std::size_t from) const {
-    std::size_t gate = from;
-    while (gate < last_gate() && gates_[gate + 1].s < s) ++gate;
-    return gate;
+  [[nodiscard]] bool narrows(const State& from, const Gate& next, double& lowest, double& highest) const {
+    const double u = next.s - from.s;
+    const double per = 2.0 / (u * u);
+    const double straight = behind(from, next.s, next.sum);
+    highest = std::min(highest, per * (straight + band_.left));
+    lowest = std::max(lowest, per * (straight - band_.right));
+    return lowest <= highest;
   }
 
   /// @return one arc from a state to the end, if it keeps the band
@@ -295,7 +242,7 @@ class Search {
     if (!stretch_.after || in_two_.state >= 0 || farthest < earliest_) return;
     const State& from = state(index);
     const auto [a, b] = off_kept(from);
-    for (const double part : parts_of(stretch_.after->reach)) {
+    for (const double part : places_within(stretch_.after->reach)) {
       const double whole = end() - part - from.s;
       if (!(whole > 0.0)) continue;
       for (std::size_t k = 1; k < kBiarcs; ++k) {
@@ -338,50 +285,30 @@ class Search {
     return true;
   }
 
-  /// The states that arcs from one reach beyond the front.
-  void spread(int index, std::size_t farthest, std::size_t foremost) {
-    const State from = state(index);
-    const std::size_t back = kStepsBack * kGatesPerStep;
-    const std::size_t first = foremost > back ? foremost - back + 1 : 1;
-    for (std::size_t g = std::max(first, from.gate + 1); g <= std::min(farthest, last_gate() - 1); ++g) {
-      const Gate& gate = gates_[g];
-      if (!gate.joint) continue;
-      const double low = lowest_[g] + kInside * (highest_[g] - lowest_[g]);
-      const double wide = (1.0 - 2.0 * kInside) * (highest_[g] - lowest_[g]);
-      const double u = gate.s - from.s;
-      const double straight = behind(from, gate.s, gate.sum);
-      for (std::size_t i = 0; i < kCurvatures; ++i) {
-        const double share = static_cast<double>(i) / static_cast<double>(kCurvatures - 1);
-        const double curvature = low + share * wide;
-        const double offset = 0.5 * curvature * u * u - straight;
-        const double slope = from.slope + curvature * u - (gate.heading - from.heading);
-        std::uint8_t& seen = seen_[cell_of(g, offset, slope)];
-        if (seen != 0) continue;
-        seen = 1;
-        states_.push_back({gate.s, gate.heading, gate.sum, offset, slope, g, index});
-        next_.push_back(static_cast<int>(states_.size()) - 1);
-      }
-    }
+  /// The states in which arcs from one stand at a gate.
+  [[nodiscard]] auto onto(const State& from, std::size_t gate) const {
+    const Gate& to = gates_[gate];
+    const double u = to.s - from.s;
+    const double straight = behind(from, to.s, to.sum);
+    return [&from, &to, u, straight](double curvature) -> std::optional<State> {
+      return State{to.s,
+                   to.heading,
+                   to.sum,
+                   0.5 * curvature * u * u - straight,
+                   from.slope + curvature * u - (to.heading - from.heading),
+                   0,
+                   -1};
+    };
   }
 
-  /// Number of the states that are alike.
-  [[nodiscard]] std::size_t cell_of(std::size_t gate, double offset, double slope) const {
-    const auto within = [](double value, std::size_t count) {
-      return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count) - 1.0));
-    };
-    const double across = (offset + band_.right) / (2.0 * band_.half_width());
-    const double heading = slope / (kHeadings * gates_[gate].unit);
-    const std::size_t i = within(static_cast<double>(kOffsets) * across, kOffsets);
-    const std::size_t j =
-        within(std::floor(heading) + 0.5 * static_cast<double>(kMostHeadings), kMostHeadings);
-    return (gate * kOffsets + i) * kMostHeadings + j;
+  [[nodiscard]] CellPlace place_of(const State& state) const {
+    const double across = (state.offset + band_.right) / (2.0 * band_.half_width());
+    return {static_cast<double>(kOffsets) * across, state.slope / (kHeadings * gates_[state.gate].unit)};
   }
 
   /// The joints of the chain that a closing ends.
   [[nodiscard]] ChainStart found(const Closing& closing) const {
-    std::vector<int> chain;
-    for (int index = closing.state; index >= 0; index = state(index).before) chain.push_back(index);
-    std::reverse(chain.begin(), chain.end());
+    const std::vector<int> chain = chain_to(closing.state);
     ChainStart joints;
     for (const int index : chain) {
       joints.knots.push_back(state(index).s);
@@ -400,15 +327,8 @@ class Search {
   const TrackSamples& samples_;
   const Stretch& stretch_;
   Band band_;
-  std::vector<double> sums_;  // of the heading, one a sample of the stretch
-  std::vector<Gate> gates_;
+  std::vector<double> sums_;   // of the heading, one a sample of the stretch
   std::vector<Beside> after_;  // the kept piece after the stretch, one a gate
-  std::size_t earliest_ = 0;   // gate from which one arc gets there
-  std::vector<State> states_;
-  std::vector<int> front_, next_;         // states of as many arcs, and of one more
-  std::vector<double> lowest_, highest_;  // curvatures that pass all gates from the present state on
-  std::vector<std::uint8_t> seen_;
-  Closing in_two_;
 };
 
 }  // namespace

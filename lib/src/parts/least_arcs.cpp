@@ -5,8 +5,6 @@
 
 #include "parts/least_arcs.hpp"
 
-#include "glissade/core/math.hpp"
-
 #include "parts/arc_at.hpp"
 #include "parts/fewest_arcs.hpp"
 
@@ -191,21 +189,10 @@ class Leaving {
 
   /// The curvatures of arcs that touch another leg, too; all of them where that tells nothing.
   [[nodiscard]] Curvatures touching(const Interval& places, const ArcAt& other) const {
-    const auto curvature_from = [&](double u, double& below) {
-      const ArcAt from = kept_.leg.after(u);
-      const Vec2 away = from.from - other.from;
-      const double half_turn = math::sin(0.5 * wrapped(other.heading - from.heading));
-      const double above =
-          other.curvature * dot(away, left_of(direction_of(from.heading))) + 2.0 * half_turn * half_turn;
-      below = 0.5 * other.curvature * dot(away, away) - dot(away, left_of(direction_of(other.heading)));
-      return -above / below;
-    };
-    double below_from = 0.0;
-    double below_to = 0.0;
-    const double from = curvature_from(places.from, below_from);
-    const double to = curvature_from(places.to, below_to);
-    if (!(below_from * below_to > 0.0)) return {};
-    return {std::min(from, to), std::max(from, to)};
+    const TouchingCurvature from = touching_curvature(kept_.leg.after(places.from), other);
+    const TouchingCurvature to = touching_curvature(kept_.leg.after(places.to), other);
+    if (!(from.below * to.below > 0.0)) return {};
+    return {std::min(from.value(), to.value()), std::max(from.value(), to.value())};
   }
 
   Walk walk_;
