@@ -17,15 +17,10 @@
 namespace glissade::solid {
 namespace {
 
-constexpr std::size_t kLeaf = 8;
 // Whether the work is to end is asked once in so many stations.
 constexpr std::size_t kStationsBetweenPauses = 256;
 // A ball counts as free of a point that it reaches by less than this share of its squared radius: rounding.
 constexpr double kBallMargin = 1e-13;
-// Nodes next to a trim are left out where they stand closer to it than this share of the step after them.
-constexpr double kCrowded = 0.15;
-// At most so many nodes are left out between a trim and the next one that stays.
-constexpr std::ptrdiff_t kMostLeftOut = 50;
 // How many steps around the end of a cut the crossing of the two branches is looked for.
 constexpr std::size_t kCrossingWindow = 3;
 // Distance of the probes as a share of the section's reach, and the most that a track gets.
@@ -54,71 +49,6 @@ double root_between(auto&& function, double low, double high) {
 
 double squared(Vec2 a) {
   return dot(a, a);
-}
-
-// Which nodes of a level curve stand in the way of the facets beside its trims.
-class CrowdAtTrims {
- public:
-  CrowdAtTrims(const std::vector<LevelNode>& nodes, const NodeSpacing& limits)
-      : nodes_(nodes), limits_(limits), drop_(nodes.size(), false) {
-    if (limits.keeps_beside_trims) return;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (!nodes[i].trim) continue;
-      clear(i, 1);
-      clear(i, -1);
-    }
-  }
-
-  [[nodiscard]] bool drops(std::size_t i) const { return drop_[i]; }
-
- private:
-  [[nodiscard]] Vec2 point(std::ptrdiff_t i) const { return nodes_[static_cast<std::size_t>(i)].point; }
-
-  // Drops the nodes next to a trim on one side of it, the nearest first.
-  void clear(std::size_t trim, std::ptrdiff_t step) {
-    const auto at = static_cast<std::ptrdiff_t>(trim);
-    const auto last = static_cast<std::ptrdiff_t>(nodes_.size()) - 1;
-    for (std::ptrdiff_t count = 0; count < kMostLeftOut; ++count) {
-      const std::ptrdiff_t i = at + (count + 1) * step;
-      if (i <= 0 || i >= last || nodes_[static_cast<std::size_t>(i)].trim) return;
-      const double distance = norm(point(i) - point(at));
-      const bool is_crowded = distance < kCrowded * norm(point(i + step) - point(i));
-      const bool is_near = distance < limits_.beside_trims && lies_on_chords(at, i, step);
-      if (!is_crowded && !is_near) return;
-      drop_[static_cast<std::size_t>(i)] = true;
-    }
-  }
-
-  // Whether the chord from the trim to the node after `last` still follows the curve.
-  [[nodiscard]] bool lies_on_chords(std::ptrdiff_t trim, std::ptrdiff_t last, std::ptrdiff_t step) const {
-    for (std::ptrdiff_t i = trim + step; i != last + step; i += step) {
-      if (core::distance_to_line(point(i), point(trim), point(last + step)) > limits_.sagitta) return false;
-    }
-    return true;
-  }
-
-  const std::vector<LevelNode>& nodes_;
-  const NodeSpacing& limits_;
-  std::vector<bool> drop_;
-};
-
-// Drops every node that is not a trim and stands too close to the one kept before it, or to a trim.
-void thin_out(std::vector<LevelNode>& nodes, const NodeSpacing& limits) {
-  const std::size_t count = nodes.size();
-  const CrowdAtTrims crowd(nodes, limits);
-  std::size_t kept = 0;
-  for (std::size_t i = 1; i < count; ++i) {
-    const bool last = i + 1 == count;
-    if (crowd.drops(i)) continue;
-    if (!last && !nodes[i].trim && norm(nodes[i].point - nodes[kept].point) < limits.shortest) continue;
-    // What precedes a node that has to stay makes room for it.
-    while (kept > 0 && (last || nodes[i].trim) && !nodes[kept].trim &&
-           norm(nodes[i].point - nodes[kept].point) < limits.shortest) {
-      --kept;
-    }
-    nodes[++kept] = nodes[i];
-  }
-  nodes.resize(kept + 1);
 }
 
 }  // namespace
@@ -173,61 +103,10 @@ void LevelCurves::make_probes(bool dense) {
       probes_.push_back({between.point, between.normal, between.s});
     }
   }
-  std::size_t leaves = 1;
-  while (leaves * kLeaf < probes_.size()) leaves *= 2;
-  boxes_.resize(2 * leaves);
-  build_boxes(1, 0, probes_.size());
-}
-
-// A tree over the probes in their order: neighbours along a curve are neighbours in space.
-void LevelCurves::build_boxes(std::size_t node, std::size_t begin, std::size_t end) {
-  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
-  if (end - begin <= kLeaf || 2 * node + 1 >= boxes_.size()) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec2 p = probes_[i].point;
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
-    boxes_[node] = box;
-    return;
-  }
-  const std::size_t middle = begin + (end - begin) / 2;
-  build_boxes(2 * node, begin, middle);
-  build_boxes(2 * node + 1, middle, end);
-  const Box& a = boxes_[2 * node];
-  const Box& b = boxes_[2 * node + 1];
-  boxes_[node] = {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-                  {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
-// Lowers `best`, a squared distance, to that of the nearest probe below it.
-void LevelCurves::search(std::size_t node, std::size_t begin, std::size_t end, Vec2 point, double& best,
-                         std::size_t& nearest) const {
-  const auto distance_to = [point](const Box& box) {
-    return squared({std::max({box.low.x - point.x, 0.0, point.x - box.high.x}),
-                    std::max({box.low.y - point.y, 0.0, point.y - box.high.y})});
-  };
-  if (end - begin <= kLeaf || 2 * node + 1 >= boxes_.size()) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const double distance = squared(probes_[i].point - point);
-      if (distance >= best) continue;
-      best = distance;
-      nearest = i;
-    }
-    return;
-  }
-  const std::size_t middle = begin + (end - begin) / 2;
-  const double first = distance_to(boxes_[2 * node]);
-  const double second = distance_to(boxes_[2 * node + 1]);
-  const bool first_nearer = first <= second;
-  for (const bool take_first : {first_nearer, !first_nearer}) {
-    if ((take_first ? first : second) >= best) continue;
-    if (take_first) {
-      search(2 * node, begin, middle, point, best, nearest);
-    } else {
-      search(2 * node + 1, middle, end, point, best, nearest);
-    }
-  }
+  std::vector<Vec2> places;
+  places.reserve(probes_.size());
+  for (const Probe& probe : probes_) places.push_back(probe.point);
+  tree_ = PlaceTree(std::move(places));
 }
 
 // How far each normal goes before it passes behind an end plane. A plane cuts only stations whose direction
@@ -286,7 +165,7 @@ void LevelCurves::shrink_ball(std::size_t probe, int side, bool exactly, Room& r
   while (room.height > 0.0) {
     double best = room.height * room.height * (1.0 - kBallMargin);
     std::size_t nearest = probe;
-    search(1, 0, probes_.size(), at.point + side * room.height * at.normal, best, nearest);
+    tree_.search(at.point + side * room.height * at.normal, best, nearest);
     if (nearest == probe) return;
     Room smaller{room_to(probes_[nearest].point), probes_[nearest].s};
     const bool elsewhere = nearest > probe + 1 || nearest + 1 < probe;
@@ -597,7 +476,7 @@ double LevelCurves::largest_height(int side) const {
 std::size_t LevelCurves::nearest_station(Vec2 point) const {
   double best = kInfinity;
   std::size_t nearest = 0;
-  search(1, 0, probes_.size(), point, best, nearest);
+  tree_.search(point, best, nearest);
   const auto after = std::upper_bound(probe_of_.begin(), probe_of_.end(), nearest);
   return static_cast<std::size_t>(after - probe_of_.begin()) - 1;
 }

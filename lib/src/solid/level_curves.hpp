@@ -3,6 +3,8 @@
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/core/vec.hpp"
 
+#include "solid/level_nodes.hpp"
+#include "solid/place_tree.hpp"
 #include "solid/stations.hpp"
 
 #include <cstddef>
@@ -31,29 +33,6 @@ struct Obstacle {
 struct Trims {
   std::vector<Trim> cuts;  ///< in the order of the track
   std::optional<Obstacle> obstacle;
-};
-
-/// A point of a trimmed level curve. A station carries it (from == to), or it stands for a trim.
-struct LevelNode {
-  Vec2 point;  ///< (x, z) [m]
-  double from = 0.0;
-  double to = 0.0;
-  bool trim = false;
-};
-
-/// How close the nodes of a level curve may stand [m].
-struct NodeSpacing {
-  double shortest = 0.0;      ///< nodes closer together are left out where they are not needed
-  double beside_trims = 0.0;  ///< so are those closer to a trim, where the curve without them
-  double sagitta = 0.0;       ///<   passes them by no further than this
-  /// No node beside a trim is left out: a width begins or ends to change at any of them.
-  bool keeps_beside_trims = false;
-};
-
-/// One level curve from the start face to the finish face.
-struct LevelCurve {
-  std::vector<LevelNode> nodes;
-  bool trimmed = false;
 };
 
 /// The level curves of the signed distance to a centerline, between its two end faces (docs/solid.md).
@@ -101,11 +80,6 @@ class LevelCurves {
   [[nodiscard]] double height_of(Vec2 point) const;
 
  private:
-  struct Box {
-    Vec2 low;
-    Vec2 high;
-  };
-
   /// The room of a station and the place of the track that bounds it.
   struct Room {
     double height = 0.0;
@@ -120,9 +94,6 @@ class LevelCurves {
   };
 
   void make_probes(bool dense);
-  void build_boxes(std::size_t node, std::size_t begin, std::size_t end);
-  void search(std::size_t node, std::size_t begin, std::size_t end, Vec2 point, double& best,
-              std::size_t& nearest) const;
   [[nodiscard]] std::vector<Room> face_rooms(int side, double reach) const;
   [[nodiscard]] std::vector<Room> rooms_of(int side, double reach, bool faces_alone) const;
   void shrink_to_free_balls(int side, double reach, std::vector<Room>& rooms) const;
@@ -153,7 +124,7 @@ class LevelCurves {
   std::vector<Station> stations_;
   std::vector<Probe> probes_;          // the stations, and further points between them
   std::vector<std::size_t> probe_of_;  // of each station
-  std::vector<Box> boxes_;             // tree over the probes
+  PlaceTree tree_;                     // of the probes
   std::vector<Room> rooms_above_;      // empty: nothing is trimmed on that side
   std::vector<Room> rooms_below_;
   double below_ = 0.0;
