@@ -2,7 +2,7 @@
 
 #include "glissade/core/math.hpp"
 
-#include "core/piece_distance.hpp"
+#include "core/arc_pieces.hpp"
 #include "parts/angle_bar.hpp"
 #include "parts/body_places.hpp"
 #include "parts/tube_windows.hpp"
