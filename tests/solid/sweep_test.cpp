@@ -8,6 +8,7 @@
 
 #include "support/catch.hpp"
 #include "support/cycloid_track.hpp"
+#include "support/random.hpp"
 
 #include <algorithm>
 #include <array>
@@ -712,6 +713,32 @@ TEST_CASE("sweep: a changing width follows a vertical start, whose face trims th
 TEST_CASE(
     "sweep: where the width changes, too, no point is further from the ideal solid than max_deviation says") {
   check_deviation(one_of_each_width(0.3), 0.2);
+}
+
+TEST_CASE("sweep: breaks of the track beside them take no station from the places where a width changes") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int draw = 0; draw < 12; ++draw) {
+    std::vector<ClothoidSegment> pieces;
+    double curvature = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      const double next = random.between(-0.15, 0.2);
+      pieces.push_back({random.between(0.01, 0.1), curvature, next});
+      curvature = next;
+    }
+    const ClothoidSpline track(Angle::from_degrees(40.0), pieces);
+    const double at = random.between(0.2, 0.8) * track.length();
+    const WidthLaw widths(std::vector<WidthAt>{{0.0, 0.6}, {at, 0.4}, {track.length(), 0.9}});
+    SweepOptions options;
+    options.tolerance = draw % 2 == 0 ? 1e-3 : 1e-2;
+    const Solid solid =
+        sweep(track, CrossSection(section::UChannel{widths, 0.3, 0.02}), Placement(), options);
+    INFO("draw " << draw << ", the width changes at " << at);
+    CHECK(std::find(solid.stations.begin(), solid.stations.end(), at) != solid.stations.end());
+    check_solid(solid, options);
+    // Without a station there facets are many times as many, or the tolerance is missed.
+    CHECK(solid.mesh.triangles.size() < 8000);
+  }
 }
 
 TEST_CASE("sweep: the volume of the mesh tends to that of a solid whose width changes") {

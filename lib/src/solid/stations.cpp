@@ -94,19 +94,22 @@ std::vector<Station> StationPlan::stations() const {
 }
 
 // Curvature may jump at a break, and the level curves with it: a station stands there, the nearest one moved
-// or one more.
+// or one more. Of breaks closer together than stations the last may do; those to be kept stay.
 void StationPlan::meet_breaks(std::vector<Station>& stations) const {
   constexpr double kNear = 0.35;
   const auto before = [](const Station& station, double s) { return station.s < s; };
+  const auto stays = [&](const Station& station) {
+    return std::binary_search(limits_.kept.begin(), limits_.kept.end(), station.s);
+  };
   std::vector<Station> further;
   for (const double s : centerline_.breaks()) {
     const auto after = std::lower_bound(stations.begin(), stations.end(), s, before);
     if (after == stations.begin() || after == stations.end() || after->s == s) continue;
     const double step = after->s - (after - 1)->s;
     const double part = (s - (after - 1)->s) / step;
-    if (part < kNear && after - 1 != stations.begin()) {
+    if (part < kNear && after - 1 != stations.begin() && !stays(*(after - 1))) {
       *(after - 1) = station_at(centerline_, s);
-    } else if (part > 1.0 - kNear && after + 1 != stations.end()) {
+    } else if (part > 1.0 - kNear && after + 1 != stations.end() && !stays(*after)) {
       *after = station_at(centerline_, s);
     } else {
       further.push_back(station_at(centerline_, s));

@@ -34,6 +34,9 @@ struct StationLimits {
   /// Greatest angle that the track turns through between stations [rad]; one step that turns further than
   /// the default no longer looks like the curve, however loose the tolerance.
   double largest_turn = kLargestTurn;
+  /// Breaks of the centerline where a station stands whatever other breaks lie beside them, ascending [m]: a width
+  /// begins or ends to change.
+  std::vector<double> kept = {};
 
   static constexpr double kLargestTurn = 0.25;
 };

@@ -6,6 +6,7 @@
 #include "glissade/solid/sweep.hpp"
 
 #include "solid/stations.hpp"
+#include "solid/widening.hpp"
 
 namespace glissade::solid {
 
@@ -38,8 +39,9 @@ class Planner {
   [[nodiscard]] Fineness fineness(double tolerance) const;
 
   [[nodiscard]] StationLimits limits(const Fineness& fineness) const {
-    return {fineness.chord_tolerance, -section_.lowest(), section_.highest(), fineness.longest_step,
-            fineness.largest_turn};
+    return {fineness.chord_tolerance, -section_.lowest(),
+            section_.highest(),       fineness.longest_step,
+            fineness.largest_turn,    Widening(section_).knots_between(0.0, centerline_.length())};
   }
 
   /// @throws InputError if the mesh would be larger than the options allow; names a tolerance that fits
