@@ -741,6 +741,24 @@ TEST_CASE("sweep: breaks of the track beside them take no station from the place
   }
 }
 
+TEST_CASE("sweep: walls higher than the arc at the start is wide lead on where the width changes there") {
+  // All normals of the arc meet at its centre, each with the width of its own foot.
+  for (const double radius : {0.93, 1.07}) {
+    INFO("radius " << radius);
+    const ClothoidSpline track(
+        Angle::from_degrees(89.0),
+        {{0.3, 1.0 / radius, 1.0 / radius}, {0.9, 1.0 / radius, -0.05}, {2.0, -0.05, 0.1}, {4.0, 0.1, 0.05}});
+    const WidthLaw widths(std::vector<WidthAt>{{0.0, 2.0}, {4.0, 1.4}});
+    SweepOptions options;
+    options.tolerance = 5e-3;
+    const Solid solid =
+        sweep(track, CrossSection(section::UChannel{widths, 1.2, 0.02}), Placement(), options);
+    CHECK(solid.trimmed);
+    check_solid(solid, options);
+    CHECK(volume_by_slices(solid.mesh) == Approx(measure(solid.mesh).volume).epsilon(1e-11));
+  }
+}
+
 TEST_CASE("sweep: the volume of the mesh tends to that of a solid whose width changes") {
   const CycloidTrack track(1.0, 4.0);
   const CrossSection section(section::UChannel{kWidths, 0.3, 0.02});

@@ -525,6 +525,14 @@ LevelCurves::Foot LevelCurves::foot(Vec2 point) const {
   return {station.s, std::copysign(norm(away), dot(away, station.normal))};
 }
 
+bool LevelCurves::carries(const Station& place, double height) const {
+  constexpr double kNothing = 1e-9;  // of the length
+  const double nothing = kNothing * centerline_.length();
+  if (beyond_face(stations_.front(), place.s, height) < -nothing) return false;
+  if (beyond_face(stations_.back(), place.s, height) > nothing) return false;
+  return std::fabs(height_of(offset(place, height)) - height) <= nothing;
+}
+
 double LevelCurves::height_of(Vec2 point) const {
   return foot(point).height;
 }

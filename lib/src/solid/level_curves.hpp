@@ -76,6 +76,9 @@ class LevelCurves {
     double height = 0.0;  ///< signed distance [m]
   };
   [[nodiscard]] Foot foot(Vec2 point) const;
+  /// @return whether the level at `height` passes over this place of the track: it is neither nearer to another one nor
+  ///         behind an end face, but for rounding
+  [[nodiscard]] bool carries(const Station& place, double height) const;
   /// @return the signed distance of a point to the centerline: its height above the floor [m]
   [[nodiscard]] double height_of(Vec2 point) const;
 

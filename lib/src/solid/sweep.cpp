@@ -18,10 +18,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
+
+#include <boost/math/tools/minima.hpp>
 
 namespace glissade {
 
@@ -42,6 +45,8 @@ constexpr double kSagittaAtTrims = 0.9;
 constexpr int kMostRefinements = 12;
 // Halvings of a side that moves as the width changes: its facets depart in proportion to its pieces.
 constexpr int kMostRefinementsOfMoving = 6;
+// An edge that moves by no more than this share of the chord tolerance is looked at no closer.
+constexpr double kMovedShare = 0.25;
 // Whether the work is to end is asked once in so many steps of it.
 constexpr std::size_t kStepsBetweenPauses = 256;
 
@@ -281,25 +286,77 @@ class Sweeper {
     }
   }
 
+  /// A stretch of the track, by arc length [m].
+  struct Feet {
+    double from = 0.0;
+    double to = 0.0;
+
+    void take(const LevelNode& node) {
+      from = std::min(from, node.from);
+      to = std::max(to, node.to);
+    }
+  };
+
+  /// The least distance of a point on a facet from a surface that is across(s, height) away from it where its foot is
+  /// s: at its own foot, or, where that is more than `enough`, at any of `feet`. Beside a centre of curvature the
+  /// normals of a whole stretch meet, each with the width of its own foot.
+  template <typename Across>
+  [[nodiscard]] double distance_over(Vec2 point, const Feet& feet, double enough,
+                                     const Across& across) const {
+    const LevelCurves::Foot foot = curves_->foot(point);
+    const double alone = across(foot.s, foot.height);
+    if (alone <= enough) return alone;
+    double least = alone;
+    double nearest = feet.from;
+    const auto distance_at = [&](double s) {
+      const Station here = station_at(centerline_, s);
+      const Vec2 away = point - here.point;
+      return norm(Vec2{dot(away, here.tangent), across(s, dot(away, here.normal))});
+    };
+    const auto take = [&](double s) {
+      const double distance = distance_at(s);
+      if (!(distance < least)) return;
+      const Station here = station_at(centerline_, s);
+      if (!curves_->carries(here, dot(point - here.point, here.normal))) return;
+      least = distance;
+      nearest = s;
+    };
+    constexpr int kPieces = 16;
+    constexpr int kBits = 20;
+    const double piece = (feet.to - feet.from) / kPieces;
+    for (int k = 0; k <= kPieces && least > enough; ++k) take(feet.from + piece * k);
+    if (least == alone || least <= enough) return least;
+    take(boost::math::tools::brent_find_minima(distance_at, std::max(feet.from, nearest - piece),
+                                               std::min(feet.to, nearest + piece), kBits)
+             .first);
+    return least;
+  }
+
   /// @return distance of a point on the facets over one side of the section from the ideal surface [m]
   [[nodiscard]] double distance_from_side(Vec2 point, double across, const SectionVertex& a,
-                                          const SectionVertex& b) const {
-    const LevelCurves::Foot foot = curves_->foot(point);
-    return core::distance_to_segment({across, foot.height}, place_at(a.corner, foot.s),
-                                     place_at(b.corner, foot.s));
+                                          const SectionVertex& b, const Feet& feet, double enough) const {
+    return distance_over(point, feet, enough, [&](double s, double height) {
+      return core::distance_to_segment({across, height}, place_at(a.corner, s), place_at(b.corner, s));
+    });
   }
 
   // Distance of the facets over one side of the section from the ideal surface: of those beside trims, and of the edges
   // across all of them where the side moves as the width changes.
-  [[nodiscard]] double deviation_over_side(const SectionVertex& a, const SectionVertex& b, bool moves) const {
+  [[nodiscard]] double deviation_over_side(const SectionVertex& a, const SectionVertex& b, bool moves,
+                                           double allowed) const {
     const std::vector<LevelNode>& first = a.nodes();
     const std::vector<LevelNode>& second = b.nodes();
     double worst = 0.0;
+    Feet feet;
     const auto measure = [&](Vec2 point, double across) {
-      worst = std::max(worst, distance_from_side(point, across, a, b));
+      const double enough = moves ? std::max(worst, allowed) : std::numeric_limits<double>::infinity();
+      worst = std::max(worst, distance_from_side(point, across, a, b, feet, enough));
     };
     zip(first, second, [&](std::size_t i, std::size_t k, bool on_first) {
       const LevelNode& next = on_first ? first[i + 1] : second[k + 1];
+      feet = {next.from, next.to};
+      feet.take(first[i]);
+      feet.take(second[k]);
       const bool trimmed = first[i].trim || second[k].trim || next.trim;
       if (!trimmed && !moves) return;
       const double across_first = across_at(a, i);
@@ -338,7 +395,7 @@ class Sweeper {
     const bool slanted = rises && (moves || begin.corner.at.x != end.corner.at.x);
     const bool trimmed = begin.level->second.curve.trimmed || end.level->second.curve.trimmed;
     if (!moves && !(slanted && trimmed)) return;
-    const double deviation = deviation_over_side(begin, end, moves);
+    const double deviation = deviation_over_side(begin, end, moves, allowed);
     if (deviation <= allowed || depth >= (moves ? kMostRefinementsOfMoving : kMostRefinements)) {
       deviation_ = std::max(deviation_, deviation);
       return;
@@ -363,6 +420,7 @@ class Sweeper {
       for (const SectionVertex& vertex : loop) most = std::max(most, std::fabs(vertex.corner.spread));
     }
     constexpr std::array<double, 3> kShares{0.25, 0.5, 0.75};
+    const double enough = kMovedShare * fineness_.chord_tolerance;
     for (const auto& [height, level] : levels_) {
       require_going(planner_.stop());
       const std::vector<LevelNode>& nodes = level.curve.nodes;
@@ -373,7 +431,10 @@ class Sweeper {
         for (const double part : kShares) {
           const Vec2 point = nodes[i].point + part * (nodes[i + 1].point - nodes[i].point);
           const double share = here + part * (there - here);
-          moved_ = std::max(moved_, most * std::fabs(widening_.share(curves_->foot(point).s) - share));
+          const double off = distance_over(
+              point, {nodes[i].to, nodes[i + 1].from}, std::max(moved_, enough),
+              [&](double s, double /*height*/) { return most * std::fabs(widening_.share(s) - share); });
+          moved_ = std::max(moved_, off);
         }
       }
     }
@@ -510,6 +571,7 @@ Solid sweep(const Centerline& track, const CrossSection& section, const Placemen
     if (!leads_through && attempt + 1 >= kFinerForRoom) sweeper.refuse();
     tolerance *= leads_through ? 0.6 : 0.2;
   }
+  if (section.varies()) refuse_fine_widening(options.tolerance);
   throw InternalError({"", "the sweep misses its tolerance of " + length_text(options.tolerance), "", ""});
 }
 

@@ -64,4 +64,12 @@ void refuse_widening(double from, double to) {
        "the same width " + stretch + ", or lower walls"});
 }
 
+void refuse_fine_widening(double tolerance) {
+  throw InputError(
+      {"", "tolerance: no mesh found departs by " + length_text(tolerance) + " at most",
+       "The width changes where the track bends about as tightly as the walls are high; the place of a "
+       "wall changes ever faster towards the centre of such a bend.",
+       "a coarser tolerance, one width where the track bends most, or lower walls"});
+}
+
 }  // namespace glissade::solid

@@ -18,4 +18,8 @@ namespace glissade::solid {
 /// @throws InputError always
 [[noreturn]] void refuse_widening(double from, double to);
 
+/// Tells that no mesh was found that departs so little from a solid whose width changes.
+/// @throws InputError always
+[[noreturn]] void refuse_fine_widening(double tolerance);
+
 }  // namespace glissade::solid
