@@ -1,5 +1,7 @@
 #include "solid/place_tree.hpp"
 
+#include "core/float_limits.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -7,8 +9,7 @@
 namespace glissade::solid {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kLeaf = 8;
+constexpr std::size_t kPlacesOfLeaf = 8;
 
 double squared(Vec2 a) {
   return dot(a, a);
@@ -18,14 +19,14 @@ double squared(Vec2 a) {
 
 PlaceTree::PlaceTree(std::vector<Vec2> places) : places_(std::move(places)) {
   std::size_t leaves = 1;
-  while (leaves * kLeaf < places_.size()) leaves *= 2;
+  while (leaves * kPlacesOfLeaf < places_.size()) leaves *= 2;
   boxes_.resize(2 * leaves);
   build(1, 0, places_.size());
 }
 
 void PlaceTree::build(std::size_t node, std::size_t begin, std::size_t end) {
   Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
-  if (end - begin <= kLeaf || 2 * node + 1 >= boxes_.size()) {
+  if (end - begin <= kPlacesOfLeaf || 2 * node + 1 >= boxes_.size()) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec2 p = places_[i];
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
@@ -49,7 +50,7 @@ void PlaceTree::search(std::size_t node, std::size_t begin, std::size_t end, Vec
     return squared({std::max({box.low.x - point.x, 0.0, point.x - box.high.x}),
                     std::max({box.low.y - point.y, 0.0, point.y - box.high.y})});
   };
-  if (end - begin <= kLeaf || 2 * node + 1 >= boxes_.size()) {
+  if (end - begin <= kPlacesOfLeaf || 2 * node + 1 >= boxes_.size()) {
     for (std::size_t i = begin; i < end; ++i) {
       const double distance = squared(places_[i] - point);
       if (distance >= best) continue;
