@@ -53,6 +53,7 @@ SplitOptions read_plate_split(const Value& value, Findings& findings) {
   if (const auto sheet = map.find("sheet")) split.sheet = read_sheet(*sheet, findings);
   split.heaviest = map.quantity("heaviest", Dimension::mass);
   split.widest = map.quantity("widest", Dimension::length);
+  set_length(map, "bar", split.bar);
   set_length(map, "margin", split.margin);
   set_length(map, "spacing", split.spacing);
   if (const auto allowed = map.find("allowed")) split.allowed = as_flag(*allowed, findings).value_or(true);

@@ -33,6 +33,7 @@ std::string split(const SplitOptions& options) {
   group.add("sheet", point(options.sheet));
   group.add("heaviest", options.heaviest, Dimension::mass);
   group.add("widest", options.widest, Dimension::length);
+  group.add("bar", options.bar, Dimension::length);
   group.add("margin", options.margin, Dimension::length);
   group.add("spacing", options.spacing, Dimension::length);
   if (!options.allowed) group.add("allowed", "false");

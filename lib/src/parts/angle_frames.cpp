@@ -4,12 +4,14 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/angle_bar.hpp"
+#include "parts/bar_pieces.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/frame_holes.hpp"
 #include "parts/plate_section.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/section_outside.hpp"
+#include "parts/workshop_list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -352,6 +354,15 @@ AngleFrame angle_frame(const AngleSeat& seat, const PlateOptions& options, Flang
     frame.pieces.push_back(std::move(part));
   }
   return frame;
+}
+
+void add_angle_frame(const AngleFrame& frame, FlangeSide of_joint, const PlateOptions& options,
+                     Workshop& workshop) {
+  for (const ShopPart& whole : frame.pieces) {
+    std::vector<ShopPart> pieces = angle_pieces(whole, of_joint == FlangeSide::downstream, options);
+    if (pieces.size() > 1) note_bar_pieces(options, workshop);
+    for (ShopPart& piece : pieces) add_part(workshop, std::move(piece), kFrameColour);
+  }
 }
 
 double elongation_of(const FlangeOptions& flange, double radius) {

@@ -43,6 +43,11 @@ struct AngleFrame {
 [[nodiscard]] AngleFrame angle_frame(const AngleSeat& seat, const PlateOptions& options, FlangeSide of_joint,
                                      const std::vector<Frame>& places);
 
+/// Adds its pieces, cut to the lengths that bars come in.
+/// @throws InputError as angle_pieces()
+void add_angle_frame(const AngleFrame& frame, FlangeSide of_joint, const PlateOptions& options,
+                     Workshop& workshop);
+
 /// @return the outside of a channel, or of a slab below it
 [[nodiscard]] AngleSeat channel_seat(const ChannelMeasures& channel, const PlateOptions& options);
 

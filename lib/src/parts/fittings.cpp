@@ -8,6 +8,7 @@
 #include "parts/bolts.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
+#include "parts/frame_pieces.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/seams.hpp"
 #include "parts/shell.hpp"
@@ -308,8 +309,8 @@ void add_channel_stiffeners(const Fitting& fitting) {
   }
   if (part.places.empty()) return;
   weigh(part);
-  for (ShopPart& piece : pieces_across(part, false, job.options.split))
-    add_part(fitting.workshop, std::move(piece), kFittingColour);
+  add_in_pieces(part, frame_line(job, stiffener.width, top), false, job.options, kFittingColour,
+                fitting.workshop);
 }
 
 namespace {

@@ -7,12 +7,14 @@
 #include "parts/angle_bar.hpp"
 #include "parts/angle_frames.hpp"
 #include "parts/as_built.hpp"
+#include "parts/bar_pieces.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/bolted.hpp"
 #include "parts/bolts.hpp"
 #include "parts/clash.hpp"
 #include "parts/fittings.hpp"
 #include "parts/frame_holes.hpp"
+#include "parts/frame_pieces.hpp"
 #include "parts/joint_steps.hpp"
 #include "parts/plate_facts.hpp"
 #include "parts/plate_joints.hpp"
@@ -461,13 +463,24 @@ Frame ring_place(const PipeJob& job, const Gore& gore, double at, double shift) 
           direction_in_space(job.placement, gore.along)};
 }
 
-/// The row of the schedule that makes a ring of a straight angle: over the length at its centroid.
-void add_ring_rolling(const PipeJob& job, int number, Workshop& workshop) {
-  const FlangeOptions& flange = job.options.flanges;
-  const double inner = job.radius() + job.pipe.thickness + flange.gap;
-  const Angle turn = job.side ? kHalfTurn : kWholeTurn;
-  const double length = turn.radians() * (inner + angle_centroid(flange.width, flange.thickness));
-  workshop.bends.push_back({number, 1, job.side.value_or(0.0), length, turn, turn, inner, 0.0});
+/// The row of the schedule that makes a ring, or a piece of one, of a straight angle: over the length at its centroid.
+void add_rolling(const AngleBar& bar, int number, Workshop& workshop) {
+  double straight = 0.0;
+  double turn = 0.0;
+  double inner = 0.0;
+  for (const PathPiece& piece : pieces_of(bar.heel)) {
+    if (piece.straight()) {
+      if (turn == 0.0) straight += length(piece);
+      continue;
+    }
+    const CircularArc arc = arc_of(piece);
+    turn += std::fabs(arc.sweep);
+    inner = arc.radius;
+  }
+  if (turn == 0.0) return;
+  const Angle angle = Angle::from_radians(turn);
+  const double rolled = turn * (inner + angle_centroid(bar.height, bar.thickness));
+  workshop.bends.push_back({number, 1, straight, rolled, angle, angle, inner, 0.0});
 }
 
 void note_rings(const PipeJob& job, Workshop& workshop) {
@@ -488,13 +501,25 @@ void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop&
     before.places.push_back(angles ? turned_about(ring_place(job, last, last.body.length, 0.0))
                                    : ring_place(job, last, last.body.length, -job.options.flanges.thickness));
   }
+  const FlangeOptions& flange = job.options.flanges;
+  const double pitch_radius = job.radius() + job.pipe.thickness + flange.gap + 0.5 * flange.width;
   // Those that are not slotted are round.
   const std::size_t bolts = std::max(before.pattern->region.holes.size(), after.pattern->region.holes.size());
   for (ShopPart* part : {&before, &after}) {
     weigh(*part);
-    const std::size_t listed = workshop.parts.size();
-    const int number = add_part(workshop, *part, kFrameColour);
-    if (angles && workshop.parts.size() > listed) add_ring_rolling(job, number, workshop);
+    if (!angles) {
+      add_in_pieces(*part, line_round(job, pitch_radius), part == &after, job.options, kFrameColour,
+                    workshop);
+      continue;
+    }
+    std::vector<ShopPart> pieces = angle_pieces(*part, part == &after, job.options);
+    if (pieces.size() > 1) note_bar_pieces(job.options, workshop);
+    for (ShopPart& piece : pieces) {
+      const std::size_t listed = workshop.parts.size();
+      const AngleBar bar = std::get<AngleBar>(piece.body);
+      const int number = add_part(workshop, std::move(piece), kFrameColour);
+      if (workshop.parts.size() > listed) add_rolling(bar, number, workshop);
+    }
   }
   if (angles) note_rings(job, workshop);
   add_joint_bolts(workshop, job.options.flanges, bolts * (units.size() - 1), units.size() - 1);

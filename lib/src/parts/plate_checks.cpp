@@ -135,6 +135,7 @@ void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& optio
 void object_to_split(const SplitOptions& split, Objections& objections) {
   for (Issue& issue : stock_problems(split.stock())) objections.add(std::move(issue));
   if (split.longest) objections.positive(*split.longest, "split.longest");
+  objections.positive(split.bar, "split.bar");
   if (split.widest && !(*split.widest >= kLeastStrip)) {
     objections.add(
         "split.widest", "widest: " + length_text(*split.widest) + " is too narrow",

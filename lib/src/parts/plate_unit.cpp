@@ -7,6 +7,7 @@
 #include "parts/bolts.hpp"
 #include "parts/corners.hpp"
 #include "parts/frame_holes.hpp"
+#include "parts/frame_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,12 @@ OwnPlane own_plane(const ArcPath& outline) {
   const PlaneBox box = bounds(turned);
   plane.origin = PlaneMotion::turn(plane.angle)(box.low);
   return plane;
+}
+
+Frame moved_into(const Frame& place, const OwnPlane& own) {
+  const auto [sine, cosine] = math::sine_cosine(own.angle);
+  return {place.to_space({own.origin.x, own.origin.y, 0.0}), cosine * place.x + sine * place.y,
+          cosine * place.y - sine * place.x, place.z};
 }
 
 double bend_radius(const Job& job) {
@@ -279,6 +286,14 @@ PlaneRegion frame_region(const Job& job, double width, double top, bool over_lap
   }
   for (const Vec2 corner : corners) region.outline.vertices.push_back({corner, 0.0});
   return region;
+}
+
+ArcPath frame_line(const Job& job, double width, double top) {
+  const double in = line_in_band(width) + job.options.flanges.gap;
+  const double side = 0.5 * job.channel.width + job.channel.wall() + in;
+  const double level = -floor_depth(job) - job.channel.thickness - in;
+  if (job.channel.wall_height == 0.0) return {{{{side, level}, 0.0}, {{-side, level}, 0.0}}, false};
+  return {{{{side, top}, 0.0}, {{side, level}, 0.0}, {{-side, level}, 0.0}, {{-side, top}, 0.0}}, false};
 }
 
 ShopPart frame_plate(const Job& job, FlangeSide of_joint, const std::vector<Frame>& places) {

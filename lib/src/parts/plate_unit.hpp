@@ -54,6 +54,9 @@ struct OwnPlane {
 /// @return from the plane of the track into a part's own
 [[nodiscard]] PlaneMotion into(const OwnPlane& plane);
 
+/// @return where what was moved into its own plane lies, of a place of the plate that it was told in
+[[nodiscard]] Frame moved_into(const Frame& place, const OwnPlane& own);
+
 /// Says where the part's number may stand, if there is room for it.
 void set_number_place(FlatPattern& pattern, const PlaneBox& box);
 
@@ -87,6 +90,9 @@ void drill_floor(const Job& job, const FloorFace& face, const std::vector<Span>&
 /// @param top    height to which it reaches; no more than 0: a bar below the floor
 /// @param over_laps  with room for plates that reach beyond their corners
 [[nodiscard]] PlaneRegion frame_region(const Job& job, double width, double top, bool over_laps);
+
+/// A line in it (frame_pieces.hpp), from the left end to the right one.
+[[nodiscard]] ArcPath frame_line(const Job& job, double width, double top);
 
 /// A frame round the end of a unit, of one plate.
 /// @param of_joint  the side on which it lies, which its holes tell

@@ -14,6 +14,7 @@
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
+#include "parts/frame_pieces.hpp"
 #include "parts/joint_steps.hpp"
 #include "parts/mitred_pipe.hpp"
 #include "parts/plate_checks.hpp"
@@ -83,7 +84,7 @@ void add_angle_frames(const Job& job, Workshop& workshop, const std::vector<doub
       places.push_back(frame_place(job, joints[i], true));
     AngleFrame frame = angle_frame(seat, job.options, side, places);
     bolts = frame.bolts;
-    for (ShopPart& piece : frame.pieces) add_part(workshop, std::move(piece), kFrameColour);
+    add_angle_frame(frame, side, job.options, workshop);
   }
   add_joint_bolts(workshop, job.options.flanges, bolts * (joints.size() - 2), joints.size() - 2);
 }
@@ -103,8 +104,8 @@ void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& j
     const bool before = side == FlangeSide::upstream;
     const ShopPart frame = frame_plate(job, side, before ? downstream : upstream);
     bolts = std::max(frame.pattern->region.holes.size(), frame.pattern->region.cutouts.size());
-    for (ShopPart& piece : pieces_across(frame, !before, job.options.split))
-      add_part(workshop, std::move(piece), kFrameColour);
+    add_in_pieces(frame, frame_line(job, job.options.flanges.width, job.channel.wall_height), !before,
+                  job.options, kFrameColour, workshop);
   }
   add_joint_bolts(workshop, job.options.flanges, bolts * (joints.size() - 2), joints.size() - 2);
 }

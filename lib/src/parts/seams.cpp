@@ -2,7 +2,6 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
-#include "glissade/core/slot.hpp"
 
 #include "parts/body_moments.hpp"
 #include "parts/plate_joints.hpp"
@@ -23,9 +22,6 @@ constexpr double kStep = 1e-3;         // in which seams move off what is taken 
 constexpr double kMostStagger = 0.25;  // of a strip
 constexpr int kMoreStrips = 10;        // than an even division asks for
 constexpr double kTouch = 1e-9;        // [m]
-constexpr int kMostPieces = 20;        // of a plate across the track
-constexpr double kOffHole = 3.0;       // radii of a hole from its middle to a cut
-constexpr double kStagger = 60e-3;     // of cuts in two plates that meet, from the even places [m]
 
 /// The place nearest to one that lies in nothing that is taken.
 std::optional<double> free_place(double about, double room, const std::vector<Span>& taken) {
@@ -127,103 +123,6 @@ ArcPath part_beyond(const ArcPath& outline, Vec2 normal, double from) {
     part.vertices.push_back({met + (from - dot(met, normal)) * normal, 0.0});
   }
   return part;
-}
-
-namespace {
-
-/// Whether an upright line crosses an outline once, from one edge to another, off its corners.
-bool cuts_once(const ArcPath& outline, double x) {
-  constexpr double kOffCorner = 5e-3;  // [m]
-  int edges = 0;
-  const std::size_t count = outline.vertices.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const PathVertex& a = outline.vertices[i];
-    const Vec2 b = outline.vertices[(i + 1) % count].at;
-    if (a.bulge != 0.0 || std::fabs(a.at.x - x) < kOffCorner) return false;
-    if ((a.at.x < x) != (b.x < x)) ++edges;
-  }
-  return edges == 2;
-}
-
-std::optional<double> cut_near(const PlaneRegion& region, double about, double room) {
-  for (double off = 0.0; off <= room; off += kStep) {
-    for (const double x : {about - off, about + off}) {
-      const bool free =
-          std::none_of(
-              region.holes.begin(), region.holes.end(),
-              [&](const Circle& hole) { return std::fabs(hole.centre.x - x) < kOffHole * hole.radius; }) &&
-          std::none_of(region.cutouts.begin(), region.cutouts.end(), [&](const ArcPath& cutout) {
-            const PlaneBox box = bounds(cutout);
-            return std::fabs(0.5 * (box.low.x + box.high.x) - x) < 0.5 * kOffHole * box.width();
-          });
-      if (free && cuts_once(region.outline, x)) return x;
-    }
-  }
-  return std::nullopt;
-}
-
-bool within(const ArcPath& cutout, const Span& span) {
-  const PlaneBox box = bounds(cutout);
-  return box.low.x > span.from && box.high.x < span.to;
-}
-
-ShopPart piece_of(const ShopPart& plate, const Span& span, std::size_t index, std::size_t count) {
-  const PlaneRegion& whole = plate.pattern->region;
-  PlaneRegion region;
-  region.outline = part_beyond(part_beyond(whole.outline, {1.0, 0.0}, span.from), {-1.0, 0.0}, -span.to);
-  for (const Circle& hole : whole.holes) {
-    if (hole.centre.x > span.from && hole.centre.x < span.to) region.holes.push_back(hole);
-  }
-  for (const ArcPath& cutout : whole.cutouts) {
-    if (within(cutout, span)) region.cutouts.push_back(cutout);
-  }
-  ShopPart piece = plate;
-  piece.name += strip_letter(index, count);
-  piece.body = Prism{region, std::get<Prism>(plate.body).depth};
-  piece.pattern = FlatPattern{};
-  piece.pattern->region = std::move(region);
-  set_number_place(*piece.pattern, bounds(piece.pattern->region.outline));
-  weigh(piece);
-  return piece;
-}
-
-/// A plate in so many pieces; none where they do not fit or find no cuts.
-std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& plate, std::size_t count, double shift,
-                                               const SplitOptions& sheet) {
-  const PlaneRegion& region = plate.pattern->region;
-  const PlaneBox box = bounds(region.outline);
-  const double step = box.width() / static_cast<double>(count);
-  std::vector<double> cuts;
-  for (std::size_t k = 1; k < count; ++k) {
-    const auto cut = cut_near(region, box.low.x + static_cast<double>(k) * step + shift, 0.25 * step);
-    if (!cut) return std::nullopt;
-    cuts.push_back(*cut);
-  }
-  std::vector<ShopPart> pieces;
-  for (const Span& span : strips_between_seams({box.low.x - 1.0, box.high.x + 1.0}, cuts)) {
-    pieces.push_back(piece_of(plate, span, pieces.size(), count));
-    if (excess(sheet, pieces.back())) return std::nullopt;
-  }
-  return pieces;
-}
-
-/// Openings that seams would have to go through, those of closed sections, are no slots.
-bool all_slots(const std::vector<ArcPath>& cutouts) {
-  return std::all_of(cutouts.begin(), cutouts.end(),
-                     [](const ArcPath& cutout) { return as_slot(cutout).has_value(); });
-}
-
-}  // namespace
-
-std::vector<ShopPart> pieces_across(const ShopPart& plate, bool staggered, const SplitOptions& split) {
-  SplitOptions sheet = split;
-  sheet.heaviest.reset();
-  if (!split.allowed || !excess(sheet, plate) || !all_slots(plate.pattern->region.cutouts)) return {plate};
-  const double shift = staggered ? -kStagger : kStagger;
-  for (std::size_t count = 2; count <= kMostPieces; ++count) {
-    if (auto pieces = in_pieces(plate, count, shift, sheet)) return *pieces;
-  }
-  return {plate};
 }
 
 void note_seams(double length, Workshop& workshop) {

@@ -39,12 +39,6 @@ namespace glissade::parts {
 /// @return what of a region lies where a point's share along the normal is no less than `from`
 [[nodiscard]] ArcPath part_beyond(const ArcPath& outline, Vec2 normal, double from);
 
-/// A plate that stands across the track, in pieces that fit the sheet: cut upright where that crosses it once, off its holes.
-/// @param staggered  cuts lie elsewhere: of one of two plates that meet
-/// @return the plate alone where it fits, or where no such cuts are to be had
-[[nodiscard]] std::vector<ShopPart> pieces_across(const ShopPart& plate, bool staggered,
-                                                  const SplitOptions& split);
-
 /// Says how long the seams are.
 void note_seams(double length, Workshop& workshop);
 

@@ -2,7 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 
-#include "parts/seams.hpp"
+#include "parts/frame_pieces.hpp"
 #include "parts/shell.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -26,22 +26,30 @@ PlaneRegion between(ArcPath outer, const ArcPath& inner) {
   return {outer, {}, {}};
 }
 
+/// A stiffener, and a line in it outside of what laps.
+struct Ring {
+  PlaneRegion region;
+  ArcPath line;
+};
+
 /// @return none where laps leave no way round them
-std::optional<PlaneRegion> region_at(const Shell& shell, double s) {
+std::optional<Ring> ring_at(const Shell& shell, double s) {
   const StiffenerOptions& stiffener = *shell.options.stiffeners;
   const double gap = shell.options.flanges.gap;
   if (shell.ring) {
     const SectionOutside outside = shell.outside(s);
     const auto inner = round_laps(outside, gap);
     if (!inner) return std::nullopt;
-    return between(left_half(moved_out(outside.line, gap + stiffener.width), kHalfGap),
-                   left_half(*inner, kHalfGap));
+    return Ring{between(left_half(moved_out(outside.line, gap + stiffener.width), kHalfGap),
+                        left_half(*inner, kHalfGap)),
+                left_half(moved_out(outside.line, gap + line_in_band(stiffener.width)), kHalfGap)};
   }
   const double rim = shell.options.rim ? shell.options.rim->thickness + gap : 0.0;
   const SectionOutside outside = lowered(shell.outside(s), rim);
   const auto inner = round_laps(outside, gap);
   if (!inner) return std::nullopt;
-  return between(moved_out(outside.line, gap + stiffener.width), *inner);
+  return Ring{between(moved_out(outside.line, gap + stiffener.width), *inner),
+              moved_out(outside.line, gap + line_in_band(stiffener.width))};
 }
 
 /// The other half, turned about the upright.
@@ -67,15 +75,14 @@ void add_stiffeners(const Shell& shell) {
       const auto at =
           best_seat(shell, {half + kAside, half}, room, [&](double s) { return std::fabs(s - about); });
       if (!at || std::fabs(*at - about) > 0.5 * whole / gaps) continue;
-      const auto region = region_at(shell, *at);
-      if (!region) continue;
-      ShopPart part = cross_plate(shell, "stiffener", *region, stiffener.thickness, *at);
+      const auto ring = ring_at(shell, *at);
+      if (!ring) continue;
+      ShopPart part = cross_plate(shell, "stiffener", ring->region, stiffener.thickness, *at);
       if (shell.ring) {
         part.name = "stiffener_half";
         part.places.push_back(turned(part.places.front(), stiffener.thickness));
       }
-      for (ShopPart& piece : pieces_across(part, false, shell.options.split))
-        add_part(shell.workshop, std::move(piece), kFittingColour);
+      add_in_pieces(part, ring->line, false, shell.options, kFittingColour, shell.workshop);
       shell.taken.add(*at - half, *at + half);
       ++count;
     }

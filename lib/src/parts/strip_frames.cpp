@@ -7,9 +7,9 @@
 #include "parts/angle_frames.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/frame_holes.hpp"
+#include "parts/frame_pieces.hpp"
 #include "parts/frame_room.hpp"
 #include "parts/plate_unit.hpp"
-#include "parts/seams.hpp"
 #include "parts/workshop_list.hpp"
 
 #include <algorithm>
@@ -118,6 +118,15 @@ ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, FlangeS
   return part;
 }
 
+/// On which its bolts stand.
+ArcPath line_in_frame(const StripJob& job, const std::vector<Vec2>& outside) {
+  const FlangeOptions& flange = job.options.flanges;
+  ArcPath line;
+  line.closed = job.section.ring;
+  add_polygon(line, moved_to_left(outside, job.section.ring, flange.gap + 0.5 * flange.width));
+  return line;
+}
+
 std::size_t bolts_of(const ShopPart& frame, bool ring) {
   const PlaneRegion& region = frame.pattern->region;
   return region.holes.empty() ? region.cutouts.size() - (ring ? 1 : 0) : region.holes.size();
@@ -142,8 +151,8 @@ std::size_t add_angles(const StripJob& job, const std::optional<BentStrips>& ben
       if (before && i + 1 < joints.size()) bolts += frame.bolts;
       for (ShopPart& piece : frame.pieces) {
         if (job.widens()) piece.name += "_" + std::to_string(i);
-        add_part(workshop, std::move(piece), kFrameColour);
       }
+      add_angle_frame(frame, side, job.options, workshop);
     }
   }
   return bolts;
@@ -169,13 +178,13 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
       if (before ? i == 0 : i + 1 == joints.size()) continue;
       // Both frames of a joint are one figure, but for their holes.
       const double lean = bent ? bent->lean_at(joints[i]) : job.lean_at(joints[i]);
-      ShopPart frame = frame_of(job, outside_at(job, lean, joints[i]), side);
+      const std::vector<Vec2> outside = outside_at(job, lean, joints[i]);
+      ShopPart frame = frame_of(job, outside, side);
       if (job.widens()) frame.name += "_" + std::to_string(i);
       frame.places = {place_of_frame(job, joints[i], before ? -job.options.flanges.thickness : 0.0)};
       if (before && i + 1 < joints.size()) bolts += bolts_of(frame, job.section.ring);
       weigh(frame);
-      for (ShopPart& piece : pieces_across(frame, !before, job.options.split))
-        add_part(workshop, std::move(piece), kFrameColour);
+      add_in_pieces(frame, line_in_frame(job, outside), !before, job.options, kFrameColour, workshop);
     }
   }
   add_joint_bolts(workshop, job.options.flanges, bolts, joints.size() - 2);

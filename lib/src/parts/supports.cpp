@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/bar_pieces.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/ground.hpp"
@@ -266,12 +267,12 @@ void add_legs(const Shell& shell, const Trestle& trestle, const Measures& measur
   const double half = 0.5 * measures.beam_length;
   ShopPart beam = bought_tube(shell, "beam", measures.beam_length,
                               {at(-half, trestle.beam - 0.5 * supports.tube), kUp, run, left});
-  add_part(shell.workshop, beam, kSupportColour);
+  add_tube(beam, shell.options, kSupportColour, shell.workshop);
   const double foot = trestle.ground + supports.grout + kPlate;
   ShopPart leg = bought_tube(shell, "leg_" + number, trestle.leg(supports),
                              {at(measures.leg_aside, foot), run, left, kUp});
   leg.places.push_back({at(-measures.leg_aside, foot), run, left, kUp});
-  add_part(shell.workshop, leg, kSupportColour);
+  add_tube(leg, shell.options, kSupportColour, shell.workshop);
 
   const double side = 0.5 * base_side(supports);
   const double hole = 0.5 * clearance_hole(supports.anchor, HoleFit::coarse);
@@ -320,7 +321,10 @@ void add_braces(const Shell& shell, const Trestle& trestle, const Measures& meas
       ShopPart brace = plate_part(shell, "brace_" + number, region, kBrace, {place});
       // Flat bar where no sheet is as long.
       brace.bought_in = bounds(region.outline).width() > longest;
-      add_part(shell.workshop, std::move(brace), kSupportColour);
+      if (brace.bought_in)
+        add_flat_bar(brace, shell.options, kSupportColour, shell.workshop);
+      else
+        add_part(shell.workshop, std::move(brace), kSupportColour);
     }
   }
 }

@@ -55,6 +55,11 @@ void take_back(Workshop& workshop, const ShopPart& part, const Frame& place) {
   }
 }
 
+void add_note(std::string note, Workshop& workshop) {
+  if (std::find(workshop.notes.begin(), workshop.notes.end(), note) == workshop.notes.end())
+    workshop.notes.push_back(std::move(note));
+}
+
 void add_item(Workshop& workshop, BoughtInItem item) {
   if (item.quantity == 0) return;
   for (BoughtInItem& other : workshop.items) {

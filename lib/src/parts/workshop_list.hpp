@@ -24,6 +24,9 @@ int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& col
 /// Takes one piece off the list again: that of a part, or of its equal, at a place of the part.
 void take_back(Workshop& workshop, const ShopPart& part, const Frame& place);
 
+/// Adds a note that stands there once.
+void add_note(std::string note, Workshop& workshop);
+
 /// Adds what is bought; to the count of its like where there is one.
 void add_item(Workshop& workshop, BoughtInItem item);
 
