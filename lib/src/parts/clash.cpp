@@ -38,7 +38,7 @@ struct Box {
 
 constexpr double kMargin = 1e-3;  // of boxes round points that lie just inside
 
-struct Piece {
+struct PlacedShape {
   const ShopPart* part = nullptr;
   Frame place;
   std::vector<Vec3> points;
@@ -47,15 +47,15 @@ struct Piece {
   std::vector<EdgeLine> lines = {};
 };
 
-std::vector<Piece> pieces_in_space(const Workshop& workshop) {
-  std::vector<Piece> pieces;
+std::vector<PlacedShape> pieces_in_space(const Workshop& workshop) {
+  std::vector<PlacedShape> pieces;
   for (const ShopPart& part : workshop.parts) {
     const std::vector<Vec3> own = edge_points(part.body, kInset);
     Box box;
     for (const Vec3 local : own) box.widen(local);
     const std::vector<EdgeLine> lines = edge_lines(part.body, kInset);
     for (const Frame& place : part.places) {
-      Piece piece{&part, place, {}, {}, box};
+      PlacedShape piece{&part, place, {}, {}, box};
       for (const EdgeLine& line : lines)
         piece.lines.push_back({place.to_space(line.from), place.to_space(line.to)});
       for (const Vec3 local : own) {
@@ -68,14 +68,14 @@ std::vector<Piece> pieces_in_space(const Workshop& workshop) {
   return pieces;
 }
 
-[[noreturn]] void tell_clash(const Piece& a, const Piece& b, double depth) {
+[[noreturn]] void tell_clash(const PlacedShape& a, const PlacedShape& b, double depth) {
   throw InternalError(
       {"", "parts clash: " + a.part->name + " reaches " + length_text(depth, 3) + " into " + b.part->name, "",
        "another design, and a report of this one"});
 }
 
 /// Along an edge, in steps that the distance from the other part allows: nothing thicker than half a plate is stepped over.
-void require_apart(const Piece& a, const EdgeLine& line, const Piece& b) {
+void require_apart(const PlacedShape& a, const EdgeLine& line, const PlacedShape& b) {
   const Vec3 from = in_own(b.place, line.from);
   const Vec3 way = in_own(b.place, line.to) - from;
   const double whole = norm(way);
@@ -93,7 +93,7 @@ void require_apart(const Piece& a, const EdgeLine& line, const Piece& b) {
 }
 
 /// Points and edges of one piece inside another.
-void require_apart(const Piece& a, const Piece& b) {
+void require_apart(const PlacedShape& a, const PlacedShape& b) {
   for (const EdgeLine& line : a.lines) require_apart(a, line, b);
   for (const Vec3 point : a.points) {
     if (!b.box.meets({point, point}, kMargin)) continue;
@@ -108,7 +108,7 @@ void require_apart(const Piece& a, const Piece& b) {
 }  // namespace
 
 std::size_t require_no_clash(const Workshop& workshop) {
-  const std::vector<Piece> pieces = pieces_in_space(workshop);
+  const std::vector<PlacedShape> pieces = pieces_in_space(workshop);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       if (k != i && pieces[k].box.meets(pieces[i].box, kMargin)) require_apart(pieces[i], pieces[k]);

@@ -196,7 +196,7 @@ bool stays_flat(const ShopPart& part) {
 
 /// A motion of a body's plane, as one of the body: a mirrored one turns it over.
 /// @param low  where z = 0 comes to lie
-Frame in_space(const PlaneMotion& motion, double low) {
+Frame frame_in_space(const PlaneMotion& motion, double low) {
   const auto way = [&](Vec2 unit) { return motion(unit) - motion.shift; };
   const Vec2 x = way({1.0, 0.0});
   const Vec2 y = way({0.0, 1.0});
@@ -219,7 +219,7 @@ BodyPlace place_of(const Prism& body, const Prism& other, bool end_for_end) {
   const auto motion =
       region_motion(body.region, other.region, end_for_end, [](const PlaneMotion&) { return true; });
   if (!motion) return std::nullopt;
-  return in_space(*motion, end_for_end ? body.depth : 0.0);
+  return frame_in_space(*motion, end_for_end ? body.depth : 0.0);
 }
 
 /// The least and the greatest of what lies across.
@@ -259,7 +259,7 @@ BodyPlace place_of(const RolledSheet& body, const RolledSheet& other, bool end_f
         return near(motion({}), sheet({})) && turns_half_round(motion) == end_for_end;
       }))
     return std::nullopt;
-  return in_space(*path, end_for_end ? other_low + high : 0.0);
+  return frame_in_space(*path, end_for_end ? other_low + high : 0.0);
 }
 
 BodyPlace place_of(const SweptBody& body, const SweptBody& other, bool end_for_end) {
@@ -295,7 +295,7 @@ BodyPlace place_of(const SweptBody& body, const SweptBody& other, bool end_for_e
         same = near(sense * moved_across(i, j), beyond);
       }
     }
-    if (same) return in_space(*path, shift);
+    if (same) return frame_in_space(*path, shift);
   }
   return std::nullopt;
 }
@@ -371,7 +371,7 @@ BodyPlace place_of(const AngleBar& body, const AngleBar& other, bool /*end_for_e
            same_cutouts(rising, there, way);
   });
   if (!motion) return std::nullopt;
-  return in_space(*motion, 0.0);
+  return frame_in_space(*motion, 0.0);
 }
 
 BodyPlace place_of(const MeshBody& /*body*/, const MeshBody& /*other*/, bool end_for_end) {

@@ -22,7 +22,7 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kStep = 1e-3;           // in which cuts move off what is taken [m]
+constexpr double kCutStep = 1e-3;        // in which cuts move off what is taken [m]
 constexpr double kStagger = 60e-3;       // of cuts in two plates without bolts that meet [m]
 constexpr double kRoom = 0.4;            // of a piece, by which a cut may move
 constexpr double kMostStagger = 0.3;     // of a piece
@@ -133,7 +133,7 @@ std::optional<double> cut_near(const BandLine& line, const BandCuts& cuts, const
     }
   }
   if (best) return best;
-  for (double off = 0.0; off <= room; off += kStep) {
+  for (double off = 0.0; off <= room; off += kCutStep) {
     for (const double place : {about - off, about + off}) {
       if (cuts.is_free(place)) return place;
     }
@@ -205,9 +205,9 @@ struct Cut {
 };
 
 /// A band and where it may be cut.
-class Band {
+class FrameBand {
  public:
-  Band(const PlaneRegion& region, const PlateOptions& options)
+  FrameBand(const PlaneRegion& region, const PlateOptions& options)
       : region_(region), options_(options), outer_(edge_of(region.outline, true)) {
     for (const ArcPath& cutout : region.cutouts) {
       if (!as_slot(cutout)) inner_.emplace(edge_of(cutout, false));
@@ -318,8 +318,9 @@ ShopPart piece_of(const ShopPart& plate, const PlaneRegion& region, std::size_t 
 }
 
 /// A plate in so many pieces; none where they do not fit or find no cuts.
-std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& plate, const Band& band, const BandLine& line,
-                                               const BandCuts& wanted, const SplitOptions& sheet) {
+std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& plate, const FrameBand& band,
+                                               const BandLine& line, const BandCuts& wanted,
+                                               const SplitOptions& sheet) {
   const auto places = cuts_along(line, wanted);
   if (!places) return std::nullopt;
   std::vector<Cut> cuts;
@@ -352,7 +353,7 @@ std::vector<ShopPart> pieces_of_band(const ShopPart& plate, const ArcPath& along
   sheet.heaviest.reset();
   if (!sheet.allowed || !excess(sheet, plate)) return {plate};
   const PlaneRegion& region = plate.pattern->region;
-  const Band band(region, options);
+  const FrameBand band(region, options);
   const BandLine line(along);
   BandCuts wanted;
   wanted.bolts = bolts_along(line, region);

@@ -26,7 +26,7 @@ constexpr double kOverEye = 27e-3;   // of a lug, above the eye's middle [m]
 constexpr double kGrip = 60e-3;      // along the section's outside [m]
 constexpr double kMostGrip = 0.3;    // of the outside's length
 constexpr double kDeep = 60e-3;      // from the outside, at the lower end [m]
-constexpr double kAside = 15e-3;     // from what else stands there [m]
+constexpr double kLugAside = 15e-3;  // from what else stands there [m]
 constexpr double kOffPlumb = 20e-3;  // of lugs, told from there on [m]
 
 /// The outside from where a lug begins.
@@ -149,7 +149,7 @@ void add_lugs(const Shell& shell) {
       const bool clear = clear_of_frames(shell, shell.units[i], frame, eye_at(frame) + kOverEye);
       return clear ? off_plumb(s) : std::numeric_limits<double>::infinity();
     };
-    const auto at = best_seat(shell, {half + kAside, half}, between_frames(shell, shell.units[i]), cost);
+    const auto at = best_seat(shell, {half + kLugAside, half}, between_frames(shell, shell.units[i]), cost);
     if (!at) {
       shell.workshop.notes.push_back(unit + "no place for lugs.");
       continue;

@@ -213,7 +213,7 @@ double angle_to_ruling(const Vec2 across, double aside) {
 }
 
 /// A plate of one half of the section along an arc: what its edges do on the flat.
-struct Side {
+struct StripSide {
   double height = 0.0;  ///< of the base
   double aside = 0.0;   ///< Y of the edges per length of track
   double sign = 0.0;    ///< of cos b
@@ -295,13 +295,13 @@ Development developed_widening(const StripJob& job, const SectionPlate& plate,
     const StripArc& one = arcs[i];
     const auto across = [&](double lean) { return nominal + Vec2{half * nominal.y * lean, 0.0}; };
     const double aside = half * one.taper();
-    Side side{plate.middle_to().y,
-              aside,
-              nominal.y > 0.0 ? 1.0 : -1.0,
-              across(one.lean_from).x / nominal.y,
-              half * (one.lean_to - one.lean_from),
-              one.arc.curvature,
-              one.arc.length};
+    StripSide side{plate.middle_to().y,
+                   aside,
+                   nominal.y > 0.0 ? 1.0 : -1.0,
+                   across(one.lean_from).x / nominal.y,
+                   half * (one.lean_to - one.lean_from),
+                   one.arc.curvature,
+                   one.arc.length};
     const double psi = angle_to_ruling(across(one.lean_from), aside);
     if (i == 0) {
       ruling = psi;

@@ -23,12 +23,12 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kLeastRow = 0.25;  // of a sheet: a shorter remnant is shared with the sheet before it
-constexpr double kStagger = 0.3;    // least distance of seams of neighbouring layers [m]
-constexpr double kSame = 1e-9;      // [m]
+constexpr double kLeastRemnant = 0.25;  // of a sheet: a shorter remnant is shared with the sheet before it
+constexpr double kStagger = 0.3;        // least distance of seams of neighbouring layers [m]
+constexpr double kSame = 1e-9;          // [m]
 constexpr std::size_t kMostPieces = 400;
-constexpr double kLeastLeg = 50e-3;  // the structure lies on the ground below that [m]
-constexpr double kSteepest = 1.2;    // slope angle beyond which no leg stands below a bearer [rad]
+constexpr double kLeastPost = 50e-3;  // the structure lies on the ground below that [m]
+constexpr double kSteepest = 1.2;     // slope angle beyond which no leg stands below a bearer [rad]
 
 double turned_between(const ArcSpline& track, double from, double to) {
   return track.direction(from).slope_angle - track.direction(to).slope_angle;
@@ -84,7 +84,7 @@ struct OtherSeams {
       for (const double place : places) {
         if (place <= end && place > best && allow(place, stagger)) best = place;
       }
-      if (best > from + kLeastRow * (end - from)) return best;
+      if (best > from + kLeastRemnant * (end - from)) return best;
     }
     return end;
   }
@@ -96,11 +96,11 @@ void keep_apart(std::vector<double>& seams, double sheet, const OtherSeams& othe
   const std::size_t last = seams.size() - 1;
   if (last < 2) return;
   constexpr int kSteps = 40;
-  const double room = seams[last - 1] - seams[last - 2] - kLeastRow * sheet;
+  const double room = seams[last - 1] - seams[last - 2] - kLeastRemnant * sheet;
   for (const double stagger : others.staggers()) {
     for (int k = 0; k <= kSteps; ++k) {
       const double seam = seams[last - 1] - room * k / kSteps;
-      if (seams[last] - seam < kLeastRow * sheet || !others.allow(seam, stagger)) continue;
+      if (seams[last] - seam < kLeastRemnant * sheet || !others.allow(seam, stagger)) continue;
       seams[last - 1] = seam;
       return;
     }
@@ -399,14 +399,14 @@ std::vector<Leg> plan_legs(const TimberJob& job) {
     const auto place = place_below(job.track, height, from + (to - from) * k / steps);
     if (!place || std::fabs(job.track.at(*place).slope_angle) > kSteepest) continue;
     const Leg leg = leg_below(job, *place);
-    if (leg.length() < -kLeastLeg) {
+    if (leg.length() < -kLeastPost) {
       issues.push_back({"legs.ground",
                         "ground: it lies " + length_text(-leg.length(), 3) +
                             " above the underside of the bearers, " + length_text(leg.x) + " from the start",
                         "They reach " + length_text(-height, 3) + " below the floor.",
                         "a lower ground there, or bearers of less depth"});
     }
-    if (std::min(leg.top_left.y, leg.top_right.y) - leg.ground >= kLeastLeg) legs.push_back(leg);
+    if (std::min(leg.top_left.y, leg.top_right.y) - leg.ground >= kLeastPost) legs.push_back(leg);
   }
   if (!issues.empty()) throw InputError(std::move(issues));
   return legs;
