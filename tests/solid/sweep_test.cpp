@@ -4,6 +4,7 @@
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
@@ -756,6 +757,31 @@ TEST_CASE("sweep: walls higher than the arc at the start is wide lead on where t
     CHECK(solid.trimmed);
     check_solid(solid, options);
     CHECK(volume_by_slices(solid.mesh) == Approx(measure(solid.mesh).volume).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("sweep: walls that reach up to the centre of a bend keep the tolerance") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  // As a search leads them round a corner that the rims touch. Levels are ever shorter towards the centre, their nodes
+  // ever closer together.
+  for (int draw = 0; draw < 60; ++draw) {
+    const double bend = 1.0 / 7.6;
+    const double wall = 7.6 * (draw % 3 == 0 ? 1.0 : 1.0 + math::pow(10.0, random.between(-12.0, -4.0)));
+    const double before = random.between(0.05, 1.0);
+    const double behind = random.between(0.05, 1.0);
+    const ClothoidSpline track(Angle::from_degrees(72.0), {{20.0, 0.004, 0.003},
+                                                           {random.between(0.3, 2.0), 0.003, 0.002},
+                                                           {before, 0.002, bend},
+                                                           {random.between(0.5, 4.0), bend, bend},
+                                                           {behind, bend, 0.004},
+                                                           {20.0, 0.004, 0.007}});
+    SweepOptions options;
+    options.tolerance = draw % 2 == 0 ? 1e-2 : 3e-3;
+    INFO("wall " << wall << ", transitions " << before << " and " << behind);
+    const Solid solid = sweep(track, CrossSection::trapezoid(6.0, wall, Angle::from_degrees(20.0), 0.5),
+                              Placement(), options);
+    check_solid(solid, options);
   }
 }
 

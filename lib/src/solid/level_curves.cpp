@@ -33,6 +33,8 @@ constexpr int kNewtonSteps = 40;
 constexpr double kSlack = 4.0;
 // Distances below this share of the track's length are rounding.
 constexpr double kRounding = 1e-14;
+// A level this share higher than the room of a station just touches what bounds it: the centre of an arc, to rounding.
+constexpr double kTouches = 1.0 - 1e-9;
 // How many pieces of a level may hide in one run of stations without room, as a power of two.
 constexpr int kDeepestSplit = 4;
 
@@ -82,7 +84,7 @@ std::vector<LevelCurves::Room> LevelCurves::rooms_of(int side, double reach, boo
   std::vector<Room> rooms = face_rooms(side, kMargin * reach);
   if (reach > 0.0 && !faces_alone) shrink_to_free_balls(side, reach, rooms);
   for (Room& room : rooms) {
-    if (room.height >= reach) room.height = kInfinity;
+    if (room.height >= kTouches * reach) room.height = kInfinity;
   }
   return rooms;
 }
@@ -412,13 +414,13 @@ std::vector<Trim> LevelCurves::run_trims(double height, std::size_t first, std::
 Trims LevelCurves::trims(double height) const {
   Trims trims;
   const std::vector<Room>& room = rooms(height);
-  const double reach = std::fabs(height);
-  if (room.empty() || reach == 0.0) return trims;
+  const double least = kTouches * std::fabs(height);
+  if (room.empty() || least == 0.0) return trims;
   const std::size_t count = stations_.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (room[i].height >= reach) continue;
+    if (room[i].height >= least) continue;
     const std::size_t first = i;
-    while (i + 1 < count && room[i + 1].height < reach) ++i;
+    while (i + 1 < count && room[i + 1].height < least) ++i;
     const std::vector<Trim> run = run_trims(height, first, i);
     const bool forward = !run.empty() && (trims.cuts.empty() || trims.cuts.back().to < run.front().from);
     if (!forward) {
