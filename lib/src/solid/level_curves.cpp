@@ -33,8 +33,10 @@ constexpr int kNewtonSteps = 40;
 constexpr double kSlack = 4.0;
 // Distances below this share of the track's length are rounding.
 constexpr double kRounding = 1e-14;
-// A level this share higher than the room of a station just touches what bounds it: the centre of an arc, to rounding.
-constexpr double kTouches = 1.0 - 1e-9;
+// A level higher than the room of a station by no more than these shares, of itself and of the sharpness, just touches
+// what bounds it, the centre of an arc: what folds back there is shorter than nodes are apart.
+constexpr double kTouching = 1e-7;
+constexpr double kTouchingOfSharpness = 0.1;
 // How many pieces of a level may hide in one run of stations without room, as a power of two.
 constexpr int kDeepestSplit = 4;
 
@@ -84,7 +86,7 @@ std::vector<LevelCurves::Room> LevelCurves::rooms_of(int side, double reach, boo
   std::vector<Room> rooms = face_rooms(side, kMargin * reach);
   if (reach > 0.0 && !faces_alone) shrink_to_free_balls(side, reach, rooms);
   for (Room& room : rooms) {
-    if (room.height >= kTouches * reach) room.height = kInfinity;
+    if (room.height >= least_room_for(reach)) room.height = kInfinity;
   }
   return rooms;
 }
@@ -411,10 +413,14 @@ std::vector<Trim> LevelCurves::run_trims(double height, std::size_t first, std::
   return {};
 }
 
+double LevelCurves::least_room_for(double height) const {
+  return height - std::min(kTouching * height, kTouchingOfSharpness * sharpness_);
+}
+
 Trims LevelCurves::trims(double height) const {
   Trims trims;
   const std::vector<Room>& room = rooms(height);
-  const double least = kTouches * std::fabs(height);
+  const double least = least_room_for(std::fabs(height));
   if (room.empty() || least == 0.0) return trims;
   const std::size_t count = stations_.size();
   for (std::size_t i = 0; i < count; ++i) {

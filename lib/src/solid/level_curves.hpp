@@ -102,6 +102,7 @@ class LevelCurves {
   void shrink_to_free_balls(int side, double reach, std::vector<Room>& rooms) const;
   void shrink_ball(std::size_t probe, int side, bool exactly, Room& room) const;
   [[nodiscard]] bool faces_alone_trim() const;
+  [[nodiscard]] double least_room_for(double height) const;
   [[nodiscard]] const std::vector<Room>& rooms(double height) const {
     return height >= 0.0 ? rooms_above_ : rooms_below_;
   }

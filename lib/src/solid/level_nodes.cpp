@@ -39,8 +39,8 @@ class CrowdAtTrims {
       if (i <= 0 || i >= last || nodes_[static_cast<std::size_t>(i)].trim) return;
       const double distance = norm(point(i) - point(at));
       const bool is_crowded = distance < kCrowded * norm(point(i + step) - point(i));
-      const bool is_near = distance < limits_.beside_trims && lies_on_chords(at, i, step);
-      if (!is_crowded && !is_near) return;
+      const bool is_near = distance < limits_.beside_trims;
+      if (!(is_crowded || is_near) || !lies_on_chords(at, i, step)) return;
       drop_[static_cast<std::size_t>(i)] = true;
     }
   }
