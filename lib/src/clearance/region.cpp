@@ -120,7 +120,7 @@ void Region::add_profile(const std::vector<Vec2>& outline, double side) {
   runs.erase(std::unique(runs.begin(), runs.end()), runs.end());
   for (std::size_t i = 0; i + 1 < runs.size(); ++i) {
     const double middle = 0.5 * (runs[i] + runs[i + 1]);
-    double extreme = kInfinity;
+    double extreme = core::kInfinity;
     Edge outermost;
     for (const Edge& edge : edges_) {
       const Vec2 a = edge.from.x <= edge.to.x ? edge.from : edge.to;
@@ -151,7 +151,7 @@ bool Region::jumps_within(double low_run, double high_run) const {
 
 // A tree over the edges in their order: neighbours along an outline are neighbours in space.
 void Region::build_boxes(std::size_t node, std::size_t begin, std::size_t end) {
-  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  Box box{{core::kInfinity, core::kInfinity}, {-core::kInfinity, -core::kInfinity}};
   for (std::size_t i = begin; i < end; ++i) {
     for (const Vec2 p : {edges_[i].from, edges_[i].to}) {
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
@@ -300,16 +300,16 @@ Nearest Region::deepest_within(std::span<const Vec2> shape) const {
 // corners, so that the depth is greatest at one of these. Negative where all of it is in front; infinite where
 // none of it lies over the profile's runs.
 Nearest Region::deepest_behind(std::span<const Vec2> shape) const {
-  Nearest deepest{-kInfinity, {}};
-  double low = kInfinity;
-  double high = -kInfinity;
+  Nearest deepest{-core::kInfinity, {}};
+  double low = core::kInfinity;
+  double high = -core::kInfinity;
   for (const Vec2 p : shape) {
     low = std::min(low, p.x);
     high = std::max(high, p.x);
   }
   // The drop of the shape's edge that is turned to the profile.
   const auto outermost = [&](double run) {
-    double drop = -kInfinity;
+    double drop = -core::kInfinity;
     const std::size_t sides = shape.size() <= 2 ? 1 : shape.size();
     for (std::size_t i = 0; i < sides; ++i) {
       Vec2 a = shape[i];

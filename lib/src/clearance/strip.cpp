@@ -191,7 +191,7 @@ double Strip::lower_bound(const Rib& a, const Rib& b, const Region& region) cons
   if (b.s > finish_zone_) {
     shape = clipped(shape, finish_.point + straying * finish_.tangent, -1.0 * finish_.tangent);
   }
-  if (shape.empty()) return kInfinity;
+  if (shape.empty()) return core::kInfinity;
   return region.nearest(shape).value - straying;
 }
 

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-namespace glissade {
+namespace glissade::core {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();  // from 1 to the next number
 
-}  // namespace glissade
+}  // namespace glissade::core

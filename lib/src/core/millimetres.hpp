@@ -1,7 +1,7 @@
 #pragma once
 
-namespace glissade {
+namespace glissade::core {
 
 inline constexpr double kMillimetres = 1000.0;  // in a metre
 
-}  // namespace glissade
+}  // namespace glissade::core

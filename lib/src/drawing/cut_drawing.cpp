@@ -25,7 +25,7 @@ Drawing cut_drawing(const ShopPart& part, LayerPreset preset) {
   Drawing drawing;
   drawing.name = part.name;
   const PlaneBox box = bounds(part.pattern->region.outline);
-  drawing::CutPen(drawing, preset).pattern(part, {}, Vec2{kCorner, kCorner} - kMillimetres * box.low);
+  drawing::CutPen(drawing, preset).pattern(part, {}, Vec2{kCorner, kCorner} - core::kMillimetres * box.low);
   return drawing;
 }
 

@@ -51,7 +51,7 @@ void CutPen::pattern(const ShopPart& part, const PlaneMotion& motion, Vec2 shift
   const FlatPattern& pattern = *part.pattern;
   const auto placed = [&](ArcPath path) {
     path = moved(path, motion);
-    for (PathVertex& vertex : path.vertices) vertex.at = kMillimetres * vertex.at + shift;
+    for (PathVertex& vertex : path.vertices) vertex.at = core::kMillimetres * vertex.at + shift;
     return path;
   };
   add(names_.outline, placed(pattern.region.outline), LineStyle::continuous, kBlack);
@@ -59,7 +59,7 @@ void CutPen::pattern(const ShopPart& part, const PlaneMotion& motion, Vec2 shift
     add(names_.inside, placed(cutout), LineStyle::continuous, kBlack);
   for (const Circle& hole : pattern.region.holes) {
     drawing_.add(drawing_.layer({names_.inside, LineStyle::continuous, kWidth, kBlack}),
-                 Circle{kMillimetres * motion(hole.centre) + shift, kMillimetres * hole.radius});
+                 Circle{core::kMillimetres * motion(hole.centre) + shift, core::kMillimetres * hole.radius});
   }
   for (const BendLine& bend : pattern.bends) {
     add(bend.up ? names_.bend_up : names_.bend_down, placed(line(bend.from, bend.to)), LineStyle::dashed,

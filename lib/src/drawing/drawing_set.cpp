@@ -80,7 +80,7 @@ SheetTable bend_schedule(const Workshop& workshop) {
   for (const BendStep& step : workshop.bends) {
     table.rows.push_back({std::to_string(step.part), std::to_string(step.hit), mm(step.distance),
                           mm(step.length), fixed(step.angle.degrees(), 3), fixed(step.sum.degrees(), 3),
-                          mm(step.radius), fixed(step.chord_error * kMillimetres, 2)});
+                          mm(step.radius), fixed(step.chord_error * core::kMillimetres, 2)});
   }
   return table;
 }

@@ -31,7 +31,8 @@ Named pieces_of(const ShopPart& part, const Eye& eye) {
   const Vec3 from = part.centre_of_gravity - first.origin;
   const Vec3 own{dot(from, first.x), dot(from, first.y), dot(from, first.z)};
   Named named;
-  for (const Frame& place : part.places) named.pieces.push_back(kMillimetres * eye.see(place.to_space(own)));
+  for (const Frame& place : part.places)
+    named.pieces.push_back(core::kMillimetres * eye.see(place.to_space(own)));
   return named;
 }
 

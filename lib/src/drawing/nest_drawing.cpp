@@ -78,7 +78,7 @@ PlaneRegion room_for_label(const FlatPattern& pattern, const PlaneMotion& motion
     const double size = pattern.number_height;  // of two digits, about as wide as high
     region.holes.push_back({*pattern.number_at + Vec2{0.6 * size, 0.5 * size}, 0.9 * size});
   }
-  return scaled(moved(region, motion), kMillimetres);
+  return scaled(moved(region, motion), core::kMillimetres);
 }
 
 /// Number and name as large as they fit into a region, level or upright; the number alone where both do not fit.
@@ -108,8 +108,8 @@ void add_text(CutPen& pen, const char* layer, const Label& label) {
 /// The sheet's edge; above it, where nothing is cut, a bar and what the sheet is.
 void add_sheet(CutPen& pen, const NestedSheet& sheet) {
   const char* const layer = pen.names().sheet;
-  const double width = kMillimetres * sheet.stock.width;
-  const double height = kMillimetres * sheet.stock.height;
+  const double width = core::kMillimetres * sheet.stock.width;
+  const double height = core::kMillimetres * sheet.stock.height;
   pen.add(layer, rectangle({0.0, 0.0}, {width, height}), LineStyle::chain, kGrey);
   const double low = height + kTitle;
   const auto line = [&](Vec2 from, Vec2 to) {

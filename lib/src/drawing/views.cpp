@@ -140,7 +140,7 @@ Vec3 start_of(const Workshop& workshop, const PlaneBox& seen, const Eye& eye) {
   if (start == nullptr) return {};
   const Vec3 on_site = start->site;
   const auto away = [&](Vec3 place) {
-    const Vec2 at = kMillimetres * eye.see(place);
+    const Vec2 at = core::kMillimetres * eye.see(place);
     return math::hypot(std::max({seen.low.x - at.x, at.x - seen.high.x, 0.0}),
                        std::max({seen.low.y - at.y, at.y - seen.high.y, 0.0}));
   };
@@ -234,9 +234,9 @@ void Projection::add_mesh(const TriangleMesh& mesh, const Frame& place) {
   const Vec3 towards_eye = cross(eye_.right, eye_.up);
   const Vec3 own{dot(towards_eye, place.x), dot(towards_eye, place.y), dot(towards_eye, place.z)};
   for (const auto& [from, to] : seen_edges(mesh, own)) {
-    ArcPath path{
-        {{eye_.see(kMillimetres * place.to_space(from))}, {eye_.see(kMillimetres * place.to_space(to))}},
-        false};
+    ArcPath path{{{eye_.see(core::kMillimetres * place.to_space(from))},
+                  {eye_.see(core::kMillimetres * place.to_space(to))}},
+                 false};
     if (!is_point(path)) paths_.push_back(std::move(path));
   }
 }
@@ -245,7 +245,7 @@ void Projection::add(const ShopPart& part, const Frame& place) {
   if (const auto* const printed = std::get_if<MeshBody>(&part.body)) return add_mesh(printed->mesh, place);
   const parts::Brep brep = parts::brep_of(part);
   Frame millimetres = place;
-  millimetres.origin = kMillimetres * place.origin;
+  millimetres.origin = core::kMillimetres * place.origin;
   for (ArcPath& line : outlines_of(brep, millimetres, eye_)) paths_.push_back(std::move(line));
   const std::set<std::size_t> seams = seams_of(brep);
   for (std::size_t i = 0; i < brep.edges.size(); ++i) {
@@ -287,10 +287,10 @@ Eye eye_above(const Workshop& workshop) {
 
 std::vector<MarkedPlace> marked_places(const Workshop& workshop, const PlaneBox& seen, const Eye& eye) {
   const double reach = 0.03 * std::max(seen.width(), seen.height());
-  const Vec2 start = kMillimetres * eye.see(start_of(workshop, seen, eye));
+  const Vec2 start = core::kMillimetres * eye.see(start_of(workshop, seen, eye));
   std::vector<MarkedPlace> places;
   for (const SettingOutPoint& point : workshop.setting_out) {
-    const Vec2 at = start + kMillimetres * Vec2{point.x, point.z};
+    const Vec2 at = start + core::kMillimetres * Vec2{point.x, point.z};
     const bool near = at.x >= seen.low.x - reach && at.x <= seen.high.x + reach &&
                       at.y >= seen.low.y - reach && at.y <= seen.high.y + reach;
     if (!point.what.ends_with("station") && near) places.push_back({point.what, at});

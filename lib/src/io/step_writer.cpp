@@ -397,7 +397,9 @@ class StepFile {
   }
 
  private:
-  Id frame(const Frame& place) { return places_.placement(kMillimetres * place.origin, place.z, place.x); }
+  Id frame(const Frame& place) {
+    return places_.placement(core::kMillimetres * place.origin, place.z, place.x);
+  }
 
   Product product(const std::string& name, Id shape) {
     const std::string quoted = step_string(name);

@@ -89,7 +89,7 @@ std::vector<FloatPosition> positions_of(const TriangleMesh& mesh) {
   const std::vector<Vec3> vertices = rounded ? mesh.vertices : single_precision(mesh, LengthUnit::millimetre);
   std::vector<FloatPosition> positions;
   positions.reserve(vertices.size());
-  for (const Vec3 vertex : vertices) positions.push_back(nearest(kMillimetres * vertex));
+  for (const Vec3 vertex : vertices) positions.push_back(nearest(core::kMillimetres * vertex));
   return positions;
 }
 
@@ -244,7 +244,7 @@ class ModelReader {
     TriangleMesh& mesh = pieces_.back().mesh;
     if (element.name == "vertex") {
       const auto metres = [&](std::string_view key) {
-        return static_cast<double>(number<float>(element, key)) / kMillimetres;
+        return static_cast<double>(number<float>(element, key)) / core::kMillimetres;
       };
       mesh.vertices.push_back({metres("x"), metres("y"), metres("z")});
     } else {

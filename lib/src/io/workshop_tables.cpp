@@ -63,7 +63,7 @@ double clean(double value) {
 }
 
 double mm(double metres) {
-  return clean(kMillimetres * metres);
+  return clean(core::kMillimetres * metres);
 }
 
 double degrees(Angle angle) {
@@ -78,7 +78,7 @@ struct Bar {
 };
 
 std::string shown(double metres) {
-  return rounded_text(kMillimetres * metres, 6);
+  return rounded_text(core::kMillimetres * metres, 6);
 }
 
 Bar bar_of(const ShopPart& part) {

@@ -15,14 +15,14 @@ namespace {
 constexpr double kContinued = 0.25;
 // What is not linear in v is iterated on until v moves by no more than rounding. Newton's method takes some 5
 // rounds; a panel that takes more than this is halved.
-constexpr double kSettled = 4.0 * kEpsilon;
+constexpr double kSettled = 4.0 * core::kEpsilon;
 constexpr int kMostIterations = 25;
 
 /// Direction at s; at the end of a smooth part that from before the break, a jump of curvature is not ours.
 Direction direction_within(const Equation& equation, const Stretch& stretch, double s) {
   Direction direction = equation.centerline->direction(s);
   if (s < stretch.smooth_end) return direction;
-  const double inside = std::max(s * (1.0 - 4.0 * kEpsilon), 0.5 * (stretch.begin + s));
+  const double inside = std::max(s * (1.0 - 4.0 * core::kEpsilon), 0.5 * (stretch.begin + s));
   direction.curvature = equation.centerline->direction(inside).curvature;
   return direction;
 }

@@ -28,9 +28,9 @@ constexpr double kNoShrink = 0.5;
 // A load is negative, a squared speed at the finish distinct from rest, only beyond what rounding can do to
 // it.
 constexpr double kLoadRounding = 1e-12;
-constexpr double kRestRounding = 64.0 * kEpsilon;
+constexpr double kRestRounding = 64.0 * core::kEpsilon;
 // Slope angles as near as this to the friction angle do not start a resting body.
-constexpr double kPushRounding = 8.0 * kEpsilon;
+constexpr double kPushRounding = 8.0 * core::kEpsilon;
 // A valley is too tight where the centre of mass advances by less than this share of the track below it, and
 // the ride is told up to twice that: beyond, its load grows without bound.
 constexpr double kTight = 1e-6;
@@ -78,8 +78,8 @@ double root_between(const Function& function, double a, double b) {
 
 /// By how much a panel misses its tolerances; at most 1 is fine.
 struct Miss {
-  double shape = kInfinity;  ///< of push and load
-  double pace = kInfinity;   ///< of dt/dsigma
+  double shape = core::kInfinity;  ///< of push and load
+  double pace = core::kInfinity;   ///< of dt/dsigma
 };
 
 double spread(const chebyshev::Values& f) {
@@ -91,10 +91,10 @@ Miss miss_of(const Equation& equation, const Panel& panel) {
   const double distance = panel.stretch.end - panel.stretch.begin;
   // Arc lengths are rounded: the share of the panel by which a node may be off, with a factor for steep
   // functions.
-  const double place_rounding = 10.0 * kEpsilon * panel.stretch.end / distance;
+  const double place_rounding = 10.0 * core::kEpsilon * panel.stretch.end / distance;
 
   const double push_size = largest_size(panel.push);
-  const double push_rounding = 4.0 * kEpsilon * 2.0 * equation.gravity * (1.0 + equation.mu);
+  const double push_rounding = 4.0 * core::kEpsilon * 2.0 * equation.gravity * (1.0 + equation.mu);
   const double least_v = *std::min_element(panel.v.begin(), panel.v.end());
   const double push_tolerance = std::max({kTailTolerance * push_size, place_rounding * spread(panel.push),
                                           push_rounding, 0.1 * kTailTolerance * least_v / distance});
@@ -261,7 +261,7 @@ void Integrator::slide(const Stretch& whole, int halvings) {
         come_to_rest(task.stretch, length_, kDeepestCreep);
         record_.stall = Stall{length_, Angle()};
         close(length_, 0.0);
-        record_.end.time = kInfinity;
+        record_.end.time = core::kInfinity;
         return;
       case Verdict::lift_off:
         lift_off = go_to(task, where_load_ends(panel), true);

@@ -52,9 +52,9 @@ double value_at(const End& end, double direction, const Envelope& envelope, cons
 
 /// By how much the end lacks room in its best direction; not above 0 where it has some.
 double lacking(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles) {
-  double best = -kInfinity;
+  double best = -core::kInfinity;
   for (int i = 0; i <= kDirections; ++i) {
-    double spare = kInfinity;
+    double spare = core::kInfinity;
     for (const task::Obstacle& obstacle : obstacles) {
       spare =
           std::min(spare, value_at(end, end.direction(i), envelope, obstacle.region) - obstacle.clearance);
@@ -88,7 +88,7 @@ double largest_top(const End& end, Envelope envelope, const std::vector<task::Ob
 /// The clearance that is left in the best direction, all other obstacles kept.
 double best_clearance(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles,
                       const task::Obstacle& asked) {
-  double best = -kInfinity;
+  double best = -core::kInfinity;
   for (int i = 0; i <= kDirections; ++i) {
     bool kept = true;
     for (const task::Obstacle& other : obstacles) {

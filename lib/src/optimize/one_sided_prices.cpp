@@ -87,7 +87,7 @@ class MovedPrograms {
     }
     const QuadraticSolution solution = begun_->solve(equality_value, inequality_value);
     using Status = QuadraticSolution::Status;
-    if (solution.status == Status::contradictory) return std::copysign(kInfinity, move);
+    if (solution.status == Status::contradictory) return std::copysign(core::kInfinity, move);
     if (solution.status != Status::solved) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
     for (const std::size_t i : solution.active) {

@@ -22,9 +22,9 @@ Brep brep_of(const Prism& prism, const ShopPart& part) {
   const std::vector<std::string> faults = faults_of(prism.region);
   if (!faults.empty()) throw bad_body(part, faults.front());
   if (!(prism.depth > 0.0)) throw bad_body(part, "its depth is " + length_text(prism.depth));
-  const PlaneRegion region = scaled(prism.region, kMillimetres);
+  const PlaneRegion region = scaled(prism.region, core::kMillimetres);
   Brep brep;
-  ContourFaces faces(brep, prism.depth * kMillimetres);
+  ContourFaces faces(brep, prism.depth * core::kMillimetres);
   faces.add(turning(region.outline, true));
   for (const ArcPath& cutout : region.cutouts) faces.add(turning(cutout, false));
   for (const Circle& hole : region.holes) faces.add(hole);
@@ -37,7 +37,7 @@ Brep brep_of(const Prism& prism, const ShopPart& part) {
 class SweptFaces {
  public:
   SweptFaces(const SweptBody& body, const ShopPart& part)
-      : part_(part), pieces_(pieces_of(scaled(body.path, kMillimetres))) {
+      : part_(part), pieces_(pieces_of(scaled(body.path, core::kMillimetres))) {
     if (pieces_.empty() || body.path.closed) throw bad_body(part, "its path is closed or has no piece");
     if (body.section.size() < 3) throw bad_body(part, "its section has fewer than three corners");
     const bool moves = !body.shifts.empty();
@@ -50,16 +50,16 @@ class SweptFaces {
     for (std::size_t i = 0; i <= pieces_.size(); ++i) {
       std::vector<Vec2> section = body.section;
       for (std::size_t j = 0; j < section.size(); ++j)
-        section[j] = kMillimetres * (section[j] + Vec2{0.0, moves ? body.shifts[i].at(j) : 0.0});
+        section[j] = core::kMillimetres * (section[j] + Vec2{0.0, moves ? body.shifts[i].at(j) : 0.0});
       if (twice < 0.0) std::reverse(section.begin(), section.end());
       sections_.push_back(std::move(section));
     }
     if (body.holes.empty()) return;
     if (twice < 0.0 || body.section.size() != 4) throw bad_body(part, "it is no plate that holes go through");
-    SweptBody scaled_body{scaled(body.path, kMillimetres), {}, {}, {}};
-    for (const Vec2 corner : body.section) scaled_body.section.push_back(kMillimetres * corner);
+    SweptBody scaled_body{scaled(body.path, core::kMillimetres), {}, {}, {}};
+    for (const Vec2 corner : body.section) scaled_body.section.push_back(core::kMillimetres * corner);
     for (const Circle& hole : body.holes)
-      scaled_body.holes.push_back({kMillimetres * hole.centre, kMillimetres * hole.radius});
+      scaled_body.holes.push_back({core::kMillimetres * hole.centre, core::kMillimetres * hole.radius});
     bores_ = bores_of(scaled_body);
   }
 
@@ -126,7 +126,7 @@ class SweptFaces {
       const double to_left = piece.bulge > 0.0 ? 1.0 : -1.0;
       if (!(arc.radius - to_left * corner(i, j).x > 0.0)) {
         throw bad_body(part_, "its section reaches beyond the centre of arc " + std::to_string(i + 1) +
-                                  ", radius " + length_text(arc.radius / kMillimetres));
+                                  ", radius " + length_text(arc.radius / core::kMillimetres));
       }
       if (moves(i, j)) {
         add_helix(brep_, vertex(i, j), vertex(i + 1, j), arc.centre, arc.sweep);
@@ -192,7 +192,7 @@ Brep brep_of(const FoldedPlate& plate, const ShopPart& part) {
   if (plate.corners.size() < 2) throw bad_body(part, "it has no facet");
   Brep brep;
   for (const auto& corners : plate.corners) {
-    for (const Vec3 corner : corners) add_vertex(brep, kMillimetres * corner);
+    for (const Vec3 corner : corners) add_vertex(brep, core::kMillimetres * corner);
   }
   const std::size_t rings = plate.corners.size();
   // Edges across at each ring, then those along to the next one.

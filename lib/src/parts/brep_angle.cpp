@@ -33,21 +33,21 @@ Loop turned_over(Loop loop) {
 class AngleFaces {
  public:
   explicit AngleFaces(const AngleBar& bar)
-      : thickness_(bar.thickness * kMillimetres),
-        height_(bar.height * kMillimetres),
+      : thickness_(bar.thickness * core::kMillimetres),
+        height_(bar.height * core::kMillimetres),
         closed_(bar.heel.closed),
-        heel_(add_upright(brep_, scaled(bar.heel, kMillimetres), 0.0, height_)),
-        root_(add_upright(brep_, scaled(reversed(bar.root), kMillimetres), thickness_, height_)),
-        toe_(add_upright(brep_, scaled(reversed(bar.toe), kMillimetres), 0.0, thickness_)) {
+        heel_(add_upright(brep_, scaled(bar.heel, core::kMillimetres), 0.0, height_)),
+        root_(add_upright(brep_, scaled(reversed(bar.root), core::kMillimetres), thickness_, height_)),
+        toe_(add_upright(brep_, scaled(reversed(bar.toe), core::kMillimetres), 0.0, thickness_)) {
     // Outside of a closed one is the toe, or the heel where the bar stands inwards.
     outward_ = !closed_ || signed_area(bar.heel) < 0.0;
   }
 
   Brep whole(const AngleBar& bar) {
     ContourFaces holes(brep_, thickness_);
-    for (const ArcPath& slot : bar.slots) holes.add(turning(scaled(slot, kMillimetres), false));
+    for (const ArcPath& slot : bar.slots) holes.add(turning(scaled(slot, core::kMillimetres), false));
     for (const Circle& hole : bar.holes)
-      holes.add(Circle{kMillimetres * hole.centre, kMillimetres * hole.radius});
+      holes.add(Circle{core::kMillimetres * hole.centre, core::kMillimetres * hole.radius});
     if (!closed_) join_ends();
     level(0.0, false, uses_of(heel_.low, true), uses_of(toe_.low, true), {below_end_, below_start_},
           holes.below());

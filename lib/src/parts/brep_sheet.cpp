@@ -21,11 +21,11 @@ namespace {
 constexpr double kSamePlace = 1e-6;  // along the path [mm]
 
 RolledSheet in_millimetres(RolledSheet sheet) {
-  sheet.path = scaled(sheet.path, kMillimetres);
-  sheet.thickness *= kMillimetres;
-  sheet.region = scaled(sheet.region, kMillimetres);
-  sheet.foot = kMillimetres * sheet.foot;
-  for (Bevel& bevel : sheet.bevels) bevel = {kMillimetres * bevel.at, kMillimetres * bevel.below};
+  sheet.path = scaled(sheet.path, core::kMillimetres);
+  sheet.thickness *= core::kMillimetres;
+  sheet.region = scaled(sheet.region, core::kMillimetres);
+  sheet.foot = core::kMillimetres * sheet.foot;
+  for (Bevel& bevel : sheet.bevels) bevel = {core::kMillimetres * bevel.at, core::kMillimetres * bevel.below};
   return sheet;
 }
 
@@ -40,7 +40,7 @@ class SheetFaces {
  public:
   SheetFaces(const RolledSheet& sheet, const ShopPart& part)
       : part_(part),
-        pieces_(pieces_of(scaled(sheet.path, kMillimetres))),
+        pieces_(pieces_of(scaled(sheet.path, core::kMillimetres))),
         sheet_(in_millimetres(sheet)),
         mitres_(mitres_of(sheet)),
         region_(sheet_.region) {
@@ -57,8 +57,8 @@ class SheetFaces {
         for (const bool upper : {true, false}) {
           const double left = sheet_place(sheet_, vertex.at.y, upper).x;
           if ((piece.bulge > 0.0 ? left : -left) < radius) continue;
-          throw bad_body(part,
-                         "it reaches beyond the radius of its path, " + length_text(radius / kMillimetres));
+          throw bad_body(
+              part, "it reaches beyond the radius of its path, " + length_text(radius / core::kMillimetres));
         }
       }
     }

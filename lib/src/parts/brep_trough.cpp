@@ -24,10 +24,10 @@ struct Lengthwise {
 class TroughFaces {
  public:
   explicit TroughFaces(const TroughGore& gore)
-      : inner_(gore.inner_radius * kMillimetres),
-        outer_(inner_ + gore.thickness * kMillimetres),
-        side_(gore.side * kMillimetres),
-        length_(gore.length * kMillimetres),
+      : inner_(gore.inner_radius * core::kMillimetres),
+        outer_(inner_ + gore.thickness * core::kMillimetres),
+        side_(gore.side * core::kMillimetres),
+        length_(gore.length * core::kMillimetres),
         start_(math::tan(gore.start_tilt.radians())),
         end_(math::tan(gore.end_tilt.radians())) {}
 

@@ -43,7 +43,7 @@ WindowRim add_rim(Brep& brep, const TubeWindow& window, double radius) {
   WindowRim rim;
   const auto corner = [&](Angle about, double along) {
     const auto [sine, cosine] = math::sine_cosine(about.radians());
-    return add_vertex(brep, {radius * cosine, radius * sine, kMillimetres * along});
+    return add_vertex(brep, {radius * cosine, radius * sine, core::kMillimetres * along});
   };
   rim.corners = {corner(window.low, window.from), corner(window.high, window.from),
                  corner(window.high, window.to), corner(window.low, window.to)};
@@ -60,7 +60,7 @@ void add_walls(Brep& brep, const TubeWindow& window, const WindowRim& outer, con
   for (std::size_t k = 0; k < 4; ++k) across[k] = add_line(brep, inner.corners[k], outer.corners[k]);
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t next = (k + 1) % 4;
-    BrepFace face = level_plane(kMillimetres * (k == 0 ? window.from : window.to), k == 0);
+    BrepFace face = level_plane(core::kMillimetres * (k == 0 ? window.from : window.to), k == 0);
     if (k % 2 == 1) {
       // Out of the tube is into the window: back from its upper edge, on from its lower one.
       const auto [sine, cosine] = math::sine_cosine((k == 1 ? window.high : window.low).radians());
@@ -84,19 +84,19 @@ Loop loop_of(const WindowRim& rim, bool forward) {
 /// What bores_of() needs of it.
 TubeGore in_millimetres(const TubeGore& gore) {
   TubeGore scaled;
-  scaled.inner_radius = kMillimetres * gore.inner_radius;
-  scaled.thickness = kMillimetres * gore.thickness;
+  scaled.inner_radius = core::kMillimetres * gore.inner_radius;
+  scaled.thickness = core::kMillimetres * gore.thickness;
   for (const TubeHole& hole : gore.holes)
-    scaled.holes.push_back({kMillimetres * hole.along, hole.about, kMillimetres * hole.radius});
+    scaled.holes.push_back({core::kMillimetres * hole.along, hole.about, core::kMillimetres * hole.radius});
   return scaled;
 }
 
 }  // namespace
 
 Brep brep_of_tube(const TubeGore& gore, const ShopPart& part) {
-  const double inner = gore.inner_radius * kMillimetres;
-  const double outer = inner + gore.thickness * kMillimetres;
-  const double length = gore.length * kMillimetres;
+  const double inner = gore.inner_radius * core::kMillimetres;
+  const double outer = inner + gore.thickness * core::kMillimetres;
+  const double length = gore.length * core::kMillimetres;
   const double start = math::tan(gore.start_tilt.radians());
   const double end = math::tan(gore.end_tilt.radians());
   if (!(inner > 0.0) || !(outer > inner)) throw bad_body(part, "its radius or thickness is not positive");

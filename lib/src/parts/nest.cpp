@@ -299,7 +299,7 @@ void lay_group(std::vector<Piece>& pieces, const Workshop& workshop, const NestS
 /// @return "nest_S235_4mm_1_of_2"
 std::string name_of(const std::vector<NestedSheet>& sheets, std::size_t index) {
   const NestedSheet& sheet = sheets[index];
-  const auto shown = [](double thickness) { return rounded_text(kMillimetres * thickness, 6); };
+  const auto shown = [](double thickness) { return rounded_text(core::kMillimetres * thickness, 6); };
   // By what the name says: no two sheets are one file.
   const auto alike = [&](const NestedSheet& other) {
     return other.material == sheet.material && shown(other.thickness) == shown(sheet.thickness);

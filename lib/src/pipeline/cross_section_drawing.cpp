@@ -18,7 +18,7 @@ constexpr double kLettersPerSection = 10.0;
 
 /// The section's x counts to the left of a body that looks towards the finish; on paper left is left.
 Vec2 on_paper(Vec2 point) {
-  return {-kMillimetres * point.x, kMillimetres * point.y};
+  return {-core::kMillimetres * point.x, core::kMillimetres * point.y};
 }
 
 ArcPath path_of(const section::Outline& outline) {
@@ -48,7 +48,8 @@ class Dimensions {
  private:
   /// In metres of the paper's frame: x to the right.
   void add(Vec2 from, Vec2 to, double offset_mm, DimensionKind kind) {
-    drawing_.dimensions.push_back({layer_, kMillimetres * from, kMillimetres * to, offset_mm, kind, ""});
+    drawing_.dimensions.push_back(
+        {layer_, core::kMillimetres * from, core::kMillimetres * to, offset_mm, kind, ""});
   }
 
   Drawing& drawing_;

@@ -37,7 +37,7 @@ ArcPath chain(const std::vector<Vec2>& points, bool closed = false) {
 }
 
 std::vector<Vec2> in_millimetres(std::vector<Vec2> points) {
-  for (Vec2& point : points) point = kMillimetres * point;
+  for (Vec2& point : points) point = core::kMillimetres * point;
   return points;
 }
 
@@ -86,7 +86,7 @@ void add_track(const Design& design, const Track& track, Drawing& view) {
   for (int i = 0; i <= kPlaces; ++i) {
     const CenterlinePoint at =
         track.centerline->at(std::min(track.centerline->length(), track.centerline->length() * i / kPlaces));
-    floor.push_back({kMillimetres * at.x, -kMillimetres * at.drop});
+    floor.push_back({core::kMillimetres * at.x, -core::kMillimetres * at.drop});
   }
   view.add(thick, chain(floor));
 }
@@ -102,8 +102,8 @@ void add_surroundings(const Design& design, const Track& track, Drawing& view) {
     view.add(flight.name == "the hood" ? thick : air, chain(in_millimetres(points)));
   }
   if (design.feed && design.feed->kind == FeedKind::belt) {
-    view.add(around,
-             Circle{kMillimetres * feed_fall(design).pulley, kMillimetres * design.feed->pulley_radius});
+    view.add(around, Circle{core::kMillimetres * feed_fall(design).pulley,
+                            core::kMillimetres * design.feed->pulley_radius});
   }
   if (design.discharge && track.motion.arrived()) {
     const BeltLanding landing = belt_landing(design, track.motion);
@@ -292,7 +292,7 @@ Rows ride_rows(const Design& design, const Track& track) {
   add("enters at [m/s]", [](const Motion& m) { return rounded_text(m.body().entry_speed, 3); });
   add("leaves at [m/s]", arrived([](const Motion& m) { return rounded_text(m.exit_speed(), 3); }));
   add("deepest [mm]",
-      [&](const Motion& m) { return rounded_text(kMillimetres * facts(m).deepest.value, 3); });
+      [&](const Motion& m) { return rounded_text(core::kMillimetres * facts(m).deepest.value, 3); });
   add("fullest [% of what chokes]",
       [&](const Motion& m) { return rounded_text(100.0 * facts(m).filling.value, 3); });
   add("floor wear, peak [W/m^2]", [](const Motion& m) { return rounded_text(wear_of({&m}).floor.value, 3); });

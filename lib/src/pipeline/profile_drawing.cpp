@@ -34,7 +34,7 @@ class Plane {
     const CenterlinePoint point = centerline_.at(s);
     const double x = point.x + height * math::sin(point.slope_angle) - end_.run;
     const double z = end_.drop - point.drop + height * math::cos(point.slope_angle);
-    return {kMillimetres * x, kMillimetres * z};
+    return {core::kMillimetres * x, core::kMillimetres * z};
   }
 
  private:

@@ -83,13 +83,13 @@ std::vector<Figure> survey_figures(const Track& track, const Survey& survey, con
   FigureLine slopes{"as built", {}, {}, false};
   for (const SurveyedPlace& place : survey.places) {
     points.xs.push_back(place.arc_length);
-    points.ys.push_back(kMillimetres * place.deviation);
+    points.ys.push_back(core::kMillimetres * place.deviation);
     slopes.xs.push_back(place.arc_length);
     slopes.ys.push_back(degrees(place.slope_deviation));
   }
   deviation.lines.push_back(std::move(points));
   slope.lines.push_back(std::move(slopes));
-  add_bound(deviation, length, kMillimetres * options.tolerance, "tolerance");
+  add_bound(deviation, length, core::kMillimetres * options.tolerance, "tolerance");
   add_bound(slope, length, degrees(options.slope_tolerance), "tolerance");
   Figure speed{"Speed", "arc length [m]", "speed [m/s]", {}, {}, false};
   speed.lines.push_back(speed_line("as built", rides.as_built, rides.from, rides.to, false));

@@ -70,9 +70,9 @@ LevelCurves::LevelCurves(const Centerline& centerline, std::vector<Station> stat
   rooms_above_ = rooms_of(1, above, faces_alone);
   rooms_below_ = rooms_of(-1, below, faces_alone);
   const auto settle = [](std::vector<Room>& rooms) {
-    double least = kInfinity;
+    double least = core::kInfinity;
     for (const Room& room : rooms) least = std::min(least, room.height);
-    if (least == kInfinity) rooms.clear();
+    if (least == core::kInfinity) rooms.clear();
     return least;
   };
   least_above_ = settle(rooms_above_);
@@ -86,7 +86,7 @@ std::vector<LevelCurves::Room> LevelCurves::rooms_of(int side, double reach, boo
   std::vector<Room> rooms = face_rooms(side, kMargin * reach);
   if (reach > 0.0 && !faces_alone) shrink_to_free_balls(side, reach, rooms);
   for (Room& room : rooms) {
-    if (room.height >= least_room_for(reach)) room.height = kInfinity;
+    if (room.height >= least_room_for(reach)) room.height = core::kInfinity;
   }
   return rooms;
 }
@@ -94,7 +94,7 @@ std::vector<LevelCurves::Room> LevelCurves::rooms_of(int side, double reach, boo
 // Another part of the track must not slip through between two stations: probes stand as close as half the
 // reach.
 void LevelCurves::make_probes(bool dense) {
-  double spacing = kInfinity;
+  double spacing = core::kInfinity;
   if (dense) spacing = std::max(kProbeShare * std::max(above_, below_), centerline_.length() / kMostProbes);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     probe_of_.push_back(probes_.size());
@@ -164,7 +164,7 @@ void LevelCurves::shrink_ball(std::size_t probe, int side, bool exactly, Room& r
   const auto room_to = [&](Vec2 point) {
     const Vec2 chord = point - at.point;
     const double rise = side * dot(chord, at.normal);
-    return rise > 0.0 ? 0.5 * squared(chord) / rise : kInfinity;
+    return rise > 0.0 ? 0.5 * squared(chord) / rise : core::kInfinity;
   };
   while (room.height > 0.0) {
     double best = room.height * room.height * (1.0 - kBallMargin);
@@ -482,7 +482,7 @@ double LevelCurves::largest_height(int side) const {
 }
 
 std::size_t LevelCurves::nearest_station(Vec2 point) const {
-  double best = kInfinity;
+  double best = core::kInfinity;
   std::size_t nearest = 0;
   tree_.search(point, best, nearest);
   const auto after = std::upper_bound(probe_of_.begin(), probe_of_.end(), nearest);
@@ -505,7 +505,7 @@ Station LevelCurves::foot_of(Vec2 point) const {
   };
   const std::size_t places = (last - first) * kFiner;
   std::size_t best = 0;
-  double least = kInfinity;
+  double least = core::kInfinity;
   for (std::size_t i = 0; i <= places; ++i) {
     const double distance = distance_at(place(i));
     if (distance >= least) continue;

@@ -25,7 +25,7 @@ PlaceTree::PlaceTree(std::vector<Vec2> places) : places_(std::move(places)) {
 }
 
 void PlaceTree::build(std::size_t node, std::size_t begin, std::size_t end) {
-  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  Box box{{core::kInfinity, core::kInfinity}, {-core::kInfinity, -core::kInfinity}};
   if (end - begin <= kPlacesOfLeaf || 2 * node + 1 >= boxes_.size()) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec2 p = places_[i];

@@ -28,7 +28,7 @@ double manhattan(Vec3 a) {
 /// Signs of projections that hold in spite of rounding: the vectors given are differences of two points, each
 /// component rounded once; a dot product of three terms then errs by less than 4 epsilon times this product.
 double projection_error(Vec3 direction, double largest) {
-  return 8.0 * kEpsilon * manhattan(direction) * largest + std::numeric_limits<double>::min();
+  return 8.0 * core::kEpsilon * manhattan(direction) * largest + std::numeric_limits<double>::min();
 }
 
 /// @return true only if a plane square to `direction` through the common origin certainly has a1, a2 on its
@@ -111,7 +111,7 @@ class PairTester {
     const Vec3 mine = at(a[2]) - origin;
     const Vec3 other = at(b[2]) - origin;
     const double length = manhattan(edge);
-    const double error = 64.0 * kEpsilon * length * length * manhattan(mine) * manhattan(other) +
+    const double error = 64.0 * core::kEpsilon * length * length * manhattan(mine) * manhattan(other) +
                          std::numeric_limits<double>::min();
     if (dot(cross(edge, mine), cross(edge, other)) < -error) return false;
 
@@ -186,7 +186,7 @@ bool are_collinear(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 first = b - a;
   const Vec3 second = c - a;
   const double error =
-      8.0 * kEpsilon * manhattan(first) * manhattan(second) + std::numeric_limits<double>::min();
+      8.0 * core::kEpsilon * manhattan(first) * manhattan(second) + std::numeric_limits<double>::min();
   const Vec3 normal = cross(first, second);
   if (std::max({std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)}) > error) return false;
   return CGAL::collinear(to_point(a), to_point(b), to_point(c));
