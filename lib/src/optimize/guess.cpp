@@ -128,6 +128,31 @@ Vector graded_knots(const GuessCurve& curve, std::size_t pieces, double entry_le
   return knots;
 }
 
+namespace {
+
+/// Of knots that turn at a joint with a straight the slope angle hardly tells: there the curvature is none on one side, and
+/// on the other that of what follows.
+void set_joints(const Mesh& mesh, const Layout& layout, Vector& z) {
+  constexpr double kNarrow = 1e-5;  // taste: ten times a piece of a joint
+  const std::size_t pieces = mesh.knots.size() - 1;
+  const auto is_narrow = [&](std::size_t piece) {
+    return mesh.knots[piece + 1] - mesh.knots[piece] < kNarrow;
+  };
+  std::size_t from = 0;
+  while (from < pieces && is_narrow(from)) ++from;
+  std::size_t to = pieces;
+  while (to > from && is_narrow(to - 1)) --to;
+  if (from == to) return;
+  if (mesh.lead_in > 0.0) {
+    for (std::size_t i = 0; i < from; ++i) z[layout.turn(i)] = i == 0 ? 0.0 : z[layout.turn(from)];
+  }
+  if (mesh.lead_out > 0.0) {
+    for (std::size_t i = to + 1; i <= pieces; ++i) z[layout.turn(i)] = i == pieces ? 0.0 : z[layout.turn(to)];
+  }
+}
+
+}  // namespace
+
 Vector fit(const GuessCurve& curve, const Transcription& track) {
   const Layout& layout = track.layout();
   const std::size_t n = layout.length();  // the length itself is not fitted
@@ -149,6 +174,7 @@ Vector fit(const GuessCurve& curve, const Transcription& track) {
   factor.forward(right.data());
   factor.backward(right.data());
   right[n] = curve.length;
+  set_joints(track.mesh(), layout, right);
   return right;
 }
 

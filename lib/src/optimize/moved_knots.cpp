@@ -208,12 +208,17 @@ Vector times(const Vector& a, const Vector& b, double factor = 1.0) {
   return product;
 }
 
-/// Whether a jump of the curvature lies so far from where it belongs that it is worth more than the mesh costs.
-bool is_worth_moving(const ScaledProblem& problem, const Found& found, const KnotMoves& moves) {
+/// What each jump of the curvature promises to win through its room, to first order; bends, too, where they count.
+Vector promises_of(const ScaledProblem& problem, const Found& found, const KnotMoves& moves) {
   std::vector<Group> jumps = groups_of(found);
   if (!moves.bends) std::erase_if(jumps, [](const Group& group) { return group.first == group.last; });
-  const Vector slopes = times(slopes_of(problem, found, jumps), rooms_of(found, jumps));
-  return greatest_size(slopes) > moves.worth * std::fabs(found.objective);
+  return times(slopes_of(problem, found, jumps), rooms_of(found, jumps));
+}
+
+double sum_of_sizes(const Vector& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += std::fabs(value);
+  return sum;
 }
 
 class KnotMover {
@@ -233,6 +238,7 @@ class KnotMover {
     constexpr double kFirstStep = 0.05;  // of the room; taste
     const double size = std::fabs(best_.objective);
     Vector slopes = slopes_here();
+    promised_ = sum_of_sizes(slopes);
     curvature_.begin(kFirstStep / std::max(greatest_size(slopes), moves_.at_rest * size));
     for (int round = 0; round < moves_.most_steps && greatest_size(slopes) > moves_.at_rest * size; ++round) {
       const double before = best_.objective;
@@ -240,12 +246,14 @@ class KnotMover {
       if (step.empty() || before - best_.objective < moves_.pays * size) break;
       Vector change = slopes_here();
       const Vector after = change;
+      promised_ = sum_of_sizes(after);
       add_scaled(change.data(), -1.0, slopes.data(), change.size());
       curvature_.learn(step, change);
       slopes = after;
     }
   }
   [[nodiscard]] const Found& best() const { return best_; }
+  [[nodiscard]] double promised() const { return promised_; }
 
  private:
   [[nodiscard]] Vector slopes_here() const { return times(slopes_of(problem_, best_, groups_), unit_); }
@@ -284,17 +292,21 @@ class KnotMover {
   std::vector<Group> groups_;
   Vector unit_;  ///< of the steps: the rooms at the beginning
   InverseCurvature curvature_;
+  double promised_ = 0.0;  ///< as far as it was looked at
 };
 
 }  // namespace
 
-std::optional<Found> with_moved_knots(const ScaledProblem& problem, const Found& begun, double tolerance,
-                                      SearchControl& control, const KnotMoves& moves) {
-  if (!is_worth_moving(problem, begun, moves)) return std::nullopt;
+MovedKnots with_moved_knots(const ScaledProblem& problem, const Found& begun, double tolerance,
+                            SearchControl& control, const KnotMoves& moves) {
+  // Whether a jump of the curvature lies so far from where it belongs that it is worth more than the mesh costs.
+  const Vector promises = promises_of(problem, begun, moves);
+  if (!(greatest_size(promises) > moves.worth * std::fabs(begun.objective)))
+    return {std::nullopt, sum_of_sizes(promises)};
   KnotMover mover(problem, begun, tolerance, control, moves);
   mover.run();
-  if (!(mover.best().objective < begun.objective)) return std::nullopt;
-  return mover.best();
+  if (!(mover.best().objective < begun.objective)) return {std::nullopt, sum_of_sizes(promises)};
+  return {mover.best(), mover.promised()};
 }
 
 }  // namespace glissade::optimizer

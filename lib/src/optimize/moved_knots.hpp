@@ -25,9 +25,13 @@ struct KnotMoves {
 /// @param begun  an optimum on its mesh
 /// @param tolerance  residual that the optima are to keep
 /// @param moves      what counts as well
-/// @return the best optimum; none where jumps of the curvature lie well, or nothing is won
-[[nodiscard]] std::optional<Found> with_moved_knots(const ScaledProblem& problem, const Found& begun,
-                                                    double tolerance, SearchControl& control,
-                                                    const KnotMoves& moves = {});
+struct MovedKnots {
+  std::optional<Found>
+      found;  ///< the best optimum; none where jumps of the curvature lie well, or nothing is won
+  double promised =
+      0.0;  ///< what jumps of the best one promise to win, to first order, each through all its room
+};
+[[nodiscard]] MovedKnots with_moved_knots(const ScaledProblem& problem, const Found& begun, double tolerance,
+                                          SearchControl& control, const KnotMoves& moves = {});
 
 }  // namespace glissade::optimizer

@@ -24,9 +24,17 @@ namespace glissade::optimizer {
 /// that nobody should build. Where a mesh whose every piece is halved has other prices, so are all pieces, until prices
 /// stay. Those that still change alike from mesh to mesh are continued (by Aitken), and told with how far that is.
 /// @param ahead  multipliers of each limit on such a mesh (Outlook::by_limit); none where it was not looked at
-/// @param moved  set to the optimum with moved knots, where they were looked for and win something
-[[nodiscard]] std::vector<ActiveLimit> priced_limits(const ScaledProblem& problem, const Found& found,
-                                                     const Vector& ahead, const OptimizeOptions& options,
-                                                     SearchControl& control, std::optional<Found>& moved);
+struct PricedLimits {
+  std::vector<ActiveLimit> limits;
+  /// An optimum that is to be the answer instead: with moved knots, or on the finest of these meshes where that wins more
+  /// than a time's accuracy.
+  std::optional<Found> better;
+  bool is_finest = false;  ///< the better one is that on the finest mesh
+  double least = 0.0;      ///< objective of the best optimum on any of these meshes, to some 1e-9
+  double rest = 0.0;       ///< by which meshes finer still would be better yet, at first order
+};
+[[nodiscard]] PricedLimits priced_limits(const ScaledProblem& problem, const Found& found,
+                                         const Vector& ahead, const OptimizeOptions& options,
+                                         SearchControl& control);
 
 }  // namespace glissade::optimizer

@@ -25,7 +25,7 @@ std::vector<Cut> cuts_of(const Vector& knots, const std::vector<Switch>& switche
     if (change.jump) {
       // Jumps too close to tell apart are kept as one stretch.
       const bool joined = change.jump->from < free_from && !cuts.empty();
-      if (!joined) cuts.push_back({*change.jump, 1, change.blurred});
+      if (!joined) cuts.push_back({*change.jump, change.pieces, change.blurred});
       cuts.back().span.to = std::max(cuts.back().span.to, change.jump->to);
       cuts.back().blurred.to = std::max(cuts.back().blurred.to, change.blurred.to);
       cuts.back().pieces += joined ? 2 : 0;

@@ -165,7 +165,7 @@ class Minimiser {
     Found found;
     found.track = track_;
     found.rows = rows_;
-    found.objective = rows_->objective(point_.state);
+    found.objective = rows_->objective(rows_->state(z, false));
     found.residual = point_.distance;
     found.z = std::move(z);
     found.equality = point_.next.equality;

@@ -333,6 +333,7 @@ Candidate Searcher::ended_on(const Candidate& known, Found found) {
   candidate.rough = known.rough;
   margins_ = found.rows->margins();
   finer_mesh_wins_ = known.finer_mesh_wins;
+  moves_promise_ = known.moves_promise;
   multipliers_ahead_ = known.multipliers_ahead;
   mend(candidate, laid_anew(*candidate.problem, std::move(found)));
   return candidate;
@@ -431,6 +432,7 @@ void Searcher::mend_any(Candidate& candidate, const Mesh& mesh, const Vector& z)
   const bool any = std::exchange(control_.any_track, true);
   begin_margins(problem);
   finer_mesh_wins_.reset();
+  moves_promise_ = 0.0;
   multipliers_ahead_.clear();
   Found found = kept_on(problem, mesh, z);
   // What is left over there may be the mesh's fault.
@@ -462,12 +464,14 @@ Candidate Searcher::begun(const Passages& passages) {
   return candidate;
 }
 
+double least_margin(const LimitSpec& limit) {
+  return limit.measure == Measure::normal_load && limit.side < 0 ? kContactMargin : 0.0;
+}
+
 void Searcher::begin_margins(const ScaledProblem& problem) {
   const std::vector<LimitSpec>& limits = problem.limits;
   margins_.assign(limits.size(), 0.0);
-  for (std::size_t i = 0; i < margins_.size(); ++i) {
-    if (limits[i].measure == Measure::normal_load && limits[i].side < 0) margins_[i] = kContactMargin;
-  }
+  for (std::size_t i = 0; i < margins_.size(); ++i) margins_[i] = least_margin(limits[i]);
 }
 
 bool Searcher::is_unlimited() const {
@@ -522,6 +526,7 @@ std::optional<Found> Searcher::rescued(const ScaledProblem& problem, const Mesh&
 
 void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
   finer_mesh_wins_.reset();
+  moves_promise_ = 0.0;
   multipliers_ahead_.clear();
   if (unlimited) {
     mend(candidate, std::move(found));
@@ -534,13 +539,17 @@ void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
 void Searcher::settle(Candidate& candidate, Found found) {
   const ScaledProblem& problem = *candidate.problem;
   finer_mesh_wins_.reset();
+  moves_promise_ = 0.0;
   multipliers_ahead_.clear();
   if (!found.stopped) found = followed(problem, std::move(found));
   if (!found.stopped) found = bent_at_finish(problem, std::move(found));
   if (!found.stopped) found = halved(problem, std::move(found));
   std::optional<Found> moved;
-  if (is_optimum(found) && !is_smooth(problem))
-    moved = with_moved_knots(problem, found, options_.tolerance, control_);
+  if (is_optimum(found) && !is_smooth(problem)) {
+    MovedKnots moves = with_moved_knots(problem, found, options_.tolerance, control_);
+    moved = std::move(moves.found);
+    moves_promise_ = moves.promised / std::fabs(found.objective);
+  }
   const auto mend_on = [&](Candidate& end_of, Found end) {
     if (!end.stopped) end = laid_anew(problem, std::move(end));
     mend(end_of, std::move(end));
@@ -772,6 +781,7 @@ void Searcher::mend(Candidate& candidate, Found found) {
                         (kept == candidate.kept && found.objective < candidate.found->objective);
     if (better) {
       candidate.finer_mesh_wins = finer_mesh_wins_;
+      candidate.moves_promise = moves_promise_;
       candidate.multipliers_ahead = multipliers_ahead_;
       candidate.found = found;
       candidate.track = track;

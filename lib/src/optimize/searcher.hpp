@@ -25,9 +25,13 @@ struct Candidate {
   referee::Judgement judgement;
   bool kept = false;  ///< the referee finds every limit kept
   bool stopped = false;
-  std::optional<double> finer_mesh_wins;  ///< as in OptimizeReport
+  std::optional<double> finer_mesh_wins;  ///< pieces halved once would win, as a share of the objective
+  double moves_promise = 0.0;             ///< MovedKnots::promised, as a share of the objective
   Vector multipliers_ahead;  ///< of each limit on a finer mesh, as in Outlook; none if not looked at
 };
+
+/// By which a limit is tightened before anything asks for it, in scales.
+[[nodiscard]] double least_margin(const LimitSpec& limit);
 
 /// Searches coarse to fine, and goes on until the referee finds the limits kept.
 class Searcher {
@@ -141,6 +145,7 @@ class Searcher {
   SearchControl& control_;
   const Progress& progress_;
   std::optional<double> finer_mesh_wins_;  ///< as last looked at
+  double moves_promise_ = 0.0;             ///< as last looked at
   Vector multipliers_ahead_;               ///< as last looked at
   Vector margins_;                         ///< by which the limits are tightened, in scales
 };

@@ -10,8 +10,11 @@
 namespace glissade::optimizer {
 namespace {
 
-// Where the core joins a straight that is given, the place is known.
-constexpr double kJoint = 1e-4;  // taste: a tenth of a pair
+// Where the core joins a straight that is given, the place is known. The ramp of a jump there lies to one side of it, and costs
+// as much as its width: with 1e-4 five of a hundred drawn times are 1e-6 to 1e-5 longer.
+constexpr double kJoint = 1e-6;  // measured
+// Two pieces turn a corner, too, which is the best where no radius is asked for.
+constexpr std::size_t kJointPieces = 2;  // theory
 // A jump is seen from the track this many pieces before and behind it.
 constexpr double kWindow = 4.0;  // taste
 // And counts as one if it is this large a share of the curvature there.
@@ -70,10 +73,11 @@ class JumpFinder {
   [[nodiscard]] std::vector<Switch> switches() const {
     const Mesh& mesh = found_.track->mesh();
     const std::vector<std::size_t> ramps = this->ramps();
-    const std::size_t first = mesh.lead_in > 0.0 ? 1 : 0;
-    const std::size_t last = mesh.lead_out > 0.0 ? pieces_ - 1 : pieces_;
+    const std::size_t first = mesh.lead_in > 0.0 ? pieces_of_joint(0) : 0;
+    const std::size_t last = mesh.lead_out > 0.0 ? pieces_ - pieces_of_joint(pieces_ - 1) : pieces_;
     std::vector<Switch> result;
-    if (first > 0 && turns(0)) result.push_back({{0.0, knots_[1]}, Span{0.0, kJoint}});
+    if (first > 0 && turns(0))
+      result.push_back({{0.0, knots_[first]}, Span{0.0, kJointPieces * kJoint}, kJointPieces});
     for (std::size_t k = 0; k < ramps.size(); ++k) {
       if (ramps[k] < first || ramps[k] >= last) continue;
       const auto [free_from, free_to] = between_changes(ramps[k], first, last);
@@ -81,13 +85,20 @@ class JumpFinder {
       const std::size_t end = k + 1 == ramps.size() ? free_to : std::min(free_to, ramps[k + 1]);
       if (const std::optional<Switch> seen = seen_from(ramps[k], begin, end)) result.push_back(*seen);
     }
-    if (last < pieces_ && turns(last)) result.push_back({{knots_[last], 1.0}, Span{1.0 - kJoint, 1.0}});
+    if (last < pieces_ && turns(pieces_ - 1))
+      result.push_back({{knots_[last], 1.0}, Span{1.0 - kJointPieces * kJoint, 1.0}, kJointPieces});
     return result;
   }
 
  private:
   [[nodiscard]] bool is_narrow(std::size_t piece) const {
     return knots_[piece + 1] - knots_[piece] < 2.0 * kPair;
+  }
+  /// At either end: those that stand for a joint made out before, or the one that may hold it.
+  [[nodiscard]] std::size_t pieces_of_joint(std::size_t outermost) const {
+    constexpr double kWidest = 2.0 * kJointPieces * kJoint;  // theory: between that and any other piece
+    const bool known = knots_[outermost + 1] - knots_[outermost] < kWidest;
+    return known && pieces_ > 2 * kJointPieces ? kJointPieces : 1;
   }
   /// Whether a piece stands for the jump at a change of friction, whose place is known.
   [[nodiscard]] bool is_at_change(std::size_t piece) const {

@@ -27,6 +27,7 @@ struct Span {
 struct Switch {
   Span blurred;              ///< shares of the core: here the track found is not yet like the one sought
   std::optional<Span> jump;  ///< shares of the core: where two knots belong; none if it could not be made out
+  std::size_t pieces = 1;    ///< between these two
 };
 
 /// Where each limit binds, in arc length [chords].

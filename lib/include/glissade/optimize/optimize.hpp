@@ -104,7 +104,7 @@ struct OptimizeReport {
   /// Norm of the Lagrangian's gradient over that of the objective's, both in the metric of the Lagrangian's
   /// Hessian; dimensionless. Half its square is about the relative time that could still be won nearby.
   double first_order_residual = 0.0;
-  /// What a mesh of halved pieces promises to win, as a share of the objective, to second order: the residual is that
+  /// What finer meshes would win, as a share of the objective, rather too much than too little: the residual is that
   /// of one mesh, and knows nothing of it. None where that was not looked at: without limits, or stopped early.
   std::optional<double> finer_mesh_wins;
   std::vector<LimitCheck> checks;   ///< one for each limit, sampled by the referee ten times finer

@@ -1,0 +1,98 @@
+// The same problem on three times as many pieces: what the usual number of them loses, and what a report tells of that.
+
+#include "optimize/random_limits.hpp"
+#include "support/catch.hpp"
+#include "support/thorough.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+using namespace glissade;
+
+namespace {
+
+constexpr int kManyPieces = 96;
+
+struct Drawn {
+  std::uint64_t seed = 20250217;
+  int index = 0;
+};
+
+Problem problem_of(const Drawn& drawn) {
+  testing::Random random(drawn.seed);
+  Problem problem;
+  for (int i = 0; i <= drawn.index; ++i) problem = testing_problems::random_limited(random);
+  return problem;
+}
+
+double objective_of(const Problem& problem, const OptimizeReport& report) {
+  const Objective& objective = problem.objective;
+  if (objective.kind == ObjectiveKind::exit_speed) return -report.exit_speed;
+  if (objective.kind != ObjectiveKind::blend) return report.travel_time;
+  return report.travel_time - objective.exit_speed_weight * report.exit_speed;
+}
+
+/// What the usual pieces lose against many, as a share of the objective, and what the report tells of it.
+struct Loss {
+  double lost = 0.0;
+  double told = 0.0;
+};
+
+Loss loss_of(const Problem& problem) {
+  const Optimum usual = optimize(problem);
+  OptimizeOptions options;
+  options.pieces = kManyPieces;
+  const Optimum many = optimize(problem, options);
+  CAPTURE(usual.report.brief(), many.report.brief());
+  REQUIRE(usual.report.status == OptimizeStatus::optimal);
+  REQUIRE(many.report.status == OptimizeStatus::optimal);
+  REQUIRE(usual.report.finer_mesh_wins);
+  const double least = objective_of(problem, many.report);
+  return {(objective_of(problem, usual.report) - least) / std::fabs(least), *usual.report.finer_mesh_wins};
+}
+
+}  // namespace
+
+TEST_CASE("beside a straight end the usual pieces lose no more than a time's accuracy, corner or none") {
+  constexpr double kLost = 1e-6;
+  // A corner where no radius is asked for, a crest at a load of its own, ...
+  for (const int index : {58, 64}) {
+    CAPTURE(index);
+    CHECK(loss_of(problem_of({20250217, index})).lost < kLost);
+  }
+  // ... and an arc of the smallest radius.
+  Problem arc;
+  arc.endpoints = {1.0, 1.0};
+  arc.body.friction = Friction::from_coefficient(0.2);
+  arc.limits.entry_slope_angle = Range::fixed(1.57);
+  arc.limits.smallest_valley_radius = 0.1;
+  for (const double end : {0.1, 0.2}) {
+    CAPTURE(end);
+    arc.limits.lead_in = end;
+    arc.limits.lead_out = 0.5 * end;
+    CHECK(loss_of(arc).lost < kLost);
+  }
+}
+
+TEST_CASE("where pieces halved for prices win more than a time's accuracy, their track is the answer") {
+  constexpr double kLost = 1e-6;
+  std::vector<Drawn> all{{20250217, 19}, {20250217, 93}, {1, 83}};
+  if (testing::thorough()) all.insert(all.end(), {{1, 21}, {1, 125}, {2, 37}, {2, 83}});
+  for (const Drawn& drawn : all) {
+    CAPTURE(drawn.seed, drawn.index);
+    CHECK(loss_of(problem_of(drawn)).lost < kLost);
+  }
+}
+
+TEST_CASE("what a finer mesh would win is told to be no less than many pieces win") {
+  constexpr double kNothing = 1e-6;
+  std::vector<Drawn> all{{20250217, 4}, {20250217, 11}, {20250217, 97}, {20250217, 118}, {20250217, 144}};
+  if (testing::thorough()) all.insert(all.end(), {{1, 17}, {2, 1}, {2, 149}});
+  for (const Drawn& drawn : all) {
+    CAPTURE(drawn.seed, drawn.index);
+    const Loss loss = loss_of(problem_of(drawn));
+    CHECK(loss.lost <= std::max(loss.told, kNothing));
+  }
+}
