@@ -88,8 +88,8 @@ TEST_CASE("where pieces halved for prices win more than a time's accuracy, their
 
 TEST_CASE("what a finer mesh would win is told to be no less than many pieces win") {
   constexpr double kNothing = 1e-6;
-  std::vector<Drawn> all{{20250217, 4}, {20250217, 11}, {20250217, 97}, {20250217, 118}, {20250217, 144}};
-  if (testing::thorough()) all.insert(all.end(), {{1, 17}, {2, 1}, {2, 149}});
+  std::vector<Drawn> all{{20250217, 97}, {20250217, 118}, {20250217, 144}};
+  if (testing::thorough()) all.insert(all.end(), {{2, 1}, {2, 149}});
   for (const Drawn& drawn : all) {
     CAPTURE(drawn.seed, drawn.index);
     const Loss loss = loss_of(problem_of(drawn));

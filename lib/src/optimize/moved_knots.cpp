@@ -238,7 +238,6 @@ class KnotMover {
     constexpr double kFirstStep = 0.05;  // of the room; taste
     const double size = std::fabs(best_.objective);
     Vector slopes = slopes_here();
-    promised_ = sum_of_sizes(slopes);
     curvature_.begin(kFirstStep / std::max(greatest_size(slopes), moves_.at_rest * size));
     for (int round = 0; round < moves_.most_steps && greatest_size(slopes) > moves_.at_rest * size; ++round) {
       const double before = best_.objective;
@@ -246,14 +245,12 @@ class KnotMover {
       if (step.empty() || before - best_.objective < moves_.pays * size) break;
       Vector change = slopes_here();
       const Vector after = change;
-      promised_ = sum_of_sizes(after);
       add_scaled(change.data(), -1.0, slopes.data(), change.size());
       curvature_.learn(step, change);
       slopes = after;
     }
   }
   [[nodiscard]] const Found& best() const { return best_; }
-  [[nodiscard]] double promised() const { return promised_; }
 
  private:
   [[nodiscard]] Vector slopes_here() const { return times(slopes_of(problem_, best_, groups_), unit_); }
@@ -292,7 +289,6 @@ class KnotMover {
   std::vector<Group> groups_;
   Vector unit_;  ///< of the steps: the rooms at the beginning
   InverseCurvature curvature_;
-  double promised_ = 0.0;  ///< as far as it was looked at
 };
 
 }  // namespace
@@ -305,8 +301,8 @@ MovedKnots with_moved_knots(const ScaledProblem& problem, const Found& begun, do
     return {std::nullopt, sum_of_sizes(promises)};
   KnotMover mover(problem, begun, tolerance, control, moves);
   mover.run();
-  if (!(mover.best().objective < begun.objective)) return {std::nullopt, sum_of_sizes(promises)};
-  return {mover.best(), mover.promised()};
+  if (!(mover.best().objective < begun.objective)) return {};
+  return {mover.best(), 0.0};
 }
 
 }  // namespace glissade::optimizer

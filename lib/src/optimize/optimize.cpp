@@ -255,6 +255,7 @@ double lost_to_margins(const ScaledProblem& problem, const Found& found) {
   double lost = 0.0;
   for (std::size_t k = 0; k < found.active.size(); ++k) {
     const std::size_t limit = found.active[k].limit;
+    if (!problem.limits[limit].measure->is_load()) continue;
     lost += found.inequality[k] * (found.rows->margins()[limit] - least_margin(problem.limits[limit]));
   }
   return lost;
@@ -265,8 +266,8 @@ double lost_to_margins(const ScaledProblem& problem, const Found& found) {
 std::optional<double> left_to_win(const Candidate& best, const PricedLimits& priced, bool on_finest) {
   // Where halving pieces wins so much, halving them again and again wins as much again, at first order.
   constexpr double kAgain = 2.0;  // theory
-  // Jumps lie beside where they belong by some twentieth of their room: eight drawn ones win a hundredth to a twentieth of
-  // what their first order promises through all of it.
+  // Jumps lie beside where they belong by some twentieth of their room: drawn ones win a hundredth to a twentieth of what
+  // their first order promises through all of it.
   constexpr double kOfRoom = 0.05;  // measured
   if (!best.finer_mesh_wins) return std::nullopt;
   const Found& found = *best.found;
