@@ -72,6 +72,57 @@ TEST_CASE("sums of products have the same bits on whatever processor they are") 
   }
 }
 
+TEST_CASE("sums pass over what is nothing in a row, with the same bits") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr std::size_t kRows = 11;
+  for (std::size_t n = 1; n < 70; ++n) {
+    CAPTURE(n);
+    const Vector b = drawn(random, n);
+    optimizer::Matrix matrix(kRows, n);
+    std::vector<optimizer::Extent> extents;
+    std::vector<std::size_t> some;
+    for (std::size_t k = 0; k < kRows; ++k) {
+      // Between two places, and at the end: as the rows of a track have it. Nothing may be below nothing, too.
+      const Vector entries = drawn(random, n);
+      const auto last = static_cast<std::size_t>(random.integer(0, static_cast<int>(n) - 1));
+      const auto first = static_cast<std::size_t>(random.integer(0, static_cast<int>(last)));
+      for (std::size_t i = 0; i < n; ++i) {
+        const bool is_something = (i >= first && i <= last) || (i + 2 >= n && k % 3 != 0);
+        matrix(k, i) = is_something ? entries[i] : std::copysign(0.0, entries[i]);
+      }
+      extents.push_back(optimizer::extent_of(matrix.row(k), n));
+      CHECK(extents.back().from % 4 == 0);
+      CHECK(extents.back().to <= n);
+      // No four more than needed.
+      if (extents.back().from < extents.back().to) {
+        CHECK(extents.back().from + 4 > first);
+        CHECK(extents.back().to < last + 5);
+      }
+      if (k != 4) some.push_back(k);
+    }
+    Vector sums(some.size());
+    optimizer::dots(matrix, some, extents, b.data(), sums.data());
+    for (std::size_t at = 0; at < some.size(); ++at)
+      CHECK(sums[at] == optimizer::dot(matrix.row(some[at]), b.data(), n));
+  }
+}
+
+TEST_CASE("a matrix takes the room of one before it, and is clear") {
+  constexpr std::size_t kRows = 200;
+  const optimizer::Matrix stays(kRows, kRows);
+  const double* room = nullptr;
+  {
+    optimizer::Matrix first(kRows, kRows);
+    first(7, 9) = 1.0;
+    room = first.row(0);
+  }
+  const optimizer::Matrix second(kRows, kRows);
+  CHECK(second.row(0) == room);
+  CHECK(second(7, 9) == 0.0);
+  CHECK(stays.row(0) != room);
+}
+
 TEST_CASE("rows turn into each other with the same bits on whatever processor they are") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

@@ -4,8 +4,79 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace glissade::optimizer {
+namespace {
+
+/// Room that a thread's matrices gave back, the latest last.
+class Spare {
+ public:
+  ~Spare() { clear(); }
+
+  [[nodiscard]] void* take(std::size_t bytes) {
+    ++lent_;
+    for (std::size_t i = rooms_.size(); i-- > 0;) {
+      if (rooms_[i].bytes != bytes) continue;
+      void* const at = rooms_[i].at;
+      rooms_.erase(rooms_.begin() + static_cast<std::ptrdiff_t>(i));
+      return at;
+    }
+    return ::operator new(bytes);
+  }
+  void put(void* at, std::size_t bytes) noexcept {
+    // Its own list has room for so many: nothing is allocated while a matrix ends.
+    if (rooms_.size() == kMost) {
+      ::operator delete(rooms_.front().at);
+      rooms_.erase(rooms_.begin());
+    }
+    rooms_.push_back({at, bytes});
+    if (--lent_ <= 0) clear();
+  }
+  Spare() { rooms_.reserve(kMost); }
+  Spare(const Spare&) = delete;
+  Spare& operator=(const Spare&) = delete;
+
+ private:
+  static constexpr std::size_t kMost = 24;  // budget: as many matrices as a point of the search has, twice
+  struct Room {
+    void* at;
+    std::size_t bytes;
+  };
+  void clear() noexcept {
+    for (const Room& room : rooms_) ::operator delete(room.at);
+    rooms_.clear();
+    lent_ = 0;
+  }
+  std::vector<Room> rooms_;
+  std::ptrdiff_t lent_ = 0;
+};
+
+Spare& spare() {
+  thread_local Spare spare;
+  return spare;
+}
+
+// What is smaller the system has at hand itself.
+constexpr std::size_t kLargeRoom = 32768;  // measured
+// Sizes are rounded up to this, so that one fits the next.
+constexpr std::size_t kRoomStep = 65536;  // taste
+
+std::size_t rounded_up(std::size_t bytes) {
+  return (bytes + kRoomStep - 1) / kRoomStep * kRoomStep;
+}
+
+}  // namespace
+
+void* MatrixRoom::take(std::size_t bytes) {
+  return bytes < kLargeRoom ? ::operator new(bytes) : spare().take(rounded_up(bytes));
+}
+
+void MatrixRoom::give_back(void* room, std::size_t bytes) noexcept {
+  if (bytes < kLargeRoom) return ::operator delete(room);
+  spare().put(room, rounded_up(bytes));
+}
 
 GLISSADE_WIDE_VARIANT double dot(const double* a, const double* b, std::size_t n) {
   // Four sums side by side: the order is fixed, and the processor need not wait for each addition.
@@ -85,6 +156,56 @@ GLISSADE_WIDE_VARIANT void four_dots(const double* const* given, const double* b
   out[3] = (f3 + s3[1]) + (s3[2] + s3[3]);
 }
 
+/// All that a row may have but for its last whole four, and what is left behind that.
+std::size_t last_four(std::size_t n) {
+  return n < 4 ? 0 : n / 4 * 4 - 4;
+}
+
+/// four_dots() of rows that have nothing before `from`, nor from `to` up to their last whole four.
+GLISSADE_WIDE_VARIANT void four_dots_within(const double* const* given, Extent extent, const double* b,
+                                            std::size_t n, double* out) {
+  const FourRows rows(given);
+  Four s0 = {}, s1 = {}, s2 = {}, s3 = {};
+  const auto add = [&](std::size_t i) __attribute__((always_inline)) {
+    const Tile tile(rows, i);
+    Four right;
+    load(right, b + i);
+    s0 += tile.a0 * right;
+    s1 += tile.a1 * right;
+    s2 += tile.a2 * right;
+    s3 += tile.a3 * right;
+  };
+  for (std::size_t i = extent.from; i < extent.to; i += 4) add(i);
+  std::size_t i = last_four(n);
+  for (; i + 4 <= n; i += 4) add(i);
+  double f0 = s0[0], f1 = s1[0], f2 = s2[0], f3 = s3[0];
+  for (int left = 0; left < 3 && i < n; ++left, ++i) {
+    f0 += rows.r0[i] * b[i];
+    f1 += rows.r1[i] * b[i];
+    f2 += rows.r2[i] * b[i];
+    f3 += rows.r3[i] * b[i];
+  }
+  out[0] = (f0 + s0[1]) + (s0[2] + s0[3]);
+  out[1] = (f1 + s1[1]) + (s1[2] + s1[3]);
+  out[2] = (f2 + s2[1]) + (s2[2] + s2[3]);
+  out[3] = (f3 + s3[1]) + (s3[2] + s3[3]);
+}
+
+/// The bits of four numbers, but for their signs.
+using FourBits [[gnu::vector_size(4 * sizeof(std::uint64_t))]] = std::uint64_t;
+
+/// @param count  of numbers, four or a multiple of it
+inline bool are_nothing(const double* from, std::size_t count) {
+  FourBits any = {};
+  for (std::size_t i = 0; i < count; i += 4) {
+    FourBits bits;
+    std::memcpy(&bits, from + i, sizeof bits);
+    any |= bits;
+  }
+  any <<= 1;
+  return (any[0] | any[1] | any[2] | any[3]) == 0;
+}
+
 GLISSADE_WIDE_VARIANT void add_four_scaled(double* y, const double* k, const double* const* given,
                                            std::size_t n) {
   const FourRows rows(given);
@@ -110,6 +231,33 @@ void dots(std::span<const double* const> rows, const double* b, std::size_t n, d
   std::size_t row = 0;
   for (; row + kAtOnce <= rows.size(); row += kAtOnce) four_dots(&rows[row], b, n, out + row);
   for (; row < rows.size(); ++row) out[row] = dot(rows[row], b, n);
+}
+
+GLISSADE_WIDE_VARIANT Extent extent_of(const double* row, std::size_t n) {
+  constexpr std::size_t kMany = 16;  // budget: of the wide registers
+  Extent extent{0, last_four(n)};
+  while (extent.to >= kMany && are_nothing(row + extent.to - kMany, kMany)) extent.to -= kMany;
+  while (extent.to > 0 && are_nothing(row + extent.to - 4, 4)) extent.to -= 4;
+  while (extent.from < extent.to && are_nothing(row + extent.from, 4)) extent.from += 4;
+  return extent;
+}
+
+void dots(const Matrix& matrix, std::span<const std::size_t> rows, std::span<const Extent> extents,
+          const double* b, double* out) {
+  const std::size_t n = matrix.columns();
+  std::size_t at = 0;
+  for (; at + kAtOnce <= rows.size(); at += kAtOnce) {
+    const double* four[kAtOnce];
+    Extent all = extents[rows[at]];
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+      const std::size_t row = rows[at + k];
+      four[k] = matrix.row(row);
+      all.from = std::min(all.from, extents[row].from);
+      all.to = std::max(all.to, extents[row].to);
+    }
+    four_dots_within(four, all, b, n, out + at);
+  }
+  for (; at < rows.size(); ++at) out[at] = dot(matrix.row(rows[at]), b, n);
 }
 
 void add_scaled_rows(double* y, std::span<const double> k, std::span<const double* const> rows,

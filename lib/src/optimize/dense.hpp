@@ -1,12 +1,32 @@
 #pragma once
 
 #include <cstddef>
+#include <new>
 #include <span>
 #include <vector>
 
 namespace glissade::optimizer {
 
 using Vector = std::vector<double>;
+
+/// Room for matrices. What one of them gives back the next one takes, as searches make thousands of a size: the system
+/// would have to clear it each time. All of it is given back once a thread has no matrix left.
+class MatrixRoom {
+ public:
+  [[nodiscard]] static void* take(std::size_t bytes);
+  static void give_back(void* room, std::size_t bytes) noexcept;
+
+  template <typename T>
+  struct Allocator {
+    using value_type = T;
+    Allocator() = default;
+    template <typename U>
+    Allocator(const Allocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor): as the standard has it
+    [[nodiscard]] T* allocate(std::size_t count) { return static_cast<T*>(take(count * sizeof(T))); }
+    void deallocate(T* room, std::size_t count) noexcept { give_back(room, count * sizeof(T)); }
+    friend bool operator==(const Allocator&, const Allocator&) { return true; }
+  };
+};
 
 /// A dense matrix by rows.
 class Matrix {
@@ -23,7 +43,7 @@ class Matrix {
 
  private:
   std::size_t columns_ = 0;
-  std::vector<double> data_;
+  std::vector<double, MatrixRoom::Allocator<double>> data_;
 };
 
 [[nodiscard]] double dot(const double* a, const double* b, std::size_t n);
@@ -31,6 +51,16 @@ class Matrix {
 void add_scaled(double* y, double k, const double* a, std::size_t n);
 /// Several at once, which share what they load: out[i] = dot(rows[i], b), to the same bits.
 void dots(std::span<const double* const> rows, const double* b, std::size_t n, double* out);
+/// Where a row has entries other than 0: between two multiples of four, and from the last whole four on.
+struct Extent {
+  std::size_t from = 0;
+  std::size_t to = 0;
+};
+[[nodiscard]] Extent extent_of(const double* row, std::size_t n);
+/// dot() of b and some rows of a matrix whose extents are known, to the same bits: what is 0 is passed over.
+/// @param extents  of all of its rows
+void dots(const Matrix& matrix, std::span<const std::size_t> rows, std::span<const Extent> extents,
+          const double* b, double* out);
 /// y += sum of k[i] rows[i], in their order
 void add_scaled_rows(double* y, std::span<const double> k, std::span<const double* const> rows,
                      std::size_t n);

@@ -14,6 +14,17 @@ Foot foot_of(const RowAt& at, Vec2 point) {
   return at.track.foot(at.state.z, at.state.shape, point.x, point.y);
 }
 
+/// Of a corner of the limit's obstacle, looked for once in each state.
+Foot corner_foot(const RowAt& at, std::size_t corner) {
+  std::vector<std::vector<std::optional<Foot>>>& feet = at.state.feet;
+  if (feet.empty()) feet.resize(at.problem.obstacles.size());
+  std::vector<std::optional<Foot>>& known = feet[at.limit.obstacle];
+  const std::vector<Vec2>& corners = at.problem.obstacles[at.limit.obstacle].corners;
+  if (known.empty()) known.resize(corners.size());
+  if (!known[corner]) known[corner] = foot_of(at, corners[corner]);
+  return *known[corner];
+}
+
 /// At a foot the distance changes with the track's position alone: to first order sliding along costs nothing.
 void foot_gradient(const RowAt& at, const Foot& foot, Vec2 corner, double side, double* out) {
   Vector dx;
@@ -45,7 +56,7 @@ class Distance final : public Measure {
     if (has_envelope(at)) return at.envelope.measure(at.state, obstacle, at.row);
     if (at.row.foot) {
       const Vec2 corner = obstacle.corners[at.row.place];
-      return corner_distance(foot_of(at, corner), corner, obstacle.side);
+      return corner_distance(corner_foot(at, at.row.place), corner, obstacle.side);
     }
     if (at.row.around) return round_distance(at.state, obstacle, at.row);
     const Vec2 station{at.state.shape.x[at.row.place], at.state.shape.y[at.row.place]};
@@ -57,7 +68,7 @@ class Distance final : public Measure {
     if (has_envelope(at)) return at.envelope.gradient(at.state, obstacle, at.row, out);
     if (at.row.foot) {
       const Vec2 corner = obstacle.corners[at.row.place];
-      return foot_gradient(at, foot_of(at, corner), corner, obstacle.side, out);
+      return foot_gradient(at, corner_foot(at, at.row.place), corner, obstacle.side, out);
     }
     if (at.row.around) return add_round_gradient(at.track, at.state, obstacle, at.row, out);
     at.track.add(at.state.shape.dx, at.row.place, -forbidden(at).x, out);
@@ -68,7 +79,7 @@ class Distance final : public Measure {
     const Obstacle& obstacle = obstacle_of(at);
     if (has_envelope(at)) return at.envelope.add_weights(at.state, obstacle, at.row, factor, weights);
     if (at.row.foot) {
-      return add_foot_weights(foot_of(at, obstacle.corners[at.row.place]), factor * obstacle.side, weights);
+      return add_foot_weights(corner_foot(at, at.row.place), factor * obstacle.side, weights);
     }
     if (at.row.around) return add_round_weights(at.state, obstacle, at.row, factor, weights);
     weights.x[at.row.place] -= factor * forbidden(at).x;
@@ -81,7 +92,7 @@ class Distance final : public Measure {
     if (at.row.around) return add_round_terms(at.track, at.state, obstacle, at.row, factor, hessian);
     if (!at.row.foot) return;
     const Vec2 corner = obstacle.corners[at.row.place];
-    add_terms_at_foot(at, foot_of(at, corner), corner, obstacle.side, factor, hessian);
+    add_terms_at_foot(at, corner_foot(at, at.row.place), corner, obstacle.side, factor, hessian);
   }
 
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
@@ -114,7 +125,7 @@ class Distance final : public Measure {
       const Vec2 corner = obstacle.corners[row.place];
       const bool bends =
           add_round_rows(at.state, obstacle, round, at.limit.bound, stands, rows) &&
-          runs_round(at.track, at.state, corner, obstacle.side, foot_of(at, corner), at.limit.bound);
+          runs_round(at.track, at.state, corner, obstacle.side, corner_foot(at, row.place), at.limit.bound);
       if (!bends) rows.push_back(row);
     }
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -41,7 +43,8 @@ class ElasticDescent {
         shape_(shape_metric(track)),
         known_(std::move(known)) {
     state_ = rows_.state(z, true);
-    violation_ = violation_of(state_);
+    near_rows_ = near_rows(state_);
+    violation_ = violation_of(state_, near_rows_);
     // Multipliers of a program that contradicts itself grow without bound: a curvature made of them stops every step.
     if (price_above(known_) > kHighestPrice) known_ = Multipliers{};
     price_ = price_above(known_);
@@ -70,9 +73,18 @@ class ElasticDescent {
   }
 
  private:
-  [[nodiscard]] double violation_of(const State& state) const {
-    return std::max(greatest_size(rows_.equality_values(state)),
-                    greatest_of(values_of(rows_, state, rows_.candidates(state, 0.0))));
+  /// Rows close to their bounds at a state, and their values.
+  struct NearRows {
+    std::vector<Row> rows;
+    Vector values;
+  };
+  [[nodiscard]] NearRows near_rows(const State& state) const {
+    NearRows near;
+    near.rows = rows_.candidates(state, kBand, &near.values);
+    return near;
+  }
+  [[nodiscard]] double violation_of(const State& state, const NearRows& near) const {
+    return std::max(greatest_size(rows_.equality_values(state)), greatest_of(near.values));
   }
   [[nodiscard]] static double price_above(const Multipliers& multipliers) {
     double sum = 0.0;
@@ -99,7 +111,8 @@ class ElasticDescent {
     program_ = QuadraticProgram{};
     program_.gradient = rows_.objective_gradient(state_);
     rows_.equalities(state_, program_.equality_value, program_.equality);
-    set_ = rows_.candidates(state_, kBand, &program_.inequality_value);
+    set_ = std::move(near_rows_.rows);
+    program_.inequality_value = std::move(near_rows_.values);
     program_.inequality = jacobian_of(rows_, state_, set_, n_);
     Vector equality = known_.equality;
     equality.resize(program_.equality_value.size(), 0.0);
@@ -138,7 +151,6 @@ class ElasticDescent {
       std::copy_n(program_.inequality.row(i), n_, program.inequality.row(2 * equalities + i));
     }
     for (std::size_t i = 0; i < count; ++i) program.inequality(i, n_) = -1.0;
-    program.inequality_value = elastic_values(program_.equality_value, program_.inequality_value);
     return program;
   }
   [[nodiscard]] static Vector elastic_values(const Vector& equality, const Vector& inequality) {
@@ -170,8 +182,9 @@ class ElasticDescent {
     return rows;
   }
 
-  [[nodiscard]] Step solved_exactly(const QuadraticProgram& program) const {
-    const QuadraticSolution solution = solve(program, metric_, likely());
+  /// @param equality_value,inequality_value  of the program's rows
+  [[nodiscard]] Step solved_exactly(const Vector& equality_value, const Vector& inequality_value) const {
+    const QuadraticSolution solution = exact_->solve(equality_value, inequality_value);
     Step step;
     step.is_solved = solution.status == QuadraticSolution::Status::solved;
     if (!step.is_solved) return step;
@@ -185,11 +198,9 @@ class ElasticDescent {
     return step;
   }
 
-  [[nodiscard]] Step solved_elastically(const QuadraticProgram& program) const {
+  [[nodiscard]] Step solved_elastically(const Vector& equality_value, const Vector& inequality_value) const {
     const std::size_t equalities = program_.equality.rows();
-    std::vector<std::size_t> begin;
-    for (const std::size_t i : likely()) begin.push_back(2 * equalities + i);
-    const QuadraticSolution solution = solve(program, metric_.with_one_more(kOwnCurvature), begin);
+    const QuadraticSolution solution = giving_->solve({}, elastic_values(equality_value, inequality_value));
     Step step;
     step.is_solved = solution.status == QuadraticSolution::Status::solved;
     if (!step.is_solved) return step;
@@ -210,12 +221,26 @@ class ElasticDescent {
     return step;
   }
 
+  void begin_exactly() { exact_.emplace(program_, metric_, likely()); }
+  void begin_elastically() {
+    elastic_program_ = elastic();
+    elastic_metric_ = metric_.with_one_more(kOwnCurvature);
+    begin_giving();
+  }
+  void begin_giving() {
+    const std::size_t equalities = program_.equality.rows();
+    std::vector<std::size_t> begin;
+    for (const std::size_t i : likely()) begin.push_back(2 * equalities + i);
+    giving_.emplace(elastic_program_, elastic_metric_, begin);
+  }
+
   /// Solves a program at the point. @return how much it promises to lower the sum by
   [[nodiscard]] double propose() {
     factor();
     is_elastic_ = stiffness_ > 0.0;
     if (!is_elastic_) {
-      step_ = solved_exactly(program_);
+      begin_exactly();
+      step_ = solved_exactly(program_.equality_value, program_.inequality_value);
       is_elastic_ = !step_.is_solved;
       // A price that high would follow the violation alone.
       if (price_above(step_.multipliers) > kHighestPrice) is_elastic_ = true;
@@ -223,7 +248,8 @@ class ElasticDescent {
     if (is_elastic_) {
       if (stiffness_ == 0.0) stiffen();
       factor();
-      step_ = solved_elastically(elastic());
+      begin_elastically();
+      step_ = solved_elastically(program_.equality_value, program_.inequality_value);
     }
     if (!step_.is_solved) return 0.0;
     if (step_.t == 0.0) price_ = price_above(step_.multipliers);
@@ -234,6 +260,7 @@ class ElasticDescent {
 
   struct Trial {
     State state;
+    NearRows near;
     double violation = HUGE_VAL;
     double merit = HUGE_VAL;
   };
@@ -244,31 +271,27 @@ class ElasticDescent {
     if (!track_.is_track(z)) return trial;
     ++control_.evaluations;
     trial.state = rows_.state(z, false);
-    trial.violation = violation_of(trial.state);
+    trial.near = near_rows(trial.state);
+    trial.violation = violation_of(trial.state, trial.near);
     trial.merit = merit(trial.state, trial.violation);
     if (!std::isfinite(trial.merit)) trial.merit = HUGE_VAL;
     return trial;
   }
 
   /// The step again, the rows having the values that they really have at its end.
-  [[nodiscard]] Trial corrected(const Trial& reached) const {
-    QuadraticProgram program = program_;
-    program.equality_value = rows_.equality_values(reached.state);
-    for (std::size_t i = 0; i < program.equality.rows(); ++i) {
-      program.equality_value[i] -= dot(program.equality.row(i), step_.z.data(), n_);
+  [[nodiscard]] Trial corrected(const Trial& reached) {
+    if (is_elastic_ && elastic_program_.gradient.back() != price_) {
+      elastic_program_.gradient.back() = price_;
+      begin_giving();
     }
-    program.inequality_value = values_of(rows_, reached.state, set_);
-    for (std::size_t i = 0; i < set_.size(); ++i) {
-      program.inequality_value[i] -= dot(program.inequality.row(i), step_.z.data(), n_);
-    }
-    Step again;
-    if (is_elastic_) {
-      QuadraticProgram giving = elastic();
-      giving.inequality_value = elastic_values(program.equality_value, program.inequality_value);
-      again = solved_elastically(giving);
-    } else {
-      again = solved_exactly(program);
-    }
+    Vector equality = rows_.equality_values(reached.state);
+    for (std::size_t i = 0; i < equality.size(); ++i)
+      equality[i] -= dot(program_.equality.row(i), step_.z.data(), n_);
+    Vector inequality = values_of(rows_, reached.state, set_);
+    for (std::size_t i = 0; i < set_.size(); ++i)
+      inequality[i] -= dot(program_.inequality.row(i), step_.z.data(), n_);
+    const Step again =
+        is_elastic_ ? solved_elastically(equality, inequality) : solved_exactly(equality, inequality);
     return again.is_solved ? tried(again.z) : Trial{};
   }
 
@@ -318,6 +341,7 @@ class ElasticDescent {
     known_ = step_.multipliers;
     state_ = std::move(trial.state);
     rows_.add_derivatives(state_);
+    near_rows_ = std::move(trial.near);
     violation_ = trial.violation;
     return true;
   }
@@ -331,6 +355,7 @@ class ElasticDescent {
   Multipliers known_;  ///< for the curvature, and for where a program's solution may begin
 
   State state_;
+  NearRows near_rows_;  ///< there, until they are the set
   double violation_ = 0.0;
   double price_ = kFirstPrice;
   double stiffness_ = 0.0;   ///< price of changes of shape
@@ -341,6 +366,11 @@ class ElasticDescent {
   Matrix carrying_;
   ShiftedCholesky metric_;
   bool is_factored_ = false;
+  // The programs at the point, begun: with other values of their rows they are solved again.
+  std::optional<BegunProgram> exact_;
+  QuadraticProgram elastic_program_;
+  ShiftedCholesky elastic_metric_;
+  std::optional<BegunProgram> giving_;
   double gradient_ = 1.0;  ///< its length in the metric
   bool is_elastic_ = false;
   Step step_;

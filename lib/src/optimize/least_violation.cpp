@@ -50,8 +50,9 @@ class Search {
     double kept_before = HUGE_VAL;
     for (const double weight : kFirmer) {
       weight_ = weight;
-      t_ = violation(state_);
-      linearise();
+      Near here = near(state_);
+      t_ = violation(state_, here);
+      linearise(std::move(here));
       relaxed.settled = settle();
       const double kept = kept_violation();
       // Where the others cannot be kept however far the elastic ones give way, the path leads nowhere.
@@ -115,7 +116,7 @@ class Search {
     double kept = kept_violation();
     for (int step = 0; step < kMostSteps && kept > kKept; ++step) {
       t_ = elastic_violation();
-      linearise();
+      linearise(near(state_));
       (void)propose();
       Vector z = z_;
       add_scaled(z.data(), 1.0, solution_.step.data(), n_);
@@ -151,14 +152,23 @@ class Search {
     return t;
   }
 
+  /// Rows close to their bounds at a state, and their values.
+  struct Near {
+    std::vector<Row> rows;
+    Vector values;
+  };
+  [[nodiscard]] Near near(const State& state) const {
+    Near near;
+    near.rows = rows_->candidates(state, kBand, &near.values);
+    return near;
+  }
+
   /// The t by which the rows would have to give way at a state; 0 if all are kept.
-  [[nodiscard]] double violation(const State& state) const {
+  [[nodiscard]] double violation(const State& state, const Near& near) const {
     double t = 0.0;
     const Vector equality = rows_->equality_values(state);
     for (std::size_t i = 0; i < equality.size(); ++i) t = std::max(t, std::fabs(equality[i]) / weight(i));
-    Vector values;
-    const std::vector<Row> broken = rows_->candidates(state, 0.0, &values);
-    for (std::size_t i = 0; i < broken.size(); ++i) t = std::max(t, values[i] / weight(broken[i]));
+    for (std::size_t i = 0; i < near.rows.size(); ++i) t = std::max(t, near.values[i] / weight(near.rows[i]));
     return t;
   }
 
@@ -179,7 +189,7 @@ class Search {
   /// Rows of a program: both sides of each equality, the set, and t >= 0. Its last unknown is what t changes by.
   [[nodiscard]] std::size_t row_count() const { return 2 * rows_->equality_count() + set_.size() + 1; }
 
-  void linearise() {
+  void linearise(Near near) {
     std::vector<Row> active_rows;
     std::vector<std::size_t> likely;
     const std::size_t equalities = rows_->equality_count();
@@ -190,8 +200,7 @@ class Search {
         active_rows.push_back(set_[i - 2 * equalities]);
       }
     }
-    Vector values;
-    set_ = rows_->candidates(state_, kBand, &values);
+    set_ = std::move(near.rows);
     for (const Row& row : active_rows) {
       const auto found = std::find(set_.begin(), set_.end(), row);
       if (found == set_.end()) continue;
@@ -216,7 +225,7 @@ class Search {
       row[n_] = -weight(set_[i]);
     }
     program_.inequality(row_count() - 1, n_) = -1.0;
-    program_.inequality_value = row_values(equality, values);
+    program_.inequality_value = row_values(equality, near.values);
     update_curvature();
   }
 
@@ -320,6 +329,7 @@ class Search {
 
   struct Trial {
     State state;  ///< without derivatives; none where the step leads to no track
+    Near near;
     double t = HUGE_VAL;
   };
   [[nodiscard]] Trial tried(const Vector& step) const {
@@ -329,7 +339,8 @@ class Search {
     if (!track_->is_track(z)) return trial;
     trial.state = rows_->state(z, false);
     ++control_.evaluations;
-    trial.t = violation(trial.state);
+    trial.near = near(trial.state);
+    trial.t = violation(trial.state, trial.near);
     return trial;
   }
 
@@ -371,7 +382,7 @@ class Search {
     rows_->add_derivatives(state_);
     z_ = state_.z;
     t_ = trial.t;
-    linearise();
+    linearise(std::move(trial.near));
     return true;
   }
 

@@ -158,6 +158,9 @@ class DualMethod {
       }
     }
     fixed_ = source_.size();
+    extents_.reserve(program_.inequality.rows());
+    for (std::size_t i = 0; i < program_.inequality.rows(); ++i)
+      extents_.push_back(extent_of(program_.inequality.row(i), gradient_.size()));
     Matrix rows(likely.size(), gradient_.size());
     for (std::size_t k = 0; k < likely.size(); ++k)
       std::copy_n(program_.inequality.row(likely[k]), gradient_.size(), rows.row(k));
@@ -263,10 +266,8 @@ class DualMethod {
                                                 double& value) const {
     const Vector d = step();
     std::vector<std::size_t> rows;
-    std::vector<const double*> jacobian(among.size());
-    for (std::size_t k = 0; k < among.size(); ++k) jacobian[k] = program_.inequality.row(among[k]);
     Vector along(among.size());
-    dots(jacobian, d.data(), d.size(), along.data());
+    dots(program_.inequality, among, extents_, d.data(), along.data());
     value = program_.tolerance;
     for (std::size_t k = 0; k < among.size(); ++k) {
       const std::size_t i = among[k];
@@ -353,6 +354,7 @@ class DualMethod {
   const Vector* equality_value_ = nullptr;
   const Vector* inequality_value_ = nullptr;
   std::vector<bool> is_active_;
+  std::vector<Extent> extents_;  ///< of the inequality rows
   Vector y_;
   int changes_ = 0;
 };

@@ -36,6 +36,8 @@ struct State {
   /// The station at which the track comes closest to each waypoint, passing them in their order.
   std::vector<std::size_t> waypoint_stations;
   EnvelopeRows::Zones zones;  ///< where the end planes may cut an envelope
+  /// Of the corners of each obstacle, as they are asked for: value, gradient and curvature of a row all need them.
+  mutable std::vector<std::vector<std::optional<Foot>>> feet;
 
   /// From the start to the finish, whichever of them the shape's positions count from.
   [[nodiscard]] double run() const { return shape.x.back() - shape.x.front(); }
