@@ -519,10 +519,6 @@ TEST_CASE("openings: where none is to be had it is refused with place, value, bo
         0);
   CHECK(across.find("and their ends lie off the bends of the left_wall.|another at, or a smaller length") !=
         std::string::npos);
-  PlateOptions round;
-  round.inspection = {{2.0, 0.2, 0.1, 8}};
-  round.round = RoundMake::mitred;
-  CHECK(refused(section::HalfPipe{0.5, 0.1, 3e-3}, round).find("round: staves") != std::string::npos);
 }
 
 TEST_CASE("lugs: on walls without a rim they keep off stiffeners") {

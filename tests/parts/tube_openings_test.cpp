@@ -1,6 +1,7 @@
-// Inspection openings of mitred tubes.
+// Inspection openings of mitred tubes and troughs.
 
 #include "glissade/core/math.hpp"
+#include "glissade/io/step_file.hpp"
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
@@ -15,6 +16,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shop_parts.hpp"
+#include "support/temp_dir.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -236,4 +238,128 @@ TEST_CASE("tube openings: a lid that is turned on its tube is found out by its h
     part.places.front().origin = part.places.front().origin + 1e-3 * part.places.front().z;
   }
   CHECK(bolt_fault(workshop).find("off the axis of that in") != std::string::npos);
+}
+
+namespace {
+
+/// A trough opened as tubes are, on its left.
+TroughGore opened_trough(double side) {
+  TroughGore trough{0.15, 0.003, side, 0.5, Angle::from_degrees(6.0), Angle::from_degrees(-4.0)};
+  trough.windows = {{0.2, 0.3, Angle::from_degrees(-150.0), Angle::from_degrees(-110.0)}};
+  for (const double along : {0.18, 0.32}) {
+    for (const double about : {-156.0, -104.0})
+      trough.holes.push_back({along, Angle::from_degrees(about), 4.5e-3});
+  }
+  return trough;
+}
+
+}  // namespace
+
+TEST_CASE("tube openings: an opened trough is a solid less its window and holes, by facets and by depth") {
+  for (const double side : {0.0, 0.08}) {
+    INFO("sides of " << side);
+    const TroughGore trough = opened_trough(side);
+    const parts::BodyMoments all = parts::moments(trough);
+    TroughGore plain = trough;
+    plain.windows.clear();
+    plain.holes.clear();
+    const double window = 0.1515 * 40.0 * kDegree * 0.1 * 0.003;
+    const double holes = 4.0 * std::numbers::pi * 4.5e-3 * 4.5e-3 * 0.003;
+    CHECK(std::fabs((parts::moments(plain).volume - all.volume) / (window + holes) - 1.0) < 1e-4);
+    for (const double tolerance : {1e-3, 1e-5}) {
+      const MeshFacts facts = measure(parts::facets_of(trough, tolerance));
+      CHECK(facts.boundary_edges + facts.non_manifold_edges + facts.self_intersections == 0);
+      CHECK(facts.oriented_outward);
+      CHECK(std::fabs(facts.volume / all.volume - 1.0) < (tolerance > 1e-4 ? 0.05 : 5e-4));
+    }
+    for (const Vec3 point : parts::points_beside(parts::round_of(trough), 20e-6)) {
+      const double depth = parts::depth_inside(trough, point);
+      CHECK(depth > 15e-6);
+      CHECK(depth < 25e-6);
+    }
+  }
+}
+
+TEST_CASE("tube openings: each lies in one trough on the left, off its rim, its lid bolted on") {
+  Random random = seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const TempDir dir;
+  int made = 0;
+  for (int round = 0; round < 8; ++round) {
+    const double width = random.between(0.4, 0.7);
+    const section::HalfPipe half{width, random.integer(0, 1) == 0 ? 0.0 : random.between(0.02, 0.2),
+                                 random.between(2e-3, 4e-3)};
+    const ClothoidSpline track =
+        random_track(random, {.smallest = 6.0, .largest = 9.0, .bends = 2, .crest = -0.15, .valley = 0.2});
+    PlateOptions options =
+        with_opening(random.between(0.2, 0.8) * track.length(), random.between(0.08, 0.15), 0.2 * width);
+    options.bend = {FacetRule::segment_angle, 6.0 * kDegree, {}, {}};
+    if (random.integer(0, 1) == 0) options.rim = RimOptions();
+    if (random.integer(0, 1) == 0) options.stiffeners = StiffenerOptions();
+    // Left to what fits, troughs take them, too.
+    if (random.integer(0, 1) == 0) options.round = RoundMake::as_fits;
+    WorkshopBuild build;
+    CAPTURE(round, width, half.wall_height, options.rim.has_value());
+    const std::string text = refusal_of([&] { build = plates_of(track, half, options); });
+    if (!text.empty()) {
+      INFO(text);
+      const std::size_t hint = text.find("|at: ", text.find("lies across"));
+      REQUIRE(hint != std::string::npos);
+      std::size_t unit = 0;
+      const double value = std::stod(text.substr(hint + 5), &unit);
+      const bool metres = text[hint + 5 + unit + 1] == 'm' && text[hint + 5 + unit + 2] != 'm';
+      options.inspection.front().at = metres ? value : 1e-3 * value;
+      build = plates_of(track, half, options);
+    }
+    const ShopPart* opened = nullptr;
+    for (const ShopPart& part : build.workshop.parts) {
+      const auto* const trough = std::get_if<TroughGore>(&part.body);
+      if (trough != nullptr && !trough->windows.empty()) opened = &part;
+    }
+    // Staves, where troughs would be too short.
+    if (opened == nullptr) continue;
+    ++made;
+    const auto& trough = std::get<TroughGore>(opened->body);
+    const ShopPart& lid = part_of(build, "lid");
+    CHECK(lid.centre_of_gravity.y > 0.1 * width);  // to the left of the run
+    CHECK(build.proof.bolted >= trough.holes.size());
+    PlateOptions without = options;
+    without.inspection.clear();
+    const WorkshopBuild plain = plates_of(track, half, without);
+    double cut = 0.0;
+    for (const VolumeDifference& difference : build.proof.differences) cut += difference.volume;
+    CHECK(std::fabs(plain.proof.volume + cut - build.proof.volume) < 1e-9 * plain.proof.volume);
+    CHECK(cut < 0.0);
+    const PlaneRegion& flat = opened->pattern->region;
+    CHECK(faults_of(flat).empty());
+    REQUIRE(flat.cutouts.size() == 1);
+    REQUIRE(flat.holes.size() == trough.holes.size());
+    const double mean = trough.inner_radius + 0.5 * trough.thickness;
+    const TubeWindow& own = trough.windows.front();
+    CHECK(std::fabs(bounds(flat.cutouts.front()).width() - mean * (own.high.radians() - own.low.radians())) <
+          1e-12);
+    // From the left rim.
+    CHECK(std::fabs(bounds(flat.cutouts.front()).low.x -
+                    (half.wall_height + mean * (-0.5 * std::numbers::pi - own.high.radians()))) < 1e-12);
+    write_step(dir.path() / "part.step", *opened);
+    require_same_step(dir.path() / "part.step", *opened);
+  }
+  CHECK(made >= 5);
+}
+
+TEST_CASE("tube openings: what fits no trough is told with what does") {
+  const ClothoidSpline track(Angle::from_degrees(50.0), {{3.0, 0.2, 0.2}});
+  PlateOptions options = with_opening(1.0, 0.1, 0.4);
+  options.bend = {FacetRule::segment_angle, 8.0 * kDegree, {}, {}};
+  options.rim = RimOptions();
+  const section::HalfPipe half{0.5, 0.0, 3e-3};
+  const auto refused = [&] { return refusal_of([&] { return plates_of(track, half, options); }); };
+  const std::string high = refused();
+  CHECK(high.find("inspection|height: 400 mm leaves too little of a trough of 506 mm|") == 0);
+  const std::size_t hint = high.find("|height: ", 20);
+  REQUIRE(hint != std::string::npos);
+  options.inspection.front().height = 1e-3 * std::stod(high.substr(hint + 9));
+  CHECK(refused().find("leaves too little") == std::string::npos);
+  options.inspection.front() = {1.0, 1.6, 0.1, 6};
+  CHECK(refused().find("inspection|length: an opening of 1.6 m fits no trough|") == 0);
 }

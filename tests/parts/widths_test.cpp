@@ -9,6 +9,8 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
+#include "parts/body_depth.hpp"
+#include "parts/body_edges.hpp"
 #include "parts/body_mesh.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/chute_plates.hpp"
@@ -319,4 +321,72 @@ TEST_CASE("widths: liners and covers beside a width that changes are closed bodi
     CHECK(rims == covers);
     CHECK(covers > 20);
   }
+}
+
+TEST_CASE("widths: openings are cut where the width does not change, lids lie on leaning sides") {
+  const TempDir dir;
+  Random random = seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int made = 0;
+  for (int run = 0; run < 8; ++run) {
+    const double wide = random.between(0.3, 0.6);
+    const double t = random.between(3e-3, 6e-3);
+    const double from = random.between(1.5, 3.0);
+    const WidthLaw widths({{from, wide}, {from + random.between(0.8, 2.0), random.between(0.8, 1.3) * wide}});
+    PlateOptions options;
+    options.inspection = {{random.between(3.0, 7.0), random.between(0.08, 0.2), 0.1, 6},
+                          {random.between(0.6, 1.2), 0.1, random.between(0.06, 0.1), 6}};
+    options.inspection.resize(static_cast<std::size_t>(random.integer(1, 2)));
+    if (random.integer(0, 1) == 0) options.rim.emplace();
+    if (random.integer(0, 1) == 0) options.stiffeners.emplace();
+    if (random.integer(0, 2) == 0) options.liner.emplace();
+    const section::Measures sections[] = {
+        section::UChannel{widths, 0.25, t},
+        section::Trapezoid{widths, 0.3, Angle::from_degrees(random.between(5.0, 40.0)), t}};
+    const auto& measures = sections[random.integer(0, 1)];
+    CAPTURE(run, measures.index(), from, options.inspection.front().at);
+    WorkshopBuild build;
+    const std::string text = refusal_of([&] { build = plates_of(chute(), measures, options); });
+    if (!text.empty()) {
+      INFO(text);
+      CHECK(text.find("inspection|at: an opening at ") == 0);
+      continue;
+    }
+    ++made;
+    double opened = 0.0;
+    std::size_t cut = 0;
+    std::size_t bolts = 0;
+    for (const ShopPart& part : build.workshop.parts) {
+      INFO(part.name);
+      CHECK(faults_of(part.pattern->region).empty());
+      const auto* const body = std::get_if<SweptBody>(&part.body);
+      if (body == nullptr) continue;
+      if (part.name.starts_with("lid")) bolts += part.quantity() * body->holes.size();
+      if (body->windows.empty()) continue;
+      CHECK(part.name.starts_with("left_wall"));
+      CHECK(part.quantity() == 1);
+      cut += body->windows.size();
+      REQUIRE(part.pattern->region.cutouts.size() == body->windows.size());
+      CHECK(part.pattern->region.holes.size() == body->holes.size());
+      for (const ArcPath& cutout : part.pattern->region.cutouts)
+        opened += std::fabs(signed_area(cutout)) * part.thickness;
+      const MeshFacts facts = measure(parts::facets_of(part.body, 2e-6));
+      CHECK(facts.boundary_edges + facts.non_manifold_edges + facts.self_intersections == 0);
+      CHECK(facts.volume == Approx(part.volume).epsilon(2e-4));
+      for (const Vec3 point : parts::edge_points(part.body, 20e-6))
+        CHECK(parts::depth_inside(part.body, point) > 0.0);
+      write_step(dir.path() / "part.step", part);
+      require_same_step(dir.path() / "part.step", part);
+    }
+    CHECK(cut == options.inspection.size());
+    CHECK(bolts >= 4 * cut);
+    CHECK(build.proof.bolted >= bolts);
+    double listed = 0.0;
+    for (const VolumeDifference& one : build.proof.differences) {
+      if (one.what == "openings") listed += one.volume;
+    }
+    // Thickness counts across: square to a side that leans more than the section's it is less by a hair.
+    CHECK(-listed == Approx(opened).epsilon(1e-2));
+  }
+  CHECK(made >= 4);
 }

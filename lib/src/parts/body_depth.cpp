@@ -5,6 +5,7 @@
 #include "core/arc_pieces.hpp"
 #include "parts/angle_bar.hpp"
 #include "parts/body_places.hpp"
+#include "parts/swept_windows.hpp"
 #include "parts/tube_windows.hpp"
 
 #include <algorithm>
@@ -105,10 +106,18 @@ double depth_along(const std::vector<PathPiece>& pieces, Vec2 point, Across acro
 }
 
 double depth_in(const SweptBody& body, Vec3 point) {
-  return depth_along(pieces_of(body.path), {point.x, point.y},
-                     [&](std::size_t i, double share, double above) {
-                       return depth_in(polygon_of(section_at(body, i, share)), Vec2{above, point.z});
-                     });
+  const std::vector<PathPiece> pieces = pieces_of(body.path);
+  return depth_along(pieces, {point.x, point.y}, [&](std::size_t i, double share, double above) {
+    double depth = depth_in(polygon_of(section_at(body, i, share)), Vec2{above, point.z});
+    for (const SweptWindow& window : body.windows) {
+      const auto [piece, begins] = piece_at(pieces, window.from);
+      if (piece != i) continue;
+      const BoreLine line = first_edge(body, i);
+      const double y = dot(Vec2{above, point.z} - line.foot, line.across);
+      depth = std::min(depth, parts::beside(window, Vec2{begins + share * length(pieces[i]), y}));
+    }
+    return depth;
+  });
 }
 
 double depth_in(const RolledSheet& sheet, Vec3 point) {
@@ -140,8 +149,10 @@ double depth_in(const TroughGore& gore, Vec3 point) {
       (point.z - point.x * math::tan(gore.start_tilt.radians())) * math::cos(gore.start_tilt.radians());
   const double end = (gore.length + point.x * math::tan(gore.end_tilt.radians()) - point.z) *
                      math::cos(gore.end_tilt.radians());
-  return std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start, end,
-                   gore.side - point.x});
+  double depth = std::min({radius - gore.inner_radius, gore.inner_radius + gore.thickness - radius, start,
+                           end, gore.side - point.x});
+  for (const TubeWindow& window : gore.windows) depth = std::min(depth, parts::beside(window, point));
+  return depth;
 }
 
 double depth_in(const FoldedPlate& plate, Vec3 point) {

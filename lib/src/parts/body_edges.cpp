@@ -3,7 +3,9 @@
 #include "glissade/core/math.hpp"
 
 #include "parts/angle_bar.hpp"
+#include "parts/body_depth.hpp"
 #include "parts/body_places.hpp"
+#include "parts/swept_windows.hpp"
 #include "parts/tube_windows.hpp"
 
 #include <algorithm>
@@ -75,6 +77,9 @@ std::vector<Vec3> points_of(const SweptBody& body, double inset) {
       }
     }
   }
+  if (body.windows.empty()) return points;
+  std::erase_if(points, [&](Vec3 point) { return depth_inside(body, point) < 0.0; });
+  for (const Vec3 point : points_beside(body, inset)) points.push_back(point);
   return points;
 }
 
@@ -143,6 +148,12 @@ std::vector<Vec3> points_of(const FoldedPlate& plate, double inset) {
   return points;
 }
 
+/// Whether a point lies in a window.
+bool is_cut(const TubeGore& gore, Vec3 point) {
+  return std::any_of(gore.windows.begin(), gore.windows.end(),
+                     [&](const TubeWindow& window) { return parts::beside(window, point) < 0.0; });
+}
+
 std::vector<Vec3> points_of(const TroughGore& gore, double inset) {
   std::vector<Vec3> points;
   const double start = math::tan(gore.start_tilt.radians());
@@ -164,6 +175,10 @@ std::vector<Vec3> points_of(const TroughGore& gore, double inset) {
       put(height, -radius);
     }
   }
+  if (gore.windows.empty()) return points;
+  const TubeGore round = round_of(gore);
+  std::erase_if(points, [&](Vec3 point) { return is_cut(round, point); });
+  for (const Vec3 point : points_beside(round, inset)) points.push_back(point);
   return points;
 }
 
@@ -178,10 +193,7 @@ std::vector<Vec3> points_of(const TubeGore& gore, double inset) {
       const double high = gore.length + x * math::tan(gore.end_tilt.radians()) - 2.0 * inset;
       for (const double z : {low, 0.5 * (low + high), high}) {
         const Vec3 point{x, radius * sine, z};
-        const bool cut = std::any_of(gore.windows.begin(), gore.windows.end(), [&](const TubeWindow& window) {
-          return parts::beside(window, point) < 0.0;
-        });
-        if (!cut) points.push_back(point);
+        if (!is_cut(gore, point)) points.push_back(point);
       }
     }
   }

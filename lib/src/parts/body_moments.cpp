@@ -6,6 +6,7 @@
 #include "parts/body_places.hpp"
 #include "parts/bores.hpp"
 #include "parts/piece_mesh.hpp"
+#include "parts/swept_windows.hpp"
 #include "parts/tube_windows.hpp"
 
 #include <algorithm>
@@ -69,32 +70,55 @@ constexpr std::array<double, 4> kWeights = {0.1739274225687269, 0.32607257743127
                                             0.1739274225687269};
 constexpr int kPanels = 4;
 
-BodyMoments moments_of(const SweptBody& body) {
-  SectionMoments section = moments_of(body.section);
-  BodyMoments all;
+/// What a section sweeps along a stretch of a piece: its volume, and first moments.
+struct SweptMoments {
+  double volume = 0.0;
   Vec3 first;
-  const std::vector<PathPiece> pieces = pieces_of(body.path);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const double whole = length(pieces[i]);
-    const double curvature = curvature_of(pieces[i]);
+
+  /// @param from,to   shares of the piece
+  /// @param section   moments at a share
+  /// @param sense     -1: what is taken away
+  template <typename Section>
+  void add(const PathPiece& piece, double from, double to, const Section& section, double sense) {
+    const double whole = (to - from) * length(piece);
+    const double curvature = curvature_of(piece);
     for (int panel = 0; panel < kPanels; ++panel) {
       for (std::size_t k = 0; k < kNodes.size(); ++k) {
-        const double share = (panel + kNodes[k]) / kPanels;
-        if (!body.shifts.empty()) section = moments_of(section_at(body, i, share));
-        const Vec2 along = tangent_at(pieces[i], share);
-        const double weight = kWeights[k] * whole / kPanels;
-        const Vec2 at = point_on(pieces[i], share);
-        const double volume = section.area - curvature * section.x;
-        const double up = section.x - curvature * section.xx;
-        all.volume += weight * volume;
-        first.x += weight * (at.x * volume - along.y * up);
-        first.y += weight * (at.y * volume + along.x * up);
-        first.z += weight * (section.y - curvature * section.xy);
+        const double share = from + (to - from) * ((panel + kNodes[k]) / kPanels);
+        const SectionMoments here = section(share);
+        const Vec2 along = tangent_at(piece, share);
+        const double weight = sense * kWeights[k] * whole / kPanels;
+        const Vec2 at = point_on(piece, share);
+        const double layer = here.area - curvature * here.x;
+        const double up = here.x - curvature * here.xx;
+        volume += weight * layer;
+        first.x += weight * (at.x * layer - along.y * up);
+        first.y += weight * (at.y * layer + along.x * up);
+        first.z += weight * (here.y - curvature * here.xy);
       }
     }
   }
-  all.centroid = (1.0 / all.volume) * first;
-  return without(all, bores_of(body));
+};
+
+BodyMoments moments_of(const SweptBody& body) {
+  const SectionMoments section = moments_of(body.section);
+  SweptMoments all;
+  const std::vector<PathPiece> pieces = pieces_of(body.path);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto at = [&](double share) {
+      return body.shifts.empty() ? section : moments_of(section_at(body, i, share));
+    };
+    all.add(pieces[i], 0.0, 1.0, at, 1.0);
+  }
+  for (const SweptWindow& window : body.windows) {
+    const auto [i, begins] = piece_at(pieces, window.from);
+    const SectionMoments cut = moments_of(section_of(window, first_edge(body, i)));
+    const double whole = length(pieces[i]);
+    all.add(
+        pieces[i], (window.from - begins) / whole, (window.to - begins) / whole, [&](double) { return cut; },
+        -1.0);
+  }
+  return without({all.volume, (1.0 / all.volume) * all.first}, bores_of(body));
 }
 
 /// What of a sheet lies between two places along its path, its edges being parallel to it.
@@ -237,6 +261,17 @@ BodyMoments moments_of(const FoldedPlate& plate) {
   return all;
 }
 
+/// What is left of a tube beside its windows and holes.
+BodyMoments without_openings(BodyMoments all, const TubeGore& gore) {
+  for (const TubeWindow& window : gore.windows) {
+    const BodyMoments cut = parts::moments_of(window, gore);
+    const double left = all.volume - cut.volume;
+    all.centroid = (1.0 / left) * (all.volume * all.centroid - cut.volume * cut.centroid);
+    all.volume = left;
+  }
+  return without(all, bores_of(gore));
+}
+
 BodyMoments moments_of(const TubeGore& gore) {
   const double inner = gore.inner_radius;
   const double outer = inner + gore.thickness;
@@ -250,13 +285,7 @@ BodyMoments moments_of(const TubeGore& gore) {
   const double z = 0.5 * (area * gore.length * gore.length + second * (end * end - start * start));
   BodyMoments all{area * gore.length, {}};
   all.centroid = {x / all.volume, 0.0, z / all.volume};
-  for (const TubeWindow& window : gore.windows) {
-    const BodyMoments cut = parts::moments_of(window, gore);
-    const double left = all.volume - cut.volume;
-    all.centroid = (1.0 / left) * (all.volume * all.centroid - cut.volume * cut.centroid);
-    all.volume = left;
-  }
-  return without(all, bores_of(gore));
+  return without_openings(all, gore);
 }
 
 BodyMoments moments_of(const TroughGore& gore) {
@@ -276,7 +305,7 @@ BodyMoments moments_of(const TroughGore& gore) {
   const double x = first * gore.length + second * (end - start);
   const double z = 0.5 * (area * gore.length * gore.length + 2.0 * first * gore.length * end +
                           second * (end * end - start * start));
-  return {volume, {x / volume, 0.0, z / volume}};
+  return without_openings({volume, {x / volume, 0.0, z / volume}}, round_of(gore));
 }
 
 BodyMoments moments_of(const AngleBar& bar) {

@@ -68,6 +68,8 @@ std::vector<Hole> holes_of(const Prism& prism) {
 std::vector<Hole> holes_of(const PartBody& body) {
   if (const auto* const bar = std::get_if<AngleBar>(&body)) return holes_of(legs_of(*bar)[0]);
   if (const auto* const tube = std::get_if<TubeGore>(&body)) return from_bores(bores_of(*tube));
+  if (const auto* const trough = std::get_if<TroughGore>(&body))
+    return from_bores(bores_of(round_of(*trough)));
   if (const auto* const swept = std::get_if<SweptBody>(&body)) return from_bores(bores_of(*swept));
   if (const auto* const sheet = std::get_if<RolledSheet>(&body)) return from_bores(bores_of(*sheet));
   const auto* const prism = std::get_if<Prism>(&body);

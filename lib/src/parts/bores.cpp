@@ -136,10 +136,27 @@ double drilled_by_layers(const Bore& bore) {
   return volume;
 }
 
+PieceAt piece_at(const std::vector<PathPiece>& pieces, double place) {
+  PieceAt at;
+  while (at.piece + 1 < pieces.size() && place > at.begins + length(pieces[at.piece]))
+    at.begins += length(pieces[at.piece++]);
+  return at;
+}
+
+BoreLine first_edge(const SweptBody& body, std::size_t piece) {
+  std::array<Vec2, 3> corners = {body.section.at(0), body.section.at(1), body.section.at(2)};
+  constexpr double kLevel = 1e-12;  // [m]
+  if (!body.shifts.empty() && std::fabs(corners[1].x - corners[0].x) > kLevel) {
+    for (std::size_t j = 0; j < corners.size(); ++j) corners[j].y += body.shifts[piece][j];
+  }
+  const Vec2 way = corners[1] - corners[0];
+  const Vec2 across = (1.0 / norm(way)) * way;
+  const Vec2 into{-across.y, across.x};
+  return {corners[0], across, dot(into, corners[2] - corners[1])};
+}
+
 Bore bore_at(const std::vector<PathPiece>& pieces, const Circle& hole, const BoreLine& line) {
-  std::size_t i = 0;
-  double reached = 0.0;
-  while (i + 1 < pieces.size() && hole.centre.x > reached + length(pieces[i])) reached += length(pieces[i++]);
+  const auto [i, reached] = piece_at(pieces, hole.centre.x);
   const PathPiece& piece = pieces[i];
   const double share = (hole.centre.x - reached) / length(piece);
   const Vec2 at = point_on(piece, share);
@@ -172,12 +189,9 @@ Bore bore_at(const std::vector<PathPiece>& pieces, const Circle& hole, const Bor
 std::vector<Bore> bores_of(const SweptBody& body) {
   std::vector<Bore> bores;
   if (body.holes.empty()) return bores;
-  const Vec2 way = body.section.at(1) - body.section.at(0);
-  const Vec2 across = (1.0 / norm(way)) * way;
-  const Vec2 into{-across.y, across.x};
-  const BoreLine line{body.section.at(0), across, dot(into, body.section.at(2) - body.section.at(1))};
   const std::vector<PathPiece> pieces = pieces_of(body.path);
-  for (const Circle& hole : body.holes) bores.push_back(bore_at(pieces, hole, line));
+  for (const Circle& hole : body.holes)
+    bores.push_back(bore_at(pieces, hole, first_edge(body, piece_at(pieces, hole.centre.x).piece)));
   return bores;
 }
 

@@ -54,6 +54,18 @@ struct BoreLine {
   Vec2 across;  ///< unit direction of y; the plate lies to its left
   double thickness = 0.0;
 };
+/// @param piece  of the path
+/// @return the line of a swept plate on which its holes and windows there are told
+[[nodiscard]] BoreLine first_edge(const SweptBody& body, std::size_t piece);
+
+/// Where a place along a path lies.
+struct PieceAt {
+  std::size_t piece = 0;
+  double begins = 0.0;  ///< that piece, along the path
+};
+/// @return of a joint the piece before it
+[[nodiscard]] PieceAt piece_at(const std::vector<PathPiece>& pieces, double place);
+
 /// @param pieces  of a path in the x-y plane
 /// @param hole    x: arc length along the path; y: along the line
 [[nodiscard]] Bore bore_at(const std::vector<PathPiece>& pieces, const Circle& hole, const BoreLine& line);

@@ -4,11 +4,14 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "parts/body_places.hpp"
 #include "parts/bores.hpp"
 #include "parts/brep_building.hpp"
 #include "parts/brep_contour.hpp"
+#include "parts/swept_windows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -54,13 +57,20 @@ class SweptFaces {
       if (twice < 0.0) std::reverse(section.begin(), section.end());
       sections_.push_back(std::move(section));
     }
-    if (body.holes.empty()) return;
+    if (body.holes.empty() && body.windows.empty()) return;
     if (twice < 0.0 || body.section.size() != 4) throw bad_body(part, "it is no plate that holes go through");
-    SweptBody scaled_body{scaled(body.path, core::kMillimetres), {}, {}, {}};
-    for (const Vec2 corner : body.section) scaled_body.section.push_back(core::kMillimetres * corner);
+    plate_.path = scaled(body.path, core::kMillimetres);
+    plate_.shifts = body.shifts;
+    for (std::vector<double>& station : plate_.shifts) {
+      for (double& shift : station) shift *= core::kMillimetres;
+    }
+    for (const Vec2 corner : body.section) plate_.section.push_back(core::kMillimetres * corner);
     for (const Circle& hole : body.holes)
-      scaled_body.holes.push_back({core::kMillimetres * hole.centre, core::kMillimetres * hole.radius});
-    bores_ = bores_of(scaled_body);
+      plate_.holes.push_back({core::kMillimetres * hole.centre, core::kMillimetres * hole.radius});
+    for (const SweptWindow& one : body.windows)
+      plate_.windows.push_back({core::kMillimetres * one.from, core::kMillimetres * one.to,
+                                core::kMillimetres * one.low, core::kMillimetres * one.high});
+    bores_ = bores_of(plate_);
   }
 
   Brep whole() {
@@ -74,6 +84,7 @@ class SweptFaces {
       brep_.faces[bore.piece * corners()].loops.push_back({loops.face});
       brep_.faces[bore.piece * corners() + 2].loops.push_back({loops.back});
     }
+    for (const SweptWindow& window : plate_.windows) add_window(window);
     cap(0, start_tangent(pieces_.front()), false);
     cap(pieces_.size(), end_tangent(pieces_.back()), true);
     return std::move(brep_);
@@ -169,6 +180,53 @@ class SweptFaces {
     return made;
   }
 
+  /// The walls of a window, and its mouths in both faces of the plate: a piece of plate turned inside out.
+  void add_window(const SweptWindow& window) {
+    const auto [i, begins] = piece_at(pieces_, window.from);
+    const PathPiece& piece = pieces_[i];
+    const std::vector<Vec2> section = section_of(window, first_edge(plate_, i));
+    std::array<std::array<std::size_t, 4>, 2> at{};
+    std::array<std::array<std::size_t, 4>, 2> round{};
+    std::array<std::size_t, 4> lengthwise{};
+    std::array<Vec2, 2> along;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double share = ((end == 0 ? window.from : window.to) - begins) / length(piece);
+      along[end] = tangent_at(piece, share);
+      const Vec2 left{-along[end].y, along[end].x};
+      for (std::size_t k = 0; k < 4; ++k)
+        at[end][k] = add_vertex(brep_, at_height(point_on(piece, share) + section[k].x * left, section[k].y));
+      for (std::size_t k = 0; k < 4; ++k) round[end][k] = add_line(brep_, at[end][k], at[end][(k + 1) % 4]);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      lengthwise[k] = piece.straight()
+                          ? add_line(brep_, at[0][k], at[1][k])
+                          : add_arc(brep_, at[0][k], at[1][k], arc_of(piece).centre, piece.bulge > 0.0);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t next = (k + 1) % 4;
+      std::vector<BrepUse> loop = {
+          {lengthwise[k], true}, {round[1][k], true}, {lengthwise[next], false}, {round[0][k], false}};
+      if (k % 2 == 0) {
+        brep_.faces[i * corners() + k].loops.push_back(std::move(loop));
+        continue;
+      }
+      BrepFace wall = piece.straight() ? flat_face(brep_, at[0][next], at[1][next], at[0][k])
+                                       : round_face(piece, section[next], section[k]);
+      wall.loops = {std::move(loop)};
+      brep_.faces.push_back(std::move(wall));
+    }
+    for (std::size_t end = 0; end < 2; ++end) {
+      BrepFace wall;
+      wall.origin = brep_.vertices[at[end][0]];
+      wall.axis = (end == 0 ? 1.0 : -1.0) * at_height(along[end], 0.0);
+      wall.reference = kUp;
+      std::vector<BrepUse> loop;
+      for (std::size_t k = 0; k < 4; ++k) loop.push_back({round[end][end == 0 ? k : 3 - k], end == 0});
+      wall.loops = {std::move(loop)};
+      brep_.faces.push_back(std::move(wall));
+    }
+  }
+
   void cap(std::size_t station, Vec2 tangent, bool forward) {
     BrepFace made;
     made.origin = brep_.vertices[vertex(station, 0)];
@@ -184,6 +242,7 @@ class SweptFaces {
   const ShopPart& part_;
   std::vector<PathPiece> pieces_;
   std::vector<std::vector<Vec2>> sections_;  ///< at every vertex of the path
+  SweptBody plate_;                          ///< that holes and windows go through
   std::vector<Bore> bores_;
   Brep brep_;
 };

@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/brep_building.hpp"
+#include "parts/tube_windows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,8 @@ struct Lengthwise {
 class TroughFaces {
  public:
   explicit TroughFaces(const TroughGore& gore)
-      : inner_(gore.inner_radius * core::kMillimetres),
+      : gore_(round_of(gore)),
+        inner_(gore.inner_radius * core::kMillimetres),
         outer_(inner_ + gore.thickness * core::kMillimetres),
         side_(gore.side * core::kMillimetres),
         length_(gore.length * core::kMillimetres),
@@ -43,6 +45,9 @@ class TroughFaces {
     if (side_ > 0.0) sides();
     rims();
     ends();
+    TubeMouths mouths = add_openings(brep_, gore_);
+    for (auto& loop : mouths.outside) brep_.faces[0].loops.push_back(std::move(loop));
+    for (auto& loop : mouths.inside) brep_.faces[1].loops.push_back(std::move(loop));
     return std::move(brep_);
   }
 
@@ -173,6 +178,7 @@ class TroughFaces {
     }
   }
 
+  TubeGore gore_;
   double inner_;
   double outer_;
   double side_;

@@ -270,7 +270,14 @@ BodyPlace place_of(const SweptBody& body, const SweptBody& other, bool end_for_e
   const bool drilled_alike = all_found(body.holes, other.holes, [](const Circle& hole, const Circle& there) {
     return near(hole.centre, there.centre) && near(hole.radius, there.radius);
   });
-  if (!drilled_alike || (end_for_end && !body.holes.empty())) return std::nullopt;
+  const bool cut_alike =
+      std::equal(body.windows.begin(), body.windows.end(), other.windows.begin(), other.windows.end(),
+                 [](const SweptWindow& window, const SweptWindow& there) {
+                   return near(window.from, there.from) && near(window.to, there.to) &&
+                          near(window.low, there.low) && near(window.high, there.high);
+                 });
+  const bool plain = body.holes.empty() && body.windows.empty();
+  if (!drilled_alike || !cut_alike || (end_for_end && !plain)) return std::nullopt;
   const auto path = path_motion(body.path, other.path, end_for_end, [&](const PlaneMotion& motion) {
     return near(motion((end_for_end ? body.path.vertices.back() : body.path.vertices.front()).at),
                 other.path.vertices.front().at);
@@ -358,7 +365,10 @@ BodyPlace place_of(const TubeGore& body, const TubeGore& other, bool end_for_end
 }
 
 BodyPlace place_of(const TroughGore& body, const TroughGore& other, bool end_for_end) {
-  if (!near(body.side, other.side)) return std::nullopt;
+  const bool whole = body.windows.empty() && body.holes.empty();
+  if (!near(body.side, other.side) || body.windows != other.windows || body.holes != other.holes ||
+      (end_for_end && !whole))
+    return std::nullopt;
   return place_of_gore(body, other, end_for_end);
 }
 

@@ -103,4 +103,16 @@ void ChordEnds::leave_out(const std::vector<Circle>& holes, const std::vector<Bo
   std::sort(places_.begin(), places_.end());
 }
 
+void ChordEnds::add(const SweptWindow& window) {
+  constexpr double kSame = 1e-7;  // [m]
+  for (const double end : {window.from, window.to}) {
+    std::erase_if(places_, [&](double place) {
+      const bool joint = std::find(starts_.begin(), starts_.end(), place) != starts_.end();
+      return !joint && std::fabs(place - end) < kSame;
+    });
+    places_.push_back(end);
+  }
+  std::sort(places_.begin(), places_.end());
+}
+
 }  // namespace glissade::parts

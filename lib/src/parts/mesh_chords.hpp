@@ -47,6 +47,9 @@ class ChordEnds {
 
   void leave_out(const std::vector<Circle>& holes, const std::vector<Bore>& bores);
 
+  /// A window begins and ends at one of them.
+  void add(const SweptWindow& window);
+
   [[nodiscard]] const std::vector<double>& starts() const { return starts_; }
   [[nodiscard]] const std::vector<double>& places() const { return places_; }
 

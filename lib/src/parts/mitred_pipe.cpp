@@ -307,13 +307,14 @@ FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
   pattern.region.outline.closed = true;
   pattern.region.outline.vertices.back().bulge = 0.0;
   pattern.region.outline.vertices[low.vertices.size() - 1].bulge = 0.0;
-  // Seen from inside, angles about the axis run to the left.
+  // Seen from inside, angles about the axis run to the left; of a trough from where its round begins.
+  const double first = job.side ? *job.side / mean - 0.5 * kPi : phase;
   for (const TubeWindow& window : gore.body.windows) {
-    pattern.region.cutouts.push_back(rectangle({mean * (phase - window.high.radians()), window.from},
-                                               {mean * (phase - window.low.radians()), window.to}));
+    pattern.region.cutouts.push_back(rectangle({mean * (first - window.high.radians()), window.from},
+                                               {mean * (first - window.low.radians()), window.to}));
   }
   for (const TubeHole& hole : gore.body.holes)
-    pattern.region.holes.push_back({{mean * (phase - hole.about.radians()), hole.along}, hole.radius});
+    pattern.region.holes.push_back({{mean * (first - hole.about.radians()), hole.along}, hole.radius});
   const PlaneBox box = bounds(pattern.region.outline);
   pattern.region = moved(pattern.region, PlaneMotion::turn(0.0, -1.0 * box.low));
   set_number_place(pattern, bounds(pattern.region.outline));
@@ -327,8 +328,8 @@ ShopPart part_of(const PipeJob& job, const Gore& gore) {
   part.density = job.options.material.density;
   part.thickness = job.pipe.thickness;
   if (job.side) {
-    part.body = TroughGore{gore.body.inner_radius, gore.body.thickness,  *job.side,
-                           gore.body.length,       gore.body.start_tilt, gore.body.end_tilt};
+    part.body = TroughGore{gore.body.inner_radius, gore.body.thickness, *job.side,         gore.body.length,
+                           gore.body.start_tilt,   gore.body.end_tilt,  gore.body.windows, gore.body.holes};
   } else {
     part.body = gore.body;
   }
@@ -594,7 +595,8 @@ std::vector<TubeOpening> cut_openings(const PipeJob& job, const Facets& facets, 
       rooms.push_back({gore.begins, from, to, &gore.body});
     }
   }
-  return cut_tubes(job.options.inspection, rooms, reached(facets).back() / job.track.length());
+  const auto trough = job.side ? std::optional(TroughSide{*job.side, job.options.rim}) : std::nullopt;
+  return cut_tubes(job.options.inspection, rooms, trough, reached(facets).back() / job.track.length());
 }
 
 void add_tube_lids(const PipeJob& job, const std::vector<GoreUnit>& units,
@@ -623,7 +625,8 @@ void add_tube_lids(const PipeJob& job, const std::vector<GoreUnit>& units,
     constexpr double kTold = 0.5e-3;  // [m]
     if (std::fabs(opening.at - opening.asked) < kTold) continue;
     workshop.notes.push_back("The opening that is asked for at " + length_text(opening.asked, 4) +
-                             " along the track is at " + length_text(opening.at, 4) + ", within one tube.");
+                             " along the track is at " + length_text(opening.at, 4) + ", within one " +
+                             job.word() + ".");
   }
 }
 
@@ -841,11 +844,7 @@ std::vector<Issue> mitred_problems(const section::Pipe& pipe, std::optional<doub
   };
   const std::string word = side ? "troughs" : "tubes";
   for (Issue& issue : set_on_problems(options)) issues.push_back(std::move(issue));
-  if (!side) {
-    for (Issue& issue : tube_opening_problems(pipe, options)) issues.push_back(std::move(issue));
-  } else if (!options.inspection.empty()) {
-    add("inspection", "inspection: mitred troughs are open above, and have no lids", "", "round: staves");
-  }
+  for (Issue& issue : tube_opening_problems(pipe, side, options)) issues.push_back(std::move(issue));
   if (options.liner)
     add("liner", "liner: tiles are flat, mitred " + word + " are round inside",
         "They would touch along two lines.", "round: staves");

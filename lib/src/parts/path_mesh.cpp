@@ -161,7 +161,137 @@ class SheetMesh {
 
 }  // namespace
 
+/// A plate with windows: its section has a corner more on both faces wherever a window begins or ends across, the same share of
+/// the way all along.
+class WindowedPlate {
+ public:
+  WindowedPlate(const SweptBody& body, const Fineness& fineness)
+      : body_(body),
+        fineness_(fineness),
+        pieces_(pieces_of(body.path)),
+        bores_(bores_of(body)),
+        ends_(pieces_, reach_of(body), fineness) {
+    ends_.leave_out(body.holes, bores_);
+    for (const SweptWindow& window : body.windows) {
+      ends_.add(window);
+      const BoreLine line = first_edge(body, piece_at(pieces_, window.from).piece);
+      rows_.insert(rows_.end(), {window.low, window.high});
+      line_ = line;
+    }
+    std::sort(rows_.begin(), rows_.end());
+    constexpr double kSame = 1e-9;  // [m]
+    rows_.erase(std::unique(rows_.begin(), rows_.end(), [](double a, double b) { return b - a < kSame; }),
+                rows_.end());
+  }
+
+  TriangleMesh whole() {
+    for (const PathFrame& frame : frames_along(body_.path, ends_)) add_ring(frame);
+    const auto rings = static_cast<Index>(ends_.places().size());
+    for (Index ring = 0; ring + 1 < rings; ++ring) {
+      for (Index i = 0; i <= cuts(); ++i) add_cell(ring, i);
+      add_edge(ring, cuts() + 1);
+      add_edge(ring, size() - 1);
+    }
+    add_caps(rings - 1);
+    return std::move(mesh_);
+  }
+
+ private:
+  [[nodiscard]] static double reach_of(const SweptBody& body) {
+    double reach = 0.0;
+    for (const Vec2 corner : body.section) reach = std::max(reach, std::fabs(corner.x));
+    return reach;
+  }
+  [[nodiscard]] Index cuts() const { return static_cast<Index>(rows_.size()); }
+  [[nodiscard]] Index size() const { return 4 + 2 * cuts(); }
+  /// Corners of a face from its first one; of the back in the same order across.
+  [[nodiscard]] Index face(Index ring, Index i) const { return ring * size() + i; }
+  [[nodiscard]] Index back(Index ring, Index i) const { return ring * size() + size() - 1 - i; }
+
+  /// Shares of the way across at which rows lie, on the face or on the back.
+  [[nodiscard]] std::vector<double> shares(Vec2 from, Vec2 to) const {
+    std::vector<double> shares;
+    for (const double row : rows_)
+      shares.push_back(dot(line_.foot + row * line_.across - from, line_.across) /
+                       dot(to - from, line_.across));
+    return shares;
+  }
+
+  void add_ring(const PathFrame& frame) {
+    const std::size_t own = piece_at(pieces_, body_.windows.front().from).piece;
+    const std::vector<Vec2> here = section_at(body_, frame.piece, frame.share);
+    const std::vector<Vec2> there = section_at(body_, own, 0.0);
+    std::vector<Vec2> section = {here[0]};
+    for (const double share : shares(there[0], there[1]))
+      section.push_back(here[0] + share * (here[1] - here[0]));
+    section.push_back(here[1]);
+    section.push_back(here[2]);
+    std::vector<double> far = shares(there[3], there[2]);
+    std::reverse(far.begin(), far.end());
+    for (const double share : far) section.push_back(here[3] + share * (here[2] - here[3]));
+    section.push_back(here[3]);
+    for (const Vec2 corner : section) {
+      const Vec2 at = frame.at + corner.x * frame.left;
+      mesh_.vertices.push_back({at.x, at.y, corner.y});
+    }
+  }
+
+  [[nodiscard]] bool open(Index ring, Index i) const {
+    if (i == 0 || i >= cuts() || ring + 1 >= ends_.places().size()) return false;
+    const double along = 0.5 * (ends_.places()[ring] + ends_.places()[ring + 1]);
+    const double across = 0.5 * (rows_[i - 1] + rows_[i]);
+    return std::any_of(body_.windows.begin(), body_.windows.end(), [&](const SweptWindow& window) {
+      return along > window.from && along < window.to && across > window.low && across < window.high;
+    });
+  }
+
+  /// What lies between two rows, from one ring to the next; of an open one its walls.
+  void add_cell(Index ring, Index i) {
+    const Index next = ring + 1;
+    const std::array<Index, 4> near = {face(ring, i), face(ring, i + 1), face(next, i + 1), face(next, i)};
+    const std::array<Index, 4> far = {back(ring, i + 1), back(ring, i), back(next, i), back(next, i + 1)};
+    if (open(ring, i)) {
+      if (!open(ring, i - 1)) add_quad(mesh_, face(ring, i), back(ring, i), back(next, i), face(next, i));
+      if (!open(ring, i + 1))
+        add_quad(mesh_, back(ring, i + 1), face(ring, i + 1), face(next, i + 1), back(next, i + 1));
+      if (ring == 0 || !open(ring - 1, i)) add_quad(mesh_, near[0], near[1], far[0], far[1]);
+      if (!open(next, i)) add_quad(mesh_, near[3], far[2], far[3], near[2]);
+      return;
+    }
+    const double low = i == 0 ? -1e300 : rows_[i - 1];
+    const double high = i == cuts() ? 1e300 : rows_[i];
+    const std::vector<const Bore*> holes =
+        between(body_.holes, bores_, ends_.places()[ring], ends_.places()[next], {low, high});
+    if (!holes.empty()) return add_drilled(mesh_, near, far, holes, fineness_);
+    add_quad(mesh_, near[0], near[1], near[2], near[3]);
+    add_quad(mesh_, far[0], far[1], far[2], far[3]);
+  }
+
+  /// An edge of the plate, from a corner to the next.
+  void add_edge(Index ring, Index i) {
+    const Index other = (i + 1) % size();
+    add_quad(mesh_, face(ring, i), face(ring, other), face(ring + 1, other), face(ring + 1, i));
+  }
+
+  void add_caps(Index last) {
+    for (Index i = 0; i <= cuts(); ++i) {
+      add_quad(mesh_, face(0, i), back(0, i), back(0, i + 1), face(0, i + 1));
+      add_quad(mesh_, face(last, i), face(last, i + 1), back(last, i + 1), back(last, i));
+    }
+  }
+
+  const SweptBody& body_;
+  Fineness fineness_;
+  std::vector<PathPiece> pieces_;
+  std::vector<Bore> bores_;
+  ChordEnds ends_;
+  BoreLine line_;
+  std::vector<double> rows_;
+  TriangleMesh mesh_;
+};
+
 TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
+  if (!body.windows.empty()) return WindowedPlate(body, fineness).whole();
   std::vector<Vec2> section = body.section;
   run(section, true);
   const bool turned = section != body.section;

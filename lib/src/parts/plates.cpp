@@ -271,16 +271,17 @@ struct MitredRound {
 std::optional<MitredRound> mitred_round(const section::Measures& measures, const PlateOptions& options) {
   if (options.round == RoundMake::staves) return std::nullopt;
   // What staves alone can have.
-  const auto* const tube = std::get_if<section::Pipe>(&measures);
-  const bool opened = tube != nullptr && tube_opening_problems(*tube, options).empty();
+  std::optional<MitredRound> round;
+  if (const auto* const pipe = std::get_if<section::Pipe>(&measures)) round = {*pipe, std::nullopt};
+  if (const auto* const half = std::get_if<section::HalfPipe>(&measures))
+    round = {{half->width, half->thickness}, half->wall_height};
+  if (!round) return std::nullopt;
+  const bool opened = tube_opening_problems(round->pipe, round->side, options).empty();
   const bool staves = options.liner || options.cover || (!options.inspection.empty() && !opened) ||
                       options.corners.kind != CornerJoint::butt ||
                       (options.rim && std::holds_alternative<section::Pipe>(measures));
   if (staves && options.round == RoundMake::as_fits) return std::nullopt;
-  if (const auto* const pipe = std::get_if<section::Pipe>(&measures)) return MitredRound{*pipe, std::nullopt};
-  if (const auto* const half = std::get_if<section::HalfPipe>(&measures))
-    return MitredRound{{half->width, half->thickness}, half->wall_height};
-  return std::nullopt;
+  return round;
 }
 
 /// Mitred tubes or troughs of what is round; strips of everything else, and of what is round and does not go mitred.

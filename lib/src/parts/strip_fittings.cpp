@@ -200,7 +200,7 @@ ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickn
   Vec2 origin;
   SweptBody body = strip_body(job, plate, span, origin);
   Development flat = developed(job, plate, span);
-  drill_level(job, plate, span, holes, body, flat);
+  cut_through(job, plate, span, holes, {}, body, flat);
   part.body = std::move(body);
   part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   part.pattern = pattern_of(flat, {});

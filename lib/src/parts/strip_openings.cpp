@@ -96,6 +96,10 @@ std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const
                            std::vector<double> breaks) {
   const double hole = clearance_hole(window.bolt, HoleFit::coarse);
   breaks.insert(breaks.end(), {window.along.from, window.along.to});
+  if (job.widens()) {
+    const std::vector<double> pieces = job.pieces();
+    breaks.insert(breaks.end(), pieces.begin(), pieces.end());
+  }
   const Span heights = heights_of(job.section, plate);
   const OnOneArc arcs(job.track, 0.5 * hole, heights, breaks, job.rooms_at_bends(heights));
   const double out = 0.5 * kLidLap;
@@ -129,6 +133,21 @@ std::optional<double> off_bends(const StripJob& job, const SectionPlate& plate,
     }
   }
   return std::nullopt;
+}
+
+/// The place nearest to one at which an opening lies on one arc of a rolled side, its lid where the width does not change.
+/// @param room  for the lid
+std::optional<double> on_one_arc(const StripJob& job, const SectionPlate& plate,
+                                 const InspectionOptions& opening, const Span& room) {
+  const double reach = 0.5 * opening.length + kLidLap;
+  const OnOneArc arcs(job.track, 0.5 * opening.length + kOffJointOfOpening, heights_of(job.section, plate),
+                      job.widens() ? job.pieces() : std::vector<double>());
+  std::optional<double> best;
+  for (const Span& even : job.widens() ? even_stretches(job, room) : std::vector<Span>{room}) {
+    const auto at = arcs.nearest(opening.at, {even.from + reach, even.to - reach});
+    if (at && (!best || std::fabs(*at - opening.at) < std::fabs(*best - opening.at))) best = at;
+  }
+  return best;
 }
 
 StripWindow window_at(const Side& side, const InspectionOptions& opening, double at) {
@@ -168,21 +187,21 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
   for (const InspectionOptions& opening : job.options.inspection) {
     const double reach = 0.5 * opening.length + kLidLap;
     if (opening.at < unit.from || opening.at >= unit.to) continue;
-    const OnOneArc arcs(job.track, 0.5 * opening.length + kOffJointOfOpening, heights_of(job.section, plate));
     const Span within{room.from + reach, room.to - reach};
     // Of a span that is none no place lies in it.
     const std::optional<double> at =
-        job.bent() ? off_bends(job, plate, opening, within) : arcs.nearest(opening.at, within);
+        job.bent() ? off_bends(job, plate, opening, within) : on_one_arc(job, plate, opening, room);
     const std::string where = "at: an opening at " + length_text(job.on_track(opening.at), 4);
     if (!at) {
-      refuse(
-          where + " finds no place in its unit",
-          "Units end at " + length_text(job.on_track(unit.from), 4) + " and " +
-              length_text(job.on_track(unit.to), 4) + "; it is " + length_text(opening.length) +
-              " long, its lid " + length_text(2.0 * reach) +
-              (job.bent() ? ", and their ends lie off the bends of the " : ", and lies on one arc of the ") +
-              plate.name + ".",
-          "another at, or a smaller length");
+      refuse(where + " finds no place in its unit",
+             "Units end at " + length_text(job.on_track(unit.from), 4) + " and " +
+                 length_text(job.on_track(unit.to), 4) + "; it is " + length_text(opening.length) +
+                 " long, its lid " + length_text(2.0 * reach) +
+                 (job.bent()     ? ", and their ends lie off the bends of the "
+                  : job.widens() ? ", and lies on one arc, and where the width does not change, of the "
+                                 : ", and lies on one arc of the ") +
+                 plate.name + ".",
+             "another at, or a smaller length");
     }
     // It may not be moved out of reach of what it is there for.
     if (std::fabs(*at - opening.at) > 0.5 * opening.length + kLidLap) {
@@ -219,13 +238,19 @@ void require_openings_on_track(const StripJob& job) {
 
 void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows, Workshop& workshop) {
   for (const StripWindow& window : windows) {
+    const SectionPlate lid = lid_plate(job.section, window);
+    // Where the lid's face begins, along that of the plate.
+    double begins = window.lid_across.from;
+    if (job.widens()) {
+      const double s = 0.5 * (window.along.from + window.along.to);
+      const FaceAt plate = face_at(job, job.section.plates[window.plate], s);
+      begins = dot(face_at(job, lid, s).from - plate.from, plate.way);
+    }
     std::vector<Circle> holes;
     for (const Vec2 bolt : window.bolts)
-      holes.push_back(
-          {{bolt.x, bolt.y - window.lid_across.from}, 0.5 * clearance_hole(window.bolt, HoleFit::coarse)});
+      holes.push_back({{bolt.x, bolt.y - begins}, 0.5 * clearance_hole(window.bolt, HoleFit::coarse)});
     add_part(workshop,
-             set_plate(job, lid_plate(job.section, window), job.section.thickness, window.lid_along,
-                       job.options.material, holes),
+             set_plate(job, lid, job.section.thickness, window.lid_along, job.options.material, holes),
              kFittingColour);
     add_bolts(workshop, window.bolt, 2.0 * job.section.thickness, holes.size(), "lids");
     const double at = 0.5 * (window.along.from + window.along.to);
@@ -234,7 +259,9 @@ void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows
     workshop.notes.push_back(
         "The opening that is asked for at " + length_text(job.on_track(window.asked), 4) +
         " along the track is at " + length_text(job.on_track(at), 4) +
-        (job.bent() ? ", its ends off the bends of its plate." : ", on one arc of its plate."));
+        (job.bent()     ? ", its ends off the bends of its plate."
+         : job.widens() ? ", on one arc of its plate and where the width does not change."
+                        : ", on one arc of its plate."));
   }
 }
 
@@ -244,9 +271,9 @@ std::vector<Issue> strip_opening_problems(const PlateSection& section, const Pla
   const auto add = [&](std::string what, std::string why, std::string hint) {
     issues.push_back({"inspection", "inspection: " + what, std::move(why), std::move(hint)});
   };
-  if (section.widths) {
-    add("sides beside a width that changes have no openings", "They lean, each ruling otherwise.",
-        "one width");
+  if (section.widths && options.floor == FloorMake::bent) {
+    add("sides of bent plates beside a width that changes have no openings",
+        "They lean otherwise from flat to flat.", "floor: rolled, or one width");
     return issues;
   }
   const auto side = side_for_openings(section, options);

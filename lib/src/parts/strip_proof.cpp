@@ -162,6 +162,19 @@ double volume_along(const StripJob& job, Vec2 section, const Span& span) {
   return volume;
 }
 
+/// Area and moment about the floor line of the section of an opening.
+Vec2 opening_moments(const StripJob& job, const SectionPlate& plate, const StripWindow& window) {
+  const double t = job.section.thickness;
+  if (!job.widens()) return stretch_moments(plate, t, {window.across.from, 0.0}, {window.across.to, 0.0});
+  // Square through a plate that leans more than the section's: of a shear areas across stay.
+  const FaceAt face = face_at(job, plate, 0.5 * (window.along.from + window.along.to));
+  const double square = t * std::fabs(face.way.y) / std::fabs(plate.way().y);
+  const double area = square * (window.across.to - window.across.from);
+  const double across = 0.5 * (window.across.from + window.across.to);
+  const double middle = face.from.y + across * face.way.y + 0.5 * square * face.way.x;
+  return {area, area * middle};
+}
+
 }  // namespace
 
 std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::vector<Strip>& strips,
@@ -208,12 +221,12 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
       for (const Bore& bore : bores_of(*sheet)) (opened ? lids : holes).volume -= drilled_by_layers(bore);
     }
     if (const auto* const body = std::get_if<SweptBody>(&strip.part.body)) {
-      for (const Bore& bore : bores_of(*body)) holes.volume -= drilled_by_layers(bore);
+      for (const Bore& bore : bores_of(*body))
+        (body->windows.empty() ? holes : lids).volume -= drilled_by_layers(bore);
     }
     for (const StripWindow& window : work.windows) {
       if (window.plate != strip.plate) continue;
-      openings.volume -= volume_along(
-          job, stretch_moments(plate, t, {window.across.from, 0.0}, {window.across.to, 0.0}), window.along);
+      openings.volume -= volume_along(job, opening_moments(job, plate, window), window.along);
     }
   }
   std::vector<VolumeDifference> all;

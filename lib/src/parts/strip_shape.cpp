@@ -36,7 +36,13 @@ std::vector<double> breaks_of(const ArcSpline& track, const WidthLaw& widths) {
   std::vector<double> breaks;
   for (const TrackArc& arc : track.arcs()) {
     breaks.push_back(arc.start);
-    const int parts = static_cast<int>(std::ceil(std::fabs(arc.curvature) * arc.length / kMostSweep - 1e-9));
+    // Where the width stays, faces are cones however far they turn.
+    const bool even = widths.at(arc.start) == widths.at(arc.start + arc.length) &&
+                      std::none_of(widths.knots().begin(), widths.knots().end(), [&](const WidthAt& knot) {
+                        return knot.at > arc.start && knot.at < arc.start + arc.length;
+                      });
+    const int parts =
+        even ? 1 : static_cast<int>(std::ceil(std::fabs(arc.curvature) * arc.length / kMostSweep - 1e-9));
     for (int k = 1; k < parts; ++k) breaks.push_back(arc.start + arc.length * k / parts);
   }
   for (const WidthAt& knot : widths.knots()) {
@@ -364,11 +370,99 @@ Development developed(const StripJob& job, const SectionPlate& plate, const Span
   return strip;
 }
 
-void drill_level(const StripJob& job, const SectionPlate& plate, const Span& span,
-                 const std::vector<Circle>& holes, SweptBody& body, Development& flat) {
+FaceAt face_at(const StripJob& job, const SectionPlate& plate, double s) {
+  const double wider = job.wider_at(s) - plate.out;
+  const double lean = job.lean_at(s);
+  const Vec2 from = plate.from_stays ? plate.face_from : job.at(plate.face_from, wider, lean);
+  const Vec2 to = plate.to_stays ? plate.face_to : job.at(plate.face_to, wider, lean);
+  return {from, (1.0 / norm(to - from)) * (to - from)};
+}
+
+std::vector<Span> even_stretches(const StripJob& job, const Span& span) {
+  std::vector<Span> stretches;
+  constexpr double kOneStretch = 1e-9;  // [m]
+  for (const StripArc& one : job.arcs_in(span)) {
+    if (one.wide_from != one.wide_to) continue;
+    const double end = one.arc.start + one.arc.length;
+    if (!stretches.empty() && one.arc.start - stretches.back().to < kOneStretch)
+      stretches.back().to = end;
+    else
+      stretches.push_back({one.arc.start, end});
+  }
+  return stretches;
+}
+
+namespace {
+
+/// A leaning plate where the width does not change, on the flat.
+class EvenFlat {
+ public:
+  EvenFlat(const StripJob& job, const SectionPlate& plate, const Span& span, const Development& flat)
+      : job_(job), plate_(plate), arcs_(job.arcs_in(span)), flat_(flat) {}
+
+  /// @param place  along the track, and along the face
+  [[nodiscard]] Vec2 at(Vec2 place) const {
+    const auto [i, share] = arc_at(place.x);
+    const double half = 0.5 * share * flat_.turns[i];
+    const Vec2 chord = flat_.base[i + 1] - flat_.base[i];
+    const double heading = math::atan2(chord.y, chord.x) - 0.5 * flat_.turns[i];
+    const double along = share * length(PathPiece{flat_.base[i], flat_.base[i + 1], bulge(i, 1.0)});
+    const double reached = std::fabs(half) < 1e-9 ? along : along * math::sin(half) / half;
+    const auto [sine, cosine] = math::sine_cosine(heading + half);
+    const auto [up_sine, up_cosine] = math::sine_cosine(heading + 2.0 * half);
+    // Along the ruling, from the middle line of the side of `face_to`.
+    const double wider = job_.wider_at(place.x);
+    const double lean = job_.lean_at(place.x);
+    const FaceAt face = face_at(job_, plate_, place.x);
+    const double up = dot(job_.at(plate_.middle_to(), wider, lean) - face.from, face.way) - place.y;
+    return flat_.base[i] + reached * Vec2{cosine, sine} + up * Vec2{-up_sine, up_cosine};
+  }
+
+  [[nodiscard]] ArcPath around(const SheetOpening& opening) const {
+    const auto [i, from] = arc_at(opening.along.from);
+    const double turned = bulge(i, (opening.along.to - opening.along.from) / arcs_[i].arc.length);
+    const auto corner = [&](double s, double y) { return at({s, y}); };
+    return {{{corner(opening.along.from, opening.across.to), turned},
+             {corner(opening.along.to, opening.across.to), 0.0},
+             {corner(opening.along.to, opening.across.from), -turned},
+             {corner(opening.along.from, opening.across.from), 0.0}},
+            true};
+  }
+
+ private:
+  [[nodiscard]] std::pair<std::size_t, double> arc_at(double s) const {
+    std::size_t i = 0;
+    while (i + 1 < arcs_.size() && s > arcs_[i].arc.start + arcs_[i].arc.length) ++i;
+    return {i, (s - arcs_[i].arc.start) / arcs_[i].arc.length};
+  }
+  /// Of a share of an arc.
+  [[nodiscard]] double bulge(std::size_t i, double share) const {
+    constexpr double kStraight = 1e-12;  // [rad]
+    return std::fabs(flat_.turns[i]) < kStraight ? 0.0 : math::tan(0.25 * share * flat_.turns[i]);
+  }
+
+  const StripJob& job_;
+  const SectionPlate& plate_;
+  std::vector<StripArc> arcs_;
+  const Development& flat_;
+};
+
+}  // namespace
+
+void cut_through(const StripJob& job, const SectionPlate& plate, const Span& span,
+                 const std::vector<Circle>& holes, const std::vector<SheetOpening>& openings, SweptBody& body,
+                 Development& flat) {
+  const bool level = std::fabs((plate.face_to - plate.face_from).y) < 1e-12;
+  const EvenFlat even(job, plate, span, flat);
   for (const Circle& hole : holes) {
     body.holes.push_back({hole.centre - Vec2{span.from, 0.0}, hole.radius});
-    flat.holes.push_back({on_level(job, plate, span, hole.centre), hole.radius});
+    flat.holes.push_back(
+        {level ? on_level(job, plate, span, hole.centre) : even.at(hole.centre), hole.radius});
+  }
+  for (const SheetOpening& opening : openings) {
+    body.windows.push_back({opening.along.from - span.from, opening.along.to - span.from, opening.across.from,
+                            opening.across.to});
+    flat.cutouts.push_back(even.around(opening));
   }
 }
 
@@ -397,6 +491,7 @@ FlatPattern pattern_of(const Development& strip, const std::vector<double>& radi
   const PlaneMotion motion = PlaneMotion::turn(-plane.angle, -1.0 * back);
   outline = moved(outline, motion);
   for (const Circle& hole : strip.holes) pattern.region.holes.push_back({motion(hole.centre), hole.radius});
+  for (const ArcPath& cutout : strip.cutouts) pattern.region.cutouts.push_back(moved(cutout, motion));
   for (std::size_t i = 0; i < radii.size(); ++i) {
     if (i > 0 && radii[i] == radii[i - 1]) continue;
     pattern.rolls.push_back({motion(strip.base[i]), motion(strip.upper[i]), radii[i]});

@@ -83,6 +83,7 @@ struct Development {
   std::vector<double> turns;
   std::vector<BendLine> folds;  ///< where a width begins or ends to change
   std::vector<Circle> holes = {};
+  std::vector<ArcPath> cutouts = {};
 };
 
 /// The stretch of track over which a plate stands unfolded; beyond it, at either end, the radius is less than its height.
@@ -102,10 +103,29 @@ struct Development {
 /// @return the length of a chain of arcs through places that turn so
 [[nodiscard]] double length_along(const std::vector<Vec2>& places, const std::vector<double>& turns);
 
-/// Holes through a level plate beside a width that changes: in its body and on the flat.
-/// @param holes  as on_level()
-void drill_level(const StripJob& job, const SectionPlate& plate, const Span& span,
-                 const std::vector<Circle>& holes, SweptBody& body, Development& flat);
+/// A plate's face at a place beside a width that changes.
+struct FaceAt {
+  Vec2 from;  ///< where `face_from` stands
+  Vec2 way;   ///< unit direction along the face
+};
+[[nodiscard]] FaceAt face_at(const StripJob& job, const SectionPlate& plate, double s);
+
+/// A rectangle that is cut out square to a plate.
+struct SheetOpening {
+  Span along;   ///< of the track, on one arc
+  Span across;  ///< y, ascending
+};
+
+/// Holes and openings through a plate beside a width that changes: in its body and on the flat. Those of plates that are not level lie
+/// where it does not change.
+/// @param holes     of a level plate as on_level(); else y along its face as it stands there
+/// @param openings  y as of holes
+void cut_through(const StripJob& job, const SectionPlate& plate, const Span& span,
+                 const std::vector<Circle>& holes, const std::vector<SheetOpening>& openings, SweptBody& body,
+                 Development& flat);
+
+/// @return stretches of the track within a span along which the width does not change, longer than nothing
+[[nodiscard]] std::vector<Span> even_stretches(const StripJob& job, const Span& span);
 
 /// @param radii  to which each arc is rolled; empty: none is
 [[nodiscard]] FlatPattern pattern_of(const Development& strip, const std::vector<double>& radii);

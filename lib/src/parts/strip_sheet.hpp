@@ -53,12 +53,6 @@ class StripFlat {
   double rise_ = 0.0;  ///< of it per y
 };
 
-/// A rectangle that is cut out square to the sheet.
-struct SheetOpening {
-  Span along;   ///< of the track, on one arc
-  Span across;  ///< y, ascending
-};
-
 /// What is cut from a plate of a section over a stretch.
 struct SheetCut {
   const SectionPlate* plate = nullptr;

@@ -164,6 +164,14 @@ UnitWork work_of(const StripJob& job, const Span& unit, std::size_t number, int&
   return work;
 }
 
+std::vector<SheetOpening> openings_in(const UnitWork& work, std::size_t plate) {
+  std::vector<SheetOpening> openings;
+  for (const StripWindow& window : work.windows) {
+    if (window.plate == plate) openings.push_back({window.along, window.across});
+  }
+  return openings;
+}
+
 /// A strip with laps, tabs, slots or holes.
 SheetCut worked_cut(const StripJob& job, std::size_t index, const Span& span, const CorneredPlate& edges,
                     const UnitWork& work) {
@@ -174,9 +182,7 @@ SheetCut worked_cut(const StripJob& job, std::size_t index, const Span& span, co
   cut.tabs = work.tabs;
   cut.slack = slack_of(job);
   cut.holes = work.holes[index];
-  for (const StripWindow& window : work.windows) {
-    if (window.plate == index) cut.openings.push_back({window.along, window.across});
-  }
+  cut.openings = openings_in(work, index);
   return cut;
 }
 
@@ -193,8 +199,8 @@ Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, con
   return strip;
 }
 
-/// @param holes  beside a width that changes, as drill_level()
-Strip strip_of(const StripJob& job, std::size_t index, const Span& span, const std::vector<Circle>& holes) {
+/// @param work  beside a width that changes
+Strip strip_of(const StripJob& job, std::size_t index, const Span& span, const UnitWork& work) {
   const SectionPlate& plate = job.section.plates[index];
   Development flat = developed(job, plate, span);
   Strip strip;
@@ -218,7 +224,7 @@ Strip strip_of(const StripJob& job, std::size_t index, const Span& span, const s
   part.thickness = job.section.thickness;
   Vec2 origin;
   SweptBody body = strip_body(job, plate, span, origin);
-  drill_level(job, plate, span, holes, body, flat);
+  cut_through(job, plate, span, work.holes[index], openings_in(work, index), body, flat);
   part.body = std::move(body);
   part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
@@ -250,7 +256,7 @@ std::vector<Strip> strips_between(const StripJob& job, const std::vector<double>
                          edges[p].to.meeting != CornerEdge::Meeting::mitre;
       const bool worked = !job.widens() && (meets || !works[j].holes[p].empty());
       strips.push_back(worked ? worked_strip(job, p, span, edges[p], works[j])
-                              : strip_of(job, p, span, works[j].holes[p]));
+                              : strip_of(job, p, span, works[j]));
       if (joints.size() > 2) strips.back().part.name += "_" + std::to_string(j + 1);
     }
   }

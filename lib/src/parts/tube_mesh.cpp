@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,10 +45,12 @@ TriangleMesh whole_tube(const TubeGore& gore, const Fineness& fineness) {
 }
 
 /// A tube with windows and holes on a grid of angles and of places along its axis, the first and last of which lie on its end planes.
+/// Of a trough, half of it with sides that stand on its ends.
 class TubeMesh {
  public:
-  TubeMesh(const TubeGore& gore, const Fineness& fineness)
-      : gore_(gore), fineness_(fineness), bores_(bores_of(gore)) {
+  /// @param side  of a trough, their height
+  TubeMesh(const TubeGore& gore, const Fineness& fineness, std::optional<double> side = std::nullopt)
+      : gore_(gore), fineness_(fineness), bores_(bores_of(gore)), side_(side) {
     const int corners = std::max(chords_of(kTurn, gore.inner_radius + gore.thickness, fineness), 3);
     for (int k = 0; k < corners; ++k) angles_.push_back(kTurn * k / corners);
     rows_ = {0.0, gore.length};
@@ -56,12 +59,18 @@ class TubeMesh {
       for (const Angle edge : {window.low, window.high}) angles_.push_back(in_turn(edge.radians()));
       rows_.insert(rows_.end(), {window.from, window.to});
     }
+    if (side_) {
+      // Round the lowest line, which lies at half a turn.
+      std::erase_if(angles_, [](double angle) { return angle < 0.25 * kTurn || angle > 0.75 * kTurn; });
+      angles_.insert(angles_.end(), {0.25 * kTurn, 0.75 * kTurn});
+    }
     sort_apart(angles_);
     sort_apart(rows_);
+    first_ = side_.value_or(0.0) > 0.0 ? 1 : 0;
   }
 
   TriangleMesh whole() {
-    for (std::size_t i = 0; i < angles_.size(); ++i) {
+    for (std::size_t i = 0; i < columns(); ++i) {
       for (std::size_t j = 0; j + 1 < rows_.size(); ++j) {
         if (filled(i, j)) add_cell(i, j);
       }
@@ -92,7 +101,13 @@ class TubeMesh {
     return i + 1 < angles_.size() ? angles_[i + 1] : angles_.front() + kTurn;
   }
 
-  [[nodiscard]] bool filled(std::size_t i, std::size_t j) const {
+  /// Of a trough with sides, their tops are the first and the last.
+  [[nodiscard]] std::size_t columns() const { return angles_.size() + 2 * first_; }
+
+  [[nodiscard]] bool filled(std::size_t column, std::size_t j) const {
+    if (side_ && column + 1 >= columns()) return false;
+    if (column < first_ || column - first_ + (side_ ? 1 : 0) >= angles_.size()) return true;
+    const std::size_t i = column - first_;
     const auto [sine, cosine] = math::sine_cosine(0.5 * (angles_[i] + next_angle(i)));
     const Vec3 middle{gore_.inner_radius * cosine, gore_.inner_radius * sine,
                       0.5 * (rows_[j] + rows_[j + 1])};
@@ -100,24 +115,32 @@ class TubeMesh {
                         [&](const TubeWindow& window) { return beside(window, middle) < 0.0; });
   }
 
+  [[nodiscard]] Vec2 corner_at(std::size_t column, double radius) const {
+    if (side_ && (column < first_ || column + 1 == columns()) && first_ > 0)
+      return {*side_, column == 0 ? radius : -radius};
+    // Where its sides begin to the last bit.
+    if (side_ && column == first_) return {0.0, radius};
+    if (side_ && column - first_ + 1 == angles_.size()) return {0.0, -radius};
+    const auto [sine, cosine] = math::sine_cosine(angles_[column - first_]);
+    return {radius * cosine, radius * sine};
+  }
+
   Index vertex(const Place& place, bool outer) {
     const auto [i, j] = place;
     const auto [entry, fresh] = vertices_.try_emplace({i, j, outer ? 1U : 0U}, count_of(mesh_));
     if (fresh) {
-      const auto [sine, cosine] = math::sine_cosine(angles_[i]);
-      const double radius = gore_.inner_radius + (outer ? gore_.thickness : 0.0);
-      const double x = radius * cosine;
+      const Vec2 at = corner_at(i, gore_.inner_radius + (outer ? gore_.thickness : 0.0));
       double z = rows_[j];
-      if (j == 0) z = x * math::tan(gore_.start_tilt.radians());
-      if (j + 1 == rows_.size()) z = gore_.length + x * math::tan(gore_.end_tilt.radians());
-      mesh_.vertices.push_back({x, radius * sine, z});
+      if (j == 0) z = at.x * math::tan(gore_.start_tilt.radians());
+      if (j + 1 == rows_.size()) z = gore_.length + at.x * math::tan(gore_.end_tilt.radians());
+      mesh_.vertices.push_back({at.x, at.y, z});
     }
     return entry->second;
   }
 
   void add_cell(std::size_t i, std::size_t j) {
-    const std::size_t next = (i + 1) % angles_.size();
-    const std::size_t before = (i + angles_.size() - 1) % angles_.size();
+    const std::size_t next = (i + 1) % columns();
+    const std::size_t before = (i + columns() - 1) % columns();
     const std::array<Place, 4> corner = {Place{i, j}, {next, j}, {next, j + 1}, {i, j + 1}};
     std::array<Index, 4> outer{};
     std::array<Index, 4> inner{};
@@ -141,8 +164,10 @@ class TubeMesh {
     }
   }
 
-  [[nodiscard]] std::vector<const Bore*> holes_in(std::size_t i, std::size_t j) const {
+  [[nodiscard]] std::vector<const Bore*> holes_in(std::size_t column, std::size_t j) const {
     std::vector<const Bore*> found;
+    if (column < first_ || column - first_ >= angles_.size()) return found;
+    const std::size_t i = column - first_;
     for (std::size_t k = 0; k < gore_.holes.size(); ++k) {
       const TubeHole& hole = gore_.holes[k];
       const double off = in_turn(hole.about.radians() - angles_[i]);
@@ -155,6 +180,8 @@ class TubeMesh {
   const TubeGore& gore_;
   Fineness fineness_;
   std::vector<Bore> bores_;
+  std::optional<double> side_;
+  std::size_t first_ = 0;  ///< columns before the round
   std::vector<double> angles_;
   std::vector<double> rows_;
   TriangleMesh mesh_;
@@ -189,6 +216,10 @@ TriangleMesh mesh_of(const TubeGore& gore, const Fineness& fineness) {
 }
 
 TriangleMesh mesh_of(const TroughGore& gore, const Fineness& fineness) {
+  if (!gore.windows.empty() || !gore.holes.empty()) {
+    const TubeGore round = round_of(gore);
+    return TubeMesh(round, fineness, gore.side).whole();
+  }
   const std::vector<Vec2> section = trough_section(gore, fineness);
   TriangleMesh mesh;
   for (const bool top : {false, true}) {

@@ -20,9 +20,12 @@ namespace {
 
 constexpr double kLeft = -0.5 * std::numbers::pi;     // about the axis, from upright
 constexpr double kMostHalf = std::numbers::pi / 3.0;  // of a lid: off the seams, 20 deg from the crown
-constexpr double kOffMitre = 8e-3;                    // of a lid: room for the weld [m]
-constexpr double kPitch = 150e-3;                     // of a lid's bolts [m]
-constexpr double kMostHole = 1.0 / 3.0;               // of the tube's radius
+constexpr double kMostQuarter =
+    80.0 / 180.0 * std::numbers::pi;     // of the round of a trough beside its lowest line
+constexpr double kOffRim = 2e-3;         // of a lid [m]
+constexpr double kOffMitre = 8e-3;       // of a lid: room for the weld [m]
+constexpr double kPitch = 150e-3;        // of a lid's bolts [m]
+constexpr double kMostHole = 1.0 / 3.0;  // of the tube's radius
 
 [[noreturn]] void refuse(std::string what, std::string why, std::string hint) {
   throw InputError({"inspection", std::move(what), std::move(why), std::move(hint)});
@@ -37,57 +40,83 @@ double half_angle(const TubeGore& tube, double height) {
   return 0.5 * height / outer_of(tube);
 }
 
+/// What a rim takes of the round of a trough: an angle from where that begins.
+double below_rim(double outer, double thickness, const TroughSide& trough) {
+  const double taken = (trough.rim ? trough.rim->thickness : 0.0) - trough.height;
+  // The lid's outer face is what would meet it.
+  return std::max(0.0, taken + kOffRim) / (outer + thickness) + kOffRim / outer;
+}
+
+/// The angle about the axis at which the middles of openings of a height lie.
+double middle_angle(const TubeGore& tube, double lid_height, const std::optional<TroughSide>& trough) {
+  if (!trough) return kLeft;
+  return kLeft - below_rim(outer_of(tube), tube.thickness, *trough) - half_angle(tube, lid_height);
+}
+
 /// Along the axis, where a lid may lie: off flanges, and off mitres at every angle that it covers.
-Span lid_room(const TubeRoom& room, double lid_height) {
+Span lid_room(const TubeRoom& room, double lid_height, const std::optional<TroughSide>& trough) {
   const TubeGore& tube = *room.body;
-  const double aside = (outer_of(tube) + tube.thickness) * math::sin(half_angle(tube, lid_height));
-  const auto off = [&](Angle tilt) {
-    return tilt.radians() == 0.0 ? 0.0 : aside * std::fabs(math::tan(tilt.radians())) + kOffMitre;
+  const double outer = outer_of(tube) + tube.thickness;
+  const double middle = middle_angle(tube, lid_height, trough);
+  const double half = half_angle(tube, lid_height);
+  const double low = outer * math::cos(middle - half);  // upright from the axis
+  const double high = outer * math::cos(middle + half);
+  const auto past = [&](Angle tilt) {
+    const double slope = math::tan(tilt.radians());
+    return Span{std::min(low * slope, high * slope), std::max(low * slope, high * slope)};
   };
-  return {room.from + off(tube.start_tilt), room.to - off(tube.end_tilt)};
+  const auto weld = [](Angle tilt) { return tilt.radians() == 0.0 ? 0.0 : kOffMitre; };
+  return {std::max(room.from, past(tube.start_tilt).to + weld(tube.start_tilt)),
+          std::min(room.to, tube.length + past(tube.end_tilt).from - weld(tube.end_tilt))};
 }
 
 /// A tube and where along its axis the middle of an opening may be.
 struct Seat {
   std::size_t tube = 0;
   double along = 0.0;
+  double about = 0.0;  ///< its angle about the axis
 };
 
+std::string word_of(const std::optional<TroughSide>& trough) {
+  return trough ? "trough" : "tube";
+}
+
 std::optional<Seat> nearest_seat(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes,
-                                 double stretch) {
+                                 const std::optional<TroughSide>& trough, double stretch) {
   std::optional<Seat> best;
   double least = 0.0;
   const double reach = 0.5 * opening.length + kLidLap;
   for (std::size_t i = 0; i < tubes.size(); ++i) {
-    const Span room = lid_room(tubes[i], opening.height + 2.0 * kLidLap);
+    const Span room = lid_room(tubes[i], opening.height + 2.0 * kLidLap, trough);
     if (!(room.to - room.from >= 2.0 * reach)) continue;
     const double asked = stretch * opening.at - tubes[i].begins;
     const double along = std::clamp(asked, room.from + reach, room.to - reach);
     if (best && std::fabs(along - asked) >= least) continue;
     least = std::fabs(along - asked);
-    best = Seat{i, along};
+    best = Seat{i, along, middle_angle(*tubes[i].body, opening.height + 2.0 * kLidLap, trough)};
   }
   return best;
 }
 
-[[noreturn]] void refuse_length(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes) {
+[[noreturn]] void refuse_length(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes,
+                                const std::optional<TroughSide>& trough) {
   double longest = 0.0;
   for (const TubeRoom& tube : tubes) {
-    const Span room = lid_room(tube, opening.height + 2.0 * kLidLap);
+    const Span room = lid_room(tube, opening.height + 2.0 * kLidLap, trough);
     longest = std::max(longest, room.to - room.from);
   }
   const double most = 1e-3 * std::floor(1e3 * (longest - 2.0 * kLidLap));
-  refuse("length: an opening of " + length_text(opening.length) + " fits no tube",
+  refuse("length: an opening of " + length_text(opening.length) + " fits no " + word_of(trough),
          "With its lid it is " + length_text(opening.length + 2.0 * kLidLap) +
              " long; between mitres and flanges " + length_text(longest, 3) + " are left at most.",
-         (most > 0.0 ? "length: " + length_text(most) + ", " : std::string()) +
-             "longer tubes (bend), or round: staves");
+         (most > 0.0 ? "length: " + length_text(most) + ", " : std::string()) + "longer " + word_of(trough) +
+             "s (bend), or round: staves");
 }
 
-TubeWindow window_about(const TubeGore& tube, double along, double length, double height) {
+TubeWindow window_about(const TubeGore& tube, Seat seat, double length, double height) {
   const double half = half_angle(tube, height);
-  return {along - 0.5 * length, along + 0.5 * length, Angle::from_radians(kLeft - half),
-          Angle::from_radians(kLeft + half)};
+  return {seat.along - 0.5 * length, seat.along + 0.5 * length, Angle::from_radians(seat.about - half),
+          Angle::from_radians(seat.about + half)};
 }
 
 /// In the middle of the lid's lap, below and above the opening.
@@ -116,17 +145,18 @@ void require_apart(const std::vector<TubeOpening>& cut) {
 }  // namespace
 
 std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& openings,
-                                   const std::vector<TubeRoom>& tubes, double stretch) {
+                                   const std::vector<TubeRoom>& tubes,
+                                   const std::optional<TroughSide>& trough, double stretch) {
   std::vector<TubeOpening> cut;
   for (const InspectionOptions& opening : openings) {
-    const auto seat = nearest_seat(opening, tubes, stretch);
-    if (!seat) refuse_length(opening, tubes);
+    const auto seat = nearest_seat(opening, tubes, trough, stretch);
+    if (!seat) refuse_length(opening, tubes, trough);
     const TubeRoom& room = tubes[seat->tube];
     const double at = (room.begins + seat->along) / stretch;
     // It may not be moved out of reach of what it is there for.
     if (std::fabs(at - opening.at) > 0.5 * opening.length + kLidLap) {
       refuse("at: an opening at " + length_text(opening.at, 4) + " lies across a mitre or a flange",
-             "Openings lie in one tube, " + length_text(opening.length) +
+             "Openings lie in one " + word_of(trough) + ", " + length_text(opening.length) +
                  " long, with lids that lap over by " + length_text(kLidLap) + ".",
              "at: " + length_text(at, 4) + ", or a smaller length");
     }
@@ -136,9 +166,8 @@ std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& opening
     made.bolt = opening.bolt;
     made.at = at;
     made.asked = opening.at;
-    const TubeWindow window = window_about(tube, seat->along, opening.length, opening.height);
-    made.lid =
-        window_about(tube, seat->along, opening.length + 2.0 * kLidLap, opening.height + 2.0 * kLidLap);
+    const TubeWindow window = window_about(tube, *seat, opening.length, opening.height);
+    made.lid = window_about(tube, *seat, opening.length + 2.0 * kLidLap, opening.height + 2.0 * kLidLap);
     made.bolts = bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::coarse));
     cut.push_back(made);
     require_apart(cut);
@@ -186,28 +215,33 @@ ShopPart tube_lid(const TubeOpening& opening, const TubeGore& tube, const StockM
   return part;
 }
 
-std::vector<Issue> tube_opening_problems(const section::Pipe& pipe, const PlateOptions& options) {
+std::vector<Issue> tube_opening_problems(const section::Pipe& pipe, std::optional<double> side,
+                                         const PlateOptions& options) {
   std::vector<Issue> issues;
   if (options.inspection.empty()) return issues;
   issues = opening_value_problems(options);
   if (!issues.empty()) return issues;
   const double radius = 0.5 * pipe.inner_diameter;
   const double outer = radius + pipe.thickness;
-  const double most = 1e-3 * std::floor(1e3 * (2.0 * kMostHalf * outer - 2.0 * kLidLap));
+  // Of a trough from its rim down to beside its lowest line.
+  const double angle =
+      side ? kMostQuarter - below_rim(outer, pipe.thickness, {*side, options.rim}) : 2.0 * kMostHalf;
+  const double most = 1e-3 * std::floor(1e3 * (angle * outer - 2.0 * kLidLap));
   for (const InspectionOptions& opening : options.inspection) {
     if (opening.height > most) {
       issues.push_back({"inspection",
-                        "height: " + length_text(opening.height) + " leaves too little of a tube of " +
-                            length_text(2.0 * outer),
+                        "height: " + length_text(opening.height) + " leaves too little of a " +
+                            (side ? "trough" : "tube") + " of " + length_text(2.0 * outer),
                         "Along its outside, with a lid that laps over by " + length_text(kLidLap) +
-                            ", it covers a third of it at most, off the seams.",
+                            (side ? ", it lies beside the lowest line, below the rim."
+                                  : ", it covers a third of it at most, off the seams."),
                         most > 0.0 ? "height: " + length_text(most) : "no inspection, or a larger pipe"});
     }
     const double hole = 0.5 * clearance_hole(opening.bolt, HoleFit::coarse);
     if (hole > kMostHole * radius) {
       issues.push_back({"inspection",
-                        "bolt: M" + std::to_string(opening.bolt) + " is too large for a tube of " +
-                            length_text(2.0 * outer),
+                        "bolt: M" + std::to_string(opening.bolt) + " is too large for a " +
+                            (side ? "trough" : "tube") + " of " + length_text(2.0 * outer),
                         "Its holes are more than a third of it wide.", "a smaller bolt"});
     }
   }

@@ -2,9 +2,13 @@
 
 #include "glissade/core/math.hpp"
 
+#include "parts/brep_building.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace glissade::parts {
 namespace {
@@ -14,7 +18,90 @@ Vec3 at_angle(double radius, double angle, double z) {
   return {radius * cosine, radius * sine, z};
 }
 
+using Loop = std::vector<BrepUse>;
+
+/// The edges of a window on one cylinder: counter-clockwise seen from outside from the corner at `from` and `low`.
+struct WindowRim {
+  std::array<std::size_t, 4> corners{};
+  std::array<std::size_t, 4> edges{};
+};
+
+WindowRim add_rim(Brep& brep, const TubeWindow& window, double radius) {
+  WindowRim rim;
+  const auto corner = [&](Angle about, double along) {
+    const auto [sine, cosine] = math::sine_cosine(about.radians());
+    return add_vertex(brep, {radius * cosine, radius * sine, core::kMillimetres * along});
+  };
+  rim.corners = {corner(window.low, window.from), corner(window.high, window.from),
+                 corner(window.high, window.to), corner(window.low, window.to)};
+  rim.edges = {add_arc(brep, rim.corners[0], rim.corners[1], {}, true),
+               add_line(brep, rim.corners[1], rim.corners[2]),
+               add_arc(brep, rim.corners[2], rim.corners[3], {}, false),
+               add_line(brep, rim.corners[3], rim.corners[0])};
+  return rim;
+}
+
+/// The four walls of a window: two square to the axis, two through it.
+void add_walls(Brep& brep, const TubeWindow& window, const WindowRim& outer, const WindowRim& inner) {
+  std::array<std::size_t, 4> across{};
+  for (std::size_t k = 0; k < 4; ++k) across[k] = add_line(brep, inner.corners[k], outer.corners[k]);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    BrepFace face = level_plane(core::kMillimetres * (k == 0 ? window.from : window.to), k == 0);
+    if (k % 2 == 1) {
+      // Out of the tube is into the window: back from its upper edge, on from its lower one.
+      const auto [sine, cosine] = math::sine_cosine((k == 1 ? window.high : window.low).radians());
+      const double sense = k == 1 ? -1.0 : 1.0;
+      face.origin = brep.vertices[inner.corners[k]];
+      face.axis = {-sense * sine, sense * cosine, 0.0};
+      face.reference = {cosine, sine, 0.0};
+    }
+    face.loops = {
+        {{outer.edges[k], true}, {across[next], false}, {inner.edges[k], false}, {across[k], true}}};
+    brep.faces.push_back(std::move(face));
+  }
+}
+
+Loop loop_of(const WindowRim& rim, bool forward) {
+  Loop loop;
+  for (std::size_t k = 0; k < 4; ++k) loop.push_back({rim.edges[forward ? k : 3 - k], forward});
+  return loop;
+}
+
+/// What bores_of() needs of it.
+TubeGore in_millimetres(const TubeGore& gore) {
+  TubeGore scaled;
+  scaled.inner_radius = core::kMillimetres * gore.inner_radius;
+  scaled.thickness = core::kMillimetres * gore.thickness;
+  for (const TubeHole& hole : gore.holes)
+    scaled.holes.push_back({core::kMillimetres * hole.along, hole.about, core::kMillimetres * hole.radius});
+  return scaled;
+}
+
 }  // namespace
+
+TubeGore round_of(const TroughGore& gore) {
+  return {gore.inner_radius, gore.thickness, gore.length, gore.start_tilt,
+          gore.end_tilt,     gore.windows,   gore.holes};
+}
+
+TubeMouths add_openings(Brep& brep, const TubeGore& gore) {
+  TubeMouths mouths;
+  const double inner = core::kMillimetres * gore.inner_radius;
+  for (const TubeWindow& window : gore.windows) {
+    const WindowRim rim = add_rim(brep, window, inner + core::kMillimetres * gore.thickness);
+    const WindowRim inside = add_rim(brep, window, inner);
+    add_walls(brep, window, rim, inside);
+    mouths.outside.push_back(loop_of(rim, false));
+    mouths.inside.push_back(loop_of(inside, true));
+  }
+  for (const Bore& bore : bores_of(in_millimetres(gore))) {
+    const BoreLoops loops = add_bore(brep, bore);
+    mouths.inside.push_back({loops.face});
+    mouths.outside.push_back({loops.back});
+  }
+  return mouths;
+}
 
 std::vector<Bore> bores_of(const TubeGore& gore) {
   std::vector<Bore> bores;

@@ -39,6 +39,16 @@ struct Prism {
   double depth = 0.0;  ///< [m]; > 0
 };
 
+/// What is cut square through a plate that follows a path.
+struct SweptWindow {
+  double from = 0.0;  ///< arc length along the path [m]
+  double to = 0.0;    ///< > from
+  double low = 0.0;   ///< as the y of holes [m]
+  double high = 0.0;  ///< > low
+
+  friend bool operator==(const SweptWindow&, const SweptWindow&) = default;
+};
+
 /// A section moved along a chain of lines and arcs, square to it: plates that lean, whose faces are planes and cones.
 struct SweptBody {
   ArcPath path;  ///< open, in the part's x-y plane; tangents continuous
@@ -48,9 +58,10 @@ struct SweptBody {
   /// changes, faces among them that STEP holds as B-splines. Empty: none moves.
   std::vector<std::vector<double>> shifts = {};
   /// Drilled square through the plate, from the first edge of the section to the one opposite, both parallel; clear of the
-  /// joints of the path, and only through level ones where corners move. x: arc length along the path; y: along the first edge
-  /// from its first corner [m]
+  /// joints of the path. x: arc length along the path; y: along the first edge from its first corner [m]. Where corners move:
+  /// through level plates, from that corner unmoved; through others on pieces along which none moves, from where it stands there.
   std::vector<Circle> holes = {};
+  std::vector<SweptWindow> windows = {};  ///< cut as holes are drilled, each on one such piece
 };
 
 /// An edge of a sheet that runs along it and is not square to its faces.
@@ -128,6 +139,9 @@ struct TroughGore {
   double length = 0.0;        ///< along the axis, between the planes [m]
   Angle start_tilt;           ///< z of the first plane is x tan(start_tilt)
   Angle end_tilt;             ///< z of the second one is length + x tan(end_tilt)
+  /// In the round, as a tube's.
+  std::vector<TubeWindow> windows = {};
+  std::vector<TubeHole> holes = {};
 };
 
 /// A bar of angle section, straight or rolled to an arc or ring. One leg lies in the x-y plane between heel and toe, from z = 0 to
