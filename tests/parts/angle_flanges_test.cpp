@@ -1,5 +1,6 @@
 // Flanges of angles: frames of mitred pieces, rings rolled from one bar.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/slot.hpp"
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
@@ -380,4 +381,30 @@ TEST_CASE("angle flanges: what no shop rolls or bolts is told with a bar that do
   options.flanges.gap = 1e-3 * std::stod(closed.substr(hint + 6));
   CHECK(closed.find(", or a narrower angle\n") != std::string::npos);
   CHECK(refusal_of([&] { return plates(crest, options); }) == "");
+}
+
+TEST_CASE("angle flanges: units of mitred tubes and troughs have room for the rings at both of their ends") {
+  // Joints stand in the few tubes that are long enough: two of them came into one.
+  const ClothoidSpline track(
+      Angle::from_degrees(45.0),
+      {{1.2, 0.0, 0.0}, {1.5, 0.5, 0.5}, {0.6, 0.0, 0.0}, {1.5, -0.25, -0.25}, {1.0, 0.0, 0.0}});
+  int made = 0;
+  for (const double longest : {0.4, 0.55, 0.7, 0.9, 1.1, 1.4}) {
+    for (const section::Measures& measures : {section::Measures(section::HalfPipe{0.325, 0.083, 6e-3}),
+                                              section::Measures(section::Pipe{0.3, 4e-3})}) {
+      PlateOptions options = with_angles();
+      options.flanges.width = 75e-3;
+      options.flanges.thickness = 8e-3;
+      options.split.longest = longest;
+      options.round = RoundMake::mitred;
+      options.bend = {FacetRule::segment_angle, 0.12, {}, {}};
+      CAPTURE(longest, measures.index());
+      WorkshopBuild build;
+      if (!refusal_of([&] { build = plates_of(track, measures, options); }).empty()) continue;
+      ++made;
+      for (std::size_t i = 0; i + 1 < build.joints.size(); ++i)
+        CHECK(build.joints[i + 1] - build.joints[i] > 2.0 * options.flanges.width);
+    }
+  }
+  CHECK(made >= 6);
 }

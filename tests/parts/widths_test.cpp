@@ -390,3 +390,15 @@ TEST_CASE("widths: openings are cut where the width does not change, lids lie on
   }
   CHECK(made >= 4);
 }
+
+TEST_CASE("widths: edges of walls that turn aside far in a bend are as long on the flat as they are made") {
+  // Arcs of 5 deg had edges that differ by 1.1e-9 m here.
+  const Friction friction = Friction::from_angle(Angle::from_degrees(11.9));
+  const CoulombBrachistochrone track({4.508, 2.68}, friction);
+  for (const double to : {1.903, 3.2}) {
+    const WidthLaw widths({{0.0, 2.517}, {1.411, 2.517}, {3.11, to}});
+    const WorkshopBuild build = make_plates(track, section::Measures(section::UChannel{widths, 0.455, 6e-3}),
+                                            {1e-4}, {}, Placement(), {.friction = friction});
+    CHECK(build.proof.edge_mismatch < 3e-10);
+  }
+}

@@ -172,8 +172,10 @@ std::vector<double> joints_along(const PipeJob& job, const Facets& facets, std::
       const auto room = [&](double tilt) {
         return std::max(high * math::tan(tilt), -job.pipe.thickness * math::tan(tilt)) + job.least_crown();
       };
-      const double low = corners[i] + room(tilt_before(facets, i));
-      const double top = corners[i + 1] - room(tilt_after(facets, i));
+      // Units have room for the rings at both of their ends.
+      const double unit = 2.0 * job.least_crown();
+      const double low = std::max(corners[i] + room(tilt_before(facets, i)), joints.back() + unit);
+      const double top = std::min(corners[i + 1] - room(tilt_after(facets, i)), corners.back() - unit);
       if (!(top > low)) continue;
       const double place = std::clamp(about, low, top);
       if (!(std::fabs(place - about) >= std::fabs(best - about))) best = place;

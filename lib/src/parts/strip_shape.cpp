@@ -19,9 +19,12 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kMostSweep = 5.0 / 180.0 * std::numbers::pi;  // of an arc beside a width that changes
-constexpr double kMostLean = 0.1;                              // across per height
-constexpr double kMostTaper = 0.3;                             // of one side, per length of track
-constexpr double kNoFold = 1e-6;                               // angle that nobody bends [rad]
+// Of the lean over such an arc, across per height: edges on the flat are arcs within 1e-10 m then.
+constexpr double kMostGrowth = 0.005;
+constexpr double kWholeTurn = 2.0 * std::numbers::pi;
+constexpr double kMostLean = 0.1;     // across per height
+constexpr double kMostTaper = 0.3;    // of one side, per length of track
+constexpr double kNoFold = 1e-6;      // angle that nobody bends [rad]
 constexpr double kRoomAtFold = 1.02;  // radius over height, from which a strip is not folded
 constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
 
@@ -31,18 +34,27 @@ constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719
 constexpr std::array<double, 4> kWeights = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
                                             0.1739274225687269};
 
+/// The greatest change of half the width per length of track between two places.
+double steepest_taper(const WidthLaw& widths, double from, double to) {
+  double taper = 0.0;
+  const auto& knots = widths.knots();
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    if (knots[i + 1].at <= from || knots[i].at >= to) continue;
+    taper = std::max(taper,
+                     0.5 * std::fabs(knots[i + 1].width - knots[i].width) / (knots[i + 1].at - knots[i].at));
+  }
+  return taper;
+}
+
 /// Places where arcs begin or the width begins to change, the end of the track included.
 std::vector<double> breaks_of(const ArcSpline& track, const WidthLaw& widths) {
   std::vector<double> breaks;
   for (const TrackArc& arc : track.arcs()) {
     breaks.push_back(arc.start);
+    const double taper = steepest_taper(widths, arc.start, arc.start + arc.length);
     // Where the width stays, faces are cones however far they turn.
-    const bool even = widths.at(arc.start) == widths.at(arc.start + arc.length) &&
-                      std::none_of(widths.knots().begin(), widths.knots().end(), [&](const WidthAt& knot) {
-                        return knot.at > arc.start && knot.at < arc.start + arc.length;
-                      });
-    const int parts =
-        even ? 1 : static_cast<int>(std::ceil(std::fabs(arc.curvature) * arc.length / kMostSweep - 1e-9));
+    const double most = taper > 0.0 ? std::min(kMostSweep, kMostGrowth / taper) : kWholeTurn;
+    const int parts = static_cast<int>(std::ceil(std::fabs(arc.curvature) * arc.length / most - 1e-9));
     for (int k = 1; k < parts; ++k) breaks.push_back(arc.start + arc.length * k / parts);
   }
   for (const WidthAt& knot : widths.knots()) {
@@ -241,6 +253,13 @@ struct StripSide {
 
   [[nodiscard]] Vec2 step(double heading) const {
     const double stretch = length * (1.0 - curvature * height) * math::hypot(1.0, aside);
+    // One lean all along: an arc, however far it turns.
+    if (growth == 0.0) {
+      const double half = 0.5 * turned(1.0);
+      const double chord = std::fabs(half) < 1e-9 ? stretch : stretch * math::sin(half) / half;
+      const auto [sine, cosine] = math::sine_cosine(heading + half);
+      return chord * Vec2{cosine, sine};
+    }
     Vec2 sum;
     for (std::size_t k = 0; k < kNodes.size(); ++k) {
       const auto [sine, cosine] = math::sine_cosine(heading + turned(kNodes[k]));
