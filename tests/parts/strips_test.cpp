@@ -9,6 +9,7 @@
 
 #include "parts/body_depth.hpp"
 #include "parts/body_moments.hpp"
+#include "parts/brep.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
@@ -315,4 +316,23 @@ TEST_CASE(
     options.flanges.gap = 1e-3 * std::stod(told.substr(hint + 6));
     CHECK(plates_of(steep, pipe, options).proof.pairs == build.proof.pairs);
   }
+}
+
+TEST_CASE("strips: faces of staves that stand upright but for rounding are planes and cylinders, no cones") {
+  PlateOptions options;
+  options.round = RoundMake::staves;
+  std::size_t cones = 0;
+  for (const double width : {0.5, 0.601, 0.691, 0.737, 0.83}) {
+    const WorkshopBuild build = plates_of(chute(), section::HalfPipe{width, 0.375, 6e-3}, options);
+    for (const ShopPart& part : build.workshop.parts) {
+      for (const parts::BrepFace& face : parts::brep_of(part).faces) {
+        if (face.kind != parts::SurfaceKind::cone) continue;
+        ++cones;
+        INFO(part.name);
+        CHECK(face.half_angle > 1e-6);
+        CHECK(face.half_angle < 0.5 * std::numbers::pi - 1e-6);
+      }
+    }
+  }
+  CHECK(cones > 100);
 }

@@ -85,13 +85,15 @@ BrepFace upright_cylinder(Vec2 centre, Vec3 reference, double radius, bool outwa
 
 BrepFace round_face(const PathPiece& piece, Vec2 from, Vec2 to) {
   const Vec2 step = to - from;
-  if (step.y == 0.0) return level_plane(from.y, step.x < 0.0);
+  // What is level or upright but for rounding is no cone: readers of STEP take none that flat or that steep.
+  constexpr double kRounding = 1e-9;
+  if (std::fabs(step.y) <= kRounding * std::fabs(step.x)) return level_plane(from.y, step.x < 0.0);
   const CircularArc arc = arc_of(piece);
   const double outward_per_left = piece.bulge > 0.0 ? -1.0 : 1.0;  // of the distance from the axis
   const bool outward = step.y * outward_per_left > 0.0;
   const Vec3 spoke = unit(at_height(piece.from - arc.centre, 0.0));
   BrepFace made = upright_cylinder(arc.centre, spoke, arc.radius + outward_per_left * from.x, outward);
-  if (step.x == 0.0) return made;
+  if (std::fabs(step.x) <= kRounding * std::fabs(step.y)) return made;
   const double widening = step.x * outward_per_left / step.y;  // per height
   // A cone is given where it is thinnest, and widens along its axis.
   const bool widens_up = widening > 0.0;
