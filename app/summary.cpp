@@ -28,10 +28,16 @@ namespace glissade::app {
 namespace {
 
 std::string profile_text(const FittedProfile& profile) {
+  // Less than this share of the length changes no figure that is shown.
+  constexpr double kNothing = 1e-5;
+  const double between = profile.between_points();
+  const std::string open = between > kNothing * profile.length()
+                               ? "\nbetween them it may be off by some " + length_text(between, 1)
+                               : std::string();
   return "points (a curve fitted to " + count_text(profile.points().size()) +
          " of them)\nit passes them by " + length_text(profile.max_deviation(), 3) + " at most (point " +
          count_text(profile.farthest_point() + 1) + "), " + length_text(profile.rms_deviation(), 3) +
-         " in the root of the mean square";
+         " in the root of the mean square" + open;
 }
 
 std::string kind_text(const Design& design, const Track& track) {

@@ -160,8 +160,8 @@ FittedProfile::FittedProfile(Fitted fitted)
 }
 
 bool FittedProfile::leaves_gaps() const noexcept {
-  constexpr double kOfBulge = 0.03;
-  constexpr double kOfLength = 2e-4;
+  constexpr double kOfBulge = 0.01;
+  constexpr double kOfLength = 1e-4;
   return between_points_ > std::max(kOfBulge * rms_bulge_, kOfLength * length());
 }
 

@@ -39,7 +39,8 @@ Json profile_json(const FittedProfile& profile) {
   return {{"points", profile.points().size()},
           {"max_deviation_m", profile.max_deviation()},
           {"max_deviation_at_point", profile.farthest_point() + 1},
-          {"rms_deviation_m", profile.rms_deviation()}};
+          {"rms_deviation_m", profile.rms_deviation()},
+          {"between_points_m", profile.between_points()}};
 }
 
 Json constant_speed_json(const ConstantSpeedCurve& curve) {

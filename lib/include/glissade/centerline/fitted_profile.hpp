@@ -98,8 +98,8 @@ class FittedProfile final : public Centerline {
   /// @return an estimate of how far the curve may be from the profile between the points, within a factor of some two
   ///         where they are 5 to 12 to a wave [m]; 0 where few pieces describe them
   [[nodiscard]] double between_points() const noexcept { return between_points_; }
-  /// @return true where between_points() is more than 3 % of the profile's own shape (as leaves_out_much() has it) and
-  ///         more than 2e-4 of its length: the points are too few for their bends, although the curve meets them
+  /// @return true where between_points() is more than 1 % of the profile's own shape (as leaves_out_much() has it) and
+  ///         more than 1e-4 of its length: the points are too few for their bends, although the curve meets them
   [[nodiscard]] bool leaves_gaps() const noexcept;
   /// @return true where the deviations of neighbouring points go together, as no noise does: what they show of the
   ///         profile is not in the curve (Durbin and Watson's question). Never of fewer than 20 points, nor where a
