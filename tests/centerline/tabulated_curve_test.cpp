@@ -114,6 +114,36 @@ TEST_CASE("a table that leads to the left is mirrored") {
   CHECK(left.endpoints().run == Approx(10.0).epsilon(1e-10));
 }
 
+TEST_CASE("curvatures of another sign or unit than the slope angles show are refused, rounded ones are not") {
+  for (const Ridden& ridden : curves()) {
+    INFO(ridden.name);
+    const auto rows = table_of(*ridden.curve);
+    const auto changed = [&](auto change) {
+      std::vector<TabulatedPoint> other = rows;
+      for (TabulatedPoint& row : other) change(row);
+      if (!std::isfinite(other.front().curvature)) other.front().curvature = HUGE_VAL;
+      return refusal(std::move(other));
+    };
+    double turned = 0.0;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      turned += std::fabs(rows[i].slope_angle - rows[i - 1].slope_angle);
+    INFO("turns by " << turned);
+    if (turned > 0.1) {
+      for (const double factor : {-1.0, 0.0, 1e-3, 1e3}) {
+        CHECK_THAT(changed([&](TabulatedPoint& row) {
+                     if (std::isfinite(row.curvature)) row.curvature *= factor;
+                   }),
+                   Contains("does not agree with the "));
+      }
+    }
+    const double unit = Angle::from_degrees(1e-3).radians();
+    CHECK(changed([&](TabulatedPoint& row) {
+            row.slope_angle = unit * std::round(row.slope_angle / unit);
+          }) == "accepted");
+    CHECK(changed([&](TabulatedPoint& row) { row.curvature *= 1.05; }) == "accepted");
+  }
+}
+
 TEST_CASE("rows that contradict themselves are refused by their number") {
   const double level = 0.0;
   CHECK_THAT(refusal({{0.0, 0.0, 0.0, 0.0}}), Contains("no second row"));

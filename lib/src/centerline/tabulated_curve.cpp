@@ -114,6 +114,44 @@ double parabola_length(double t) {
   return 0.5 * (t * std::sqrt(1.0 + t * t) + math::asinh(t));
 }
 
+/// Two neighbouring rows, and by what the track turns between them [rad]: as their slope angles and as their curvatures
+/// have it.
+struct Turn {
+  std::size_t row = 0;  // the second
+  double by_slopes = 0.0;
+  double by_curvatures = 0.0;
+};
+
+/// The pair of rows whose curvatures are farthest from what the slope angles say, if those of the table are of another
+/// sign or size as a whole: a least-squares line through all pairs tells, so that rounded columns do no harm.
+std::optional<Turn> turns_otherwise(const std::vector<TabulatedPoint>& rows) {
+  constexpr double kLeast = 0.5;
+  constexpr double kMost = 2.0;
+  constexpr double kHardly = 0.05;  // [rad]: so little turned tells nothing
+  double product = 0.0;
+  double square = 0.0;
+  double turned = 0.0;
+  double told = 0.0;
+  Turn worst;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const TabulatedPoint& a = rows[i - 1];
+    const TabulatedPoint& b = rows[i];
+    if (!std::isfinite(a.curvature) || !std::isfinite(b.curvature)) continue;
+    const double length = norm(Vec2{b.x - a.x, b.drop - a.drop});
+    const Turn turn{i, a.slope_angle - b.slope_angle, 0.5 * (a.curvature + b.curvature) * length};
+    product += turn.by_slopes * turn.by_curvatures;
+    square += turn.by_curvatures * turn.by_curvatures;
+    turned += std::fabs(turn.by_slopes);
+    told += std::fabs(turn.by_curvatures);
+    if (std::fabs(turn.by_slopes - turn.by_curvatures) > std::fabs(worst.by_slopes - worst.by_curvatures))
+      worst = turn;
+  }
+  if (std::max(turned, told) <= kHardly) return {};
+  const bool fits = square > 0.0 && product >= kLeast * square && product <= kMost * square;
+  if (fits) return {};
+  return worst;
+}
+
 }  // namespace
 
 std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
@@ -162,6 +200,16 @@ std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
           "slope angles in degrees, positive downhill, and rows that lie near enough for their bends; or "
           "columns: [x, z] alone, to which a curve is fitted");
     }
+  }
+  if (const auto turn = turns_otherwise(rows)) {
+    return fault(turn->row, "its curvature does not agree with the slope angles",
+                 "From the row before it the slope angle falls by " +
+                     angle_text(Angle::from_radians(turn->by_slopes), 3) +
+                     ", by the curvatures it would by " +
+                     angle_text(Angle::from_radians(turn->by_curvatures), 3) + ".",
+                 "curvatures in one over the unit of lengths, positive in a valley; or columns: [x, z] "
+                 "alone, to which "
+                 "a curve is fitted");
   }
   return {};
 }
