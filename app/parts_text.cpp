@@ -54,7 +54,7 @@ std::string stock_text(const std::vector<NestedSheet>& sheets) {
 
 /// What has to be printed, and how much less it would be on larger paper.
 std::string templates_text(const TemplatePages& pages, TemplatePaper paper) {
-  const std::string roll = counted(pages.roll, "length") + " of a roll";
+  std::string roll = counted(pages.roll, "length") + " of a roll";
   if (paper == TemplatePaper::roll) return roll;
   if (paper == TemplatePaper::a3)
     return counted(pages.a3, "page") + " of A3; export: {paper: roll} takes " + roll;

@@ -54,8 +54,7 @@ std::string kind_text(const Design& design, const Track& track) {
   if (track.search) return searched_name(design);
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
   if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
-    const std::string name =
-        "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)";
+    std::string name = "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)";
     if (!point) return name;
     if (design.stream)
       return name + "\nat an entry speed of " + speed_text(std::sqrt(curve->p())) +

@@ -113,6 +113,7 @@ double apart(const Parametrized& one, const Parametrized& other) {
 
 std::optional<Parametrized> parametrized(const std::vector<Vec2>& points) {
   std::vector<double> runs;
+  runs.reserve(points.size());
   for (const Vec2& point : points) runs.push_back(point.x);
   auto best = over(normalized(std::move(runs)), points);
   auto rough = over(normalized(rough_arc_lengths(points)), points);

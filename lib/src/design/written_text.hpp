@@ -29,13 +29,17 @@ class Group {
 
   [[nodiscard]] std::string inlined() const {
     std::string text;
-    for (const auto& [key, value] : entries_) text += (text.empty() ? "" : ", ") + key + ": " + value;
+    for (const auto& [key, value] : entries_) {
+      if (!text.empty()) text += ", ";
+      text.append(key).append(": ").append(value);
+    }
     return "{" + text + "}";
   }
   [[nodiscard]] std::string lines() const {
     if (entries_.empty()) return " {}\n";
     std::string text = "\n";
-    for (const auto& [key, value] : entries_) text += "  " + key + ": " + value + "\n";
+    for (const auto& [key, value] : entries_)
+      text.append("  ").append(key).append(": ").append(value).append("\n");
     return text;
   }
 

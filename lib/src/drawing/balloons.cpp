@@ -21,6 +21,7 @@ class Seating {
       : slots_(slots), radius_(radius), others_(others), name_at_(slots.size(), kFree) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::vector<Vec2> targets;
+      targets.reserve(slots.size());
       for (const Vec2 slot : slots) targets.push_back(nearest(names[i], slot));
       targets_.push_back(std::move(targets));
       slot_of_.push_back(i);

@@ -110,6 +110,7 @@ bool add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, con
   const std::vector<const ShopPart*> parts = numbered_parts(workshop, most);
   const std::vector<Vec2> places = balloon_places(view, seen, paper, parts.size());
   std::vector<Named> names;
+  names.reserve(parts.size());
   for (const ShopPart* const part : parts) names.push_back(pieces_of(*part, eye));
   const std::vector<Label> labels =
       labelled(names, places, (kRadius + 0.5) * per_paper, words_of_length(seen, per_paper));

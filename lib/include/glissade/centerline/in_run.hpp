@@ -46,6 +46,8 @@ class InRun final : public Centerline {
   ///   transition and the table are longer than the in-run
   explicit InRun(const InRunShape& shape);
   ~InRun() override;
+  InRun(const InRun&) = delete;
+  InRun& operator=(const InRun&) = delete;
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "in-run"; }
   [[nodiscard]] double length() const noexcept override { return shape_.length; }

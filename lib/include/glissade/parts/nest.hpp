@@ -37,8 +37,8 @@ struct NestedSheet {
 /// kNestColumn; distances hold exactly.
 /// Identity: pieces are at least `spacing` apart and `margin` from the edges (tests measure it).
 /// Source: bottom-left filling on a skyline (B. Chazelle, IEEE Trans. Comput. C-32(8), 1983), with curved undersides.
-/// @throws InputError if a stock size is out of its bound, or with all parts that fit no sheet: size, bound, what to try; both at
-///         "split.sheet"
+/// @throws InputError if a measure of the stock is out of its bound: stock_problems(); or with all parts that fit no sheet, at
+///         "split.sheet": size, bound, what to try
 [[nodiscard]] std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock = {});
 
 /// Width of the columns that decide where pieces fall [m]; a sheet has 20 to 4000.

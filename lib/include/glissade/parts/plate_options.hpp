@@ -35,7 +35,7 @@ enum class FacetRule {
 /// How a bent floor is divided into facets, and how it is bent.
 struct BendOptions {
   FacetRule rule = FacetRule::speed_loss;
-  double value = 0.01;
+  double value = 0.01;                 ///< of the rule, in its unit; > 0
   std::optional<double> inner_radius;  ///< of the punch [m]; none: the plate's thickness
   std::optional<double>
       k_factor;  ///< neutral fibre, 0 inside to 1; none: k_factor() by radius over thickness
@@ -171,12 +171,13 @@ struct CoverOptions {
   friend bool operator==(const CoverOptions&, const CoverOptions&) = default;
 };
 
-/// An opening in the left wall with a lid that is bolted over it.
+/// An opening with a lid that is bolted over it: in the left wall, the widest upright side on the left, or
+/// the left of a mitred tube.
 struct InspectionOptions {
-  double at = 0.0;  ///< its middle, along the track [m]
-  double length = 0.2;
-  double height = 0.15;
-  int bolt = 8;
+  double at = 0.0;       ///< its middle, along the track [m]
+  double length = 0.2;   ///< along the track [m]
+  double height = 0.15;  ///< across it, along the wall [m]
+  int bolt = 8;          ///< of the lid [mm]
 
   friend bool operator==(const InspectionOptions&, const InspectionOptions&) = default;
 };
@@ -218,7 +219,7 @@ struct ShopLeast {
 /// How a channel is made of plates.
 struct PlateOptions {
   static constexpr std::string_view kProcess = "plate";
-  static constexpr double kArcTolerance = 0.1e-3;
+  static constexpr double kArcTolerance = 0.1e-3;  ///< [m]
 
   StockMaterial material;
   FloorMake floor = FloorMake::rolled;

@@ -61,12 +61,12 @@ struct CrossMemberOptions {
 
 /// Posts below every bearer.
 struct LegOptions {
-  std::vector<Vec2> ground;  ///< (x, height above the start), from left to right; one point: level [m]
-  double spacing = 2.0;      ///< greatest distance along the run [m]
-  double side = 90e-3;       ///< of their square section [m]
-  double braced_from = 1.5;  ///< length of a leg from which boards brace it, across and along the run [m]
-  double brace_width = 120e-3;
-  double brace_thickness = 24e-3;
+  std::vector<Vec2> ground;     ///< (x, height above the start), from left to right; one point: level [m]
+  double spacing = 2.0;         ///< greatest distance along the run [m]
+  double side = 90e-3;          ///< of their square section [m]
+  double braced_from = 1.5;     ///< length of a leg from which boards brace it, across and along the run [m]
+  double brace_width = 120e-3;  ///< of those boards [m]
+  double brace_thickness = 24e-3;  ///< [m]
 
   friend bool operator==(const LegOptions&, const LegOptions&) = default;
 };

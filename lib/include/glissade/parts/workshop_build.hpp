@@ -14,13 +14,13 @@ namespace glissade {
 /// The body that rides what has been built.
 struct AsBuiltRide {
   bool arrives = false;
-  double travel_time = 0.0;  ///< [s]
-  double exit_speed = 0.0;   ///< [m/s]
-  double design_travel_time = 0.0;
-  double design_exit_speed = 0.0;
-  std::size_t bends = 0;      ///< kinks of the floor
-  std::size_t joints = 0;     ///< between units
-  double joint_step = 0.0;    ///< by which the floor drops at each of them, as asked for [m]
+  double travel_time = 0.0;         ///< [s]
+  double exit_speed = 0.0;          ///< [m/s]
+  double design_travel_time = 0.0;  ///< of the track before arcs and bends took its place [s]
+  double design_exit_speed = 0.0;   ///< [m/s]
+  std::size_t bends = 0;            ///< kinks of the floor
+  std::size_t joints = 0;           ///< between units
+  double joint_step = 0.0;          ///< by which the floor drops at each of them, as asked for [m]
   double highest_step = 0.0;  ///< greatest rise of a face at one, as the parts lie, before that drop [m]
   double joint_play =
       0.0;  ///< by which the bolts of one let its units shift either way: to be held flush [m]
