@@ -304,6 +304,12 @@ TEST_CASE("plates: what cannot be made is refused with place, value and bound") 
   edge.flanges.width = 20e-3;
   CHECK(refusal(edge).find("flanges.width|width: 20 mm puts holes for M10 10 mm from the edge") !=
         std::string::npos);
+  // At the bound: 1.2 holes of 12 mm on either side.
+  edge.flanges.width = 28.7e-3;
+  CHECK(refusal(edge).find("flanges.width|width: 28.7 mm puts holes for M10 14.35 mm from the edge") !=
+        std::string::npos);
+  edge.flanges.width = 28.8e-3;
+  CHECK(refusal(edge).find("flanges.width") == std::string::npos);
   // Rules that are left out do not make holes wider than their bar.
   PlateOptions unruled;
   unruled.shop.hole_edge_diameters = 0.0;

@@ -6,6 +6,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/slot.hpp"
 
+#include "core/arc_pieces.hpp"
 #include "parts/fittings.hpp"
 #include "parts/shop_facts.hpp"
 
@@ -18,10 +19,10 @@
 namespace glissade::parts {
 namespace {
 
-double edge_distance(const ArcPath& outline, Vec2 point) {
-  const PathPiece here{point, point + Vec2{1e-9, 0.0}, 0.0};
+double edge_distance(const ArcPath& path, Vec2 point) {
   double least = std::numeric_limits<double>::infinity();
-  for (const PathPiece& piece : pieces_of(outline)) least = std::min(least, distance(here, piece));
+  for (const PathPiece& piece : pieces_of(path))
+    least = std::min(least, core::distance_to_piece(piece, point));
   return least;
 }
 
@@ -33,9 +34,15 @@ void measure_holes(const ShopPart& part, ShopFacts& facts) {
   const std::vector<Circle>& holes = part.pattern->region.holes;
   for (std::size_t i = 0; i < holes.size(); ++i) {
     const double hole = 2.0 * holes[i].radius;
-    const double edge = edge_distance(part.pattern->region.outline, holes[i].centre);
+    double edge = edge_distance(part.pattern->region.outline, holes[i].centre);
     double nearest = std::numeric_limits<double>::infinity();
     double web = edge - holes[i].radius;
+    for (const ArcPath& cutout : part.pattern->region.cutouts) {
+      const double apart = edge_distance(cutout, holes[i].centre);
+      web = std::min(web, apart - holes[i].radius);
+      // Slots are holes; an opening has edges.
+      if (!as_slot(cutout)) edge = std::min(edge, apart);
+    }
     for (std::size_t k = 0; k < holes.size(); ++k) {
       if (k == i) continue;
       const double apart = norm(holes[k].centre - holes[i].centre);
@@ -61,14 +68,14 @@ void measure_off_bends(const ShopPart& part, ShopFacts& facts) {
       facts.of(part, "hole_bend_thicknesses", apart - half, part.thickness);
     };
     for (const Circle& hole : part.pattern->region.holes)
-      tell(distance({hole.centre, hole.centre + Vec2{1e-9, 0.0}, 0.0}, line) - hole.radius);
+      tell(core::distance_to_piece(line, hole.centre) - hole.radius);
     for (const ArcPath& cutout : part.pattern->region.cutouts) {
       double apart = std::numeric_limits<double>::infinity();
       bool parted = false;
       for (const PathPiece& piece : pieces_of(cutout)) {
         apart = std::min(apart, distance(piece, line));
         for (const Vec2 end : {bend.from, bend.to})
-          parted = parted || distance(piece, {end, end + Vec2{1e-9, 0.0}, 0.0}) < kOnEdge;
+          parted = parted || core::distance_to_piece(piece, end) < kOnEdge;
       }
       if (!parted) tell(apart);
     }
