@@ -149,7 +149,7 @@ TEST_CASE("max_deviation makes a profile smoother, and no point is passed by mor
   const Outcome refused =
       glissade_run({"solve", "wall.yaml", "--set", "centerline.max_deviation=0 mm"}, here);
   CHECK(refused.exit_code == 2);
-  CHECK_THAT(refused.errors, Contains("max_deviation: 0 m is not positive"));
+  CHECK_THAT(refused.errors, Contains("max_deviation: 0 mm is not positive"));
 }
 
 TEST_CASE("a profile that is no profile is refused with file, line and column") {

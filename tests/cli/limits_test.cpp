@@ -174,7 +174,7 @@ TEST_CASE("a limit that is missed by a hair is told with the digits that show it
   const Outcome outcome = solve(file);
   CHECK(outcome.exit_code == 3);
   CHECK_THAT(outcome.errors, Contains("slope_angle.highest 33.69 deg is broken by") &&
-                                 Contains("(33.6901 deg after 0 m)") &&
+                                 Contains("(33.6901 deg after 0 mm)") &&
                                  Contains("speed.highest 5.2407 m/s is broken by"));
 }
 

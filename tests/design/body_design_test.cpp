@@ -85,7 +85,7 @@ TEST_CASE("a friction that changes along the track is a list from its start on")
   CHECK_THAT(problems_of_body("friction: [{from: 1 m, angle: 3 deg}]", "straight"),
              Contains("friction: the first entry begins at 1 m") && Contains("Try: from: 0 m"));
   CHECK_THAT(problems_of_body("friction: [{from: 0 m, angle: 3 deg}, {from: 0 m, angle: 4 deg}]", "straight"),
-             Contains("from: 0 m after 0 m"));
+             Contains("from: 0 mm after 0 mm"));
   CHECK_THAT(problems_of_body("friction: []", "straight"), Contains("friction: the list is empty"));
   CHECK_THAT(problems_of_body("friction: [{from: 0 m, angle: 3 deg, coefficient: 0.1}]", "straight"),
              Contains("both angle and coefficient are given"));

@@ -162,10 +162,10 @@ TEST_CASE("reach is an equality at the friction angle itself: a mean slope equal
 }
 
 TEST_CASE("sizes are positive") {
-  CHECK_THAT(problems_with("400 mm", "0 mm"), StartsWith("d.yaml:9:41: width: 0 m is not positive"));
+  CHECK_THAT(problems_with("400 mm", "0 mm"), StartsWith("d.yaml:9:41: width: 0 mm is not positive"));
   CHECK_THAT(problems_with("250 mm", "-250 mm"),
              StartsWith("d.yaml:9:62: wall_height: -250 mm is not positive"));
-  CHECK_THAT(problems_with("4 mm", "0 mm"), Contains("thickness: 0 m is not positive"));
+  CHECK_THAT(problems_with("4 mm", "0 mm"), Contains("thickness: 0 mm is not positive"));
   CHECK_THAT(problems_with("400 mm", "400 km"), Contains("width: 400 km is out of range"));
   CHECK_THAT(problems_with("17 deg", "17 deg\n  entry_speed: -1 m/s"),
              Contains("entry_speed: -1 m/s is out of range"));
@@ -250,7 +250,7 @@ TEST_CASE("widths along the track are read by place, and their faults told") {
   CHECK_THAT(channel("[{at: -1 m, width: 600 mm}, {at: 2 m, width: 400 mm}]"),
              Contains("width: the place at -1 m is out of range"));
   CHECK_THAT(channel("[{at: 0 m, width: 600 mm}, {at: 50 mm, width: 400 mm}]"),
-             Contains("width: after 0 m it changes by 4 times the length of track that it takes"));
+             Contains("width: after 0 mm it changes by 4 times the length of track that it takes"));
   CHECK_THAT(section_problems("kind: half-pipe, width: " + sound + ", thickness: 4 mm"), Contains("width"));
 }
 

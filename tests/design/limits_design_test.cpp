@@ -247,7 +247,7 @@ TEST_CASE("limits that contradict each other or the design are refused where the
 
 TEST_CASE("single limits are refused out of their bounds, with a wrong unit, or ambiguous") {
   CHECK_THAT(problems_of_limits("smallest_radius: 0 m"),
-             StartsWith("d.yaml:10:27: smallest_radius: 0 m is not positive") &&
+             StartsWith("d.yaml:10:27: smallest_radius: 0 mm is not positive") &&
                  Contains("Try: no smallest_radius"));
   CHECK_THAT(problems_of_limits("exit_slope_angle: {highest: 100 deg}"),
              StartsWith("d.yaml:10:38: exit_slope_angle.highest: 100 deg is out of range") &&

@@ -363,7 +363,7 @@ TEST_CASE("angle flanges: what no shop rolls or bolts is told with a bar that do
   const std::string across = refusal_of([&] { return plates(short_turn, options, {0.4, 0.12, 4e-3}); });
   CHECK(
       across.find(
-          "flanges.section|section: angle stands across a bend, at 0 m along the track|The flat there is ") ==
+          "flanges.section|section: angle stands across a bend, at 0 mm along the track|The flat there is ") ==
       0);
   CHECK(across.find(" long, the leg 50 mm.|a narrower angle, section: flat, or floor: rolled\n") !=
         std::string::npos);

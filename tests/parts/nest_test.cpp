@@ -177,5 +177,5 @@ TEST_CASE("what is wrong with a sheet is told, all of it, with its bounds") {
   CHECK(told({3.0, 1.5, -1e-3, -2e-3}) ==
         "split.margin|margin: -1 mm is negative|margin: 5 mm\n"
         "split.spacing|spacing: -2 mm is negative|spacing: 10 mm\n");
-  CHECK(told({3.0, 0.0, 5e-3, 10e-3}) == "split.sheet|sheet: 0 m is not positive|sheet: [3 m, 1.5 m]\n");
+  CHECK(told({3.0, 0.0, 5e-3, 10e-3}) == "split.sheet|sheet: 0 mm is not positive|sheet: [3 m, 1.5 m]\n");
 }

@@ -158,7 +158,7 @@ TEST_CASE(
   const auto rule = [](const WorkshopBuild& build, const std::string& name) {
     return testing::check_of(testing::shop_checks(build.workshop, "print"), name).value;
   };
-  CHECK(rule(prints(run(), groove()), "print.run-surface-step") == "0 m");
+  CHECK(rule(prints(run(), groove()), "print.run-surface-step") == "0 mm");
   CHECK(rule(prints(run(), groove()), "print.overhang") == "35.54 deg");  // of the groove's side, atan(5/7)
   const WorkshopBuild channel = prints(run(), CrossSection::u_channel(30e-3, 15e-3, 3e-3));
   for (const PrintPiece& piece : channel.prints) CHECK(size_of(piece.mesh).z <= 0.25 + 1e-12);
@@ -203,7 +203,7 @@ TEST_CASE(
   options.dowels.fit = -1e-4;
   options.split.bed.z = -1.0;
   text = refusal(options, groove());
-  CHECK(text.find("layer|layer: 0 m is not positive") != std::string::npos);
+  CHECK(text.find("layer|layer: 0 mm is not positive") != std::string::npos);
   CHECK(text.find("dowels.fit|fit: -0.1 mm is negative") != std::string::npos);
   CHECK(text.find("split.bed|bed: -1 m is not positive") != std::string::npos);
 }

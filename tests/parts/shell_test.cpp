@@ -515,7 +515,7 @@ TEST_CASE("openings: where none is to be had it is refused with place, value, bo
   CHECK(pieces(plates_of(chute(), trapezoid, options), "lid") == 1);
   options.inspection = {{0.01, 0.2, 0.1, 8}};
   const std::string across = refused(trapezoid, options);
-  CHECK(across.find("inspection|at: an opening at 10 mm finds no place in its unit|Units end at 0 m and ") ==
+  CHECK(across.find("inspection|at: an opening at 10 mm finds no place in its unit|Units end at 0 mm and ") ==
         0);
   CHECK(across.find("and their ends lie off the bends of the left_wall.|another at, or a smaller length") !=
         std::string::npos);

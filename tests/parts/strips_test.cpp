@@ -309,7 +309,7 @@ TEST_CASE(
     const std::string told = refusal_of([&] { return plates_of(steep, pipe, options); });
     CHECK(
         told.find(
-            "flanges.gap|gap: 0.5 mm is closed by plates that begin or bend behind a frame, at 0 m along") ==
+            "flanges.gap|gap: 0.5 mm is closed by plates that begin or bend behind a frame, at 0 mm along") ==
         0);
     const std::size_t hint = told.find("|gap: ", told.find("out of the section there."));
     REQUIRE(hint != std::string::npos);

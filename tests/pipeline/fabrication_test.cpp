@@ -387,10 +387,13 @@ TEST_CASE("fabrication: what a shop makes by its own rules is not refused, and w
   };
   const std::string close = "flanges: {pitch: 28 mm}";
   CHECK(refusal("{process: plate, " + close + "}")
-            .find("Holes of 12 mm are at least 28.8 mm apart (EN 1993-1-8).") != std::string::npos);
-  CHECK(with_rule(close, "plate.hole-pitch, quantity: hole_pitch_diameters, lowest: 2.2").empty());
+            .find("holes of 12 mm are at least 28.8 mm apart (EN 1993-1-8).") != std::string::npos);
+  // Ten gaps of 26.15 mm beside the walls.
+  CHECK(with_rule(close, "plate.hole-pitch, quantity: hole_pitch_diameters, lowest: 2.17").empty());
+  CHECK(with_rule(close, "plate.hole-pitch, quantity: hole_pitch_diameters, lowest: 2.19")
+            .find("pitch: holes of 12 mm stand 26.1 mm apart at a pitch of 28 mm") != std::string::npos);
   CHECK(with_rule(close, "plate.hole-pitch, quantity: hole_pitch_diameters, lowest: 2.5")
-            .find("Holes of 12 mm are at least 30 mm apart (the rules of this shop).") != std::string::npos);
+            .find("holes of 12 mm are at least 30 mm apart (the rules of this shop).") != std::string::npos);
   CHECK(refusal("{process: plate, " + close + ", rules: {leave_out: [plate.hole-pitch]}}").empty());
   const std::string sharp = "floor: bent, bend: {bends: 10, inner_radius: 3 mm}";
   CHECK(refusal("{process: plate, " + sharp + "}").find("Mild steel cracks below 4 mm (1 thickness).") !=

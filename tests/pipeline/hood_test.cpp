@@ -236,7 +236,7 @@ TEST_CASE("no hood: each with place, value, bound and way out") {
   CHECK_THAT(no_contact, Contains("no contact where the feed meets it: v^2/(g R) is 0."));
   CHECK_THAT(no_contact, Contains("a radius below 1."));
   CHECK_THAT(problems(transfer("hood: {drop: 400 mm}\n")), Contains("radius"));
-  CHECK_THAT(problems(transfer("hood: {radius: 1 m, drop: 0 m}\n")), Contains("drop: 0 m is out of range"));
+  CHECK_THAT(problems(transfer("hood: {radius: 1 m, drop: 0 m}\n")), Contains("drop: 0 mm is out of range"));
   CHECK_THAT(problems(transfer("hood: {radius: 1 m, exit_angle: 20 deg, drop: 400 mm}\n")),
              Contains("but the stream meets the hood at"));
   CHECK_THAT(problems(transfer("hood: {radius: {lowest: 1 m, highest: 0.7 m}, drop: 400 mm}\n")),

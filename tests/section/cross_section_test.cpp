@@ -266,7 +266,7 @@ TEST_CASE("cross-section: sizes that make no section are refused with their valu
       message_of([] { return CrossSection::pipe(0.15, 0.15); }),
       Catch::Matchers::StartsWith("thickness: 150 mm is no thinner than the inner_diameter, 150 mm\n"));
   CHECK_THAT(message_of([] { return CrossSection::slab(0.0, 0.1); }),
-             Catch::Matchers::StartsWith("width: 0 m is not"));
+             Catch::Matchers::StartsWith("width: 0 mm is not"));
   CHECK_THAT(message_of([] { return CrossSection::slab(0.4, -0.1); }),
              Catch::Matchers::StartsWith("thickness: -100 mm is not a size"));
   CHECK_THAT(message_of([] { return CrossSection::u_channel(0.4, kNan, 0.004); }),

@@ -250,10 +250,10 @@ TEST_CASE("a hostile heap of facets ends at the limit and says so") {
 TEST_CASE("every fault says where the first of its kind lies") {
   // A unit square of two facets, 5 m up.
   const TriangleMesh open{{{0, 0, 5}, {1, 0, 5}, {1, 1, 5}, {0, 1, 5}}, {{0, 1, 2}, {0, 2, 3}}};
-  CHECK(contains(measure(open).faults(), "surface is open; the first at (500 mm, 0 m, 5 m)"));
+  CHECK(contains(measure(open).faults(), "surface is open; the first at (500 mm, 0 mm, 5 m)"));
   const TriangleMesh flat{{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {4, 0, 0}, {5, 0, 0}, {6, 0, 0}},
                           {{0, 1, 2}, {3, 4, 5}}};
-  CHECK(contains(measure(flat).faults(), "1 facet without area; at (4 m, 0 m, 0 m)"));
+  CHECK(contains(measure(flat).faults(), "1 facet without area; at (4 m, 0 mm, 0 mm)"));
   const TriangleMesh twice{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {7, 8, 9}, {7, 8, 9}}, {{0, 1, 2}}};
   CHECK(contains(measure(twice).faults(), "1 vertex at the position of another; at (7 m, 8 m, 9 m)"));
   const TriangleMesh crossed{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {0.7, 0.7, 1}},
@@ -262,9 +262,9 @@ TEST_CASE("every fault says where the first of its kind lies") {
                  "1 pair of facets that intersect; at (616.667 mm, 616.667 mm, 166.667 mm)"));
   const TriangleMesh fins{{{0, 0, 0}, {0, 0, 2}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
                           {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
-  CHECK(contains(measure(fins).faults(), "two of opposite winding; at (0 m, 0 m, 1 m)"));
+  CHECK(contains(measure(fins).faults(), "two of opposite winding; at (0 mm, 0 mm, 1 m)"));
   const TriangleMesh tips{{{3, 0, 0}, {4, 0, 0}, {4, 1, 0}, {2, 0, 0}, {2, 1, 0}}, {{0, 1, 2}, {0, 3, 4}}};
-  CHECK(contains(measure(tips).faults(), "1 vertex whose facets are not one fan; at (3 m, 0 m, 0 m)"));
+  CHECK(contains(measure(tips).faults(), "1 vertex whose facets are not one fan; at (3 m, 0 mm, 0 mm)"));
 }
 
 TEST_CASE("a mesh that cannot be measured is refused with the place") {

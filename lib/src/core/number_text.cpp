@@ -39,7 +39,7 @@ std::string rounded_text(double value, int digits) {
 
 std::string length_text(double metres, int digits) {
   const double size = std::fabs(metres);
-  if (size != 0.0 && size < 1.0) return rounded_text(metres * 1e3, digits) + " mm";
+  if (size < 1.0) return rounded_text(metres * 1e3, digits) + " mm";
   if (size >= 1e4) return rounded_text(metres * 1e-3, digits) + " km";
   return rounded_text(metres, digits) + " m";
 }

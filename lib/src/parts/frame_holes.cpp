@@ -7,15 +7,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace glissade::parts {
 namespace {
 
-constexpr double kUsualSlot = 2.5;  // of the bolt's diameter, overall: long slots of EN 1090-2, table 11
-constexpr double kAtTop = 1.5;      // hole diameters below the top of a frame
-constexpr double kLongerBy = 1e-3;  // than wide: slots that are less are round holes [m]
-constexpr double kStep = 0.5e-3;    // of what is advised [m]
-constexpr int kTries = 1000;        // of such steps
+constexpr double kUsualSlot = 2.5;    // of the bolt's diameter, overall: long slots of EN 1090-2, table 11
+constexpr double kAtTop = 1.5;        // hole diameters below the top of a frame
+constexpr double kLongerBy = 1e-3;    // than wide: slots that are less are round holes [m]
+constexpr double kStep = 0.5e-3;      // of what is advised [m]
+constexpr int kTries = 1000;          // of such steps
+constexpr double kSameLength = 1e-9;  // [m]
 
 constexpr double kEdgeWithWeb = 0.7;   // diameters
 constexpr double kPitchWithWeb = 1.2;  // diameters
@@ -49,31 +51,70 @@ double nearest(const std::vector<Vec2>& middles, double reach) {
   return least;
 }
 
-/// The next pitch, and the next shorter slot, that leave slots far enough apart.
-std::string slots_advice(const PlateOptions& options, const FrameBolts& bolts) {
-  const FlangeOptions& told = options.flanges;
-  const double least = least_apart(options);
-  const auto does = [&](const FlangeOptions& flange) {
-    return nearest(bolts(flange), slot_reach(flange)) >= least;
-  };
-  std::string ways;
-  FlangeOptions other = told;
-  for (int k = 1; k <= kTries; ++k) {
-    other.pitch = kStep * (std::floor(told.pitch / kStep + 1e-9) + k);
-    if (!does(other)) continue;
-    ways += "pitch: " + length_text(other.pitch) + ", ";
-    break;
+/// Whether a frame's bolts keep their distance, whichever of the two that meet is drilled.
+bool far_enough(const PlateOptions& options, const FlangeOptions& flange, const FrameBolts& bolts) {
+  return nearest(bolts(flange), slot_reach(flange)) >= least_apart(options) - kSameLength;
+}
+
+/// The next pitch at which bolts that are spread evenly keep their distance.
+std::optional<double> next_pitch(const PlateOptions& options, const FrameBolts& bolts) {
+  FlangeOptions other = options.flanges;
+  // No two are farther apart than the pitch.
+  const double from = std::max(std::floor(options.flanges.pitch / kStep + 1e-9) + 1.0,
+                               std::ceil(least_apart(options) / kStep - 1e-9));
+  for (int k = 0; k < kTries; ++k) {
+    other.pitch = kStep * (from + k);
+    if (far_enough(options, other, bolts)) return other.pitch;
   }
-  other = told;
-  const double shortest = widest_hole(told) + kLongerBy;
+  return std::nullopt;
+}
+
+/// The next shorter slot that does.
+std::optional<double> next_slot(const PlateOptions& options, const FrameBolts& bolts) {
+  FlangeOptions other = options.flanges;
+  if (!other.slotted || other.pitch < least_apart(options)) return std::nullopt;
+  const double shortest = widest_hole(other) + kLongerBy;
   for (int k = 1; k <= kTries; ++k) {
-    other.slot = kStep * (std::ceil(slot_length(told) / kStep - 1e-9) - k);
+    other.slot = kStep * (std::ceil(slot_length(options.flanges) / kStep - 1e-9) - k);
     if (*other.slot < shortest) break;
-    if (!does(other)) continue;
-    ways += "slot: " + length_text(*other.slot) + ", ";
-    break;
+    if (far_enough(options, other, bolts)) return other.slot;
   }
-  return ways + (ways.empty() ? "" : "or ") + "a smaller bolt";
+  return std::nullopt;
+}
+
+/// What asks that holes are so far apart.
+std::string asked_apart(const ShopLeast& shop) {
+  if (hole_pitch_diameters(shop) > shop.hole_pitch_diameters) return " (less leaves no web)";
+  return shop.hole_pitch_diameters == ShopLeast{}.hole_pitch_diameters ? " (EN 1993-1-8)"
+                                                                       : " (the rules of this shop)";
+}
+
+/// Refuses a pitch at which bolts would stand too near each other. Of round holes that no pitch puts farther apart the rules of the
+/// shop tell.
+void require_pitch(const PlateOptions& options, const FrameBolts& bolts) {
+  const FlangeOptions& flange = options.flanges;
+  const double least = least_apart(options);
+  // Bolts at a pitch that is smaller than that are not counted: there may be any number.
+  const bool small = flange.pitch < least;
+  if (!small && far_enough(options, flange, bolts)) return;
+  const auto pitch = next_pitch(options, bolts);
+  if (!small && !pitch && !flange.slotted) return;
+  const std::string size = flange.slotted ? "slots of " + length_text(slot_length(flange))
+                                          : "holes of " + length_text(widest_hole(flange));
+  const std::string what =
+      small ? "pitch: " + length_text(flange.pitch) + " is too close for M" + std::to_string(flange.bolt)
+            : "pitch: " + size + " stand " + length_text(nearest(bolts(flange), slot_reach(flange)), 3) +
+                  (flange.slotted ? " from end to end" : " apart") + " at a pitch of " +
+                  length_text(flange.pitch);
+  const std::string why =
+      (flange.slotted ? "Ends of slots are at least " + length_text(least) + " apart, as middles of holes are"
+                      : "Middles of holes of " + length_text(widest_hole(flange)) + " are at least " +
+                            length_text(least) + " apart") +
+      asked_apart(options.shop) + ".";
+  std::string ways;
+  if (pitch) ways += "pitch: " + length_text(*pitch) + ", ";
+  if (const auto slot = next_slot(options, bolts)) ways += "slot: " + length_text(*slot) + ", ";
+  throw InputError({"flanges.pitch", what, why, ways + (ways.empty() ? "" : "or ") + "a smaller bolt"});
 }
 
 }  // namespace
@@ -105,18 +146,9 @@ std::string frame_name(const std::string& name, const FlangeOptions& flange, Fla
 
 void drill_frame(const PlateOptions& options, FlangeSide side, const FrameBolts& bolts, PlaneRegion& region) {
   const FlangeOptions& flange = options.flanges;
+  require_pitch(options, bolts);
   const std::vector<Vec2> all = bolts(flange);
   const double reach = slot_reach(flange);
-  // Both frames of a joint are refused alike, whichever is drilled first.
-  if (flange.slotted && nearest(all, reach) < least_apart(options)) {
-    throw InputError({"flanges.pitch",
-                      "pitch: slots of " + length_text(slot_length(flange)) + " stand " +
-                          length_text(nearest(all, reach), 3) + " from end to end at a pitch of " +
-                          length_text(flange.pitch),
-                      "Ends of slots are at least " + length_text(least_apart(options)) +
-                          " apart, as middles of holes are.",
-                      slots_advice(options, bolts)});
-  }
   const bool loose = is_loose(flange, side);
   const double radius = 0.5 * clearance_hole(flange.bolt, loose ? HoleFit::coarse : HoleFit::medium);
   for (const Vec2 middle : all) {

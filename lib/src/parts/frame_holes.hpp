@@ -33,7 +33,8 @@ namespace glissade::parts {
 using FrameBolts = std::function<std::vector<Vec2>(const FlangeOptions&)>;
 
 /// Cuts the holes of the frame on a side of a joint. The frame's region has y upright.
-/// @throws InputError where `flanges.pitch` if slots would stand too near each other; says which pitch or length would do
+/// @throws InputError where `flanges.pitch` if holes or slots would stand too near each other and another pitch puts them farther
+///         apart; says which pitch, or length of slots, would do
 void drill_frame(const PlateOptions& options, FlangeSide side, const FrameBolts& bolts, PlaneRegion& region);
 
 /// Appends what of slots no shop makes in frames of these measures, whatever the section is.

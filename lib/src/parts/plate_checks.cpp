@@ -63,6 +63,7 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
   if (!flange.wanted) return;
   objections.positive(flange.width, "flanges.width");
   objections.positive(flange.thickness, "flanges.thickness");
+  objections.positive(flange.pitch, "flanges.pitch");
   if (std::find(bolt_sizes().begin(), bolt_sizes().end(), flange.bolt) == bolt_sizes().end()) {
     objections.add("flanges.bolt",
                    "bolt: M" + std::to_string(flange.bolt) + " is no size whose holes are known", "",
@@ -71,17 +72,7 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
   }
   const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
   const std::string bolt = "M" + std::to_string(flange.bolt);
-  const double pitch = hole_pitch_diameters(shop) * hole;
   const double edge = hole_edge_diameters(shop) * hole;
-  if (flange.pitch < pitch) {
-    objections.add(
-        "flanges.pitch", "pitch: " + length_text(flange.pitch) + " is too close for " + bolt,
-        "Holes of " + length_text(hole) + " are at least " + length_text(pitch) + " apart" +
-            asked_by(pitch, shop.hole_pitch_diameters * hole, ShopLeast{}.hole_pitch_diameters * hole),
-        // Spread evenly, bolts come nearer than their pitch, but not twice as near.
-        "pitch: " + length_text(next_up(pitch)) + " (" + length_text(2.0 * next_up(pitch)) +
-            " keeps it on every side), or a smaller bolt");
-  }
   if (flange.section == FlangeSection::angle) {
     add_slot_problems(options, objections.issues());
     add_angle_problems(options, objections.issues());

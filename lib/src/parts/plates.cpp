@@ -300,8 +300,8 @@ WorkshopBuild make_round_or_strips(const ArcSpline& track, const section::Measur
   try {
     return make_mitred_pipe(track, round->pipe, round->side, options, placement, body, gravity, design);
   } catch (const InputError& error) {
-    // Nor do staves go with what is asked for.
-    if (options.round == RoundMake::mitred ||
+    // Another pitch is the way out, not another make; or nor do staves go with what is asked for.
+    if (options.round == RoundMake::mitred || error.issues().front().where == "flanges.pitch" ||
         !section_problems(*plate_section(measures, options), options).empty())
       throw;
     WorkshopBuild build = strips();

@@ -20,7 +20,7 @@ namespace glissade {
 ///         the exponent lies within -5 to 9; independent of locale
 [[nodiscard]] std::string rounded_text(double value, int digits);
 
-/// @return a length for people, in the unit that suits its size: "0.35 mm", "412 mm", "5.4 m", "1.2 km"
+/// @return a length for people, in the unit that suits its size: "0 mm", "0.35 mm", "412 mm", "5.4 m", "1.2 km"
 [[nodiscard]] std::string length_text(double metres, int digits = 4);
 
 /// @return an angle for people: "17 deg"; "0 deg" below 1e-12 rad, which no drawing can tell from level
