@@ -6,9 +6,15 @@ target_compile_options(glissade_compile_settings INTERFACE
   -ffp-contract=off
   # Nobody replaces single functions of ours when the program starts: they are inlined in a library's own code.
   -fno-semantic-interposition
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
+  -Wall -Wextra -Wpedantic -Wconversion -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
   # GCC before 13 sees overlapping copies in "text" + std::string where there are none (its bug 105651).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+# Where sources are joined, names of one are no globals of the next, nor is a source a header: the preset dev looks.
+set(joined $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
+target_compile_options(glissade_compile_settings INTERFACE
+  $<$<NOT:${joined}>:-Wshadow>
+  $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wshadow=local>
+  $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
 if(GLISSADE_WARNINGS_AS_ERRORS)
   target_compile_options(glissade_compile_settings INTERFACE -Werror)
 endif()
