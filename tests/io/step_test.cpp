@@ -223,7 +223,7 @@ TEST_CASE("bodies that are none are refused with what is wrong") {
   PlaneRegion region = testing::metre_band(3, 1);
   region.holes[0].radius = 1.0;
   CHECK(refusal_of(Prism{region, 0.004}) == "part 7, plate: hole 1 reaches outside the outline");
-  CHECK(refusal_of(Prism{testing::metre_band(3, 1), 0.0}) == "part 7, plate: its depth is 0 m");
+  CHECK(refusal_of(Prism{testing::metre_band(3, 1), 0.0}) == "part 7, plate: its depth is 0 mm");
   CHECK(refusal_of(TubeGore{0.1, 0.003, 0.02, Angle::from_radians(-0.3), Angle::from_radians(0.3)}) ==
         "part 7, plate: its end planes meet inside the tube: length 20 mm");
   SweptBody kinked = testing::leaning_plate(0.5, 0.2, 0.004);

@@ -361,10 +361,8 @@ TEST_CASE("angle flanges: what no shop rolls or bolts is told with a bar that do
   const ClothoidSpline short_turn(Angle::from_degrees(50.0),
                                   {{0.01, 0.0, 0.0}, {0.04, 6.0, 6.0}, {1.2, 0.0, 0.0}});
   const std::string across = refusal_of([&] { return plates(short_turn, options, {0.4, 0.12, 4e-3}); });
-  CHECK(
-      across.find(
-          "flanges.section|section: angle stands across a bend, at 0 mm along the track|The flat there is ") ==
-      0);
+  CHECK(across.find("flanges.section|section: angle stands across a bend, at 0 mm along the track|The flat "
+                    "there is ") == 0);
   CHECK(across.find(" long, the leg 50 mm.|a narrower angle, section: flat, or floor: rolled\n") !=
         std::string::npos);
   options.flanges.width = 25e-3;

@@ -147,7 +147,7 @@ TEST_CASE("bar pieces: what is longer than a bar is refused where one piece is a
           return plates(chute(), options, {2.0, 0.25, 4e-3});
         }).find("of bar|One piece is asked for, and bars are 1.5 m long.|bar: 3 m") != std::string::npos);
   options.split.bar = 0.0;
-  CHECK(refusal(options).find("split.bar|split.bar: 0 m is not positive") != std::string::npos);
+  CHECK(refusal(options).find("split.bar|split.bar: 0 mm is not positive") != std::string::npos);
 }
 
 TEST_CASE("bar pieces: random angles, pitches and bars make pieces that add up") {
