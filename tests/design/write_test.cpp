@@ -67,7 +67,7 @@ TEST_CASE("every key of the processes is written back") {
   for (
       const std::string& fabrication :
       {std::string("{process: plate, corners: lap}"),
-       std::string("{process: plate, split: {widest: 0.7 m, bar: 12 m}}"),
+       std::string("{process: plate, split: {widest: 0.7 m, bar: 12 m, frames: 3}}"),
        std::string(
            "{process: plate, walls: on-floor, corners: {kind: tab-and-slot, overlap: 30 mm, tab: 50 mm, "
            "spacing: 0.25 m, clearance: 0.3 mm}}"),

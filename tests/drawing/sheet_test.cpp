@@ -78,6 +78,20 @@ TEST_CASE("a long table goes over as many sheets as it takes, each row once") {
   CHECK(sheets[1].title.sheet == "2/" + std::to_string(sheets.size()));
 }
 
+TEST_CASE("no row of a table stands alone on its last sheet") {
+  const SheetTable head{{}, "Parts", {20.0, 60.0}, {"no.", "name"}, {}, 2.5};
+  for (int count = 30; count < 120; ++count) {
+    CAPTURE(count);
+    SheetTable table = head;
+    table.rows = rows(count);
+    const std::vector<Sheet> sheets = table_sheets(title(), PaperSize::a4, std::move(table));
+    std::size_t all = 0;
+    for (const Sheet& sheet : sheets) all += sheet.tables[0].rows.size();
+    CHECK(all == static_cast<std::size_t>(count));
+    CHECK(sheets.back().tables[0].rows.size() > 1);
+  }
+}
+
 namespace {
 
 /// What the windows of templates show of the drawing, each in the drawing's own frame.

@@ -235,7 +235,7 @@ TEST_CASE(
     for (const SheetView& view : sheet.views) texts += view.caption + "\n";
   }
   INFO(texts);
-  CHECK(texts.find("angle 60 x 60 x 6 mm, EN 10056-1\n590 mm of bar\nends cut at 63.4 and 45 deg\n") !=
+  CHECK(texts.find("angle 60 x 60 x 6 mm, EN 10056-1\n590 mm of bar\nends cut at 63.4 and 45.0 deg\n") !=
         std::string::npos);
   CHECK(texts.find("rolled, the drilled leg outwards\n") != std::string::npos);
   CHECK(texts.find("Drilled leg, the other one towards you") != std::string::npos);

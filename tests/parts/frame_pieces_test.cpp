@@ -10,6 +10,7 @@
 
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/refusals.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -145,6 +146,58 @@ TEST_CASE("frame pieces: frames that meet are cut at different bolts, high walls
       CHECK(moments(one->pattern->region).area != Approx(moments(other->pattern->region).area).epsilon(1e-6));
     }
   }
+}
+
+TEST_CASE(
+    "frame pieces: frames that the sheet takes whole are as many pieces as are asked for, and take fewer "
+    "sheets") {
+  PlateOptions options;
+  options.round = RoundMake::staves;
+  options.stave_tolerance = 20e-3;
+  options.stiffeners.emplace();
+  for (const section::Measures& measures :
+       {section::Measures{section::HalfPipe{1.2, 0.3, 4e-3}}, section::Measures{section::Pipe{1.1, 4e-3}}}) {
+    options.split.frames = 1;
+    const WorkshopBuild whole = plates_of(hill(6.0), measures, options);
+    options.split.frames = 3;
+    const WorkshopBuild cut = plates_of(hill(6.0), measures, options);
+    for (const char* const word : {"end_frame", "stiffener"}) {
+      INFO(word);
+      CHECK(sums_of(cut, word).pieces == 3 * sums_of(whole, word).pieces);
+      CHECK(sums_of(cut, word).area == Approx(sums_of(whole, word).area).epsilon(1e-12));
+      CHECK(sums_of(cut, word).bolts == sums_of(whole, word).bolts);
+    }
+    CHECK(nest(cut.workshop, options.split.stock()).size() <
+          nest(whole.workshop, options.split.stock()).size());
+    CHECK(cut.proof.bolted == whole.proof.bolted);
+  }
+}
+
+TEST_CASE("frame pieces: more of them than bolts leave room for are refused, with how many there are") {
+  PlateOptions options;
+  options.split.frames = 40;
+  const ChannelMeasures channel{0.5, 0.3, 4e-3};
+  const std::string told = refusal_of([&] { return plates(hill(4.0), options, channel); });
+  CHECK(told.find("split.frames|frames: end_frame is not to be had in 40 pieces|Cuts lie square between two "
+                  "bolts, off "
+                  "corners and off holes.|frames: ") != std::string::npos);
+  options.split.frames = std::stoi(told.substr(told.rfind(' ')));
+  CHECK_NOTHROW(plates(hill(4.0), options, channel));
+  // No cut runs along a wall, into the corner below it.
+  for (int count = 2; count < 12; ++count) {
+    INFO(count);
+    options.split.frames = count;
+    const std::string refused = refusal_of([&] { return plates(hill(4.0), options, channel); });
+    CHECK((refused.empty() || refused.find("split.frames|") == 0));
+  }
+  options.split.frames = 0;
+  CHECK(refusal_of([&] { return plates(hill(4.0), options, channel); }) ==
+        "split.frames|frames: 0 lies outside 1 to 60|So many pieces make a frame, a ring or a "
+        "stiffener.|frames: 3\n");
+  options.split.frames = 2;
+  options.split.allowed = false;
+  CHECK(refusal_of([&] { return plates(hill(4.0), options, channel); }) ==
+        "split.frames|frames: 2 beside allowed: false|One piece is asked for, and pieces.|one of them\n");
 }
 
 TEST_CASE("frame pieces: random sections, sheets and bolts make pieces that add up to their frames") {

@@ -1,9 +1,13 @@
 #include "design/read_fabrication.hpp"
 
+#include "glissade/core/number_text.hpp"
+
 #include "design/read_process.hpp"
 #include "design/read_rules.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,6 +47,18 @@ ShopLeast least_of(const std::vector<Rule>& rules, double density) {
 }
 
 }  // namespace
+
+std::optional<int> read_count(MapReader& map, std::string_view key, Findings& findings) {
+  const auto value = map.find(key);
+  const auto number = value ? as_quantity(*value, Dimension::number, findings) : std::nullopt;
+  if (!number) return std::nullopt;
+  constexpr double kMost = 1e6;
+  if (std::floor(*number) == *number && std::fabs(*number) <= kMost) return static_cast<int>(*number);
+  findings.add(value->node->at, value->key_path,
+               {"", std::string(key) + ": " + rounded_text(*number, 6) + " is no whole number", "",
+                std::string(key) + ": 3"});
+  return std::nullopt;
+}
 
 StockMaterial read_material(const Value& value, StockMaterial material, Findings& findings) {
   MapReader map(value, "A material", "{name: S235, density: 7850 kg/m^3}", findings);

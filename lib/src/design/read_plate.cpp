@@ -54,6 +54,7 @@ SplitOptions read_plate_split(const Value& value, Findings& findings) {
   split.heaviest = map.quantity("heaviest", Dimension::mass);
   split.widest = map.quantity("widest", Dimension::length);
   set_length(map, "bar", split.bar);
+  split.frames = read_count(map, "frames", findings).value_or(split.frames);
   set_length(map, "margin", split.margin);
   set_length(map, "spacing", split.spacing);
   if (const auto allowed = map.find("allowed")) split.allowed = as_flag(*allowed, findings).value_or(true);

@@ -26,6 +26,9 @@ inline void set_length(MapReader& map, std::string_view key, double& value) {
   value = map.quantity(key, Dimension::length).value_or(value);
 }
 
+/// A count: a whole number without a unit.
+[[nodiscard]] std::optional<int> read_count(MapReader& map, std::string_view key, Findings& findings);
+
 /// A group that stands for its defaults where it is `true`, and for nothing where it is `none`.
 template <typename Options, typename Read>
 std::optional<Options> optional_group(MapReader& map, std::string_view key, Findings& findings, Read read) {

@@ -8,19 +8,6 @@
 namespace glissade::design_file {
 namespace {
 
-/// A count: a whole number without a unit.
-std::optional<int> read_count(MapReader& map, std::string_view key, Findings& findings) {
-  const auto value = map.find(key);
-  const auto number = value ? as_quantity(*value, Dimension::number, findings) : std::nullopt;
-  if (!number) return std::nullopt;
-  constexpr double kMost = 1e6;
-  if (std::floor(*number) == *number && std::fabs(*number) <= kMost) return static_cast<int>(*number);
-  findings.add(value->node->at, value->key_path,
-               {"", std::string(key) + ": " + rounded_text(*number, 6) + " is no whole number", "",
-                std::string(key) + ": 3"});
-  return std::nullopt;
-}
-
 BearerOptions read_bearers(const Value& value, Findings& findings) {
   MapReader map(value, "A set of bearers", "{count: 5, width: 120 mm, depth: 400 mm}", findings);
   BearerOptions bearers;

@@ -34,6 +34,7 @@ std::string split(const SplitOptions& options) {
   group.add("heaviest", options.heaviest, Dimension::mass);
   group.add("widest", options.widest, Dimension::length);
   group.add("bar", options.bar, Dimension::length);
+  if (options.frames != SplitOptions{}.frames) group.add("frames", std::to_string(options.frames));
   group.add("margin", options.margin, Dimension::length);
   group.add("spacing", options.spacing, Dimension::length);
   if (!options.allowed) group.add("allowed", "false");

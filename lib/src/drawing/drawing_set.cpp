@@ -12,6 +12,8 @@
 #include "parts/angle_bar.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -27,10 +29,20 @@ using drawing::Projection;
 using drawing::shrunk;
 using drawing::title_of;
 
+/// As many decimals in every row, so that points of a column stand below one another.
 std::string fixed(double value, int decimals) {
-  double unit = 1.0;
-  for (int i = 0; i < decimals; ++i) unit *= 10.0;
-  return std::isfinite(value) ? decimal_text(std::round(value * unit) / unit + 0.0) : "-";
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 400> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals).ptr;
+  const std::string written(text.data(), end);
+  return written.find_first_not_of("-0.") == std::string::npos && written.front() == '-' ? written.substr(1)
+                                                                                         : written;
+}
+
+/// Millimetres of a table.
+std::string tabled(double metres) {
+  return fixed(core::kMillimetres * metres, 1);
 }
 
 /// Overall sizes of a drawing, below and to its right.
@@ -78,9 +90,9 @@ SheetTable bend_schedule(const Workshop& workshop) {
   table.widths_mm = {12.0, 12.0, 26.0, 24.0, 22.0, 22.0, 26.0, 16.0};
   table.header = {"part", "no.", "distance mm", "length mm", "angle deg", "sum deg", "radius mm", "chord mm"};
   for (const BendStep& step : workshop.bends) {
-    table.rows.push_back({std::to_string(step.part), std::to_string(step.hit), mm(step.distance),
-                          mm(step.length), fixed(step.angle.degrees(), 3), fixed(step.sum.degrees(), 3),
-                          mm(step.radius), fixed(step.chord_error * core::kMillimetres, 2)});
+    table.rows.push_back({std::to_string(step.part), std::to_string(step.hit), tabled(step.distance),
+                          tabled(step.length), fixed(step.angle.degrees(), 3), fixed(step.sum.degrees(), 3),
+                          tabled(step.radius), fixed(step.chord_error * core::kMillimetres, 2)});
   }
   return table;
 }
@@ -97,11 +109,12 @@ SheetTable setting_out_table(const Workshop& workshop) {
     table.header.push_back(workshop.offset_names[i]);
   }
   for (const SettingOutPoint& point : workshop.setting_out) {
-    std::vector<std::string> row{
-        point.what,       mm(point.arc_length), mm(point.x),      mm(point.z),
-        mm(point.site.x), mm(point.site.y),     mm(point.site.z), fixed(point.slope_angle.degrees(), 3),
-        mm(point.radius), mm(point.ordinate)};
-    for (std::size_t i = 0; i < point.offsets.size() && i < 4; ++i) row.push_back(mm(point.offsets[i]));
+    std::vector<std::string> row{point.what,           tabled(point.arc_length),
+                                 tabled(point.x),      tabled(point.z),
+                                 tabled(point.site.x), tabled(point.site.y),
+                                 tabled(point.site.z), fixed(point.slope_angle.degrees(), 3),
+                                 tabled(point.radius), tabled(point.ordinate)};
+    for (std::size_t i = 0; i < point.offsets.size() && i < 4; ++i) row.push_back(tabled(point.offsets[i]));
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -82,6 +82,11 @@ std::vector<Sheet> table_sheets(const TitleBlock& title, PaperSize size, SheetTa
     while (next < rows.size() && drawing::table_height(part, part.rows.size() + 1) <= room.height()) {
       part.rows.push_back(rows[next++]);
     }
+    // No row stands alone on the last sheet, a total least of all.
+    if (next + 1 == rows.size() && part.rows.size() > 2) {
+      part.rows.pop_back();
+      --next;
+    }
     sheet.tables.push_back(std::move(part));
     sheets.push_back(std::move(sheet));
   } while (next < rows.size());

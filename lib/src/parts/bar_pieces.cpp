@@ -205,6 +205,7 @@ void add_flat_bar(const ShopPart& bar, const PlateOptions& options, const std::a
   PlateOptions stock = options;
   stock.split.sheet = {options.split.bar, box.height()};
   stock.split.margin = 0.0;
+  stock.split.frames = 1;
   const double middle = 0.5 * (box.low.y + box.high.y);
   const ArcPath line{{{{box.high.x, middle}, 0.0}, {{box.low.x, middle}, 0.0}}, false};
   const std::size_t before = workshop.parts.size();

@@ -1,5 +1,6 @@
 #include "parts/frame_pieces.hpp"
 
+#include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/slot.hpp"
 
@@ -22,14 +23,15 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kCutStep = 1e-3;        // in which cuts move off what is taken [m]
-constexpr double kStagger = 60e-3;       // of cuts in two plates without bolts that meet [m]
-constexpr double kRoom = 0.4;            // of a piece, by which a cut may move
-constexpr double kMostStagger = 0.3;     // of a piece
-constexpr double kOffCorner = 5e-3;      // of a cut [m]
-constexpr double kSliver = 1e-9;         // of an arc or line that is left out [m]
-constexpr double kSquare = 1e-6;         // sine of the angle by which edges may be off the band's line
-constexpr std::size_t kMostPieces = 60;  // of one plate
+constexpr double kCutStep = 1e-3;     // in which cuts move off what is taken [m]
+constexpr double kStagger = 60e-3;    // of cuts in two plates without bolts that meet [m]
+constexpr double kRoom = 0.4;         // of a piece, by which a cut may move
+constexpr double kMostStagger = 0.3;  // of a piece
+constexpr double kOffCorner = 5e-3;   // of a cut [m]
+constexpr double kWidest = 1.5;       // of a cut, in widths of the band
+constexpr int kPlaces = 64;           // where the width is measured
+constexpr double kSliver = 1e-9;      // of an arc or line that is left out [m]
+constexpr double kSquare = 1e-6;      // sine of the angle by which edges may be off the band's line
 
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 
@@ -207,21 +209,24 @@ struct Cut {
 /// A band and where it may be cut.
 class FrameBand {
  public:
-  FrameBand(const PlaneRegion& region, const PlateOptions& options)
+  /// @param line  in the band
+  FrameBand(const PlaneRegion& region, const PlateOptions& options, const BandLine& line)
       : region_(region), options_(options), outer_(edge_of(region.outline, true)) {
     for (const ArcPath& cutout : region.cutouts) {
       if (!as_slot(cutout)) inner_.emplace(edge_of(cutout, false));
+    }
+    for (int i = 0; i < kPlaces; ++i) {
+      const auto cut = through(line.at((i + 0.5) / kPlaces * line.length()));
+      if (cut) width_ = std::min(width_, glissade::length(cut->line));
     }
   }
 
   /// @return none where it would not be square to both edges, or come near a corner, a hole or a slot
   [[nodiscard]] std::optional<Cut> cut_at(const BandLine::Place& place) const {
-    const Vec2 left{-place.along.y, place.along.x};
-    const auto out = met(outer_, place.at, left, place.along);
-    const auto in = met(inner(), place.at, -1.0 * left, -1.0 * place.along);
-    if (!out || !in) return std::nullopt;
-    const Cut cut{*out, *in, {outer_.at(*out).at, inner().at(*in).at, 0.0}};
-    if (!clear_of_holes(cut.line)) return std::nullopt;
+    const std::optional<Cut> cut = through(place);
+    // In a corner it would run along the other leg.
+    if (!cut || glissade::length(cut->line) > kWidest * width_ || !clear_of_holes(cut->line))
+      return std::nullopt;
     return cut;
   }
 
@@ -252,6 +257,15 @@ class FrameBand {
 
  private:
   [[nodiscard]] const BandLine& inner() const { return inner_ ? *inner_ : outer_; }
+
+  /// The cut at a place, whatever it meets on its way.
+  [[nodiscard]] std::optional<Cut> through(const BandLine::Place& place) const {
+    const Vec2 left{-place.along.y, place.along.x};
+    const auto out = met(outer_, place.at, left, place.along);
+    const auto in = met(inner(), place.at, -1.0 * left, -1.0 * place.along);
+    if (!out || !in) return std::nullopt;
+    return Cut{*out, *in, {outer_.at(*out).at, inner().at(*in).at, 0.0}};
+  }
 
   /// The first place along an edge that a ray meets; none where that is no piece along the band, or near its end.
   [[nodiscard]] static std::optional<double> met(const BandLine& edge, Vec2 from, Vec2 way, Vec2 along) {
@@ -301,6 +315,7 @@ class FrameBand {
   const PlateOptions& options_;
   BandLine outer_;
   std::optional<BandLine> inner_;
+  double width_ = std::numeric_limits<double>::infinity();  ///< where it is least [m]
 };
 
 /// One of several pieces of a plate, lying in the least rectangle round it.
@@ -351,18 +366,35 @@ std::vector<ShopPart> pieces_of_band(const ShopPart& plate, const ArcPath& along
                                      const PlateOptions& options) {
   SplitOptions sheet = options.split;
   sheet.heaviest.reset();
-  if (!sheet.allowed || !excess(sheet, plate)) return {plate};
+  const auto asked = static_cast<std::size_t>(std::max(sheet.frames, 1));
+  if (!sheet.allowed || (asked == 1 && !excess(sheet, plate))) return {plate};
   const PlaneRegion& region = plate.pattern->region;
-  const FrameBand band(region, options);
   const BandLine line(along);
+  const FrameBand band(region, options, line);
   BandCuts wanted;
   wanted.bolts = bolts_along(line, region);
   wanted.staggered = staggered;
   wanted.is_free = [&](double s) { return band.cut_at(line.at(s)).has_value(); };
-  for (wanted.pieces = 2; wanted.pieces <= kMostPieces; ++wanted.pieces) {
-    if (auto pieces = in_pieces(plate, band, line, wanted, sheet)) return *pieces;
+  const auto cut_into = [&](std::size_t count) {
+    wanted.pieces = count;
+    return in_pieces(plate, band, line, wanted, sheet);
+  };
+  for (std::size_t count = std::max<std::size_t>(2, asked); count <= kMostFramePieces; ++count) {
+    if (auto pieces = cut_into(count)) return *pieces;
   }
-  return {plate};
+  if (asked == 1) return {plate};
+  std::size_t fewer = asked - 1;
+  // The frame that it meets needs cuts, too.
+  const auto both = [&](std::size_t count) {
+    const bool one = cut_into(count).has_value();
+    wanted.staggered = !wanted.staggered;
+    return cut_into(count).has_value() && one;
+  };
+  while (fewer > 1 && !both(fewer)) --fewer;
+  throw InputError({"split.frames",
+                    "frames: " + plate.name + " is not to be had in " + std::to_string(asked) + " pieces",
+                    "Cuts lie square between two bolts, off corners and off holes.",
+                    fewer > 1 ? "frames: " + std::to_string(fewer) : "leave it out"});
 }
 
 }  // namespace
@@ -377,8 +409,10 @@ void add_in_pieces(const ShopPart& plate, const ArcPath& line, bool staggered, c
   std::vector<ShopPart> pieces = pieces_of_band(plate, line, staggered, options);
   if (pieces.size() > 1) {
     add_note(
-        "Frames, flanges and stiffeners that the sheet does not take in one are pieces, cut square between "
-        "bolts and welded edge to edge.",
+        options.split.frames > 1
+            ? "Frames, flanges and stiffeners are pieces, cut square between bolts and welded edge to edge."
+            : "Frames, flanges and stiffeners that the sheet does not take in one are pieces, cut square "
+              "between bolts and welded edge to edge.",
         workshop);
   }
   for (ShopPart& piece : pieces) add_part(workshop, std::move(piece), colour);

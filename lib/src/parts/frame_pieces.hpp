@@ -43,6 +43,8 @@ class BandLine {
   bool closed_ = false;
 };
 
+inline constexpr int kMostFramePieces = 60;  ///< of one plate
+
 /// What cuts of a band keep to.
 struct BandCuts {
   std::size_t pieces = 2;
@@ -57,8 +59,10 @@ struct BandCuts {
 /// @return how far from the inner edge of a band its line lies: near the outer one, outside of what laps at corners [m]
 [[nodiscard]] double line_in_band(double width);
 
-/// Adds a plate across the track in pieces that fit the sheet; whole where it fits, or where no cuts are to be had.
+/// Adds a plate across the track in pieces that fit the sheet, `split.frames` of them at least; where one is enough whole if
+/// it fits, or if no cuts are to be had.
 /// @param line  in the band, with the outside on its left; bolts stand near it
+/// @throws InputError  of split.frames, if no cuts make so many pieces
 void add_in_pieces(const ShopPart& plate, const ArcPath& line, bool staggered, const PlateOptions& options,
                    const std::array<double, 3>& colour, Workshop& workshop);
 

@@ -11,6 +11,7 @@
 #include "parts/corners.hpp"
 #include "parts/fittings.hpp"
 #include "parts/frame_holes.hpp"
+#include "parts/frame_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,15 @@ void object_to_split(const SplitOptions& split, Objections& objections) {
   for (Issue& issue : stock_problems(split.stock())) objections.add(std::move(issue));
   if (split.longest) objections.positive(*split.longest, "split.longest");
   objections.positive(split.bar, "split.bar");
+  if (split.frames < 1 || split.frames > kMostFramePieces) {
+    objections.add(
+        "split.frames",
+        "frames: " + std::to_string(split.frames) + " lies outside 1 to " + std::to_string(kMostFramePieces),
+        "So many pieces make a frame, a ring or a stiffener.", "frames: 3");
+  } else if (split.frames > 1 && !split.allowed) {
+    objections.add("split.frames", "frames: " + std::to_string(split.frames) + " beside allowed: false",
+                   "One piece is asked for, and pieces.", "one of them");
+  }
   if (split.widest && !(*split.widest >= kLeastStrip)) {
     objections.add(
         "split.widest", "widest: " + length_text(*split.widest) + " is too narrow",

@@ -71,7 +71,9 @@ struct SplitOptions {
   bool allowed = true;             ///< false: everything in one piece, or an error
   /// Of a strip of a plate, across the track [m]; what is wider is strips side by side, welded along the track. None: as the sheet asks.
   std::optional<double> widest = std::nullopt;
-  double bar = 6.0;                      ///< stock length of angles, tubes and flat bars [m]; > 0
+  double bar = 6.0;  ///< stock length of angles, tubes and flat bars [m]; > 0
+  int frames =
+      1;  ///< pieces of a frame, ring or stiffener of plate, at least; of 1 they are whole where the sheet takes them
   double margin = NestStock{}.margin;    ///< of the sheet's edges that stays free of parts [m]; >= 0
   double spacing = NestStock{}.spacing;  ///< between parts on one sheet [m]; >= 0
 
