@@ -49,6 +49,10 @@ std::vector<Vec2> evenly(Vec2 from, Vec2 to, double pitch) {
   return centres;
 }
 
+bool is_bolt_size(int size) {
+  return std::any_of(kBolts.begin(), kBolts.end(), [&](const Bolt& bolt) { return bolt.size == size; });
+}
+
 }  // namespace parts
 
 const std::vector<int>& bolt_sizes() {

@@ -19,6 +19,8 @@ struct Bolt {
   double washer = 0.0;               ///< outer diameter, ISO 7089 [m]
   double large_washer = 0.0;         ///< outer diameter, ISO 7093-1 [m]
 };
+/// @return whether its holes are known, as those of bolt_sizes() are
+[[nodiscard]] bool is_bolt_size(int size);
 /// @throws InputError if the size is unknown
 [[nodiscard]] const Bolt& bolt_of(int size);
 

@@ -4,6 +4,7 @@
 
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
+#include "parts/frame_holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ class Refusals {
     add(where, std::string(key) + ": " + length_text(value) + " is not positive", "", "a positive length");
   }
   void bolt(int size, const char* where, const char* key) {
-    if (std::find(bolt_sizes().begin(), bolt_sizes().end(), size) != bolt_sizes().end()) return;
+    if (is_bolt_size(size)) return;
     add(where, std::string(key) + ": M" + std::to_string(size) + " is no size whose holes are known", "",
         "M5, M6, M8, M10, M12, M16, M20 or M24");
   }
@@ -38,7 +39,7 @@ class Refusals {
 
 /// Tiles hold their bolts: half ones 1.2 hole diameters from both edges.
 void object_to_tiles(const ChannelMeasures& channel, const LinerOptions& liner, Refusals& refusals) {
-  const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), liner.bolt) != bolt_sizes().end();
+  const bool known = is_bolt_size(liner.bolt);
   if (!known || !(liner.tile_width > 0.0) || !(liner.tile_length > 0.0)) return;
   const double least = 2.4 * clearance_hole(liner.bolt, HoleFit::medium);
   const std::string why =
@@ -122,6 +123,18 @@ void object_to_cover(const PlateOptions& options, Refusals& refusals) {
                  "Bolts of covers are at least 40 mm apart.", "pitch: 300 mm");
   }
   refusals.bolt(options.cover->bolt, "cover.bolt", "bolt");
+  if (options.rim && is_bolt_size(options.cover->bolt)) {
+    const double least =
+        2.0 * hole_edge_diameters(options.shop) * clearance_hole(options.cover->bolt, HoleFit::coarse);
+    if (options.rim->width < least - 1e-9) {
+      refusals.add(
+          "cover.bolt",
+          "bolt: the middle of holes for M" + std::to_string(options.cover->bolt) + " is " +
+              length_text(0.5 * options.rim->width) + " from both edges of the rim",
+          "At least " + length_text(0.5 * least, 3) + " are asked for.",
+          "rim: {width: " + length_text(std::ceil(1e3 * least - 1e-6) / 1e3) + "}, or a smaller bolt");
+    }
+  }
   if (!options.rim)
     refusals.add("cover", "cover: it is bolted to a rim, and there is none", "", "rim: {width: 40 mm}");
 }
@@ -138,12 +151,13 @@ void object_to_openings(const ChannelMeasures& channel, const PlateOptions& opti
   const double rim = options.rim ? options.rim->thickness + 2e-3 : 0.0;
   object_to_opening_values(options, refusals);
   for (const InspectionOptions& opening : options.inspection) {
-    const double most = channel.wall_height - rim - 2.0 * std::max(kLidLap, kLeastWeb);
+    const double lap = lid_lap(opening, options.shop);
+    const double most = channel.wall_height - rim - 2.0 * std::max(lap, kLeastWeb);
     if (opening.height <= most) continue;
     refusals.add("inspection",
                  "height: " + length_text(opening.height) + " leaves too little of the wall, " +
                      length_text(channel.wall_height),
-                 "Its lid laps over by " + length_text(kLidLap) + " all round.",
+                 "Its lid laps over by " + length_text(lap) + " all round.",
                  most >= kLeastOpening ? "height: " + length_text(most, 3)
                                        : "no inspection, or a wall_height of at least " +
                                              length_text(channel.wall_height - most + opening.height, 3));

@@ -4,10 +4,12 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/millimetres.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
+#include "parts/frame_holes.hpp"
 #include "parts/frame_pieces.hpp"
 #include "parts/plate_joints.hpp"
 #include "parts/seams.hpp"
@@ -110,18 +112,35 @@ std::optional<ShopPart> along_track(const Job& job, const Span& span, const Span
   return part;
 }
 
+}  // namespace
+
+CoverEnds cover_ends(const PlateOptions& options, double stretch) {
+  CoverEnds ends;
+  const double edge =
+      hole_edge_diameters(options.shop) * clearance_hole(options.cover->bolt, HoleFit::coarse);
+  // Pieces of a cover are a gap shorter than their stretch of the unit.
+  ends.least = std::max(ends.least, (edge + kLidGap) / stretch);
+  ends.usual = std::max(ends.usual, ends.least);
+  return ends;
+}
+
+namespace {
+
 /// Places along a unit at which covers are bolted to rims, on one arc each: the same for both.
 std::vector<double> cover_bolts(const Job& job, const Span& span) {
   const CoverOptions& cover = *job.options.cover;
-  constexpr double kFromEnds = 40e-3;
   const double top = job.channel.wall_height;
   const OnOneArc arcs(job.track, 0.5 * clearance_hole(cover.bolt, HoleFit::coarse),
                       {top - job.options.rim->thickness, top + cover.thickness});
-  const Span within{span.from + 0.5 * kFromEnds, span.to - 0.5 * kFromEnds};
+  const CoverEnds ends = cover_ends(
+      job.options,
+      std::min(least_stretch(job.track, {span.from, span.from + kEndOfCover}, top + cover.thickness),
+               least_stretch(job.track, {span.to - kEndOfCover, span.to}, top + cover.thickness)));
+  const Span within{span.from + ends.least, span.to - ends.least};
   std::vector<double> places;
-  for (const Vec2 at : evenly({span.from + kFromEnds, 0.0}, {span.to - kFromEnds, 0.0}, cover.pitch)) {
+  for (const Vec2 at : evenly({span.from + ends.usual, 0.0}, {span.to - ends.usual, 0.0}, cover.pitch)) {
     const auto place = arcs.nearest(at.x, within);
-    if (place && (places.empty() || *place - places.back() > kFromEnds)) places.push_back(*place);
+    if (place && (places.empty() || *place - places.back() > ends.usual)) places.push_back(*place);
   }
   return places;
 }
@@ -226,10 +245,27 @@ double flat_from_end(const ArcSpline& track, const Span& span, double height, do
   return sum;
 }
 
+double lid_lap(const InspectionOptions& opening, const ShopLeast& shop) {
+  constexpr double kUsual = 30e-3;
+  if (!is_bolt_size(opening.bolt)) return kUsual;
+  const double edges = 2.0 * hole_edge_diameters(shop) * clearance_hole(opening.bolt, HoleFit::coarse);
+  return std::max(kUsual, std::ceil(core::kMillimetres * edges - 1e-6) / core::kMillimetres);
+}
+
+double least_stretch(const ArcSpline& track, const Span& span, double height) {
+  constexpr double kLeast = 0.1;
+  double least = 1.0;
+  for (const TrackArc& arc : track.arcs()) {
+    if (arc.start < span.to && arc.start + arc.length > span.from)
+      least = std::min(least, 1.0 - arc.curvature * height);
+  }
+  return std::max(least, kLeast);
+}
+
 Span lid_heights(const Job& job, const InspectionOptions& opening) {
   const double rim = job.options.rim ? job.options.rim->thickness + 2e-3 : 0.0;
   const double middle = 0.5 * (job.channel.wall_height - rim);
-  const double half = 0.5 * opening.height + kLidLap;
+  const double half = 0.5 * opening.height + lid_lap(opening, job.options.shop);
   return {middle - half, middle + half};
 }
 
@@ -367,11 +403,12 @@ ArcPath window(const ArcSpline& track, double at, double half_length, const Span
 }
 
 /// Bolts round an opening, in the middle of the lid's lap.
-std::vector<Vec2> lid_bolts(const ArcSpline& track, const InspectionOptions& opening, const Span& heights) {
+std::vector<Vec2> lid_bolts(const ArcSpline& track, const InspectionOptions& opening, const Span& heights,
+                            double lap) {
   const TrackFrame frame = frame_at(track, opening.at);
-  const double along = 0.5 * opening.length + 0.5 * kLidLap;
-  const double low = heights.from - 0.5 * kLidLap;
-  const double high = heights.to + 0.5 * kLidLap;
+  const double along = 0.5 * opening.length + 0.5 * lap;
+  const double low = heights.from - 0.5 * lap;
+  const double high = heights.to + 0.5 * lap;
   std::vector<Vec2> places;
   for (const double level : {low, high}) {
     for (const Vec2 at : evenly({-along, level}, {along, level}, 150e-3))
@@ -412,10 +449,11 @@ void cut_wall(const Fitting& fitting, const Unit& unit, const std::vector<Openin
 void add_lid(const Fitting& fitting, const InspectionOptions& opening, const Span& heights,
              const std::vector<Vec2>& bolts) {
   const Job& job = fitting.job;
-  PlaneRegion region{window(job.track, opening.at, 0.5 * opening.length + kLidLap,
-                            {heights.from - kLidLap, heights.to + kLidLap}),
-                     {},
-                     {}};
+  const double lap = lid_lap(opening, job.options.shop);
+  PlaneRegion region{
+      window(job.track, opening.at, 0.5 * opening.length + lap, {heights.from - lap, heights.to + lap}),
+      {},
+      {}};
   for (const Vec2 bolt : bolts)
     region.holes.push_back({bolt, 0.5 * clearance_hole(opening.bolt, HoleFit::coarse)});
   const double thickness = job.channel.wall();
@@ -470,7 +508,8 @@ void add_openings(const Fitting& fitting) {
   for (const Unit& unit : fitting.units) {
     std::vector<Opening> openings;
     for (const InspectionOptions& opening : job.options.inspection) {
-      const double reach = 0.5 * opening.length + kLidLap;
+      const double lap = lid_lap(opening, job.options.shop);
+      const double reach = 0.5 * opening.length + lap;
       if (opening.at + reach <= unit.span.from || opening.at - reach >= unit.span.to) continue;
       const Span lid = lid_heights(job, opening);
       if (opening.at < unit.span.from + reach || opening.at > unit.span.to - reach ||
@@ -482,13 +521,13 @@ void add_openings(const Fitting& fitting) {
                    "; with its lid it is " + length_text(2.0 * reach) + " long.",
                place ? "at: " + length_text(*place, 4) : "a smaller length, or longer units");
       }
-      const Span heights{lid.from + kLidLap, lid.to - kLidLap};
-      if (job.track.at(opening.at).curvature * (heights.to + kLidLap) > 0.9) {
+      const Span heights{lid.from + lap, lid.to - lap};
+      if (job.track.at(opening.at).curvature * (heights.to + lap) > 0.9) {
         refuse("inspection", "at: the track bends too tightly at " + length_text(opening.at, 4), "",
                "another at");
       }
       openings.push_back({lid, window(job.track, opening.at, 0.5 * opening.length, heights), {}});
-      const std::vector<Vec2> bolts = lid_bolts(job.track, opening, heights);
+      const std::vector<Vec2> bolts = lid_bolts(job.track, opening, heights, lap);
       for (const Vec2 bolt : bolts)
         openings.back().holes.push_back({bolt, 0.5 * clearance_hole(opening.bolt, HoleFit::medium)});
       add_lid(fitting, opening, heights, bolts);

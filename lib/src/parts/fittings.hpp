@@ -35,9 +35,12 @@ struct Fitting {
 /// @param sense  +1 from the upstream end, -1 from the downstream one
 [[nodiscard]] double beyond_frame(const ArcSpline& track, double taken, double end, double sense,
                                   double high);
-inline constexpr double kLidLap = 30e-3;        ///< of a lid beyond its opening, all round [m]
 inline constexpr double kLeastOpening = 20e-3;  ///< that is proposed where one is too high [m]
 inline constexpr double kAsideOfFrame = 1e-3;   ///< between a rim and the frame that it ends before [m]
+
+/// @return how far a lid reaches beyond its opening, all round: its bolts, in the middle, are as far off both edges as the shop
+///         asks [m]
+[[nodiscard]] double lid_lap(const InspectionOptions& opening, const ShopLeast& shop);
 
 /// @return the heights above the floor line between which an opening and its lid lie
 [[nodiscard]] Span lid_heights(const Job& job, const InspectionOptions& opening);
@@ -63,11 +66,23 @@ void drill_plate(const Job& job, const Span& span, double upper, double width,
 /// @param height  of the neutral line above the floor line
 [[nodiscard]] double flat_from_end(const ArcSpline& track, const Span& span, double height, double s);
 
+/// @return how long a length of track is at least on an offset of it, between two places; at least a tenth
+[[nodiscard]] double least_stretch(const ArcSpline& track, const Span& span, double height);
+
 /// A stretch in as few even pieces as fit, a gap between two of them; whole where no number of them does.
 /// @param seams  where pieces may end
 [[nodiscard]] std::vector<Span> pieces_that_fit(const Span& span, const OnOneArc& seams,
                                                 const std::function<bool(const Span&)>& fits);
 inline constexpr double kLidGap = 1e-3;  ///< between the pieces of a cover [m]
+
+/// How far a cover's first bolts are from the ends of its unit: `least` where no one arc is nearer to the usual place [m].
+struct CoverEnds {
+  double usual = 40e-3;
+  double least = 20e-3;
+};
+/// @param stretch  of the rim and the cover at the ends of the unit, as least_stretch() has it
+[[nodiscard]] CoverEnds cover_ends(const PlateOptions& options, double stretch);
+inline constexpr double kEndOfCover = 0.2;  ///< of a unit, in which its first bolts stand [m]
 
 /// Flat bars along the outsides of the walls' tops.
 void add_rims(const Fitting& fitting);

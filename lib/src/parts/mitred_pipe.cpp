@@ -598,7 +598,8 @@ std::vector<TubeOpening> cut_openings(const PipeJob& job, const Facets& facets, 
     }
   }
   const auto trough = job.side ? std::optional(TroughSide{*job.side, job.options.rim}) : std::nullopt;
-  return cut_tubes(job.options.inspection, rooms, trough, reached(facets).back() / job.track.length());
+  return cut_tubes(job.options.inspection, rooms, trough, reached(facets).back() / job.track.length(),
+                   job.options.shop);
 }
 
 void add_tube_lids(const PipeJob& job, const std::vector<GoreUnit>& units,

@@ -65,7 +65,7 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
   objections.positive(flange.width, "flanges.width");
   objections.positive(flange.thickness, "flanges.thickness");
   objections.positive(flange.pitch, "flanges.pitch");
-  if (std::find(bolt_sizes().begin(), bolt_sizes().end(), flange.bolt) == bolt_sizes().end()) {
+  if (!is_bolt_size(flange.bolt)) {
     objections.add("flanges.bolt",
                    "bolt: M" + std::to_string(flange.bolt) + " is no size whose holes are known", "",
                    "M5, M6, M8, M10, M12, M16, M20 or M24");
@@ -93,7 +93,7 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
 void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& options, Objections& objections) {
   const FlangeOptions& flange = options.flanges;
   object_to_bolts(options, objections);
-  const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), flange.bolt) != bolt_sizes().end();
+  const bool known = is_bolt_size(flange.bolt);
   if (!flange.wanted || !known) return;
   const double hole = clearance_hole(flange.bolt, HoleFit::coarse);
   const std::string bolt = "M" + std::to_string(flange.bolt);

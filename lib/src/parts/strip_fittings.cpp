@@ -80,14 +80,16 @@ std::string suffix(const std::vector<double>& joints, std::size_t unit) {
 /// Places along a unit at which covers are bolted to rims, on one arc each.
 std::vector<double> cover_bolts(const StripJob& job, const Span& span, const SectionPlate& cover) {
   const CoverOptions& options = *job.options.cover;
-  constexpr double kFromEnds = 40e-3;
   const Span heights{cover.back_from.y - job.options.rim->thickness, cover.face_from.y};
   const OnOneArc arcs(job.track, 0.5 * clearance_hole(options.bolt, HoleFit::coarse), heights,
                       job.widens() ? job.pieces() : std::vector<double>(), job.rooms_at_bends(heights));
   std::vector<double> places;
-  for (const Vec2 at : evenly({span.from + kFromEnds, 0.0}, {span.to - kFromEnds, 0.0}, options.pitch)) {
-    const auto place = arcs.nearest(at.x, {span.from + 0.5 * kFromEnds, span.to - 0.5 * kFromEnds});
-    if (place && (places.empty() || *place - places.back() > kFromEnds)) places.push_back(*place);
+  const CoverEnds ends = cover_ends(
+      job.options, std::min(least_stretch(job.track, {span.from, span.from + kEndOfCover}, heights.to),
+                            least_stretch(job.track, {span.to - kEndOfCover, span.to}, heights.to)));
+  for (const Vec2 at : evenly({span.from + ends.usual, 0.0}, {span.to - ends.usual, 0.0}, options.pitch)) {
+    const auto place = arcs.nearest(at.x, {span.from + ends.least, span.to - ends.least});
+    if (place && (places.empty() || *place - places.back() > ends.usual)) places.push_back(*place);
   }
   return places;
 }
@@ -464,7 +466,7 @@ void object_to_tiles(const PlateSection& section, const PlateOptions& options, I
                "Their edges would be bent with the floor's.", "no liner, floor: rolled, or one width");
     return;
   }
-  const bool known = std::find(bolt_sizes().begin(), bolt_sizes().end(), liner.bolt) != bolt_sizes().end();
+  const bool known = is_bolt_size(liner.bolt);
   for (const LinedFace& face : section.lined) {
     const double width = lane_of(section, face).width;
     const double least =

@@ -7,6 +7,7 @@
 #include "core/plane_geometry.hpp"
 #include "parts/bolts.hpp"
 #include "parts/fittings.hpp"
+#include "parts/frame_holes.hpp"
 #include "parts/section_corners.hpp"
 #include "parts/strip_fittings.hpp"
 #include "parts/workshop_list.hpp"
@@ -102,8 +103,9 @@ std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const
   }
   const Span heights = heights_of(job.section, plate);
   const OnOneArc arcs(job.track, 0.5 * hole, heights, breaks, job.rooms_at_bends(heights));
-  const double out = 0.5 * kLidLap;
-  const Span within{window.lid_along.from + 0.75 * hole, window.lid_along.to - 0.75 * hole};
+  const double out = 0.5 * (window.along.from - window.lid_along.from);
+  const double edge = hole_edge_diameters(job.options.shop) * hole;
+  const Span within{window.lid_along.from + edge, window.lid_along.to - edge};
   std::vector<double> places;
   for (const Vec2 at : evenly({window.along.from - out, 0.0}, {window.along.to + out, 0.0}, kPitch)) {
     const auto place = arcs.nearest(at.x, within);
@@ -123,12 +125,13 @@ std::optional<double> off_bends(const StripJob& job, const SectionPlate& plate,
   const OnOneArc ends(job.track, kOffJointOfOpening, heights, {}, job.rooms_at_bends(heights));
   const double half = 0.5 * opening.length;
   constexpr double kStep = 0.5e-3;  // [m]
-  const double most = half + kLidLap;
+  const double lap = lid_lap(opening, job.options.shop);
+  const double most = half + lap;
   for (double off = 0.0; off <= most; off += kStep) {
     for (const double at : {opening.at - off, opening.at + off}) {
       if (at < within.from || at > within.to) continue;
-      const bool clear = ends.has(at - half) && ends.has(at + half) && ends.has(at - half - kLidLap) &&
-                         ends.has(at + half + kLidLap);
+      const bool clear = ends.has(at - half) && ends.has(at + half) && ends.has(at - half - lap) &&
+                         ends.has(at + half + lap);
       if (clear) return at;
     }
   }
@@ -139,7 +142,7 @@ std::optional<double> off_bends(const StripJob& job, const SectionPlate& plate,
 /// @param room  for the lid
 std::optional<double> on_one_arc(const StripJob& job, const SectionPlate& plate,
                                  const InspectionOptions& opening, const Span& room) {
-  const double reach = 0.5 * opening.length + kLidLap;
+  const double reach = 0.5 * opening.length + lid_lap(opening, job.options.shop);
   const OnOneArc arcs(job.track, 0.5 * opening.length + kOffJointOfOpening, heights_of(job.section, plate),
                       job.widens() ? job.pieces() : std::vector<double>());
   std::optional<double> best;
@@ -150,14 +153,14 @@ std::optional<double> on_one_arc(const StripJob& job, const SectionPlate& plate,
   return best;
 }
 
-StripWindow window_at(const Side& side, const InspectionOptions& opening, double at) {
+StripWindow window_at(const Side& side, const InspectionOptions& opening, double at, double lap) {
   const double middle = 0.5 * (side.room.from + side.room.to);
   StripWindow window;
   window.plate = side.plate;
   window.along = {at - 0.5 * opening.length, at + 0.5 * opening.length};
   window.across = {middle - 0.5 * opening.height, middle + 0.5 * opening.height};
-  window.lid_along = {window.along.from - kLidLap, window.along.to + kLidLap};
-  window.lid_across = {window.across.from - kLidLap, window.across.to + kLidLap};
+  window.lid_along = {window.along.from - lap, window.along.to + lap};
+  window.lid_across = {window.across.from - lap, window.across.to + lap};
   window.bolt = opening.bolt;
   window.asked = opening.at;
   return window;
@@ -185,7 +188,8 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
   const SectionPlate& plate = job.section.plates[side.plate];
   const Span room = room_of(job, unit, plate);
   for (const InspectionOptions& opening : job.options.inspection) {
-    const double reach = 0.5 * opening.length + kLidLap;
+    const double lap = lid_lap(opening, job.options.shop);
+    const double reach = 0.5 * opening.length + lap;
     if (opening.at < unit.from || opening.at >= unit.to) continue;
     const Span within{room.from + reach, room.to - reach};
     // Of a span that is none no place lies in it.
@@ -204,13 +208,13 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
              "another at, or a smaller length");
     }
     // It may not be moved out of reach of what it is there for.
-    if (std::fabs(*at - opening.at) > 0.5 * opening.length + kLidLap) {
+    if (std::fabs(*at - opening.at) > reach) {
       refuse(where + " lies across a change of radius, or the end of a unit",
              "Openings lie on one arc of the " + plate.name + ", " + length_text(opening.length) +
-                 " long, with lids that lap over by " + length_text(kLidLap) + ".",
+                 " long, with lids that lap over by " + length_text(lap) + ".",
              "at: " + length_text(*at, 4) + ", or a smaller length");
     }
-    windows.push_back(window_at(side, opening, *at));
+    windows.push_back(window_at(side, opening, *at, lap));
     windows.back().bolts = bolts_of(job, plate, windows.back(), breaks);
   }
   return windows;
@@ -227,7 +231,8 @@ void require_openings_on_track(const StripJob& job) {
     for (std::size_t k = 0; k < i; ++k) {
       // Either may be moved by as much as is allowed.
       const double apart = std::fabs(all[i].at - all[k].at);
-      const double least = 2.0 * (0.5 * (all[i].length + all[k].length) + 2.0 * kLidLap);
+      const double laps = lid_lap(all[i], job.options.shop) + lid_lap(all[k], job.options.shop);
+      const double least = 2.0 * (0.5 * (all[i].length + all[k].length) + laps);
       if (apart >= least) continue;
       refuse("at: openings at " + length_text(job.on_track(all[k].at), 4) + " and " +
                  length_text(job.on_track(all[i].at), 4) + " are too close",
@@ -286,13 +291,14 @@ std::vector<Issue> strip_opening_problems(const PlateSection& section, const Pla
   const double wide = side->room.to - side->room.from;
   for (Issue& issue : opening_value_problems(options)) issues.push_back(std::move(issue));
   for (const InspectionOptions& opening : options.inspection) {
-    const double most = wide - 2.0 * kLidLap;
+    const double lap = lid_lap(opening, options.shop);
+    const double most = wide - 2.0 * lap;
     if (opening.height <= most) continue;
     const std::string plate = section.plates[side->plate].name;
     issues.push_back({"inspection",
                       "height: " + length_text(opening.height) + " leaves too little of the " + plate + ", " +
                           length_text(wide, 3) + " wide",
-                      "Its lid laps over by " + length_text(kLidLap) + " all round.",
+                      "Its lid laps over by " + length_text(lap) + " all round.",
                       most >= kLeastOpening     ? "height: " + length_text(most, 3)
                       : section.departure > 0.0 ? "a larger stave_tolerance, or no inspection"
                                                 : "no inspection, or higher sides"});

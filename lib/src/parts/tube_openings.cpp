@@ -82,32 +82,32 @@ std::string word_of(const std::optional<TroughSide>& trough) {
 }
 
 std::optional<Seat> nearest_seat(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes,
-                                 const std::optional<TroughSide>& trough, double stretch) {
+                                 const std::optional<TroughSide>& trough, double stretch, double lap) {
   std::optional<Seat> best;
   double least = 0.0;
-  const double reach = 0.5 * opening.length + kLidLap;
+  const double reach = 0.5 * opening.length + lap;
   for (std::size_t i = 0; i < tubes.size(); ++i) {
-    const Span room = lid_room(tubes[i], opening.height + 2.0 * kLidLap, trough);
+    const Span room = lid_room(tubes[i], opening.height + 2.0 * lap, trough);
     if (!(room.to - room.from >= 2.0 * reach)) continue;
     const double asked = stretch * opening.at - tubes[i].begins;
     const double along = std::clamp(asked, room.from + reach, room.to - reach);
     if (best && std::fabs(along - asked) >= least) continue;
     least = std::fabs(along - asked);
-    best = Seat{i, along, middle_angle(*tubes[i].body, opening.height + 2.0 * kLidLap, trough)};
+    best = Seat{i, along, middle_angle(*tubes[i].body, opening.height + 2.0 * lap, trough)};
   }
   return best;
 }
 
 [[noreturn]] void refuse_length(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes,
-                                const std::optional<TroughSide>& trough) {
+                                const std::optional<TroughSide>& trough, double lap) {
   double longest = 0.0;
   for (const TubeRoom& tube : tubes) {
-    const Span room = lid_room(tube, opening.height + 2.0 * kLidLap, trough);
+    const Span room = lid_room(tube, opening.height + 2.0 * lap, trough);
     longest = std::max(longest, room.to - room.from);
   }
-  const double most = 1e-3 * std::floor(1e3 * (longest - 2.0 * kLidLap));
+  const double most = 1e-3 * std::floor(1e3 * (longest - 2.0 * lap));
   refuse("length: an opening of " + length_text(opening.length) + " fits no " + word_of(trough),
-         "With its lid it is " + length_text(opening.length + 2.0 * kLidLap) +
+         "With its lid it is " + length_text(opening.length + 2.0 * lap) +
              " long; between mitres and flanges " + length_text(longest, 3) + " are left at most.",
          (most > 0.0 ? "length: " + length_text(most) + ", " : std::string()) + "longer " + word_of(trough) +
              "s (bend), or round: staves");
@@ -120,8 +120,8 @@ TubeWindow window_about(const TubeGore& tube, Seat seat, double length, double h
 }
 
 /// In the middle of the lid's lap, below and above the opening.
-std::vector<TubeHole> bolts_round(const TubeGore& tube, const TubeWindow& window, double radius) {
-  const double out = 0.5 * kLidLap;
+std::vector<TubeHole> bolts_round(const TubeGore& tube, const TubeWindow& window, double radius, double lap) {
+  const double out = 0.5 * lap;
   std::vector<TubeHole> holes;
   for (const double angle :
        {window.low.radians() - out / outer_of(tube), window.high.radians() + out / outer_of(tube)}) {
@@ -146,18 +146,20 @@ void require_apart(const std::vector<TubeOpening>& cut) {
 
 std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& openings,
                                    const std::vector<TubeRoom>& tubes,
-                                   const std::optional<TroughSide>& trough, double stretch) {
+                                   const std::optional<TroughSide>& trough, double stretch,
+                                   const ShopLeast& shop) {
   std::vector<TubeOpening> cut;
   for (const InspectionOptions& opening : openings) {
-    const auto seat = nearest_seat(opening, tubes, trough, stretch);
-    if (!seat) refuse_length(opening, tubes, trough);
+    const double lap = lid_lap(opening, shop);
+    const auto seat = nearest_seat(opening, tubes, trough, stretch, lap);
+    if (!seat) refuse_length(opening, tubes, trough, lap);
     const TubeRoom& room = tubes[seat->tube];
     const double at = (room.begins + seat->along) / stretch;
     // It may not be moved out of reach of what it is there for.
-    if (std::fabs(at - opening.at) > 0.5 * opening.length + kLidLap) {
+    if (std::fabs(at - opening.at) > 0.5 * opening.length + lap) {
       refuse("at: an opening at " + length_text(opening.at, 4) + " lies across a mitre or a flange",
              "Openings lie in one " + word_of(trough) + ", " + length_text(opening.length) +
-                 " long, with lids that lap over by " + length_text(kLidLap) + ".",
+                 " long, with lids that lap over by " + length_text(lap) + ".",
              "at: " + length_text(at, 4) + ", or a smaller length");
     }
     TubeGore& tube = *room.body;
@@ -167,13 +169,13 @@ std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& opening
     made.at = at;
     made.asked = opening.at;
     const TubeWindow window = window_about(tube, *seat, opening.length, opening.height);
-    made.lid = window_about(tube, *seat, opening.length + 2.0 * kLidLap, opening.height + 2.0 * kLidLap);
-    made.bolts = bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::coarse));
+    made.lid = window_about(tube, *seat, opening.length + 2.0 * lap, opening.height + 2.0 * lap);
+    made.bolts = bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::coarse), lap);
     cut.push_back(made);
     require_apart(cut);
     tube.windows.push_back(window);
     for (const TubeHole& hole :
-         bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::medium)))
+         bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::medium), lap))
       tube.holes.push_back(hole);
   }
   return cut;
@@ -226,13 +228,14 @@ std::vector<Issue> tube_opening_problems(const section::Pipe& pipe, std::optiona
   // Of a trough from its rim down to beside its lowest line.
   const double angle =
       side ? kMostQuarter - below_rim(outer, pipe.thickness, {*side, options.rim}) : 2.0 * kMostHalf;
-  const double most = 1e-3 * std::floor(1e3 * (angle * outer - 2.0 * kLidLap));
   for (const InspectionOptions& opening : options.inspection) {
+    const double lap = lid_lap(opening, options.shop);
+    const double most = 1e-3 * std::floor(1e3 * (angle * outer - 2.0 * lap));
     if (opening.height > most) {
       issues.push_back({"inspection",
                         "height: " + length_text(opening.height) + " leaves too little of a " +
                             (side ? "trough" : "tube") + " of " + length_text(2.0 * outer),
-                        "Along its outside, with a lid that laps over by " + length_text(kLidLap) +
+                        "Along its outside, with a lid that laps over by " + length_text(lap) +
                             (side ? ", it lies beside the lowest line, below the rim."
                                   : ", it covers a third of it at most, off the seams."),
                         most > 0.0 ? "height: " + length_text(most) : "no inspection, or a larger pipe"});

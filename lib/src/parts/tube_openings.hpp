@@ -46,7 +46,8 @@ struct TubeOpening {
 /// @param trough  what stands on half a one; none: whole tubes
 [[nodiscard]] std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& openings,
                                                  const std::vector<TubeRoom>& tubes,
-                                                 const std::optional<TroughSide>& trough, double stretch);
+                                                 const std::optional<TroughSide>& trough, double stretch,
+                                                 const ShopLeast& shop);
 
 /// The lid of an opening as a rolled plate in the frame of its tube, its pattern seen from inside.
 [[nodiscard]] ShopPart tube_lid(const TubeOpening& opening, const TubeGore& tube,
