@@ -346,10 +346,10 @@ struct TrestlePlace {
   double half = kSaddleHalf;
 };
 
-std::optional<TrestlePlace> free_place(const Shell& shell, double about, double clear) {
+std::optional<TrestlePlace> free_place(const Shell& shell, const TakenUp& taken, double about, double clear) {
   const Span whole = shell.whole;
   if (shell.straights.empty()) {
-    const auto at = shell.taken.free_place(about, clear, whole);
+    const auto at = taken.free_place(about, clear, whole);
     if (!at) return std::nullopt;
     return TrestlePlace{*at, kSaddleHalf};
   }
@@ -365,7 +365,7 @@ std::optional<TrestlePlace> free_place(const Shell& shell, double about, double 
     for (int k = 0; k <= kPlaces; ++k) {
       const double s = room.from + (room.to - room.from) * k / kPlaces;
       if (best && std::fabs(best->at - about) <= std::fabs(s - about)) continue;
-      if (shell.taken.is_free(s, clear, whole)) best = TrestlePlace{s, half};
+      if (taken.is_free(s, clear, whole)) best = TrestlePlace{s, half};
     }
   }
   return best;
@@ -400,46 +400,162 @@ double flattest_of(const ArcSpline& track) {
   return least;
 }
 
+/// A trestle to be: where it stands, and what it takes up along the track.
+struct Standing {
+  TrestlePlace place;
+  double clear = 0.0;
+  Saddles saddles;
+  Trestle trestle;
+};
+
+/// Trestles beside each other, none on what is taken or on another one's base plates.
+class Row {
+ public:
+  explicit Row(const Shell& shell) : shell_(shell), taken_(shell.taken) {}
+
+  /// Sets one at the free place nearest to one, unless it lies outside a span.
+  /// @return whether there is one there
+  bool set(double about, const Span& within) {
+    const SupportOptions& supports = *shell_.options.supports;
+    const double clear = clear_of(shell_, about, saddles_at(shell_, about, 0.0).height[0]);
+    const auto place = free_place(shell_, taken_, about, clear);
+    if (!place || place->at < within.from || place->at > within.to) return false;
+    if (shell_.track.at(place->at).slope_angle > supports.steepest.radians()) return false;
+    const Saddles saddles = saddles_at(shell_, place->at, place->half);
+    if (!seat_line(shell_, place->at, place->half, saddles.height[0]) ||
+        !seat_line(shell_, place->at, place->half, saddles.height[1]))
+      return false;
+    const Trestle trestle = trestle_at(shell_, place->at, saddles);
+    // Two of them on the only places that are free stand on each other's base plates.
+    const double apart = base_side(supports) + kBaseGap;
+    if (std::any_of(all_.begin(), all_.end(),
+                    [&](const Standing& other) { return std::fabs(trestle.x - other.trestle.x) < apart; }))
+      return false;
+    taken_.add(place->at - clear, place->at + clear);
+    const auto after = std::find_if(all_.begin(), all_.end(),
+                                    [&](const Standing& other) { return other.place.at > place->at; });
+    all_.insert(after, {*place, clear, saddles, trestle});
+    return true;
+  }
+
+  [[nodiscard]] const std::vector<Standing>& all() const { return all_; }
+
+ private:
+  const Shell& shell_;
+  TakenUp taken_;
+  std::vector<Standing> all_;  ///< from upstream to downstream
+};
+
+const Span kAnywhere{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
+double place_in(const Shell& shell, double k, double gaps) {
+  return kApart + std::max(0.0, shell.track.length() - 2.0 * kApart) * k / gaps;
+}
+
+/// In so many gaps, as even as what is taken allows; those that find no place are left out.
+std::vector<Standing> evenly_standing(const Shell& shell, double gaps) {
+  Row row(shell);
+  for (double k = 0.0; k <= gaps; k += 1.0) (void)row.set(place_in(shell, k, gaps), kAnywhere);
+  return row.all();
+}
+
+/// From the finish on; where the free place nearest to an even one is too far from the trestle before, the farthest that is
+/// not; one more where spans are left that are too wide.
+std::vector<Standing> closely_standing(const Shell& shell, double gaps) {
+  constexpr double kStep = 10e-3;  // in which places are looked for [m]
+  const double spacing = shell.options.supports->spacing;
+  Row row(shell);
+  const auto set_between = [&](double from, double to, const Span& within) {
+    for (double at = from; at <= to; at += kStep) {
+      if (row.set(at, within)) return true;
+    }
+    return false;
+  };
+  for (double k = gaps; k >= 0.0; k -= 1.0) {
+    const double about = place_in(shell, k, gaps);
+    const double before = row.all().empty() ? shell.track.length() : row.all().front().place.at;
+    const Span near{row.all().empty() ? 0.0 : before - spacing, before};
+    if (row.set(about, near) || set_between(std::max(about, near.from), before, near)) continue;
+    (void)row.set(about, {0.0, near.from});
+  }
+  for (std::size_t i = 1; i < row.all().size(); ++i) {
+    const double from = row.all()[i - 1].place.at;
+    const double to = row.all()[i].place.at;
+    if (to - from > spacing) (void)row.set(0.5 * (from + to), {from, to});
+  }
+  return row.all();
+}
+
+/// The longest stretch of track between two trestles, by the later one's index; 0: there are no two.
+std::size_t widest_of(const std::vector<Standing>& all) {
+  std::size_t widest = 0;
+  const auto span = [&](std::size_t i) { return all[i].place.at - all[i - 1].place.at; };
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (widest == 0 || span(i) > span(widest)) widest = i;
+  }
+  return widest;
+}
+
+double widest_span(const std::vector<Standing>& all) {
+  const std::size_t widest = widest_of(all);
+  return widest == 0 ? 0.0 : all[widest].place.at - all[widest - 1].place.at;
+}
+
+/// The fewest that are no farther apart than is asked for; where none are, those that come nearest to it. Track that sticks out
+/// above the first one, and could stand on one, counts twice.
+std::vector<Standing> standing(const Shell& shell) {
+  constexpr double kMore = 4.0;
+  const double spacing = shell.options.supports->spacing;
+  const double gaps = std::max(1.0, std::ceil((shell.track.length() - 2.0 * kApart) / spacing - 1e-9));
+  std::vector<std::vector<Standing>> rows{evenly_standing(shell, gaps)};
+  if (rows.front().empty() || widest_span(rows.front()) <= spacing) return rows.front();
+  for (double more = 1.0; more <= kMore; more += 1.0) rows.push_back(evenly_standing(shell, gaps + more));
+  for (double more = 0.0; more <= kMore; more += 1.0) rows.push_back(closely_standing(shell, gaps + more));
+  double highest = std::numeric_limits<double>::infinity();
+  for (const auto& row : rows) highest = row.empty() ? highest : std::min(highest, row.front().place.at);
+  const auto widest = [&](const std::vector<Standing>& row) {
+    if (row.empty()) return std::numeric_limits<double>::infinity();
+    return std::max({widest_span(row), 2.0 * (row.front().place.at - highest), spacing});
+  };
+  std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) {
+    return std::pair(widest(a), a.size()) < std::pair(widest(b), b.size());
+  });
+  return rows.front();
+}
+
+/// Says where trestles are farther apart than is asked for.
+void note_wide_spans(const std::vector<Standing>& all, double spacing, Workshop& workshop) {
+  constexpr double kTold = 1e-3;  // [m]
+  if (widest_span(all) <= spacing + kTold) return;
+  const std::size_t widest = widest_of(all);
+  workshop.notes.push_back("Trestles are up to " + length_text(widest_span(all), 3) +
+                           " apart along the track, from " + length_text(all[widest - 1].place.at, 4) +
+                           " to " + length_text(all[widest].place.at, 4) +
+                           ", for spacing: " + length_text(spacing) +
+                           ": frames, stiffeners, bends or other trestles leave no place between.");
+}
+
 }  // namespace
 
 void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
   if (!shell.options.supports) return;
   const SupportOptions& supports = *shell.options.supports;
-  const double whole = shell.track.length();
-  const double room = std::max(0.0, whole - 2.0 * kApart);
-  const double gaps = std::max(1.0, std::ceil(room / supports.spacing - 1e-9));
-  const double steepest = supports.steepest.radians();
-  int number = 0;
-  std::vector<double> stand_at;  // of trestles, along the ground [m]
-  for (double k = 0.0; k <= gaps; k += 1.0) {
-    const double about = kApart + room * k / gaps;
-    const double saddle_height = saddles_at(shell, about, 0.0).height[0];
-    const double clear = clear_of(shell, about, saddle_height);
-    const auto place = free_place(shell, about, clear);
-    if (!place || shell.track.at(place->at).slope_angle > steepest) continue;
-    const Saddles saddles = saddles_at(shell, place->at, place->half);
-    if (!seat_line(shell, place->at, place->half, saddles.height[0]) ||
-        !seat_line(shell, place->at, place->half, saddles.height[1]))
-      continue;
-    const Trestle trestle = trestle_at(shell, place->at, saddles);
-    // Two of them on the only places that are free stand on each other's base plates.
-    const double apart = base_side(supports) + kBaseGap;
-    if (std::any_of(stand_at.begin(), stand_at.end(),
-                    [&](double x) { return std::fabs(x - trestle.x) < apart; }))
-      continue;
-    require_room_for_legs(trestle, supports);
-    stand_at.push_back(trestle.x);
-    const Measures measures = measures_of(shell, saddles);
-    const std::string text = std::to_string(++number);
-    add_saddles(shell, trestle, saddles, text);
-    add_legs(shell, trestle, measures, text);
-    add_braces(shell, trestle, measures, text);
-    shell.taken.add(place->at - clear, place->at + clear);
-    rows.push_back(setting_out_point(shell.track, unit_at(shell, place->at), shell.placement,
-                                     "support " + text, place->at));
+  const std::vector<Standing> all = standing(shell);
+  for (const Standing& one : all) require_room_for_legs(one.trestle, supports);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Standing& one = all[i];
+    const Measures measures = measures_of(shell, one.saddles);
+    const std::string text = std::to_string(i + 1);
+    add_saddles(shell, one.trestle, one.saddles, text);
+    add_legs(shell, one.trestle, measures, text);
+    add_braces(shell, one.trestle, measures, text);
+    shell.taken.add(one.place.at - one.clear, one.place.at + one.clear);
+    rows.push_back(setting_out_point(shell.track, unit_at(shell, one.place.at), shell.placement,
+                                     "support " + text, one.place.at));
   }
-  if (number > 0) return;
-  if (flattest_of(shell.track) <= steepest) {
+  note_wide_spans(all, supports.spacing, shell.workshop);
+  if (!all.empty()) return;
+  if (flattest_of(shell.track) <= supports.steepest.radians()) {
     shell.workshop.notes.emplace_back(
         "No trestle finds a place that is flat and straight enough for its saddles.");
     return;
