@@ -2,6 +2,9 @@
 
 #include "optimize/starts.hpp"
 
+#include "glissade/centerline/straight_line.hpp"
+#include "glissade/motion/motion.hpp"
+
 #include "optimize/random_limits.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "support/catch.hpp"
@@ -9,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 using namespace glissade;
 using namespace glissade::optimizer;
@@ -38,5 +42,21 @@ TEST_CASE("starts are tracks of finite length, up to the reach limit") {
     for (const auto curves_of : {&starts, &constant_speed_starts, &winding_starts, &stepped_starts}) {
       for (const GuessCurve& curve : curves_of(problem)) CHECK(is_finite(curve));
     }
+  }
+}
+
+TEST_CASE("a straight line takes as long as a body that is ridden along it") {
+  testing::Random random = testing::seeded_random();
+  for (int i = 0; i < 20; ++i) {
+    Problem drawn;
+    drawn.endpoints = {random.between(1.0, 50.0), random.between(-3.0, 30.0)};
+    drawn.body.friction = Friction::from_coefficient(random.between(0.0, 0.5));
+    drawn.body.entry_speed = random.between(0.0, 10.0);
+    const ScaledProblem problem = scaled(drawn, {});
+    const Motion ride(std::make_shared<StraightLine>(drawn.endpoints), drawn.body);
+    CAPTURE(i, drawn.endpoints.run, drawn.endpoints.drop, drawn.body.entry_speed);
+    const double time = straight_time(problem) * problem.time;
+    CHECK(std::isfinite(time) == ride.arrived());
+    if (ride.arrived()) CHECK(std::fabs(time / ride.travel_time() - 1.0) <= 1e-9);
   }
 }

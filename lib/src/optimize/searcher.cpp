@@ -174,6 +174,7 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
   // Of a track that need not be fast, but lead to speed, any detour may be the better one.
   if (got_lost || problem.speed_weight != 0.0) more.assign(curves.begin() + 1, curves.end());
   if (!is_travel_time(problem)) return more;
+  if (more.empty() && first.objective > straight_time(problem)) more.assign(curves.begin() + 1, curves.end());
   const std::optional<FlyingStart> flying = flying_start(problem);
   if (flying && first.objective > (1.0 + kDoubtful) * flying->travel_time) more.push_back(flying->curve);
   return more;

@@ -140,6 +140,17 @@ std::optional<FlyingStart> flying_start(const ScaledProblem& problem) {
   return start;
 }
 
+double straight_time(const ScaledProblem& problem) {
+  const Vec2 finish = expected_finish(problem);
+  const double length = norm(finish);
+  const double mu = mean_friction(problem, problem.rides[problem.objective_ride]);
+  const double fall = finish.y - mu * finish.x;
+  const double exit_speed2 = problem.entry_speed2 + 2.0 * fall;
+  if (!(exit_speed2 > 0.0)) return HUGE_VAL;
+  const double speeds = std::sqrt(problem.entry_speed2) + std::sqrt(exit_speed2);
+  return 2.0 * length / speeds;
+}
+
 std::vector<GuessCurve> winding_starts(const ScaledProblem& problem) {
   constexpr int kSteps = 128;                   // taste
   constexpr int kMostWaves = 3;                 // taste

@@ -21,6 +21,9 @@ struct FlyingStart {
 /// @return none for one that enters at rest or can't arrive
 [[nodiscard]] std::optional<FlyingStart> flying_start(const ScaledProblem& problem);
 
+/// Scaled time along the straight line to where the finish is expected, without drag; infinite where a body stalls on it.
+[[nodiscard]] double straight_time(const ScaledProblem& problem);
+
 /// Curves that wind about the straight line, from few bends to many: ways to wear energy down, or to be long.
 [[nodiscard]] std::vector<GuessCurve> winding_starts(const ScaledProblem& problem);
 
