@@ -74,3 +74,30 @@ TEST_CASE("points remember their lines") {
   put_bytes(place / "wall.csv", "# taken in May\nx,z\n0,1\n\n1,0\n");
   CHECK(read_profile_csv(place / "wall.csv").lines == std::vector<std::size_t>{3, 5});
 }
+
+TEST_CASE("the other coordinate beside the distance is told where every line has one") {
+  const auto other = [](const std::string& text, const ProfileCsvOptions& options) {
+    const TempDir place;
+    put_bytes(place / "wall.csv", text);
+    return read_profile_csv(place / "wall.csv", options).other;
+  };
+  const std::string site = "run_m,x_m,y_m,z_m\n0,10,4,9\n5,13,8,6\n10,16,12,5\n";
+  const auto beside_x = other(site, {"x_m", "z_m"});
+  REQUIRE(beside_x);
+  CHECK(beside_x->column == "y_m");
+  CHECK(beside_x->distance == 6.0);
+  CHECK(beside_x->reach == 8.0);
+  CHECK(beside_x->has_run);
+  const auto beside_y = other(site, {"y_m", "z_m"});
+  REQUIRE(beside_y);
+  CHECK(beside_y->column == "x_m");
+  CHECK_FALSE(other(site, {"run_m", "z_m"}));
+  const auto millimetres = other("X;Y;Z\n0;0;9\n3000;-4000;6\n", {"X", "Z", LengthUnit::millimetre});
+  REQUIRE(millimetres);
+  CHECK(millimetres->reach == 4.0);
+  CHECK_FALSE(millimetres->has_run);
+  CHECK_FALSE(other("x,y\n0,9\n3,6\n", {"x", "y"}));       // y is the height here
+  CHECK_FALSE(other("x,z,y\n0,9,left\n3,6,right\n", {}));  // no coordinate
+  CHECK_FALSE(other("x,z,y\n0,9\n3,6,1\n", {}));           // nor one of every point
+  CHECK_FALSE(other("x,z\n0,9\n3,6\n", {}));
+}

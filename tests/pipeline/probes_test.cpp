@@ -120,3 +120,39 @@ TEST_CASE(
   CHECK_THAT(found[0].where, Contains("d.yaml:5:"));
   CHECK(found[1].what == "friction changes at 6 m, but the track ends after 5 m");
 }
+
+TEST_CASE("a probe behind where a ride ends: its place is told, and no state of the body there") {
+  // 4 m at 30 deg, then level: at 17 deg the body stalls on the level, at 5 deg it arrives.
+  const Design design = parse_design(
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 3 m}}\n"
+      "body: {friction_angle: {low: 5 deg, nominal: 17 deg}}\n"
+      "centerline:\n"
+      "  kind: segments\n"
+      "  entry_slope_angle: 30 deg\n"
+      "  segments: [{length: 4 m}, {to_slope_angle: 0 deg, radius: 3 m}, {length: 6 m}]\n"
+      "probes: [{from_start: 1 m}, {x: 9 m, name: late}]\n",
+      "d.yaml");
+  const Track track = solve(design);
+  const auto stall = track.motion.stall();
+  REQUIRE(stall);
+  const std::vector<ProbeReading> probes = probe_readings(design, track);
+  REQUIRE(probes.size() == 2);
+  REQUIRE(probes[1].point.arc_length > track.motion.distance());
+  REQUIRE(probes[1].states.size() == 2);
+  CHECK(probes[0].states[0].motion.has_value());
+  CHECK(probes[0].states[1].motion.has_value());
+  CHECK(probes[1].states[0].motion.has_value());
+  CHECK_FALSE(probes[1].states[1].motion.has_value());
+  CHECK(probes[1].position.x == Approx(9.0));
+  for (const Issue& warning : warnings(design, track)) CHECK_THAT(warning.what, !Contains("probes["));
+
+  const json document = json::parse(track_json(design, track));
+  const json& states = document["probes"][1]["states"];
+  CHECK(document["probes"][1]["x_m"] == Approx(9.0));
+  CHECK(states[0]["speed_m_per_s"].is_number());
+  for (const char* const key : {"time_s", "speed_m_per_s", "normal_load_m_per_s2"}) {
+    INFO(key);
+    CHECK(states[1][key].is_null());
+  }
+}

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -30,6 +31,33 @@ std::size_t column_named(const std::vector<std::string_view>& names, const std::
                    "columns: [x, z] in the design, with the names of your file"});
 }
 
+/// @return x of y and y of x, with what follows the letter; empty for other names
+std::string other_coordinate_of(const std::string& name) {
+  constexpr std::string_view kLetters = "xyXY";
+  constexpr std::string_view kOthers = "yxYX";
+  const std::size_t letter = name.empty() ? std::string_view::npos : kLetters.find(name.front());
+  if (letter == std::string_view::npos) return {};
+  return kOthers[letter] + name.substr(1);
+}
+
+std::optional<double> finite_number(std::string_view cell) {
+  double value = 0.0;
+  const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool whole = status == std::errc() && rest == cell.data() + cell.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// The least and the largest of values.
+struct Reach {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  [[nodiscard]] double length() const { return highest - lowest; }
+};
+
 /// Reads the lines of one file, whose first names the columns.
 class ProfileReader {
  public:
@@ -44,10 +72,15 @@ class ProfileReader {
     height_ = column_named(names_, options.height_column, place());
     slope_ = further_column(options.slope_angle_column);
     curvature_ = further_column(options.curvature_column);
+    const auto other = std::find(names_.begin(), names_.end(), other_coordinate_of(options.distance_column));
+    if (other != names_.end()) other_ = static_cast<std::size_t>(other - names_.begin());
+    if (other_ == height_) other_.reset();
   }
 
   ProfilePoints read() {
     ProfilePoints profile;
+    Reach along;
+    Reach beside;
     while (const auto line = lines_.next()) {
       line_ = *line;
       cells_ = csv_cells(line_, separator_);
@@ -55,6 +88,15 @@ class ProfileReader {
       profile.lines.push_back(lines_.number());
       if (slope_) profile.slope_angles.push_back(Angle::from_degrees(number(*slope_, true).value).radians());
       if (curvature_) profile.curvatures.push_back(number(*curvature_, false).value / scale_);
+      if (!other_) continue;
+      const auto value = *other_ < cells_.size() ? finite_number(cells_[*other_]) : std::nullopt;
+      if (!value) other_.reset();
+      along.add(profile.points.back().x);
+      beside.add(value.value_or(0.0) * scale_);
+    }
+    if (other_ && !profile.points.empty()) {
+      const bool has_run = std::find(names_.begin(), names_.end(), "run_m") != names_.end();
+      profile.other = {std::string(names_[*other_]), beside.length(), along.length(), has_run};
     }
     return profile;
   }
@@ -110,6 +152,7 @@ class ProfileReader {
   std::size_t height_ = 0;
   std::optional<std::size_t> slope_;
   std::optional<std::size_t> curvature_;
+  std::optional<std::size_t> other_;
   std::string_view line_;
   std::vector<std::string_view> cells_;
 };

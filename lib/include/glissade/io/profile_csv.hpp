@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,22 @@ struct ProfileCsvOptions {
   std::string curvature_column = {};
 };
 
+/// The other horizontal coordinate that stands beside a column of distance: `y_m` of `x_m`, `X` of `Y`.
+struct OtherCoordinate {
+  std::string column;     ///< its name
+  double reach = 0.0;     ///< how far its values of the points lie apart [m]
+  double distance = 0.0;  ///< the same of the column of distance [m]
+  bool has_run = false;   ///< the file has `run_m`, the horizontal distance of Glissade's own stations
+};
+
 /// The points of a profile's file and where they stand in it.
 struct ProfilePoints {
   std::vector<Vec2> points;  ///< (distance, drop) [m], in the file's order; drop = -height, positive DOWN
   std::vector<std::size_t> lines;    ///< of each point, counted from 1
   std::vector<double> slope_angles;  ///< [rad]; one a point if there is a column of them
   std::vector<double> curvatures;    ///< [1/m]; one a point if there is a column of them
+  /// Where the file has one with a number in every line: what is read as distance may be one side of the way alone.
+  std::optional<OtherCoordinate> other = {};
 };
 
 /// Reads a measured profile from comma-separated values.
