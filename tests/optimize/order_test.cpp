@@ -107,6 +107,8 @@ TEST_CASE(
   if (testing::thorough()) {
     all.push_back({3, 298, "without exit_slope_angle.highest"});
     all.push_back({8, 352, "without lead_out"});
+    all.push_back({8, 352, "without entry_slope_angle.lowest"});
+    all.push_back({8, 352, "wider entry_slope_angle.highest"});
   }
   for (const Known& known : all) {
     std::size_t draw = 0;

@@ -152,7 +152,8 @@ class Course {
     const auto is_optimum = [&] { return best_->found->residual <= options_.tolerance; };
     const Passages& way = ways_[way_];
     if (!kept() || stopped_ || (!by_footholds && is_optimum())) return;
-    if (!by_footholds) best_ = searcher_.from_scattered(way, *std::move(best_));
+    best_ = by_footholds ? searcher_.from_loose_caps(way, *std::move(best_))
+                         : searcher_.from_scattered(way, *std::move(best_));
     if (!best_->stopped && (by_footholds || !is_optimum()))
       best_ = searcher_.on_other_meshes(way, *std::move(best_), by_footholds);
     stopped_ = best_->stopped;

@@ -58,6 +58,9 @@ class Searcher {
   [[nodiscard]] Candidate ended_on(const Candidate& known, Found found);
   /// Where the search's own starts led to no optimum: the best of what `best` is and of what curves of no kind lead to.
   [[nodiscard]] Candidate from_scattered(const Passages& passages, Candidate best);
+  /// Where tracks have to wind: the better one of what `best` is and of what the fastest track leads to while caps on the speed,
+  /// far from it first, are drawn tight. Neighbouring problems take neighbouring ways.
+  [[nodiscard]] Candidate from_loose_caps(const Passages& passages, Candidate best);
   /// The search once more from where it ended, on meshes of other sizes laid for that track, until an optimum is found.
   /// @param for_better  goes on from there as long as that pays
   [[nodiscard]] Candidate on_other_meshes(const Passages& passages, Candidate best, bool for_better);
@@ -79,6 +82,14 @@ class Searcher {
   [[nodiscard]] Rough coarse(const ScaledProblem& problem, const GuessCurve& start);
   /// On a mesh laid for the start alone.
   [[nodiscard]] Found coarsely(const ScaledProblem& problem, const GuessCurve& start, std::size_t pieces);
+  /// A track, and the problem that it is of.
+  struct Tightened {
+    std::shared_ptr<const ScaledProblem> problem;
+    Found found;
+  };
+  /// From the fastest track over caps far from it to that of the caps themselves. @return none where the way ends before
+  [[nodiscard]] std::optional<Tightened> tightened(const std::shared_ptr<const ScaledProblem>& rough,
+                                                   const std::vector<std::size_t>& caps);
   /// @return whether a search on a mesh ended in a better track than the best one, which it is then
   bool ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best);
   /// From every start, where the first one's track is doubted: the best of them, then others until one is an optimum.
