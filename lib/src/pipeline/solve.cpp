@@ -116,7 +116,7 @@ void require_distance(const CenterlineDesign& design, const ProfilePoints& profi
   constexpr double kMostMissing = 1e-3;
   if (!profile.other) return;
   const OtherCoordinate& other = *profile.other;
-  const double run = std::hypot(other.distance, other.reach);
+  const double run = math::hypot(other.distance, other.reach);
   if (run <= (1.0 + kMostMissing) * other.distance) return;
   const std::string& column = design.points_distance_column;
   const std::string hint =
