@@ -275,3 +275,37 @@ TEST_CASE("a directory without a manifest is no sweep") {
   std::ofstream(place.path() / kManifestName) << "{\"glissade_sweep\": 2, \"rows_per_chunk\": 10}";
   CHECK_THROWS_WITH(Results::open(place.path()), Contains("another version"));
 }
+
+TEST_CASE("rows without the optimum's time do not find it, and have the same figures") {
+  // With an entry speed the optimum of a drawn track costs several times its ride.
+  Study study = study_of({vary("body.friction_angle=5deg:25deg:3")},
+                         std::string(kDesign) + "limits: {speed: {highest: 60 m/s}}\n");
+  study.base.push_back({"body.entry_speed", "2 m/s"});
+  bool found = false;
+  study.quantities = [&](const Design& design, const Track& track) {
+    found = found || track.optimum.has_value();
+    return quantities_of(design, track);
+  };
+  const TempDir place;
+  (void)run(study, {.directory = place.path() / "all"});
+  CHECK(found);
+  found = false;
+  study.columns = {"travel_time_s", "limits.speed.highest.reached"};
+  (void)run(study, {.directory = place.path() / "fewer"});
+  CHECK_FALSE(found);
+  const std::vector<Row> all = rows_of(place.path() / "all");
+  const std::vector<Row> fewer = rows_of(place.path() / "fewer");
+  REQUIRE(all.size() == fewer.size());
+  const std::vector<std::string> names = Results::open(place.path() / "all").quantities();
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    for (std::size_t column = 0; column < study.columns.size(); ++column) {
+      const auto at = std::find(names.begin(), names.end(), study.columns[column]);
+      REQUIRE(at != names.end());
+      CHECK(fewer[row].quantities[column] ==
+            all[row].quantities[static_cast<std::size_t>(at - names.begin())]);
+    }
+  }
+  study.columns = {"optimum_travel_time_s"};
+  (void)run(study, {.directory = place.path() / "optimum"});
+  CHECK(found);
+}

@@ -103,7 +103,8 @@ std::vector<std::string> faults_of(const PlaneRegion& region) {
       const auto& [other_name, other] = inner[k];
       if (distance(path, other) == 0.0 || contains(other, path.vertices.front().at) ||
           contains(path, other.vertices.front().at)) {
-        faults.push_back(name + " touches " + other_name);
+        faults.push_back(name);
+        faults.back().append(" touches ").append(other_name);
       }
     }
   }

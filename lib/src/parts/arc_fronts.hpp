@@ -72,7 +72,7 @@ class ArcFronts {
       next_.clear();
       for (const int index : front_) {
         const std::size_t farthest = look_ahead(state(index));
-        if (const auto closing = own().closed(index, farthest, arcs)) return closing;
+        if (auto closing = own().closed(index, farthest, arcs)) return closing;
         own().close_in_two(index, farthest, arcs);
         spread(index, farthest, foremost);
       }

@@ -204,7 +204,7 @@ class Search : private ArcFronts<Search, Gate, State, Closing> {
   }
 
   /// @return one arc from a state to the end, if it keeps the band
-  std::optional<Closing> closed(int index, std::size_t farthest, std::size_t arcs) const {
+  [[nodiscard]] std::optional<Closing> closed(int index, std::size_t farthest, std::size_t arcs) const {
     const State& from = state(index);
     if (!stretch_.after) {
       if (farthest + 1 < last_gate()) return std::nullopt;
@@ -278,6 +278,7 @@ class Search : private ArcFronts<Search, Gate, State, Closing> {
     found.arcs = closing.arcs;
     const State& first = state(states.front());
     std::vector<Vec2> joints;
+    joints.reserve(states.size() + closing.to.size());
     for (const int index : states) joints.push_back(state(index).at);
     joints.insert(joints.end(), closing.to.begin(), closing.to.end());
     double heading = heading_of(first.along);

@@ -245,7 +245,8 @@ CenterlinePtr make_centerline(const Design& design) {
 namespace {
 
 /// @param found  if the track is the fastest of all, limits aside, what is known of it: it is not made twice
-Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<FastestTrack> found) {
+Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<FastestTrack> found,
+              const RunContext& context) {
   const bool chosen = is_drawn(design.centerline.kind) || design.track.free_finish != FinishKind::point;
   const Endpoints endpoints = chosen ? endpoints_of(*centerline) : endpoints_of(design);
   const Body body = body_of(design);
@@ -259,7 +260,7 @@ Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<Fast
   if (found) {
     optimum_travel_time = found->travel_time;
     optimum = motion;
-  } else if (has_closed_optimum(body) &&
+  } else if (context.measures_optimum && has_closed_optimum(body) &&
              can_arrive(endpoints, body.friction, body.entry_speed, design.gravity)) {
     FastestTrack fastest = fastest_track(endpoints, body.friction, body.entry_speed, design.gravity);
     optimum_travel_time = fastest.travel_time;
@@ -287,16 +288,16 @@ Track ride_on(const Design& design, CenterlinePtr centerline, std::optional<Fast
 }
 
 /// The curve of the closed form, which knows neither limits nor a finish that it may choose.
-Track ride_fastest(const Design& design) {
+Track ride_fastest(const Design& design, const RunContext& context) {
   FastestTrack fastest = at_place(design.where("centerline"), [&] { return fastest_of(design); });
   CenterlinePtr centerline = fastest.centerline;
-  return ride_on(design, std::move(centerline), std::move(fastest));
+  return ride_on(design, std::move(centerline), std::move(fastest), context);
 }
 
 }  // namespace
 
-Track ride(const Design& design, CenterlinePtr centerline) {
-  return ride_on(design, std::move(centerline), {});
+Track ride(const Design& design, CenterlinePtr centerline, const RunContext& context) {
+  return ride_on(design, std::move(centerline), {}, context);
 }
 
 namespace {
@@ -357,11 +358,12 @@ Track solve_settled(const Design& design, const RunContext& context) {
   // point.
   const bool searched =
       design.limits || design.track.free_finish != FinishKind::point || !has_closed_optimum(body_of(design));
-  if (design.centerline.kind != CenterlineKind::fastest) return ride(design, make_centerline(design));
-  if (!searched) return ride_fastest(design);
+  if (design.centerline.kind != CenterlineKind::fastest)
+    return ride(design, make_centerline(design), context);
+  if (!searched) return ride_fastest(design, context);
   const SearchGoesOn goes_on(context);
   Optimum optimum = search_within_limits(design, context);
-  Track track = ride(design, std::move(optimum.centerline));
+  Track track = ride(design, std::move(optimum.centerline), context);
   track.search = std::move(optimum.report);
   track.fastest_within = fastest_within(design, context);
   return track;

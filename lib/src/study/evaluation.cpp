@@ -47,6 +47,12 @@ void require_rideable(const Plan& plan) {
   }
 }
 
+/// The fastest track there is, limits aside, is one figure of a row; rows without it need not find it.
+bool needs_optimum(const std::vector<std::string>& columns) {
+  return columns.empty() ||
+         std::find(columns.begin(), columns.end(), "optimum_travel_time_s") != columns.end();
+}
+
 std::string shown_input(const Input& input, const std::string& text) {
   if (!input.numeric) return as_cell(text);
   const auto quantity = split_quantity(text);
@@ -125,13 +131,14 @@ std::vector<std::string> Evaluation::known_columns(const std::stop_token& stop) 
 }
 
 Track Evaluation::track_of(const Design& design) const {
+  RunContext context;
+  context.time_budget = kNoTimeBudget;
+  context.measures_optimum = needs_optimum(study_.columns);
   if (frozen_) {
     Design below = design;
     if (below.hood && !below.hood->settled()) below.hood = frozen_hood_;
-    return ride(below, frozen_);
+    return ride(below, frozen_, context);
   }
-  RunContext context;
-  context.time_budget = kNoTimeBudget;
   return solve(design, context);
 }
 

@@ -89,7 +89,8 @@ struct LinerLoss {
 [[nodiscard]] CenterlinePtr make_centerline(const Design& design);
 
 /// The ride of the design's body down a given centerline, what it is measured by, and its limits checked.
-[[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline);
+/// @param context  its measures_optimum alone counts
+[[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline, const RunContext& context = {});
 
 /// A track that stays as it is, ridden at another friction: nothing is searched or chosen anew. Its limits are
 /// held against that friction alone.

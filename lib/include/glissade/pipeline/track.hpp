@@ -29,6 +29,9 @@ struct RunContext {
   /// Where it is not null: true while a request to stop ends a search with the best track so far, and from then on, as the
   /// work goes on with that. Anything else that is asked to stop ends.
   std::atomic<bool>* goes_on_after_stop = nullptr;
+  /// False leaves out what a track is measured by, Track::optimum, where it would be made for that alone: with an entry
+  /// speed it costs several times the ride.
+  bool measures_optimum = true;
 };
 
 /// The ride at one end of a friction range.
@@ -59,8 +62,8 @@ struct Track {
   Motion motion;  ///< at the nominal friction
   /// The same body on the straight line between the endpoints; none if it does not arrive there.
   std::optional<Motion> straight;
-  /// The ride on the fastest track there is, which the theory gives from rest and without drag
-  /// (docs/theory.md, fastest track); none where it does not apply.
+  /// The ride on the fastest track there is, which the theory gives without drag (docs/theory.md, fastest track); none
+  /// where it does not apply, or was not asked for.
   std::optional<Motion> optimum;
   /// Travel time of `optimum` by its closed form, which shares nothing with Motion [s].
   std::optional<double> optimum_travel_time;
