@@ -43,6 +43,10 @@ constexpr double kTrimShare = 0.1;
 constexpr double kRoomAtTrims = 0.25;
 constexpr double kSagittaAtTrims = 0.9;
 constexpr int kMostRefinements = 12;
+// Where that many halvings in a row leave more than this share of the deviation, it lies along the track, which finer
+// steps mend and narrower sides do not.
+constexpr int kMostVainRefinements = 5;
+constexpr double kVainShare = 0.9;
 // Halvings of a side that moves as the width changes: its facets depart in proportion to its pieces.
 constexpr int kMostRefinementsOfMoving = 6;
 // An edge that moves by no more than this share of the chord tolerance is looked at no closer.
@@ -381,13 +385,20 @@ class Sweeper {
       for (std::size_t j = 0; j < loop.size(); ++j) {
         require_going(planner_.stop());
         refined.push_back(loop[j]);
-        refine_side(refined, loop[(j + 1) % loop.size()], allowed, 0);
+        refine_side(refined, loop[(j + 1) % loop.size()], allowed, {});
       }
       loop = std::move(refined);
     }
   }
 
-  void refine_side(Loop& refined, const SectionVertex& end, double allowed, int depth) {
+  /// How a side came to be by halving.
+  struct Halvings {
+    int depth = 0;
+    int vain = 0;  ///< the last ones, in a row, that took little of the deviation
+    double deviation = std::numeric_limits<double>::infinity();  ///< of the side that was halved [m]
+  };
+
+  void refine_side(Loop& refined, const SectionVertex& end, double allowed, const Halvings& before) {
     const SectionVertex begin = refined.back();
     if (blocked_height_ != 0.0) return;
     const bool rises = begin.corner.at.y != end.corner.at.y;
@@ -396,7 +407,10 @@ class Sweeper {
     const bool trimmed = begin.level->second.curve.trimmed || end.level->second.curve.trimmed;
     if (!moves && !(slanted && trimmed)) return;
     const double deviation = deviation_over_side(begin, end, moves, allowed);
-    if (deviation <= allowed || depth >= (moves ? kMostRefinementsOfMoving : kMostRefinements)) {
+    const int vain = deviation > kVainShare * before.deviation ? before.vain + 1 : 0;
+    const bool helps = moves ? before.depth < kMostRefinementsOfMoving
+                             : before.depth < kMostRefinements && vain < kMostVainRefinements;
+    if (deviation <= allowed || !helps) {
       deviation_ = std::max(deviation_, deviation);
       return;
     }
@@ -407,9 +421,10 @@ class Sweeper {
                                low.spread + 0.5 * (high.spread - low.spread)};
     const SectionVertex half{middle, level_at(middle.at.y)};
     if (blocked_height_ != 0.0) return;
-    refine_side(refined, half, allowed, depth + 1);
+    const Halvings halved{before.depth + 1, vain, deviation};
+    refine_side(refined, half, allowed, halved);
     refined.push_back(half);
-    refine_side(refined, end, allowed, depth + 1);
+    refine_side(refined, end, allowed, halved);
   }
 
   // A corner that moves stands where it should at its nodes; between them its edge is straight.
