@@ -190,40 +190,70 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
   add_joint_bolts(workshop, job.options.flanges, bolts, joints.size() - 2);
 }
 
+namespace {
+
+/// How far plates stand out of the section behind frames.
+struct StandingOut {
+  double most = 0.0;   ///< [m]
+  double where = 0.0;  ///< along the track [m]
+};
+
+/// @param reach  what stands out farther is beyond the frames [m]
+StandingOut standing_out_behind(const StripJob& job, const std::vector<double>& joints,
+                                const std::vector<PlacedFacets>& plates, double reach) {
+  const double thickness = job.options.flanges.along();
+  StandingOut out;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.ring};
+    for (const double shift : {0.0, -thickness}) {
+      if (shift == 0.0 ? i + 1 == joints.size() : i == 0) continue;
+      const Frame place = place_of_frame(job, joints[i], shift);
+      for (const PlacedFacets& plate : plates) {
+        const double by = standing_out(plate, opening, place, thickness, reach);
+        if (by > out.most) out = {by, joints[i]};
+      }
+    }
+  }
+  return out;
+}
+
+[[noreturn]] void refuse_gap(const FlangeOptions& flange, const StandingOut& out, double enough) {
+  throw InputError({"flanges.gap",
+                    "gap: " + length_text(flange.gap) +
+                        " is closed by plates that begin or bend behind a frame, at " +
+                        length_text(out.where, 3) + " along the track",
+                    "They stand " + length_text(out.most, 3) + " out of the section there.",
+                    "gap: " + length_text(enough) + ", or a " +
+                        (flange.section == FlangeSection::angle ? "narrower angle" : "thinner frame")});
+}
+
+[[noreturn]] void refuse_frame(const StandingOut& out) {
+  throw InputError({"flanges",
+                    "flanges: the frame at " + length_text(out.where, 3) +
+                        " along the track lies across plates that bend away behind it",
+                    "They stand " + length_text(out.most, 3) + " out of the section within its thickness.",
+                    "a track that bends less there, by a limit smallest_valley_radius, or flanges: none"});
+}
+
+}  // namespace
+
 FlangeOptions frames_that_clear(const StripJob& job, const std::vector<double>& joints,
                                 const std::vector<Strip>& strips) {
   FlangeOptions flange = job.options.flanges;
   if (!flange.wanted || !job.section.convex) return flange;
-  double most = 0.0;
-  double where = 0.0;
   std::vector<PlacedFacets> plates;
   plates.reserve(strips.size());
   for (const Strip& strip : strips) plates.push_back(placed_facets(strip.part));
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const FrameOpening opening{outside_at(job, job.lean_at(joints[i]), joints[i]), job.section.ring};
-    for (const double shift : {0.0, -flange.along()}) {
-      if (shift == 0.0 ? i + 1 == joints.size() : i == 0) continue;
-      const Frame place = place_of_frame(job, joints[i], shift);
-      for (const PlacedFacets& plate : plates) {
-        const double out = standing_out(plate, opening, place, flange.along(), 0.5 * flange.width);
-        if (out > most) where = joints[i];
-        most = std::max(most, out);
-      }
-    }
-  }
+  const StandingOut out = standing_out_behind(job, joints, plates, 0.5 * flange.width);
   constexpr double kRounding = 1.5e-5;  // of arcs, and of parts that share a number
-  if (most <= flange.gap + kRounding) return flange;
-  const double enough = 1e-4 * std::ceil(1.05e4 * most);
-  if (flange.as_told) {
-    throw InputError({"flanges.gap",
-                      "gap: " + length_text(flange.gap) +
-                          " is closed by plates that begin or bend behind a frame, at " +
-                          length_text(where, 3) + " along the track",
-                      "They stand " + length_text(most, 3) + " out of the section there.",
-                      "gap: " + length_text(enough) + ", or a " +
-                          (flange.section == FlangeSection::angle ? "narrower angle" : "thinner frame")});
+  if (out.most > flange.gap + kRounding) {
+    const double enough = 1e-4 * std::ceil(1.05e4 * out.most);
+    if (flange.as_told) refuse_gap(flange, out, enough);
+    flange.gap = enough;
   }
-  flange.gap = enough;
+  // What stands out farther than half a frame is none that it makes way for.
+  const StandingOut farther = standing_out_behind(job, joints, plates, flange.gap + flange.width);
+  if (farther.most > flange.gap + kRounding) refuse_frame(farther);
   return flange;
 }
 
