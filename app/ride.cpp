@@ -6,7 +6,6 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
-#include "app/limits_text.hpp"
 #include "app/option_value.hpp"
 #include "app/progress_line.hpp"
 #include "app/rides_text.hpp"
@@ -66,7 +65,12 @@ std::vector<Friction> frictions_of(const Options& options) {
 }
 
 std::string limits_at(const Track& ride) {
-  return ride.motion.arrived() ? "limits " + limits_verdict(ride) : "-";
+  if (!ride.motion.arrived()) return "-";
+  std::string broken;
+  for (const LimitCheck& check : ride.limit_checks) {
+    if (!check.kept()) broken += (broken.empty() ? "" : ", ") + check.limit.key();
+  }
+  return broken.empty() ? "limits kept" : "breaks " + broken;
 }
 
 std::string rides_summary(const Design& design, const Track& track, const std::vector<Track>& rides) {

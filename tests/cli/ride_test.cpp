@@ -37,6 +37,9 @@ TEST_CASE("ride keeps the track and changes the friction alone") {
   CHECK_THAT(
       glissade_run({"ride", shipped("grain_chute_with_limits"), "--friction-angle", "14deg,26deg"}).output,
       Contains("found at 17 deg") && Contains("stalls after") && Contains("limits kept"));
+  // Which limits a friction breaks is what is asked for, not how many they are.
+  CHECK_THAT(glissade_run({"ride", shipped("grain_chute_with_limits"), "--friction-angle", "5deg"}).output,
+             Contains("breaks ") && Contains("speed.highest"));
 }
 
 TEST_CASE("ride asks for a friction, and names the option that is wrong") {

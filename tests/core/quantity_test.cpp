@@ -64,6 +64,8 @@ TEST_CASE("a value without a unit is refused with the units that fit") {
         "      It takes a length with its unit: m, mm, cm, km, um, in or ft.\n"
         "      Try: 400 m or 400 mm");
   CHECK_THAT(refusal("0", Dimension::angle), Catch::Matchers::Contains("0 has no unit"));
+  CHECK_THAT(refusal("3", Dimension::acceleration), Catch::Matchers::EndsWith("Try: 3 m/s^2 or 3 g"));
+  CHECK_THAT(refusal("9.81", Dimension::acceleration), Catch::Matchers::EndsWith("Try: 9.81 m/s^2"));
 }
 
 TEST_CASE("a value of another dimension is refused by its name") {

@@ -9,6 +9,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <system_error>
@@ -173,12 +174,16 @@ std::string example(std::string_view number, Dimension dimension) {
   if (dimension == Dimension::number) return std::string(number);
   // Whoever writes a density of 1.6 thinks of tonnes.
   constexpr double kOfTonnes = 30.0;
-  double value = kOfTonnes;
+  double value = std::numeric_limits<double>::infinity();
   std::from_chars(number.data(), number.data() + number.size(), value);
   if (dimension == Dimension::density && value < kOfTonnes) return std::string(number).append(" t/m^3");
   const std::vector<std::string_view> units = listed_units_of(dimension);
   std::string text = std::string(number).append(" ").append(units[0]);
   if (dimension == Dimension::length) text.append(" or ").append(number).append(" ").append(units[1]);
+  // Loads are mostly thought of in shares of gravity.
+  constexpr double kOfGravity = 9.0;
+  if (dimension == Dimension::acceleration && value < kOfGravity)
+    text.append(" or ").append(number).append(" g");
   return text;
 }
 
