@@ -20,8 +20,32 @@ std::vector<Vec3> points_of(const MeshBody& /*body*/, double /*inset*/) {
   return {};
 }
 
+/// Of bodies that lie flush every edge of one lies on a face of the other: so far inside neither does [m].
+constexpr double kWellInside = 1e-3;
+constexpr double kOfThickness = 0.25;
+
+/// Where edges alone do not tell: well inside, beside each piece of an outline.
+void add_inner_points(const Prism& prism, std::vector<Vec3>& points) {
+  const double deep = std::min(kWellInside, kOfThickness * prism.depth);
+  const auto is_inside = [&](Vec2 at) {
+    return contains(prism.region.outline, at) &&
+           std::none_of(prism.region.cutouts.begin(), prism.region.cutouts.end(),
+                        [&](const ArcPath& cutout) { return contains(cutout, at); });
+  };
+  const bool left = signed_area(prism.region.outline) > 0.0;
+  for (const PathPiece& piece : pieces_of(prism.region.outline)) {
+    for (const double share : {0.25, 0.75}) {
+      const Vec2 along = tangent_at(piece, share);
+      const Vec2 at = point_on(piece, share) + (left ? deep : -deep) * Vec2{-along.y, along.x};
+      if (!is_inside(at)) continue;
+      for (const double z : {deep, 0.5 * prism.depth, prism.depth - deep}) points.push_back({at.x, at.y, z});
+    }
+  }
+}
+
 std::vector<Vec3> points_of(const Prism& prism, double inset) {
   std::vector<Vec3> points;
+  add_inner_points(prism, points);
   const auto along_path = [&](const ArcPath& path, bool outline) {
     const bool left = (signed_area(path) > 0.0) == outline;  // the material's side
     for (const PathPiece& piece : pieces_of(path)) {
@@ -109,20 +133,21 @@ std::vector<Vec3> points_of(const RolledSheet& sheet, double inset) {
       points.push_back({at.x - there.x * along.y, at.y + there.x * along.x, there.y});
     }
   };
-  const auto along_edges = [&](const ArcPath& path, bool outline) {
+  const auto along_edges = [&](const ArcPath& path, bool outline, double off) {
     const bool left = (signed_area(path) > 0.0) == outline;  // the material's side
     for (const PathPiece& edge : pieces_of(path)) {
       const Vec2 step = edge.to - edge.from;
       const double whole = norm(step);
       if (!(whole > 0.0)) continue;
-      const Vec2 inward = ((left ? inset : -inset) / whole) * Vec2{-step.y, step.x};
+      const Vec2 inward = ((left ? off : -off) / whole) * Vec2{-step.y, step.x};
       const int count =
           4 + static_cast<int>(4.0 * whole / starts.back() * static_cast<double>(pieces.size()));
       for (int k = 0; k < count; ++k) put(edge.from + ((k + 0.5) / count) * step + inward);
     }
   };
-  along_edges(sheet.region.outline, true);
-  for (const ArcPath& cutout : sheet.region.cutouts) along_edges(cutout, false);
+  along_edges(sheet.region.outline, true, inset);
+  along_edges(sheet.region.outline, true, std::min(kWellInside, kOfThickness * sheet.thickness));
+  for (const ArcPath& cutout : sheet.region.cutouts) along_edges(cutout, false, inset);
   return points;
 }
 
@@ -164,7 +189,8 @@ std::vector<Vec3> points_of(const TroughGore& gore, double inset) {
     for (const double z : {low, 0.5 * (low + high), high}) points.push_back({x, y, z});
   };
   constexpr int kPoints = 13;
-  for (const double radius : {gore.inner_radius + inset, gore.inner_radius + gore.thickness - inset}) {
+  for (const double radius : {gore.inner_radius + inset, gore.inner_radius + 0.5 * gore.thickness,
+                              gore.inner_radius + gore.thickness - inset}) {
     for (int k = 0; k < kPoints; ++k) {
       const auto [sine, cosine] = math::sine_cosine(std::numbers::pi * k / (kPoints - 1));
       put(-radius * sine, radius * cosine);
@@ -187,7 +213,8 @@ std::vector<Vec3> points_of(const TubeGore& gore, double inset) {
   constexpr int kPoints = 24;
   for (int k = 0; k < kPoints; ++k) {
     const auto [sine, cosine] = math::sine_cosine(2.0 * std::numbers::pi * k / kPoints);
-    for (const double radius : {gore.inner_radius + inset, gore.inner_radius + gore.thickness - inset}) {
+    for (const double radius : {gore.inner_radius + inset, gore.inner_radius + 0.5 * gore.thickness,
+                                gore.inner_radius + gore.thickness - inset}) {
       const double x = radius * cosine;
       const double low = x * math::tan(gore.start_tilt.radians()) + 2.0 * inset;
       const double high = gore.length + x * math::tan(gore.end_tilt.radians()) - 2.0 * inset;

@@ -8,7 +8,7 @@ namespace glissade::parts {
 
 /// What is looked at of a body to tell whether it reaches into another one.
 
-/// @return points just inside a body along its edges, in its own frame
+/// @return points just inside a body along its edges, and some well inside it, in its own frame
 /// @param inset  of the points from the faces [m]
 [[nodiscard]] std::vector<Vec3> edge_points(const PartBody& body, double inset);
 
