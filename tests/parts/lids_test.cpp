@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 using namespace glissade;
@@ -43,4 +44,32 @@ TEST_CASE("lids and covers keep bolts of any size as far off their edges as is a
     CHECK(refusal(options).find("cover.bolt|bolt: the middle of holes for M" + std::to_string(bolt) +
                                 " is ") == 0);
   }
+}
+
+TEST_CASE("openings whose lids would lie upon one another are refused, with a place that does") {
+  PlateOptions options;
+  for (const double at : {4.45, 4.6}) {
+    INFO(at);
+    options.inspection = {{4.5, 0.2, 0.12, 8}, {at, 0.15, 0.1, 10}};
+    const std::string told = refusal(options);
+    CHECK(told.find("inspection|at: openings at 4.5 m and ") == 0);
+    CHECK(told.find(" are too close|With their lids they take ") != std::string::npos);
+    const std::size_t hint = told.find("|at: ", told.find("With their lids"));
+    REQUIRE(hint != std::string::npos);
+    options.inspection.back().at = std::stod(told.substr(hint + 5));
+    CHECK(refusal(options) == "");
+  }
+}
+
+TEST_CASE("lugs across the track stand off the legs of angles along it") {
+  PlateOptions options;
+  options.split.sheet = {2.5, 1.25};
+  options.flanges.section = FlangeSection::angle;
+  options.flanges.thickness = 5e-3;
+  options.flanges.as_told = true;
+  options.corners.kind = CornerJoint::lap;
+  options.lifting.emplace();
+  const CoulombBrachistochrone track({8.549, 2.742}, Friction::from_angle(Angle::from_degrees(10.9)));
+  const section::Trapezoid trough{WidthLaw(0.67), 0.786, Angle::from_degrees(14.2), 6e-3};
+  CHECK_NOTHROW(plates_of(track, trough, options));
 }

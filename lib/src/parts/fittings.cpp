@@ -495,6 +495,30 @@ std::optional<double> place_of_lid(const Job& job, const Span& unit, double abou
   return best;
 }
 
+/// Lids of two openings lie beside each other.
+void require_apart(const Job& job, const InspectionOptions& opening, double reach, const Span& lid) {
+  constexpr double kBeside = 5e-3;    // [m]
+  constexpr double kRounding = 1e-6;  // of a place that is told [m]
+  for (const InspectionOptions& other : job.options.inspection) {
+    if (&other == &opening) return;
+    const double other_reach = 0.5 * other.length + lid_lap(other, job.options.shop);
+    const double curvature = std::max(job.track.at(opening.at).curvature, job.track.at(other.at).curvature);
+    // In a valley lids come together above the floor.
+    const double shrunk = std::max(0.1, 1.0 - std::max(0.0, curvature) * lid.to);
+    const double least = (reach + other_reach + kBeside) / shrunk;
+    if (std::fabs(other.at - opening.at) >= least - kRounding) continue;
+    const double at = opening.at < other.at ? 1e-3 * std::floor(1e3 * (other.at - least) + 1e-6)
+                                            : 1e-3 * std::ceil(1e3 * (other.at + least) - 1e-6);
+    refuse("inspection",
+           "at: openings at " + length_text(other.at, 4) + " and " + length_text(opening.at, 4) +
+               " are too close",
+           "With their lids they take " + length_text(least, 3) + " from one's middle to the other's.",
+           (at > reach && at < job.track.length() - reach ? "at: " + length_text(at, 4) + ", or "
+                                                          : std::string()) +
+               "one of them");
+  }
+}
+
 }  // namespace
 
 void add_openings(const Fitting& fitting) {
@@ -526,6 +550,7 @@ void add_openings(const Fitting& fitting) {
         refuse("inspection", "at: the track bends too tightly at " + length_text(opening.at, 4), "",
                "another at");
       }
+      require_apart(job, opening, reach, lid);
       openings.push_back({lid, window(job.track, opening.at, 0.5 * opening.length, heights), {}});
       const std::vector<Vec2> bolts = lid_bolts(job.track, opening, heights, lap);
       for (const Vec2 bolt : bolts)

@@ -27,6 +27,7 @@ constexpr double kGrip = 60e-3;      // along the section's outside [m]
 constexpr double kMostGrip = 0.3;    // of the outside's length
 constexpr double kDeep = 60e-3;      // from the outside, at the lower end [m]
 constexpr double kLugAside = 15e-3;  // from what else stands there [m]
+constexpr double kOffFrame = 2e-3;   // of lugs [m]
 constexpr double kOffPlumb = 20e-3;  // of lugs, told from there on [m]
 
 /// The outside from where a lug begins.
@@ -113,7 +114,8 @@ PlaneRegion mirrored(PlaneRegion region) {
 bool clear_of_frames(const Shell& shell, const Span& unit, const TrackFrame& frame, double top) {
   const FlangeOptions& flange = shell.options.flanges;
   if (!flange.wanted) return true;
-  const double taken = flange.along() + 0.5 * shell.options.lifting->thickness;
+  // Its corners lie aside of its middle plane, and there is a weld.
+  const double taken = flange.along() + 0.5 * shell.options.lifting->thickness + kOffFrame;
   for (const double sense : {1.0, -1.0}) {
     const TrackFrame joint = frame_at(shell.track, sense > 0.0 ? unit.from : unit.to);
     const Vec2 away = frame.at - joint.at;
