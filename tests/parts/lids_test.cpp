@@ -1,5 +1,6 @@
 // Holes in lids, covers and rims, against their edges.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/parts/plates.hpp"
 
 #include "parts/chute_plates.hpp"
@@ -72,4 +73,46 @@ TEST_CASE("lugs across the track stand off the legs of angles along it") {
   const CoulombBrachistochrone track({8.549, 2.742}, Friction::from_angle(Angle::from_degrees(10.9)));
   const section::Trapezoid trough{WidthLaw(0.67), 0.786, Angle::from_degrees(14.2), 6e-3};
   CHECK_NOTHROW(plates_of(track, trough, options));
+}
+
+TEST_CASE("openings of different heights in one side: lines beside one run through holes of the other") {
+  PlateOptions options;
+  options.split.sheet = {6.0, 1.25};
+  const CoulombBrachistochrone track({5.946, 2.742}, Friction::from_angle(Angle::from_degrees(12.3)));
+  const section::Trapezoid trough{WidthLaw(0.478), 0.386, Angle::from_degrees(10.9), 6e-3};
+  for (const double height : {0.085, 0.093, 0.1, 0.105}) {
+    INFO(height);
+    options.inspection = {{5.847, 0.235, 0.117, 5}, {5.271, 0.079, height, 8}};
+    CHECK_NOTHROW(plates_of(track, trough, options));
+  }
+}
+
+TEST_CASE("openings of different heights in one tube are refused, of one height they are made") {
+  PlateOptions options;
+  options.round = RoundMake::mitred;
+  options.split.sheet = {4.0, 2.0};
+  const ClothoidSpline straight(Angle::from_degrees(45.0), {{3.4, 0.0, 0.0}});
+  const section::Pipe pipe{0.6, 4e-3};
+  const auto told = [&](double height) {
+    options.inspection = {{1.0, 0.235, 0.117, 8}, {2.0, 0.079, height, 8}};
+    return refusal_of([&] { return plates_of(straight, pipe, options); });
+  };
+  for (const double height : {0.093, 0.11, 0.118})
+    CHECK(told(height) ==
+          "inspection|at: holes of the opening at 2 m lie in line with an edge or with holes of another one "
+          "in the same tube|"
+          "Lines along a tube run past all of its openings.|one height and one bolt for both\n");
+  CHECK(told(0.117) == "");
+  CHECK(told(0.06) == "");
+}
+
+TEST_CASE("lugs above high walls in a tight valley stand off the frames") {
+  PlateOptions options;
+  options.split.sheet = {6.0, 2.0};
+  options.flanges.width = 80e-3;
+  options.flanges.thickness = 8e-3;
+  options.flanges.as_told = true;
+  options.lifting.emplace();
+  const CoulombBrachistochrone track({6.708, 3.339}, Friction::from_angle(Angle::from_degrees(16.1)));
+  CHECK_NOTHROW(plates(track, options, {2.206, 0.85, 3e-3}));
 }

@@ -5,18 +5,20 @@
 #include "solid/cap_triangulation.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace glissade::parts {
 namespace {
 
-/// A flat four-cornered face with round holes, its plane being that of three of its corners.
+/// A flat face with round holes, its plane being that of its first, second and last corner.
 class DrilledFace {
  public:
-  /// @param quad  counter-clockwise seen from outside
-  DrilledFace(TriangleMesh& mesh, const std::array<Index, 4>& quad) : mesh_(mesh), quad_(quad) {
-    const Vec3 corner = mesh.vertices[quad[0]];
-    const Vec3 way = mesh.vertices[quad[1]] - corner;
-    const Vec3 normal = cross(way, mesh.vertices[quad[3]] - corner);
+  /// @param outline  counter-clockwise seen from outside
+  DrilledFace(TriangleMesh& mesh, const std::vector<Index>& outline) : mesh_(mesh), outline_(outline) {
+    const Vec3 corner = mesh.vertices[outline.front()];
+    const Vec3 way = mesh.vertices[outline[1]] - corner;
+    const Vec3 normal = cross(way, mesh.vertices[outline.back()] - corner);
     right_ = (1.0 / norm(way)) * way;
     up_ = (1.0 / norm(normal)) * cross(normal, right_);
     out_ = (1.0 / norm(normal)) * normal;
@@ -29,7 +31,7 @@ class DrilledFace {
     for (int k = 0; k < corners; ++k) {
       const auto [sine, cosine] = math::sine_cosine(kTurn * k / corners);
       const Vec3 at = bore.centre + bore.radius * (cosine * bore.along + sine * bore.across);
-      const double off = dot(mesh_.vertices[quad_[0]] - at, out_) / dot(bore.into, out_);
+      const double off = dot(mesh_.vertices[outline_[0]] - at, out_) / dot(bore.into, out_);
       mesh_.vertices.push_back(at + off * bore.into);
     }
     holes_.push_back({first, first + static_cast<Index>(corners)});
@@ -38,16 +40,16 @@ class DrilledFace {
 
   void fill() {
     std::vector<std::vector<Vec2>> loops(1);
-    std::vector<Index> indices(quad_.begin(), quad_.end());
+    std::vector<Index> indices = outline_;
     for (const auto& [first, end] : holes_) {
       loops.emplace_back();
       for (Index k = first; k < end; ++k) indices.push_back(k);
     }
     const auto flat = [&](Index k) {
-      const Vec3 at = mesh_.vertices[k] - mesh_.vertices[quad_[0]];
+      const Vec3 at = mesh_.vertices[k] - mesh_.vertices[outline_[0]];
       return Vec2{dot(at, right_), dot(at, up_)};
     };
-    for (const Index k : quad_) loops[0].push_back(flat(k));
+    for (const Index k : outline_) loops[0].push_back(flat(k));
     for (std::size_t i = 0; i < holes_.size(); ++i) {
       for (Index k = holes_[i][0]; k < holes_[i][1]; ++k) loops[i + 1].push_back(flat(k));
     }
@@ -57,7 +59,7 @@ class DrilledFace {
 
  private:
   TriangleMesh& mesh_;
-  std::array<Index, 4> quad_;
+  std::vector<Index> outline_;
   Vec3 right_;
   Vec3 up_;
   Vec3 out_;
@@ -76,7 +78,15 @@ std::vector<const Bore*> between(const std::vector<Circle>& holes, const std::ve
   return found;
 }
 
-void add_drilled(TriangleMesh& mesh, const std::array<Index, 4>& face, const std::array<Index, 4>& back,
+bool is_crossed(const std::vector<Circle>& holes, double from, double to, double across) {
+  constexpr double kAside = 1.25;  // in radii: holes through plates that lean reach farther on one face
+  return std::any_of(holes.begin(), holes.end(), [&](const Circle& hole) {
+    return hole.centre.x > from && hole.centre.x < to &&
+           std::fabs(hole.centre.y - across) < kAside * hole.radius;
+  });
+}
+
+void add_drilled(TriangleMesh& mesh, const std::vector<Index>& face, const std::vector<Index>& back,
                  const std::vector<const Bore*>& bores, const Fineness& fineness) {
   DrilledFace one(mesh, face);
   DrilledFace other(mesh, back);

@@ -564,8 +564,26 @@ void add_openings(const Fitting& fitting) {
 
 namespace {
 
-/// The free place at which the wall's top stands plumb above a point, within a span; the nearest where it does so nowhere.
-std::optional<double> above(const Fitting& fitting, Vec3 centre, const Span& within) {
+/// Whether a lug stands off the frames at both ends of its unit: above a valley they lean towards it.
+bool lug_keeps_off(const Job& job, const Span& unit, double s, const Span& heights) {
+  constexpr double kOffFrame = 2e-3;
+  if (!job.options.flanges.wanted) return true;
+  const double taken = job.options.flanges.along() + kOffFrame;
+  for (const double sense : {1.0, -1.0}) {
+    const TrackFrame joint = frame_at(job.track, sense > 0.0 ? unit.from : unit.to);
+    const TrackFrame end = frame_at(job.track, s - sense * kLugHalf);
+    for (const double height : {heights.from, heights.to}) {
+      if (sense * dot(end.at + height * end.up - joint.at, joint.along) < taken) return false;
+    }
+  }
+  return true;
+}
+
+/// The free place at which the wall's top stands plumb above a point, within a span of a unit; the nearest where it does so
+/// nowhere.
+/// @param heights  of a lug
+std::optional<double> above(const Fitting& fitting, Vec3 centre, const Span& within, const Span& unit,
+                            const Span& heights) {
   const Job& job = fitting.job;
   const Vec3 run = along(job.placement);
   const Vec3 start = in_space(job.placement, {});
@@ -581,6 +599,7 @@ std::optional<double> above(const Fitting& fitting, Vec3 centre, const Span& wit
     const double miss = std::fabs(frame.at.x + job.channel.wall_height * frame.up.x - x);
     constexpr double kAside = 10e-3;  // of a lug from a stiffener [m]
     if (miss >= least || !(beside || fitting.below.is_free(s, kLugHalf + kAside, within))) continue;
+    if (!lug_keeps_off(job, unit, s, heights)) continue;
     least = miss;
     best = s;
   }
@@ -602,8 +621,15 @@ void add_channel_lugs(const Fitting& fitting) {
     const Span room = between_frames(job, fitting.units[i].span);
     const Vec3 centre = (1.0 / masses[i].mass) * masses[i].moment;
     const Span within{room.from + 3.0 * kLugHalf, room.to - 3.0 * kLugHalf};
-    const auto place = above(fitting, centre, within);
-    if (!place) continue;
+    // Of a unit shorter than that, and where others stand everywhere, there is none.
+    const auto place = within.from <= within.to
+                           ? above(fitting, centre, within, fitting.units[i].span, {low, top + kLugHigh})
+                           : std::nullopt;
+    if (!place) {
+      fitting.workshop.notes.push_back("Unit " + std::to_string(i + 1) + ": " +
+                                       rounded_text(masses[i].mass, 4) + " kg, no place for lugs.");
+      continue;
+    }
     const double at = *place;
     // Where the top folds, no lug follows it.
     const auto outline = band(job.track, {at - kLugHalf, at + kLugHalf}, low, top + kLugHigh);

@@ -99,7 +99,14 @@ class SheetMesh {
   TriangleMesh whole() {
     for (std::size_t i = 0; i + 1 < grid_.along.size(); ++i) {
       for (std::size_t j = 0; j < grid_.cells(); ++j) {
-        if (filled(i, j)) add_cell(i, j);
+        if (!filled(i, j)) continue;
+        // Cells between which a hole lies are one.
+        const std::size_t first = j;
+        while (filled(i, j + 1) &&
+               is_crossed(sheet_.region.holes, grid_.along[i], grid_.along[i + 1], grid_.across[j + 1]))
+          ++j;
+        add_faces(i, first, j + 1);
+        for (std::size_t k = first; k <= j; ++k) add_sides(i, k);
       }
     }
     return std::move(mesh_);
@@ -131,20 +138,32 @@ class SheetMesh {
              vertex(i, j, false));
   }
 
-  void add_cell(std::size_t i, std::size_t j) {
-    const std::array<Index, 4> lower = {vertex(i, j, false), vertex(i + 1, j, false),
-                                        vertex(i + 1, j + 1, false), vertex(i, j + 1, false)};
-    const std::array<Index, 4> upper = {vertex(i, j + 1, true), vertex(i + 1, j + 1, true),
-                                        vertex(i + 1, j, true), vertex(i, j, true)};
+  /// Both faces between two places along, from one place across to another.
+  void add_faces(std::size_t i, std::size_t from, std::size_t to) {
     const std::vector<const Bore*> holes =
         between(sheet_.region.holes, bores_, grid_.along[i], grid_.along[i + 1],
-                {grid_.across[j], grid_.across[j + 1]});
+                {grid_.across[from], grid_.across[to]});
     if (holes.empty()) {
-      add_quad(mesh_, lower[0], lower[1], lower[2], lower[3]);
-      add_quad(mesh_, upper[0], upper[1], upper[2], upper[3]);
-    } else {
-      add_drilled(mesh_, upper, lower, holes, fineness_);
+      for (const bool upper : {false, true}) {
+        const Index a = vertex(i, upper ? to : from, upper);
+        const Index b = vertex(i + 1, upper ? to : from, upper);
+        const Index c = vertex(i + 1, upper ? from : to, upper);
+        add_quad(mesh_, a, b, c, vertex(i, upper ? from : to, upper));
+      }
+      return;
     }
+    std::vector<Index> lower;
+    std::vector<Index> upper;
+    lower.push_back(vertex(i, from, false));
+    for (std::size_t j = from; j <= to; ++j) lower.push_back(vertex(i + 1, j, false));
+    for (std::size_t j = to; j > from; --j) lower.push_back(vertex(i, j, false));
+    upper.push_back(vertex(i, to, true));
+    for (std::size_t j = to + 1; j > from; --j) upper.push_back(vertex(i + 1, j - 1, true));
+    for (std::size_t j = from; j < to; ++j) upper.push_back(vertex(i, j, true));
+    add_drilled(mesh_, upper, lower, holes, fineness_);
+  }
+
+  void add_sides(std::size_t i, std::size_t j) {
     if (j == 0 || !filled(i, j - 1)) add_side(i, j, i + 1, j);
     if (!filled(i + 1, j)) add_side(i + 1, j, i + 1, j + 1);
     if (!filled(i, j + 1)) add_side(i + 1, j + 1, i, j + 1);
@@ -188,7 +207,14 @@ class WindowedPlate {
     for (const PathFrame& frame : frames_along(body_.path, ends_)) add_ring(frame);
     const auto rings = static_cast<Index>(ends_.places().size());
     for (Index ring = 0; ring + 1 < rings; ++ring) {
-      for (Index i = 0; i <= cuts(); ++i) add_cell(ring, i);
+      for (Index i = 0; i <= cuts(); ++i) {
+        // Cells between which a hole lies are one.
+        const Index first = i;
+        while (i < cuts() && !open(ring, i) && !open(ring, i + 1) &&
+               is_crossed(body_.holes, ends_.places()[ring], ends_.places()[ring + 1], rows_[i]))
+          ++i;
+        add_cells(ring, first, i);
+      }
       add_edge(ring, cuts() + 1);
       add_edge(ring, size() - 1);
     }
@@ -245,26 +271,44 @@ class WindowedPlate {
     });
   }
 
-  /// What lies between two rows, from one ring to the next; of an open one its walls.
-  void add_cell(Index ring, Index i) {
+  /// What lies from one row to another, from one ring to the next; of an open one, which is alone, its walls.
+  void add_cells(Index ring, Index i, Index last) {
     const Index next = ring + 1;
-    const std::array<Index, 4> near = {face(ring, i), face(ring, i + 1), face(next, i + 1), face(next, i)};
-    const std::array<Index, 4> far = {back(ring, i + 1), back(ring, i), back(next, i), back(next, i + 1)};
     if (open(ring, i)) {
-      if (!open(ring, i - 1)) add_quad(mesh_, face(ring, i), back(ring, i), back(next, i), face(next, i));
-      if (!open(ring, i + 1))
-        add_quad(mesh_, back(ring, i + 1), face(ring, i + 1), face(next, i + 1), back(next, i + 1));
-      if (ring == 0 || !open(ring - 1, i)) add_quad(mesh_, near[0], near[1], far[0], far[1]);
-      if (!open(next, i)) add_quad(mesh_, near[3], far[2], far[3], near[2]);
+      add_walls(ring, i);
       return;
     }
     const double low = i == 0 ? -1e300 : rows_[i - 1];
-    const double high = i == cuts() ? 1e300 : rows_[i];
+    const double high = last == cuts() ? 1e300 : rows_[last];
     const std::vector<const Bore*> holes =
         between(body_.holes, bores_, ends_.places()[ring], ends_.places()[next], {low, high});
-    if (!holes.empty()) return add_drilled(mesh_, near, far, holes, fineness_);
-    add_quad(mesh_, near[0], near[1], near[2], near[3]);
-    add_quad(mesh_, far[0], far[1], far[2], far[3]);
+    if (holes.empty()) {
+      for (Index k = i; k <= last; ++k) {
+        add_quad(mesh_, face(ring, k), face(ring, k + 1), face(next, k + 1), face(next, k));
+        add_quad(mesh_, back(ring, k + 1), back(ring, k), back(next, k), back(next, k + 1));
+      }
+      return;
+    }
+    std::vector<Index> near;
+    std::vector<Index> far;
+    near.push_back(face(next, i));
+    for (Index k = i; k <= last + 1; ++k) near.push_back(face(ring, k));
+    for (Index k = last + 1; k > i; --k) near.push_back(face(next, k));
+    far.push_back(back(next, last + 1));
+    for (Index k = last + 2; k > i; --k) far.push_back(back(ring, k - 1));
+    for (Index k = i; k <= last; ++k) far.push_back(back(next, k));
+    add_drilled(mesh_, near, far, holes, fineness_);
+  }
+
+  void add_walls(Index ring, Index i) {
+    const Index next = ring + 1;
+    const std::array<Index, 4> near = {face(ring, i), face(ring, i + 1), face(next, i + 1), face(next, i)};
+    const std::array<Index, 4> far = {back(ring, i + 1), back(ring, i), back(next, i), back(next, i + 1)};
+    if (!open(ring, i - 1)) add_quad(mesh_, face(ring, i), back(ring, i), back(next, i), face(next, i));
+    if (!open(ring, i + 1))
+      add_quad(mesh_, back(ring, i + 1), face(ring, i + 1), face(next, i + 1), back(next, i + 1));
+    if (ring == 0 || !open(ring - 1, i)) add_quad(mesh_, near[0], near[1], far[0], far[1]);
+    if (!open(next, i)) add_quad(mesh_, near[3], far[2], far[3], near[2]);
   }
 
   /// An edge of the plate, from a corner to the next.
@@ -289,6 +333,14 @@ class WindowedPlate {
   std::vector<double> rows_;
   TriangleMesh mesh_;
 };
+
+namespace {
+
+std::vector<Index> listed(const std::array<Index, 4>& quad) {
+  return {quad.begin(), quad.end()};
+}
+
+}  // namespace
 
 TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
   if (!body.windows.empty()) return WindowedPlate(body, fineness).whole();
@@ -328,7 +380,7 @@ TriangleMesh mesh_of(const SweptBody& body, const Fineness& fineness) {
       const auto [a, b, c, d] = quad(i);
       add_quad(mesh, a, b, c, d);
     }
-    if (!holes.empty()) add_drilled(mesh, quad(0), quad(2), holes, fineness);
+    if (!holes.empty()) add_drilled(mesh, listed(quad(0)), listed(quad(2)), holes, fineness);
   }
   for (const auto& [a, b, c] : solid::triangulate_loops({section})) {
     mesh.triangles.push_back({a, c, b});

@@ -153,7 +153,7 @@ class TubeMesh {
       add_quad(mesh_, outer[0], outer[1], outer[2], outer[3]);
       add_quad(mesh_, inner[0], inner[1], inner[2], inner[3]);
     } else {
-      add_drilled(mesh_, inner, outer, holes, fineness_);
+      add_drilled(mesh_, {inner.begin(), inner.end()}, {outer.begin(), outer.end()}, holes, fineness_);
     }
     const std::array<bool, 4> edge = {j == 0 || !filled(i, j - 1), !filled(next, j),
                                       j + 2 == rows_.size() || !filled(i, j + 1), !filled(before, j)};
