@@ -280,6 +280,52 @@ TEST_CASE("tube openings: an opened trough is a solid less its window and holes,
   }
 }
 
+TEST_CASE(
+    "tube openings: several of any heights and bolts in one tube or trough leave a solid of their volume") {
+  Random random = seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int round = 0; round < 12; ++round) {
+    TroughGore trough{random.between(0.1, 0.4),
+                      random.between(2e-3, 5e-3),
+                      0.0,
+                      0.0,
+                      Angle::from_degrees(random.between(-8.0, 8.0)),
+                      Angle::from_degrees(random.between(-8.0, 8.0))};
+    if (random.integer(0, 1) == 0) trough.side = random.between(0.02, 0.2);
+    // One after the other, lids end to end or apart; all on the left, their upper ends on one line.
+    double along = 0.1;
+    const int openings = random.integer(2, 3);
+    for (int k = 0; k < openings; ++k) {
+      const double lap = 30e-3;
+      const double outer = trough.inner_radius + trough.thickness;
+      const double high = -1.8;
+      const double low = high - random.between(0.05, 0.9);
+      const double from = along + lap;
+      const double to = from + random.between(0.05, 0.2);
+      trough.windows.push_back({from, to, Angle::from_radians(low), Angle::from_radians(high)});
+      const double radius = 1e-3 * random.between(2.5, 5.5);
+      for (const double angle : {low - 0.5 * lap / outer, high + 0.5 * lap / outer}) {
+        for (const double z : {from - 0.5 * lap, 0.5 * (from + to), to + 0.5 * lap})
+          trough.holes.push_back({z, Angle::from_radians(angle), radius});
+      }
+      along = to + lap + (random.integer(0, 1) == 0 ? 0.0 : random.between(0.0, 0.2));
+    }
+    trough.length = along + 0.1;
+    const auto check = [&](const auto& body) {
+      const double volume = parts::moments(body).volume;
+      for (const double tolerance : {1e-3, 1e-5}) {
+        const MeshFacts facts = measure(parts::facets_of(body, tolerance));
+        CHECK(facts.boundary_edges + facts.non_manifold_edges + facts.self_intersections == 0);
+        CHECK(facts.oriented_outward);
+        CHECK(std::fabs(facts.volume / volume - 1.0) < (tolerance > 1e-4 ? 0.05 : 5e-4));
+      }
+    };
+    CAPTURE(round, openings, trough.side);
+    check(trough);
+    check(parts::round_of(trough));
+  }
+}
+
 TEST_CASE("tube openings: each lies in one trough on the left, off its rim, its lid bolted on") {
   Random random = seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

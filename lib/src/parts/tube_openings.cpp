@@ -6,7 +6,6 @@
 #include "parts/bolts.hpp"
 #include "parts/bores.hpp"
 #include "parts/fittings.hpp"
-#include "parts/mesh_chords.hpp"
 #include "parts/plate_unit.hpp"
 
 #include <algorithm>
@@ -143,38 +142,6 @@ void require_apart(const std::vector<TubeOpening>& cut) {
   }
 }
 
-/// The lines along a tube beside holes, and those of windows' edges, are of the whole tube: of two openings in one tube none of
-/// one's may run through holes of the other.
-void require_lines_apart(const TubeGore& tube, const TubeWindow& window, const std::vector<TubeHole>& holes,
-                         const InspectionOptions& opening) {
-  const auto half = [&](const TubeHole& hole) {
-    return kRoomOfHole * math::asin(hole.radius / tube.inner_radius);
-  };
-  const auto runs_through = [&](Angle line, const TubeHole& hole) {
-    const double off = std::fabs(line.radians() - hole.about.radians());
-    return off < half(hole) - 1e-9;
-  };
-  const auto beside = [&](const TubeHole& hole, double side) {
-    return Angle::from_radians(hole.about.radians() + side * half(hole));
-  };
-  bool crossed = false;
-  for (const TubeHole& hole : holes) {
-    for (const TubeWindow& other : tube.windows)
-      crossed = crossed || runs_through(other.low, hole) || runs_through(other.high, hole);
-    for (const TubeHole& other : tube.holes) {
-      for (const double side : {-1.0, 1.0})
-        crossed =
-            crossed || runs_through(beside(other, side), hole) || runs_through(beside(hole, side), other);
-    }
-  }
-  for (const TubeHole& other : tube.holes)
-    crossed = crossed || runs_through(window.low, other) || runs_through(window.high, other);
-  if (!crossed) return;
-  refuse("at: holes of the opening at " + length_text(opening.at, 4) +
-             " lie in line with an edge or with holes of another one in the same tube",
-         "Lines along a tube run past all of its openings.", "one height and one bolt for both");
-}
-
 }  // namespace
 
 std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& openings,
@@ -206,11 +173,9 @@ std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& opening
     made.bolts = bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::coarse), lap);
     cut.push_back(made);
     require_apart(cut);
-    const std::vector<TubeHole> drilled =
-        bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::medium), lap);
-    require_lines_apart(tube, window, drilled, opening);
     tube.windows.push_back(window);
-    for (const TubeHole& hole : drilled) tube.holes.push_back(hole);
+    const double drilled = 0.5 * clearance_hole(opening.bolt, HoleFit::medium);
+    for (const TubeHole& hole : bolts_round(tube, window, drilled, lap)) tube.holes.push_back(hole);
   }
   return cut;
 }
