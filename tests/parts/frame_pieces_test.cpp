@@ -229,3 +229,117 @@ TEST_CASE("frame pieces: random sections, sheets and bolts make pieces that add 
     require_pieces(build, options, "stiffener");
   }
 }
+
+TEST_CASE(
+    "frame pieces: no part is heavier than the heaviest; where one cannot be lighter a mass is told that "
+    "does") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int cut = 0;
+  for (int run = 0; run < 16; ++run) {
+    const double wide = random.between(0.8, 2.0);
+    const double t = random.between(3e-3, 6e-3);
+    PlateOptions options;
+    options.split.sheet = {6.0, 2.5};
+    options.round = random.integer(0, 1) == 0 ? RoundMake::staves : RoundMake::mitred;
+    options.stave_tolerance = 15e-3;
+    options.bend = {FacetRule::segment_angle, 6.0 * 0.0174533, {}, {}};
+    if (random.integer(0, 1) == 0) {
+      options.flanges.section = FlangeSection::angle;
+      options.flanges.thickness = 6e-3;
+      options.flanges.width = 60e-3;
+    }
+    if (random.integer(0, 1) == 0) options.stiffeners.emplace();
+    if (random.integer(0, 2) == 0) options.lifting.emplace();
+    const section::Measures sections[] = {
+        section::UChannel{WidthLaw(wide), random.between(0.2, 0.5), t},
+        section::Trapezoid{WidthLaw(wide), random.between(0.2, 0.5), Angle::from_degrees(25.0), t},
+        section::Pipe{wide, t}, section::HalfPipe{wide, 0.2, t}};
+    const auto& section = sections[run % 4];
+    options.split.heaviest = random.between(1.0, 40.0);
+    CAPTURE(run, wide, section.index(), options.round, *options.split.heaviest);
+    WorkshopBuild build;
+    std::string refused = refusal_of([&] { build = plates_of(hill(5.0), section, options); });
+    // Of plates along the track any mass is met by shorter units, down to those between frames.
+    if (refused.find("split|") == 0 || refused.find("has no room for the frames") != std::string::npos)
+      continue;
+    for (int tries = 0; tries < 3 && !refused.empty(); ++tries) {
+      INFO(refused);
+      REQUIRE(refused.find("split.heaviest|heaviest: ") == 0);
+      options.split.heaviest = std::stod(refused.substr(refused.rfind("|heaviest: ") + 11));
+      refused = refusal_of([&] { build = plates_of(hill(5.0), section, options); });
+    }
+    CHECK(refused == "");
+    for (const ShopPart& part : build.workshop.parts) {
+      INFO(part.name);
+      CHECK(part.mass <= *options.split.heaviest * (1.0 + 1e-9));
+    }
+    cut += sums_of(build, "frame_a").pieces > 0 || sums_of(build, "stiffener_a").pieces > 0;
+  }
+  CHECK(cut > 2);
+}
+
+TEST_CASE(
+    "frame pieces: frames whose bolts leave no room for lighter pieces are refused with the mass of theirs") {
+  PlateOptions options;
+  options.flanges.width = 80e-3;
+  options.flanges.pitch = 0.25;
+  options.flanges.thickness = 12e-3;
+  options.flanges.as_told = true;
+  const ChannelMeasures channel{0.3, 0.3, 2e-3};
+  options.split.heaviest = 0.9;
+  const auto refused = [&] { return refusal_of([&] { return plates(hill(2.0), options, channel); }); };
+  const std::string told = refused();
+  INFO(told);
+  REQUIRE(told.find("split.heaviest|heaviest: 0.9 kg, and end_frame weighs ") == 0);
+  CHECK(told.find("|Cuts of it lie square between two bolts, off corners and off holes.|") !=
+        std::string::npos);
+  options.split.heaviest = std::stod(told.substr(told.rfind("|heaviest: ") + 11));
+  CHECK(refused() == "");
+  options.split.heaviest = 0.98 * *options.split.heaviest;
+  CHECK(refused().find("split.heaviest|") == 0);
+}
+
+TEST_CASE("frame pieces: a frame too heavy for one piece is refused where one is asked for") {
+  PlateOptions options;
+  options.split.sheet = {6.0, 2.5};
+  options.split.allowed = false;
+  options.stiffeners = StiffenerOptions{};
+  const ChannelMeasures channel{0.5, 0.3, 4e-3};
+  const WorkshopBuild whole = plates(hill(2.0), options, channel);
+  double frame = 0.0;
+  for (const ShopPart& part : whole.workshop.parts) {
+    if (part.name == "end_frame") frame = part.mass;
+  }
+  options.split.heaviest = 0.9 * frame;
+  CHECK(refusal_of([&] { return plates(hill(2.0), options, channel); }).find("One piece is asked for") !=
+        std::string::npos);
+}
+
+TEST_CASE("frame pieces: units too short for the frames at their ends are refused with a length that does") {
+  PlateOptions options;
+  for (const FlangeSection section : {FlangeSection::flat, FlangeSection::angle}) {
+    options.flanges.section = section;
+    options.flanges.thickness = 6e-3;
+    for (const double longest : {0.01, 0.05, 0.1}) {
+      for (const section::Measures& measures :
+           {section::Measures{section::Trapezoid{WidthLaw(1.3), 0.4, Angle::from_degrees(25.0), 4e-3}},
+            section::Measures{section::UChannel{WidthLaw(0.5), 0.3, 4e-3}},
+            section::Measures{section::VChannel{Angle::from_degrees(100.0), 0.4, 0.1, 4e-3}}}) {
+        options.split.longest = longest;
+        CAPTURE(section, longest, measures.index());
+        const ClothoidSpline track(Angle::from_degrees(45.0), {{1.2, 0.3, 0.3}});
+        const std::string told = refusal_of([&] { return plates_of(track, measures, options); });
+        if (told.empty()) continue;
+        INFO(told);
+        REQUIRE(told.find("split.longest|longest: unit ") == 0);
+        const std::size_t hint = told.find("|longest: ", 20);
+        std::size_t unit = 0;
+        const double value = std::stod(told.substr(hint + 10), &unit);
+        options.split.longest =
+            (told[hint + 10 + unit + 1] == 'm' && told[hint + 12 + unit] == 'm' ? 1e-3 : 1.0) * value;
+        CHECK_NOTHROW(plates_of(track, measures, options));
+      }
+    }
+  }
+}

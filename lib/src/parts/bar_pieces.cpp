@@ -9,6 +9,7 @@
 #include "parts/body_moments.hpp"
 #include "parts/frame_holes.hpp"
 #include "parts/frame_pieces.hpp"
+#include "parts/plate_joints.hpp"
 #include "parts/plate_unit.hpp"
 #include "parts/seams.hpp"
 #include "parts/workshop_list.hpp"
@@ -26,10 +27,15 @@ namespace {
 constexpr double kRounding = 1e-9;       // [m]
 constexpr std::size_t kMostPieces = 60;  // of one bar
 
-[[noreturn]] void refuse(const std::string& part, double length, const PlateOptions& options) {
+/// @param lightest  to which cuts bring its heaviest piece [kg]
+[[noreturn]] void refuse(const ShopPart& part, double length, double lightest, const PlateOptions& options) {
   const bool one = !options.split.allowed;
+  if (is_too_heavy(part, options.split)) {
+    throw_too_heavy(part, *options.split.heaviest, lightest,
+                    one ? "One piece is asked for." : "Cuts of it lie square between its bolts.");
+  }
   throw InputError({one ? "split" : "split.bar",
-                    (one ? "" : "bar: ") + part + " takes " + length_text(length, 4) + " of bar",
+                    (one ? "" : "bar: ") + part.name + " takes " + length_text(length, 4) + " of bar",
                     one ? "One piece is asked for, and bars are " + length_text(options.split.bar) + " long."
                         : "Pieces of " + length_text(options.split.bar) + " find no cuts between its bolts.",
                     "bar: " + length_text(std::ceil(length))});
@@ -133,7 +139,7 @@ ShopPart piece_of(const ShopPart& bar, const AngleBar& body, std::size_t index, 
 }
 
 std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& bar, const CutBar& cut, const BandCuts& wanted,
-                                               double longest) {
+                                               const SplitOptions& split) {
   const auto places = cuts_along(cut.heel(), wanted);
   if (!places) return std::nullopt;
   std::vector<std::optional<double>> ends(places->begin(), places->end());
@@ -146,8 +152,9 @@ std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& bar, const CutBar
   std::vector<ShopPart> pieces;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const AngleBar body = cut.between(ends[i], ends[i + 1]);
-    if (stock_length(body) > longest + kRounding) return std::nullopt;
+    if (stock_length(body) > split.bar + kRounding) return std::nullopt;
     pieces.push_back(piece_of(bar, body, i, wanted.pieces));
+    if (is_too_heavy(pieces.back(), split)) return std::nullopt;
   }
   return pieces;
 }
@@ -156,31 +163,46 @@ std::optional<std::vector<ShopPart>> in_pieces(const ShopPart& bar, const CutBar
 
 std::vector<ShopPart> angle_pieces(const ShopPart& bar, bool staggered, const PlateOptions& options) {
   const auto& body = std::get<AngleBar>(bar.body);
+  const SplitOptions& split = options.split;
   const double length = stock_length(body);
-  const double longest = options.split.bar;
-  if (length <= longest + kRounding) return {bar};
-  if (!options.split.allowed) refuse(bar.name, length, options);
+  const bool heavy = is_too_heavy(bar, split);
+  if (!heavy && length <= split.bar + kRounding) return {bar};
+  if (!split.allowed) refuse(bar, length, bar.mass, options);
   const CutBar cut(body, options);
   BandCuts wanted;
   wanted.bolts = cut.bolts();
   wanted.staggered = staggered;
   wanted.is_free = [&](double s) { return cut.is_free(s); };
-  const auto least = static_cast<std::size_t>(std::min(std::ceil(length / longest - kRounding), 1e3));
+  const auto least = static_cast<std::size_t>(std::min(std::ceil(length / split.bar - kRounding), 1e3));
   for (wanted.pieces = std::max<std::size_t>(2, least); wanted.pieces <= kMostPieces; ++wanted.pieces) {
-    if (auto pieces = in_pieces(bar, cut, wanted, longest)) return *pieces;
+    if (auto pieces = in_pieces(bar, cut, wanted, split)) return *pieces;
   }
-  refuse(bar.name, length, options);
+  SplitOptions any = split;
+  any.heaviest.reset();
+  double lightest = 0.0;
+  for (const bool turned : {false, true}) {
+    wanted.staggered = turned;
+    const auto cut_into = [&](std::size_t count) {
+      wanted.pieces = count;
+      return in_pieces(bar, cut, wanted, any);
+    };
+    lightest = std::max(lightest, lightest_pieces(cut_into).value_or(bar.mass));
+  }
+  refuse(bar, length, lightest, options);
 }
 
 void add_tube(const ShopPart& tube, const PlateOptions& options, const std::array<double, 3>& colour,
               Workshop& workshop) {
   const double length = std::get<Prism>(tube.body).depth;
-  const double count = std::ceil(length / options.split.bar - kRounding);
+  const SplitOptions& split = options.split;
+  double count = std::ceil(length / split.bar - kRounding);
+  if (is_too_heavy(tube, split)) count = std::max(count, std::ceil(tube.mass / *split.heaviest - kRounding));
   if (count < 2.0) {
     add_part(workshop, tube, colour);
     return;
   }
-  if (!options.split.allowed || count > static_cast<double>(kMostPieces)) refuse(tube.name, length, options);
+  const auto most = static_cast<double>(kMostPieces);
+  if (!split.allowed || count > most) refuse(tube, length, tube.mass / (split.allowed ? most : 1.0), options);
   ShopPart piece = tube;
   const double one = length / count;
   std::get<Prism>(piece.body).depth = one;
@@ -200,7 +222,7 @@ void add_flat_bar(const ShopPart& bar, const PlateOptions& options, const std::a
                   Workshop& workshop) {
   const PlaneBox box = bounds(bar.pattern->region.outline);
   if (box.width() > options.split.bar + kRounding && !options.split.allowed)
-    refuse(bar.name, box.width(), options);
+    refuse(bar, box.width(), bar.mass, options);
   // A flat bar is a sheet as wide as it is.
   PlateOptions stock = options;
   stock.split.sheet = {options.split.bar, box.height()};
@@ -214,8 +236,9 @@ void add_flat_bar(const ShopPart& bar, const PlateOptions& options, const std::a
 }
 
 void note_bar_pieces(const PlateOptions& options, Workshop& workshop) {
-  add_note("Bars longer than the " + length_text(options.split.bar) +
-               " that they come in are pieces, cut square and welded end to end.",
+  add_note("Bars longer than the " + length_text(options.split.bar) + " that they come in" +
+               (options.split.heaviest ? ", or too heavy," : "") +
+               " are pieces, cut square and welded end to end.",
            workshop);
 }
 

@@ -8,12 +8,12 @@
 
 namespace glissade::parts {
 
-/// Angles, tubes and flat bars come in stock lengths (`split.bar`): what is longer is pieces, cut square and welded end to end.
+/// Angles, tubes and flat bars come in stock lengths (`split.bar`): what is longer, or too heavy, is pieces, cut square and welded end to end.
 
 /// @param bar  whose body is an AngleBar
 /// @param staggered  cut elsewhere, by one bolt: of one of two that meet
 /// @return the bar alone where one length does; else pieces that are cut between its bolts
-/// @throws InputError where `split` if it is longer and one piece is asked for, or where no cuts are to be had
+/// @throws InputError where `split` if it is longer or too heavy and one piece is asked for, or where no cuts are to be had
 [[nodiscard]] std::vector<ShopPart> angle_pieces(const ShopPart& bar, bool staggered,
                                                  const PlateOptions& options);
 

@@ -362,33 +362,45 @@ std::vector<double> bolts_along(const BandLine& line, const PlaneRegion& region)
   return bolts;
 }
 
-std::vector<ShopPart> pieces_of_band(const ShopPart& plate, const ArcPath& along, bool staggered,
-                                     const PlateOptions& options) {
-  SplitOptions sheet = options.split;
-  sheet.heaviest.reset();
-  const auto asked = static_cast<std::size_t>(std::max(sheet.frames, 1));
-  if (!sheet.allowed || (asked == 1 && !excess(sheet, plate))) return {plate};
-  const PlaneRegion& region = plate.pattern->region;
-  const BandLine line(along);
-  const FrameBand band(region, options, line);
-  BandCuts wanted;
-  wanted.bolts = bolts_along(line, region);
-  wanted.staggered = staggered;
-  wanted.is_free = [&](double s) { return band.cut_at(line.at(s)).has_value(); };
-  const auto cut_into = [&](std::size_t count) {
-    wanted.pieces = count;
-    return in_pieces(plate, band, line, wanted, sheet);
-  };
-  for (std::size_t count = std::max<std::size_t>(2, asked); count <= kMostFramePieces; ++count) {
-    if (auto pieces = cut_into(count)) return *pieces;
+/// A plate in a band, and its pieces of any number.
+class BandPlate {
+ public:
+  BandPlate(const ShopPart& plate, const ArcPath& along, bool staggered, const PlateOptions& options)
+      : plate_(plate), line_(along), band_(plate.pattern->region, options, line_) {
+    cuts_.bolts = bolts_along(line_, plate.pattern->region);
+    cuts_.staggered = staggered;
+    cuts_.is_free = [this](double s) { return band_.cut_at(line_.at(s)).has_value(); };
   }
-  if (asked == 1) return {plate};
+  BandPlate(const BandPlate&) = delete;
+  BandPlate& operator=(const BandPlate&) = delete;
+
+  [[nodiscard]] std::optional<std::vector<ShopPart>> cut_into(std::size_t count, const SplitOptions& sheet) {
+    cuts_.pieces = count;
+    return in_pieces(plate_, band_, line_, cuts_, sheet);
+  }
+  /// As the frame that it meets is cut.
+  void turn() { cuts_.staggered = !cuts_.staggered; }
+
+  /// @return the least that the heaviest piece may weigh [kg]; none where there are no cuts
+  [[nodiscard]] std::optional<double> lightest(SplitOptions sheet) {
+    sheet.heaviest.reset();
+    return lightest_pieces([&](std::size_t count) { return cut_into(count, sheet); });
+  }
+
+ private:
+  const ShopPart& plate_;
+  BandLine line_;
+  FrameBand band_;
+  BandCuts cuts_;
+};
+
+[[noreturn]] void refuse_count(const ShopPart& plate, BandPlate& band, const SplitOptions& split) {
+  const auto asked = static_cast<std::size_t>(split.frames);
   std::size_t fewer = asked - 1;
-  // The frame that it meets needs cuts, too.
   const auto both = [&](std::size_t count) {
-    const bool one = cut_into(count).has_value();
-    wanted.staggered = !wanted.staggered;
-    return cut_into(count).has_value() && one;
+    const bool one = band.cut_into(count, split).has_value();
+    band.turn();
+    return band.cut_into(count, split).has_value() && one;
   };
   while (fewer > 1 && !both(fewer)) --fewer;
   throw InputError({"split.frames",
@@ -397,7 +409,49 @@ std::vector<ShopPart> pieces_of_band(const ShopPart& plate, const ArcPath& along
                     fewer > 1 ? "frames: " + std::to_string(fewer) : "leave it out"});
 }
 
+[[noreturn]] void refuse_mass(const ShopPart& plate, BandPlate& band, const SplitOptions& split) {
+  double least = plate.mass;
+  if (split.allowed) {
+    const double one = band.lightest(split).value_or(plate.mass);
+    band.turn();
+    least = std::max(one, band.lightest(split).value_or(plate.mass));
+  }
+  throw_too_heavy(plate, *split.heaviest, least,
+                  split.allowed ? "Cuts of it lie square between two bolts, off corners and off holes."
+                                : "One piece is asked for.");
+}
+
+std::vector<ShopPart> pieces_of_band(const ShopPart& plate, const ArcPath& along, bool staggered,
+                                     const PlateOptions& options) {
+  const SplitOptions& split = options.split;
+  const auto asked = static_cast<std::size_t>(std::max(split.frames, 1));
+  const bool heavy = is_too_heavy(plate, split);
+  if (!heavy && (!split.allowed || (asked == 1 && !excess(split, plate)))) return {plate};
+  BandPlate band(plate, along, staggered, options);
+  if (split.allowed) {
+    for (std::size_t count = std::max<std::size_t>(2, asked); count <= kMostFramePieces; ++count) {
+      if (auto pieces = band.cut_into(count, split)) return *pieces;
+    }
+  }
+  if (heavy) refuse_mass(plate, band, split);
+  if (asked == 1) return {plate};
+  refuse_count(plate, band, split);
+}
+
 }  // namespace
+
+std::optional<double> lightest_pieces(
+    const std::function<std::optional<std::vector<ShopPart>>(std::size_t)>& cut_into) {
+  std::optional<double> least;
+  for (std::size_t count = 2; count <= kMostFramePieces; ++count) {
+    const auto pieces = cut_into(count);
+    if (!pieces) continue;
+    double most = 0.0;
+    for (const ShopPart& piece : *pieces) most = std::max(most, piece.mass);
+    least = std::min(least.value_or(most), most);
+  }
+  return least;
+}
 
 double line_in_band(double width) {
   constexpr double kInset = 5e-3;  // [m]
@@ -411,6 +465,9 @@ void add_in_pieces(const ShopPart& plate, const ArcPath& line, bool staggered, c
     add_note(
         options.split.frames > 1
             ? "Frames, flanges and stiffeners are pieces, cut square between bolts and welded edge to edge."
+        : is_too_heavy(plate, options.split)
+            ? "Frames, flanges and stiffeners heavier than the heaviest part are pieces, cut square between "
+              "bolts and welded edge to edge."
             : "Frames, flanges and stiffeners that the sheet does not take in one are pieces, cut square "
               "between bolts and welded edge to edge.",
         workshop);

@@ -12,7 +12,7 @@
 namespace glissade::parts {
 
 /// What goes round a section in a band - frames, rings, stiffeners - is cut into pieces where the sheet, or the bar, is too short for
-/// it: square to the band, halfway between two bolts, off its corners, and elsewhere than the one that it meets.
+/// it, or it is too heavy: square to the band, halfway between two bolts, off its corners, and elsewhere than the one that it meets.
 
 /// A line in a band, with the way along it; closed of a ring.
 class BandLine {
@@ -56,13 +56,18 @@ struct BandCuts {
 /// @return ascending places, as near to even ones as there are; none where one of them is not to be had
 [[nodiscard]] std::optional<std::vector<double>> cuts_along(const BandLine& line, const BandCuts& cuts);
 
+/// @param cut_into  so many pieces, none where they find no cuts
+/// @return the least mass of the heaviest piece, of any number of them; none where there are no cuts
+[[nodiscard]] std::optional<double> lightest_pieces(
+    const std::function<std::optional<std::vector<ShopPart>>(std::size_t)>& cut_into);
+
 /// @return how far from the inner edge of a band its line lies: near the outer one, outside of what laps at corners [m]
 [[nodiscard]] double line_in_band(double width);
 
 /// Adds a plate across the track in pieces that fit the sheet, `split.frames` of them at least; where one is enough whole if
 /// it fits, or if no cuts are to be had.
 /// @param line  in the band, with the outside on its left; bolts stand near it
-/// @throws InputError  of split.frames, if no cuts make so many pieces
+/// @throws InputError  of split.frames, if no cuts make so many pieces; of split.heaviest, if none make them light enough
 void add_in_pieces(const ShopPart& plate, const ArcPath& line, bool staggered, const PlateOptions& options,
                    const std::array<double, 3>& colour, Workshop& workshop);
 

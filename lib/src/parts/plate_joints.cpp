@@ -7,6 +7,7 @@
 #include "parts/calm_joints.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
+#include "parts/fittings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,37 @@ void require_frame_room(const ArcSpline& track, const std::vector<double>& joint
                         (frame.section == FlangeSection::angle ? "narrower angle" : "thinner frame")});
 }
 
+void require_units_longer(const ArcSpline& track, const std::vector<double>& joints,
+                          const PlateOptions& options, double lowest, double highest) {
+  const FlangeOptions& frame = options.flanges;
+  if (!frame.wanted) return;
+  const double taken = 2.0 * (frame.along() + kBeyondFrame);
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t at = 0;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const Span span{joints[i], joints[i + 1]};
+    // Frames stand out of the section as far as they are wide.
+    const double room = (span.to - span.from) * std::min(least_stretch(track, span, highest + frame.width),
+                                                         least_stretch(track, span, lowest - frame.width));
+    if (room < least) at = i;
+    least = std::min(least, room);
+  }
+  if (!(least < taken)) return;
+  const SplitOptions& split = options.split;
+  const std::string key = split.longest ? "longest" : split.heaviest ? "heaviest" : "sheet";
+  // Twice, as units are not even.
+  const std::string longer =
+      split.longest ? "longest: " + length_text(1e-3 * std::ceil(2e3 * taken / least * *split.longest))
+                    : "a larger " + key;
+  throw InputError({"split." + key,
+                    key + ": unit " + std::to_string(at + 1) + ", " +
+                        length_text(joints[at + 1] - joints[at], 3) +
+                        " long, has no room for the frames at its ends",
+                    "Where it is shortest " + length_text(least, 3) + " are left, the frames take " +
+                        length_text(taken, 3) + ".",
+                    longer + ", or flanges: none"});
+}
+
 void require_end_flats(const Span& unit, const Facets& facets, const FlangeOptions& frame) {
   if (!frame.wanted || frame.section != FlangeSection::angle || facets.bends() == 0) return;
   const std::size_t last = facets.corners.size() - 1;
@@ -183,6 +215,22 @@ std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
                   "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg", mass};
   }
   return std::nullopt;
+}
+
+bool is_too_heavy(const ShopPart& part, const SplitOptions& split) {
+  constexpr double kRounding = 1e-9;  // of a mass
+  return split.heaviest && part.mass > *split.heaviest * (1.0 + kRounding);
+}
+
+void throw_too_heavy(const ShopPart& part, double heaviest, double lightest, const std::string& why) {
+  // Rounded up to three digits.
+  double digit = 1e-6;  // [kg]
+  while (lightest >= 1e3 * digit) digit *= 10.0;
+  const std::string least = rounded_text(digit * std::ceil(lightest / digit), 3) + " kg";
+  throw InputError({"split.heaviest",
+                    "heaviest: " + rounded_text(heaviest, 4) + " kg, and " + part.name + " weighs " +
+                        rounded_text(part.mass, 4) + " kg",
+                    why, "heaviest: " + least});
 }
 
 void keep_worse(std::optional<Excess> found, const std::string& part, std::optional<Excess>& worst) {

@@ -20,6 +20,11 @@ struct Excess {
   double times = 1.0;  ///< what may be, of a length or mass that shorter units make smaller
 };
 [[nodiscard]] std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part);
+[[nodiscard]] bool is_too_heavy(const ShopPart& part, const SplitOptions& split);
+/// @param lightest  mass to which it can be had [kg]
+/// @throws InputError of split.heaviest
+[[noreturn]] void throw_too_heavy(const ShopPart& part, double heaviest, double lightest,
+                                  const std::string& why);
 /// Of what exceeds, the part that does so most: shorter units are judged by one measure.
 /// @param part  its name, put before what it takes
 void keep_worse(std::optional<Excess> found, const std::string& part, std::optional<Excess>& worst);
@@ -56,6 +61,12 @@ struct Unit {
 /// @param least,least_end  as facets_by_angle()
 [[nodiscard]] Facets facets_by_rule(const ArcSpline& track, const Span& span, const BendOptions& bend,
                                     double largest_kink, double least, double least_end = 0.0);
+
+/// Refuses units so short that the frames at their ends would meet.
+/// @param lowest,highest  of the section, from the floor line [m]
+/// @throws InputError of what split them, naming the unit, the room that frames take and ways out
+void require_units_longer(const ArcSpline& track, const std::vector<double>& joints,
+                          const PlateOptions& options, double lowest, double highest);
 
 /// Refuses the leg of an angle that stands across a bend by more than its gap.
 /// @param facets  of a unit

@@ -227,6 +227,8 @@ WorkshopBuild make_channel(const Centerline& track, const ChannelMeasures& chann
   drill_floors(job, units);
   build.joints.push_back(0.0);
   for (const Unit& unit : units) build.joints.push_back(unit.span.to);
+  require_units_longer(job.track, build.joints, options, -floor_depth(job) - channel.thickness,
+                       channel.wall_height);
   if (options.floor == FloorMake::rolled)
     require_frame_room(job.track, build.joints, options.flanges, -floor_depth(job) - channel.thickness,
                        std::nullopt);
@@ -392,6 +394,15 @@ std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOpt
 
 namespace {
 
+/// Of parts that are not cut.
+void require_light(const Workshop& workshop, const SplitOptions& split) {
+  const ShopPart* worst = nullptr;
+  for (const ShopPart& part : workshop.parts) {
+    if (is_too_heavy(part, split) && (worst == nullptr || part.mass > worst->mass)) worst = &part;
+  }
+  if (worst != nullptr) throw_too_heavy(*worst, *split.heaviest, worst->mass, "It is made in one piece.");
+}
+
 WorkshopBuild make_section(const Centerline& track, const section::Measures& measures,
                            const MasterCurveOptions& fit, const PlateOptions& options,
                            const Placement& placement, const Body& body, double gravity) {
@@ -400,6 +411,7 @@ WorkshopBuild make_section(const Centerline& track, const section::Measures& mea
   WorkshopBuild build =
       make_round_or_strips(*master.spline, measures, options, placement, body, gravity, smooth);
   build.master = std::move(master);
+  require_light(build.workshop, options.split);
   return build;
 }
 
@@ -412,7 +424,9 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   if (!problems.empty()) throw InputError(std::move(problems));
   if (follows_flats(channel, options))
     return make_section(track, section_of(channel), fit, options, placement, body, gravity);
-  return make_channel(track, channel, fit, options, placement, body, gravity);
+  WorkshopBuild build = make_channel(track, channel, fit, options, placement, body, gravity);
+  require_light(build.workshop, options.split);
+  return build;
 }
 
 WorkshopBuild make_plates(const Centerline& track, const section::Measures& measures,

@@ -204,6 +204,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
       keep_worse(excess(options.split, strip.part), "the " + strip.part.name, worst);
     return worst;
   });
+  require_units_longer(track, build.joints, options, section.lowest, section.highest);
   // Usual frames get the gap that they need (frames_that_clear()).
   if (!bent && section.convex && options.flanges != FlangeOptions()) {
     require_frame_room(track, build.joints, options.flanges, section.lowest,
