@@ -8,6 +8,7 @@
 
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/section_seams.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -147,6 +148,54 @@ TEST_CASE("seams: units that are welded end to end have their seams 200 mm apart
       for (const double other : welded[i + 1]) CHECK(std::fabs(seam - other) > 0.2 - 1e-9);
     }
   }
+}
+
+TEST_CASE("seams: of any section whose units are welded end to end none goes on in one of the next unit") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int strips = 0;
+  for (int run = 0; run < 12; ++run) {
+    PlateOptions options;
+    options.flanges.wanted = run % 4 == 3;
+    options.split.widest = random.between(0.25, 0.7);
+    options.split.longest = random.between(1.5, 3.0);
+    options.bend.rule = FacetRule::segment_angle;
+    options.bend.value = 0.1;
+    options.floor = random.integer(0, 2) == 0 ? FloorMake::bent : FloorMake::rolled;
+    const bool rolled = options.floor == FloorMake::rolled;
+    const double wide = random.between(1.2, 3.0);
+    const double high = random.between(0.4, 1.2);
+    const bool widens = random.integer(0, 2) == 0;
+    const WidthLaw width = widens ? WidthLaw({{1.0, wide}, {3.0, wide - 0.05}}) : WidthLaw(wide);
+    const section::Measures sections[] = {section::Trapezoid{width, high, Angle::from_degrees(30.0), 4e-3},
+                                          section::UChannel{width, high, 4e-3}};
+    const section::Measures& measures = sections[random.integer(0, 1)];
+    if (!widens && rolled && random.integer(0, 1) == 0) options.liner.emplace();
+    if (!widens && rolled && random.integer(0, 1) == 0) options.corners.kind = CornerJoint::lap;
+    if (!widens && random.integer(0, 1) == 0) options.inspection = {{2.0, 0.08, 0.06, 6}};
+    CAPTURE(run, wide, high, widens, rolled, measures.index(), *options.split.widest);
+    const parts::PlateSection section = parts::with_seams(*parts::plate_section(measures, options), options);
+    REQUIRE(section.plates_of(0).size() == section.plates_of(1).size());
+    for (const std::size_t a : section.seams) {
+      for (const std::size_t b : section.seams) {
+        const double apart = norm(section.plates_of(0)[a].face_from - section.plates_of(1)[b].face_from);
+        if (options.flanges.wanted)
+          CHECK((a != b || apart == 0.0));
+        else if (widens && section.plates_of(0)[a].name.starts_with("floor"))
+          CHECK(apart > 0.0);
+        else
+          CHECK(apart >= std::min(0.05, 0.125 * 0.5 * *options.split.widest));
+      }
+    }
+    strips += section.seams.empty() ? 0 : 1;
+    // The build proves volumes, edges and that nothing clashes.
+    WorkshopBuild build;
+    const std::string told = refusal_of([&] { build = plates_of(chute(), measures, options); });
+    INFO(told);
+    CHECK((told.empty() || told.find("inspection|") == 0));
+    if (told.empty()) CHECK(build.proof.pairs > 0);
+  }
+  CHECK(strips > 8);
 }
 
 TEST_CASE("seams: narrow strips are staggered by half a strip, and every seam lies on the plate") {

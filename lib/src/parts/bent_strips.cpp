@@ -389,10 +389,12 @@ std::vector<Strip> BentStrips::strips() const {
   std::vector<Strip> strips;
   for (std::size_t p = 0; p < job_.section.plates.size(); ++p) {
     for (std::size_t u = 0; u < units_.size(); ++u) {
-      const Stretch stretch = stretch_of(job_.section.plates[p], units_[u]);
+      const SectionPlate& plate = job_.section.plates_of(u)[p];
+      const Stretch stretch = stretch_of(plate, units_[u]);
       if (stretch.first >= stretch.last) continue;
-      strips.push_back(strip_of(job_.section.plates[p], job_.section.thickness, stretch));
+      strips.push_back(strip_of(plate, job_.section.thickness, stretch));
       strips.back().plate = p;
+      strips.back().unit = u;
       if (units_.size() > 1) strips.back().part.name += "_" + std::to_string(u + 1);
     }
   }
@@ -459,7 +461,7 @@ std::vector<Strip> BentStrips::set(const SectionPlate& plate, double thickness, 
 }
 
 BentStrips::Expected BentStrips::expected(const Strip& strip) const {
-  const SectionPlate& plate = job_.section.plates[strip.plate];
+  const SectionPlate& plate = job_.section.plates_of(strip.unit)[strip.plate];
   const std::array<Vec2, 4> corners = {plate.face_from, plate.face_to, plate.back_to, plate.back_from};
   double area = 0.0;
   double moment = 0.0;

@@ -16,6 +16,7 @@ namespace glissade::parts {
 /// A strip of a unit with the lengths of its developed edges.
 struct Strip {
   std::size_t plate = 0;
+  std::size_t unit = 0;
   Span span;
   std::size_t first = 0;  ///< of a bent one: its first and last station
   std::size_t last = 0;

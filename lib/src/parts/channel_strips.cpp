@@ -13,10 +13,9 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kOffEdge = 2.0;     // thicknesses from slots and the ends of tabs to a seam
-constexpr double kOffHole = 1.5;     // diameters from the middle of a hole to a seam
-constexpr double kOffRim = 10e-3;    // [m]
-constexpr double kStagger = 100e-3;  // of seams from even places, where units are welded end to end [m]
+constexpr double kOffEdge = 2.0;   // thicknesses from slots and the ends of tabs to a seam
+constexpr double kOffHole = 1.5;   // diameters from the middle of a hole to a seam
+constexpr double kOffRim = 10e-3;  // [m]
 
 /// What of a sheet lies between two lines along it, whose ends alone they cross.
 PlaneRegion between(const PlaneRegion& region, const Span& strip) {
@@ -92,9 +91,9 @@ std::vector<Span> taken_of_wall(const Job& job) {
 }  // namespace
 
 std::vector<double> floor_seams(const Job& job, std::size_t index) {
-  const double stagger = job.options.flanges.wanted ? 0.0 : (index % 2 == 0 ? kStagger : -kStagger);
   return seams_across("floor", {0.0, floor_width(job)}, true, taken_of_floor(job), job.options.split,
-                      stagger);
+                      !job.options.flanges.wanted)
+      .of_unit(index);
 }
 
 std::vector<ShopPart> floor_strips(const Job& job, const Unit& unit, std::size_t index) {
@@ -118,11 +117,12 @@ std::vector<ShopPart> floor_strips(const Job& job, const Unit& unit, std::size_t
   return parts;
 }
 
-std::vector<WallStrip> wall_strips(const Job& job, const Unit& unit) {
+std::vector<WallStrip> wall_strips(const Job& job, const Unit& unit, std::size_t index) {
   if (!unit.wall) return {};
   const Span heights = wall_heights(job);
   const std::vector<double> seams =
-      seams_across("wall", heights, false, taken_of_wall(job), job.options.split, 0.0);
+      seams_across("wall", heights, false, taken_of_wall(job), job.options.split, !job.options.flanges.wanted)
+          .of_unit(index);
   if (seams.empty()) return {{*unit.wall, heights, *wall_region(job, unit.span, unit.face, unit.tabs)}};
   std::vector<WallStrip> strips;
   for (const Span& strip : strips_between_seams(heights, seams)) {
@@ -141,7 +141,7 @@ std::vector<WallStrip> wall_strips(const Job& job, const Unit& unit) {
 
 double seam_length(const Job& job, const Unit& unit, std::size_t index) {
   double sum = static_cast<double>(floor_seams(job, index).size()) * unit.face.line.length();
-  const std::vector<WallStrip> walls = wall_strips(job, unit);
+  const std::vector<WallStrip> walls = wall_strips(job, unit, index);
   for (std::size_t i = 1; i < walls.size(); ++i)
     sum += 2.0 * length(*offset_line(job.track, unit.span, walls[i].heights.from));
   return sum;

@@ -22,7 +22,7 @@ struct WallStrip {
   PlaneRegion region;  ///< in the plane (x, height) of the track
 };
 /// @return from the lowest; none of a channel without walls
-[[nodiscard]] std::vector<WallStrip> wall_strips(const Job& job, const Unit& unit);
+[[nodiscard]] std::vector<WallStrip> wall_strips(const Job& job, const Unit& unit, std::size_t index);
 
 /// @return how long the seams of a unit are [m]
 [[nodiscard]] double seam_length(const Job& job, const Unit& unit, std::size_t index);

@@ -425,9 +425,9 @@ struct Opening {
 };
 
 /// Cuts openings out of the left wall of a unit, whose strips with openings become parts of their own.
-void cut_wall(const Fitting& fitting, const Unit& unit, const std::vector<Opening>& openings) {
+void cut_wall(const Fitting& fitting, std::size_t unit, const std::vector<Opening>& openings) {
   const Job& job = fitting.job;
-  for (const WallStrip& strip : wall_strips(job, unit)) {
+  for (const WallStrip& strip : wall_strips(job, fitting.units[unit], unit)) {
     PlaneRegion region = strip.region;
     for (const Opening& opening : openings) {
       const double middle = 0.5 * (opening.heights.from + opening.heights.to);
@@ -529,7 +529,8 @@ void add_openings(const Fitting& fitting) {
            "It is " + length_text(job.track.length(), 4) + " long.",
            "at: " + length_text(0.5 * job.track.length(), 2));
   }
-  for (const Unit& unit : fitting.units) {
+  for (std::size_t i = 0; i < fitting.units.size(); ++i) {
+    const Unit& unit = fitting.units[i];
     std::vector<Opening> openings;
     for (const InspectionOptions& opening : job.options.inspection) {
       const double lap = lid_lap(opening, job.options.shop);
@@ -558,7 +559,7 @@ void add_openings(const Fitting& fitting) {
       add_lid(fitting, opening, heights, bolts);
       fitting.below.add(opening.at - reach, opening.at + reach);
     }
-    if (!openings.empty()) cut_wall(fitting, unit, openings);
+    if (!openings.empty()) cut_wall(fitting, i, openings);
   }
 }
 

@@ -289,7 +289,7 @@ std::vector<Unit> split_units(const Job& job, double largest_kink) {
       const std::string number = " of unit " + std::to_string(i + 1);
       for (const ShopPart& floor : floor_strips(job, units[i], i))
         keep_worse(excess(job.options.split, floor), "the floor" + number, worst);
-      for (const WallStrip& wall : wall_strips(job, units[i]))
+      for (const WallStrip& wall : wall_strips(job, units[i], i))
         keep_worse(excess(job.options.split, wall.part), "a wall" + number, worst);
     }
     return worst;

@@ -271,7 +271,7 @@ PartsProof prove(const Job& job, const std::vector<Unit>& units, const Workshop&
   PartsProof proof;
   for (std::size_t i = 0; i < units.size(); ++i) {
     for (const ShopPart& floor : floor_strips(job, units[i], i)) proof.volume += floor.volume;
-    for (const WallStrip& wall : wall_strips(job, units[i])) proof.volume += 2.0 * wall.part.volume;
+    for (const WallStrip& wall : wall_strips(job, units[i], i)) proof.volume += 2.0 * wall.part.volume;
   }
   double listed = 0.0;
   for (const ShopPart& part : workshop.parts) listed += part.volume * static_cast<double>(part.quantity());

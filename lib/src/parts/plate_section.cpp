@@ -373,4 +373,11 @@ std::optional<PlateSection> plate_section(const section::Measures& measures, con
   return section;
 }
 
+PlateSection PlateSection::of_unit(std::size_t unit) const {
+  PlateSection one = *this;
+  one.plates = plates_of(unit);
+  one.staggered.clear();
+  return one;
+}
+
 }  // namespace glissade::parts

@@ -50,13 +50,23 @@ struct PlateSection {
   double departure = 0.0;  ///< of the plates from a round section [m]
   /// Corners of the outside, which lies to their left: from the left top below the section to the right one; of a ring all round.
   std::vector<Vec2> outside;
-  bool ring = false;             ///< closed all round, with nothing to slide on outside
-  bool inside_outline = false;   ///< plates lie inside a free outline, their faces are its sides
-  bool mitred = true;            ///< else walls stand beside a floor, or on it, edge against face
-  std::vector<Vec2> seams = {};  ///< on the faces of plates that are cut along the track, where strips meet
+  bool ring = false;            ///< closed all round, with nothing to slide on outside
+  bool inside_outline = false;  ///< plates lie inside a free outline, their faces are its sides
+  bool mitred = true;           ///< else walls stand beside a floor, or on it, edge against face
+  std::vector<std::size_t> seams =
+      {};  ///< plates that are strips and meet the one before at a seam along the track
+  /// Plates of every other unit, where units are welded end to end: strips whose seams lie elsewhere. None: those of all units.
+  std::vector<SectionPlate> staggered = {};
   std::vector<LinedFace> lined = {};  ///< of a section that is to be lined: its plates lie farther out for it
   /// Of a floor that widens: all of the above are of its narrowest place, and corners beside the middle move out with half of it.
   std::optional<WidthLaw> widths = std::nullopt;
+
+  /// @param unit  from 0
+  [[nodiscard]] const std::vector<SectionPlate>& plates_of(std::size_t unit) const {
+    return unit % 2 == 1 && !staggered.empty() ? staggered : plates;
+  }
+  /// @return the section as one unit has it
+  [[nodiscard]] PlateSection of_unit(std::size_t unit) const;
 };
 
 /// @return a section as plates; none of curbs and free outlines whose width changes along the track

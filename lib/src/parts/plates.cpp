@@ -66,7 +66,7 @@ void add_units(const Job& job, const std::vector<Unit>& units, Workshop& worksho
     }
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
-    for (WallStrip& wall : wall_strips(job, units[i])) {
+    for (WallStrip& wall : wall_strips(job, units[i], i)) {
       wall.part.name += suffix(i);
       add_part(workshop, std::move(wall.part), kWallColour);
     }

@@ -20,6 +20,8 @@ namespace {
 constexpr double kOfSheet = 0.95;      // of a sheet that curved strips may take: their pattern needs more
 constexpr double kStep = 1e-3;         // in which seams move off what is taken [m]
 constexpr double kMostStagger = 0.25;  // of a strip
+constexpr double kLeastApart = 50e-3;  // seams of units that are welded end to end [m]
+constexpr double kLeastShare = 0.125;  // of a strip, that is
 constexpr int kMoreStrips = 10;        // than an even division asks for
 constexpr double kTouch = 1e-9;        // [m]
 
@@ -68,13 +70,19 @@ double widest_strip(double width, bool straight, const SplitOptions& split) {
   return std::min(most, split.widest.value_or(most));
 }
 
-std::vector<double> seams_across(const std::string& plate, const Span& across, bool straight,
-                                 const std::vector<Span>& taken, const SplitOptions& split, double stagger) {
+namespace {
+
+/// The seams of one unit.
+/// @param stagger  by which they lie off even places, at most a quarter of a strip [m]
+/// @param least    so many strips at least
+std::vector<double> seams_of_unit(const std::string& plate, const Span& across, bool straight,
+                                  const std::vector<Span>& taken, const SplitOptions& split, double stagger,
+                                  std::size_t least) {
   const double width = across.to - across.from;
   const double most = widest_strip(width, straight, split);
   if (!(width > most + kTouch)) return {};
   // Also of a sheet that has no room at all.
-  const double even = most > 0.0 ? std::ceil(width / most - 1e-9) : 0.0;
+  const double even = most > 0.0 ? std::max(std::ceil(width / most - 1e-9), static_cast<double>(least)) : 0.0;
   for (int more = 0; even > 1.0 && even < 1e3 && more <= kMoreStrips; ++more) {
     const auto seams =
         even_seams(across, static_cast<std::size_t>(even) + static_cast<std::size_t>(more), taken, stagger);
@@ -86,6 +94,28 @@ std::vector<double> seams_across(const std::string& plate, const Span& across, b
                         " or less",
                     "Seams keep off laps, slots, openings and holes.",
                     split.widest ? "a larger widest" : "a larger sheet"});
+}
+
+}  // namespace
+
+Seams seams_across(const std::string& plate, const Span& across, bool straight,
+                   const std::vector<Span>& taken, const SplitOptions& split, bool welded) {
+  if (!welded) {
+    const std::vector<double> seams = seams_of_unit(plate, across, straight, taken, split, 0.0, 1);
+    return {seams, seams};
+  }
+  std::size_t least = 1;
+  while (true) {
+    Seams seams;
+    seams.even = seams_of_unit(plate, across, straight, taken, split, kSeamStagger, least);
+    const double strip = (across.to - across.from) / static_cast<double>(seams.even.size() + 1);
+    const double apart = std::min(kLeastApart, kLeastShare * strip);
+    std::vector<Span> both = taken;
+    for (const double seam : seams.even) both.push_back({seam - apart, seam + apart});
+    seams.odd = seams_of_unit(plate, across, straight, both, split, -kSeamStagger, least);
+    if (seams.odd.size() == seams.even.size()) return seams;
+    least = std::max(seams.odd.size(), seams.even.size()) + 1;
+  }
 }
 
 std::vector<Span> strips_between_seams(const Span& across, const std::vector<double>& seams) {

@@ -17,16 +17,29 @@ namespace glissade::parts {
 /// @param straight  its pattern is as wide as it is; else it curves, and takes more of a sheet
 [[nodiscard]] double widest_strip(double width, bool straight, const SplitOptions& split);
 
-/// The seams across a plate: as few as strips need, even, but off what is taken.
+/// Seams across a plate in one unit, and in the next; ascending places.
+struct Seams {
+  std::vector<double> even;
+  std::vector<double> odd;
+
+  /// @param unit  from 0
+  [[nodiscard]] const std::vector<double>& of_unit(std::size_t unit) const {
+    return unit % 2 == 0 ? even : odd;
+  }
+};
+
+/// By which seams of units that are welded end to end lie off even places, one way in one and the other way in the next [m].
+inline constexpr double kSeamStagger = 100e-3;
+
+/// The seams across a plate: as few as strips need, even, but off what is taken; none of a plate that goes in one piece. Of units that
+/// are welded end to end they lie 200 mm or half a strip apart, less where something is taken; as many in one as in the next.
 /// @param across    the plate from edge to edge
 /// @param straight  as above
 /// @param taken     stretches that no seam may lie in
-/// @param stagger   by which seams lie off even places, at most a quarter of a strip [m]
-/// @return ascending places; none of a plate that goes in one piece
+/// @param welded    units meet without frames; else all of them have the same seams
 /// @throws InputError where no seams keep off what is taken: the widest strip, and a way out
-[[nodiscard]] std::vector<double> seams_across(const std::string& plate, const Span& across, bool straight,
-                                               const std::vector<Span>& taken, const SplitOptions& split,
-                                               double stagger);
+[[nodiscard]] Seams seams_across(const std::string& plate, const Span& across, bool straight,
+                                 const std::vector<Span>& taken, const SplitOptions& split, bool welded);
 
 /// @return the strips that seams leave of a plate, edge to edge
 [[nodiscard]] std::vector<Span> strips_between_seams(const Span& across, const std::vector<double>& seams);

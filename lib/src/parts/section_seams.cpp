@@ -31,8 +31,13 @@ bool is_level(const SectionPlate& plate) {
   return std::fabs(plate.way().y) < 1e-9;
 }
 
+/// Whether units are welded end to end, without frames.
+bool is_welded(const PlateSection& section, const PlateOptions& options) {
+  return !options.flanges.wanted || !section.convex;
+}
+
 /// Seams of a plate of one width.
-std::vector<double> even_seams(const PlateSection& section, std::size_t index, const PlateOptions& options) {
+Seams even_seams(const PlateSection& section, std::size_t index, const PlateOptions& options) {
   const SectionPlate& plate = section.plates[index];
   Span across = across_of(plate);
   const double off = kOffCorner * section.thickness + options.corners.clearance;
@@ -52,41 +57,72 @@ std::vector<double> even_seams(const PlateSection& section, std::size_t index, c
     for (const double y : bolts_across(options, lane.width))
       taken.push_back({from + y - room, from + y + room});
   }
-  return seams_across(plate.name, across, is_level(plate), taken, options.split, 0.0);
+  return seams_across(plate.name, across, is_level(plate), taken, options.split, is_welded(section, options));
 }
 
+/// A floor that widens, in strips: an odd number, those beside the middle one all as wide.
+struct WideningFloor {
+  Span across;  ///< where it is narrowest
+  double widest = 0.0;
+  double most = 0.0;   ///< of a strip
+  double least = 0.0;  ///< of the middle one
+
+  [[nodiscard]] double side(double count) const { return widest / count; }
+  [[nodiscard]] bool takes(double count) const {
+    return across.to - across.from - (count - 1.0) * side(count) >= least;
+  }
+  /// @return by how much seams may lie aside: the strip at one end is as much wider, the one at the other end narrower
+  [[nodiscard]] double aside(double count) const {
+    return std::min({kSeamStagger, 0.25 * side(count), most - side(count)});
+  }
+  [[nodiscard]] std::vector<double> seams(double count, double aside) const {
+    std::vector<double> seams;
+    const auto sides = static_cast<int>(count) / 2;
+    for (int k = 1; k <= sides; ++k) seams.push_back(across.from + k * side(count) + aside);
+    for (int k = sides; k >= 1; --k) seams.push_back(across.to - k * side(count) + aside);
+    return seams;
+  }
+};
+
 /// Seams of a floor on both sides of whose middle the width changes: an odd number of strips, the middle one as wide as is left.
-std::vector<double> seams_of_widening(const PlateSection& section, const SectionPlate& plate,
-                                      const SplitOptions& split) {
-  const Span across = across_of(plate);
-  const double narrowest = across.to - across.from;
-  const double widest = narrowest + section.widths->widest() - section.widths->narrowest();
-  const double most = widest_strip(widest, false, split);
-  if (!(widest > most)) return {};
-  double count = std::ceil(widest / most - 1e-9);
+Seams seams_of_widening(const PlateSection& section, const SectionPlate& plate, const SplitOptions& split,
+                        bool welded) {
+  WideningFloor floor;
+  floor.across = across_of(plate);
+  const double narrowest = floor.across.to - floor.across.from;
+  floor.widest = narrowest + section.widths->widest() - section.widths->narrowest();
+  floor.most = widest_strip(floor.widest, false, split);
+  floor.least = 2.0 * kOffCorner * section.thickness;
+  if (!(floor.widest > floor.most)) return {};
+  double count = std::ceil(floor.widest / floor.most - 1e-9);
   if (std::fmod(count, 2.0) == 0.0) count += 1.0;
-  const double side = widest / count;
-  const double middle = narrowest - (count - 1.0) * side;
-  if (middle < 2.0 * kOffCorner * section.thickness) {
+  if (!floor.takes(count)) {
     throw InputError({"cross_section.width",
                       "the " + plate.name + " goes from " + length_text(narrowest, 4) + " to " +
-                          length_text(widest, 4) + ": strips of " + length_text(most, 4) +
+                          length_text(floor.widest, 4) + ": strips of " + length_text(floor.most, 4) +
                           " leave nothing of the one in the middle",
                       "That one takes the change of width; those beside it are as wide everywhere.",
                       "a smaller change of width, or larger strips (split.widest, split.sheet)"});
   }
-  std::vector<double> seams;
-  const auto sides = static_cast<int>(count) / 2;
-  for (int k = 1; k <= sides; ++k) seams.push_back(across.from + k * side);
-  for (int k = sides; k >= 1; --k) seams.push_back(across.to - k * side);
-  return seams;
+  if (!welded) return {floor.seams(count, 0.0), floor.seams(count, 0.0)};
+  // Pairs of strips more, as far as they make room to lie aside.
+  constexpr int kMore = 3;
+  double best = count;
+  for (int more = 1; more <= kMore; ++more) {
+    const double strips = count + 2.0 * more;
+    if (floor.aside(best) >= std::min(kSeamStagger, 0.25 * floor.side(best)) || !floor.takes(strips)) break;
+    if (floor.aside(strips) > floor.aside(best)) best = strips;
+  }
+  const double aside = floor.aside(best);
+  return {floor.seams(best, aside), floor.seams(best, -aside)};
 }
 
-std::vector<double> seams_of(const PlateSection& section, std::size_t index, const PlateOptions& options) {
+Seams seams_of(const PlateSection& section, std::size_t index, const PlateOptions& options) {
   const SectionPlate& plate = section.plates[index];
   const bool both_sides = plate.face_from.x * plate.face_to.x < 0.0;
-  return section.widths && both_sides ? seams_of_widening(section, plate, options.split)
-                                      : even_seams(section, index, options);
+  const bool welded = is_welded(section, options);
+  if (section.widths && both_sides) return seams_of_widening(section, plate, options.split, welded);
+  return even_seams(section, index, options);
 }
 
 /// The plate between seams, whose edges there are square.
@@ -114,8 +150,10 @@ PlateSection with_seams(PlateSection section, const PlateOptions& options) {
   PlateSection whole = std::move(section);
   PlateSection result = whole;
   result.plates.clear();
+  std::vector<SectionPlate> odd;
   for (std::size_t i = 0; i < whole.plates.size(); ++i) {
-    const std::vector<double> seams = seams_of(whole, i, options);
+    const Seams both = seams_of(whole, i, options);
+    const std::vector<double>& seams = both.even;
     const std::size_t first = result.plates.size();
     for (std::size_t k = 0; k < whole.lined.size(); ++k) {
       if (whole.lined[k].plate != i) continue;
@@ -134,13 +172,17 @@ PlateSection with_seams(PlateSection section, const PlateOptions& options) {
     }
     if (seams.empty()) {
       result.plates.push_back(whole.plates[i]);
+      odd.push_back(whole.plates[i]);
       continue;
     }
     for (SectionPlate& strip : cut(whole.plates[i], whole.thickness, seams)) {
-      if (result.plates.size() > first) result.seams.push_back(strip.face_from);
+      if (result.plates.size() > first) result.seams.push_back(result.plates.size());
       result.plates.push_back(std::move(strip));
     }
+    for (SectionPlate& strip : cut(whole.plates[i], whole.thickness, both.odd))
+      odd.push_back(std::move(strip));
   }
+  if (is_welded(whole, options) && !result.seams.empty()) result.staggered = std::move(odd);
   return result;
 }
 

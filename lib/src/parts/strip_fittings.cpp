@@ -288,11 +288,11 @@ Vec2 way_of(const LinedFace& face) {
 }
 
 /// The strip of the plate below a lined face in which a place along the face of the first one lies.
-std::size_t strip_below(const PlateSection& section, const LinedFace& face, double y) {
-  const Vec2 origin = section.plates[face.plate].face_from;
+std::size_t strip_below(const std::vector<SectionPlate>& plates, const LinedFace& face, double y) {
+  const Vec2 origin = plates[face.plate].face_from;
   std::size_t strip = face.plate;
   for (std::size_t k = 1; k < face.strips; ++k) {
-    if (y > dot(section.plates[face.plate + k].face_from - origin, way_of(face))) strip = face.plate + k;
+    if (y > dot(plates[face.plate + k].face_from - origin, way_of(face))) strip = face.plate + k;
   }
   return strip;
 }
@@ -339,15 +339,15 @@ Lane lane_of(const PlateSection& section, const LinedFace& face) {
   return {low, high - low};
 }
 
-std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, const std::vector<double>& breaks,
-                                   int& row) {
+std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, std::size_t index,
+                                   const std::vector<double>& breaks, int& row) {
   const LinerOptions& liner = *job.options.liner;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   Span room = unit;
   for (const LinedFace& face : job.section.lined) {
     for (std::size_t k = 0; k < face.strips; ++k) {
-      const SectionPlate& plate = job.section.plates[face.plate + k];
+      const SectionPlate& plate = job.section.plates_of(index)[face.plate + k];
       for (const Vec2 corner : {face.from, face.to, plate.back_from, plate.back_to}) {
         low = std::min(low, corner.y);
         high = std::max(high, corner.y);
@@ -373,17 +373,19 @@ std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, const 
   return tile_places(job.options, widths_of(job.section), room, arcs, row, &seams);
 }
 
-std::vector<std::vector<Circle>> holes_below(const StripJob& job, const std::vector<TilePlace>& tiles) {
-  std::vector<std::vector<Circle>> holes(job.section.plates.size());
+std::vector<std::vector<Circle>> holes_below(const StripJob& job, std::size_t unit,
+                                             const std::vector<TilePlace>& tiles) {
+  const std::vector<SectionPlate>& plates = job.section.plates_of(unit);
+  std::vector<std::vector<Circle>> holes(plates.size());
   const double radius = 0.5 * clearance_hole(job.options.liner->bolt, HoleFit::coarse);
   for (const TilePlace& tile : tiles) {
     const LinedFace& face = job.section.lined[tile.lane];
-    const SectionPlate& plate = job.section.plates[face.plate];
+    const SectionPlate& plate = plates[face.plate];
     const double from = lane_of(job.section, face).low - dot(plate.face_from - face.from, way_of(face));
     for (const double across : tile.across) {
       const double y = from + tile.edge + across - 0.5 * tile.wider;
-      const std::size_t strip = strip_below(job.section, face, y);
-      const double own = y - dot(job.section.plates[strip].face_from - plate.face_from, way_of(face));
+      const std::size_t strip = strip_below(plates, face, y);
+      const double own = y - dot(plates[strip].face_from - plate.face_from, way_of(face));
       for (const double s : tile.along) holes[strip].push_back({{s, own}, radius});
     }
   }

@@ -32,12 +32,13 @@ void add_strip_rims(const StripJob& job, const std::vector<double>& joints, Work
 void add_strip_covers(const StripJob& job, const std::vector<double>& joints, Workshop& workshop);
 
 /// The tiles of a unit.
+/// @param index   of the unit, from 0
 /// @param breaks  places that no hole lies across
 /// @param row     courses before it; counts on
-[[nodiscard]] std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit,
+[[nodiscard]] std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, std::size_t index,
                                                  const std::vector<double>& breaks, int& row);
 /// @return the holes of tiles in the plates below them, one list a plate
-[[nodiscard]] std::vector<std::vector<Circle>> holes_below(const StripJob& job,
+[[nodiscard]] std::vector<std::vector<Circle>> holes_below(const StripJob& job, std::size_t unit,
                                                            const std::vector<TilePlace>& tiles);
 void add_strip_liner(const StripJob& job, const std::vector<TilePlace>& tiles, Workshop& workshop);
 

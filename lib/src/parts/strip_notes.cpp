@@ -109,9 +109,12 @@ void add_strip_notes(const StripJob& job, const std::optional<BentStrips>& bent,
   }
   note_short_plates(job, strips, workshop);
   double seams = 0.0;
-  for (const Vec2 seam : job.section.seams) {
-    for (const StripArc& one : job.arcs_in({0.0, job.track.length()}))
-      seams += one.arc.length * (1.0 - one.arc.curvature * seam.y);
+  for (const Strip& strip : strips) {
+    const auto& all = job.section.seams;
+    if (std::find(all.begin(), all.end(), strip.plate) == all.end()) continue;
+    const double height = job.section.plates_of(strip.unit)[strip.plate].face_from.y;
+    for (const StripArc& one : job.arcs_in(strip.span))
+      seams += one.arc.length * (1.0 - one.arc.curvature * height);
   }
   note_seams(seams, workshop);
 }

@@ -153,10 +153,12 @@ std::optional<double> on_one_arc(const StripJob& job, const SectionPlate& plate,
   return best;
 }
 
-StripWindow window_at(const Side& side, const InspectionOptions& opening, double at, double lap) {
+StripWindow window_at(const Side& side, std::size_t unit, const InspectionOptions& opening, double at,
+                      double lap) {
   const double middle = 0.5 * (side.room.from + side.room.to);
   StripWindow window;
   window.plate = side.plate;
+  window.unit = unit;
   window.along = {at - 0.5 * opening.length, at + 0.5 * opening.length};
   window.across = {middle - 0.5 * opening.height, middle + 0.5 * opening.height};
   window.lid_along = {window.along.from - lap, window.along.to + lap};
@@ -168,7 +170,7 @@ StripWindow window_at(const Side& side, const InspectionOptions& opening, double
 
 /// The lid as a plate of the section, against the outside of the plate with the opening.
 SectionPlate lid_plate(const PlateSection& section, const StripWindow& window) {
-  const SectionPlate& plate = section.plates[window.plate];
+  const SectionPlate& plate = section.plates_of(window.unit)[window.plate];
   const Vec2 way = plate.way();
   const Vec2 back = section.thickness * Vec2{-way.y, way.x};
   // Of plates inside an outline the face is outside.
@@ -180,12 +182,12 @@ SectionPlate lid_plate(const PlateSection& section, const StripWindow& window) {
 
 }  // namespace
 
-std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
+std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::size_t index,
                                     const std::vector<double>& breaks) {
   std::vector<StripWindow> windows;
   if (job.options.inspection.empty()) return windows;
-  const Side side = *side_for_openings(job.section, job.options);
-  const SectionPlate& plate = job.section.plates[side.plate];
+  const Side side = *side_for_openings(job.section.of_unit(index), job.options);
+  const SectionPlate& plate = job.section.plates_of(index)[side.plate];
   const Span room = room_of(job, unit, plate);
   for (const InspectionOptions& opening : job.options.inspection) {
     const double lap = lid_lap(opening, job.options.shop);
@@ -214,7 +216,7 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
                  " long, with lids that lap over by " + length_text(lap) + ".",
              "at: " + length_text(*at, 4) + ", or a smaller length");
     }
-    windows.push_back(window_at(side, opening, *at, lap));
+    windows.push_back(window_at(side, index, opening, *at, lap));
     windows.back().bolts = bolts_of(job, plate, windows.back(), breaks);
   }
   return windows;
@@ -248,7 +250,7 @@ void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows
     double begins = window.lid_across.from;
     if (job.widens()) {
       const double s = 0.5 * (window.along.from + window.along.to);
-      const FaceAt plate = face_at(job, job.section.plates[window.plate], s);
+      const FaceAt plate = face_at(job, job.section.plates_of(window.unit)[window.plate], s);
       begins = dot(face_at(job, lid, s).from - plate.from, plate.way);
     }
     std::vector<Circle> holes;
@@ -270,9 +272,10 @@ void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows
   }
 }
 
-std::vector<Issue> strip_opening_problems(const PlateSection& section, const PlateOptions& options) {
+namespace {
+
+std::vector<Issue> opening_problems_in(const PlateSection& section, const PlateOptions& options) {
   std::vector<Issue> issues;
-  if (options.inspection.empty()) return issues;
   const auto add = [&](std::string what, std::string why, std::string hint) {
     issues.push_back({"inspection", "inspection: " + what, std::move(why), std::move(hint)});
   };
@@ -303,6 +306,15 @@ std::vector<Issue> strip_opening_problems(const PlateSection& section, const Pla
                       : section.departure > 0.0 ? "a larger stave_tolerance, or no inspection"
                                                 : "no inspection, or higher sides"});
   }
+  return issues;
+}
+
+}  // namespace
+
+std::vector<Issue> strip_opening_problems(const PlateSection& section, const PlateOptions& options) {
+  if (options.inspection.empty()) return {};
+  std::vector<Issue> issues = opening_problems_in(section.of_unit(0), options);
+  if (issues.empty() && !section.staggered.empty()) issues = opening_problems_in(section.of_unit(1), options);
   return issues;
 }
 

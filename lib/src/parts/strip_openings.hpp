@@ -13,6 +13,7 @@ namespace glissade::parts {
 /// An inspection opening in a rolled strip, with the lid that is bolted over it from outside.
 struct StripWindow {
   std::size_t plate = 0;
+  std::size_t unit = 0;
   Span along;   ///< of the track
   Span across;  ///< along the plate's face, from `face_from`
   Span lid_along;
@@ -23,9 +24,10 @@ struct StripWindow {
 };
 
 /// The openings of a unit.
+/// @param index   of the unit, from 0
 /// @param breaks  places along the track that no hole lies across
 /// @throws InputError where one reaches over the unit's end, or finds no place on one arc: the place that would do
-[[nodiscard]] std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit,
+[[nodiscard]] std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::size_t index,
                                                   const std::vector<double>& breaks);
 
 /// @throws InputError where an opening is not on the track, or two of them meet

@@ -12,6 +12,7 @@
 #include "parts/strip_sheet.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -84,13 +85,23 @@ double volume_along(const StripJob& job, const PlateSection& section, const Span
   return volume;
 }
 
-/// Of a plate over the stretches where it is missing.
-double missing_volume(const StripJob& job, const SectionPlate& plate, bool leaning) {
-  const Span span = unfolded(job, plate);
-  PlateSection alone;
-  alone.plates = {plate};
-  return volume_along(job, alone, {0.0, span.from}, leaning) +
-         volume_along(job, alone, {span.to, job.track.length()}, leaning);
+/// Of the plates of all units over the stretches where they are missing.
+double missing_volume(const StripJob& job, const std::vector<double>& joints, bool leaning) {
+  double volume = 0.0;
+  const auto add = [&](const SectionPlate& plate, const Span& span) {
+    if (!(span.to > span.from)) return;
+    PlateSection alone;
+    alone.plates = {plate};
+    volume += volume_along(job, alone, span, leaning);
+  };
+  for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
+    for (const SectionPlate& plate : job.section.plates_of(j)) {
+      const Span span = unfolded(job, plate);
+      add(plate, {joints[j], std::min(joints[j + 1], span.from)});
+      add(plate, {std::max(joints[j], span.to), joints[j + 1]});
+    }
+  }
+  return volume;
 }
 
 /// What the plates should hold, and the greatest difference of an edge from what it should be.
@@ -99,15 +110,15 @@ struct Wanted {
   double edge_mismatch = 0.0;
 };
 
-Wanted wanted_of(const StripJob& job, const std::vector<Strip>& strips) {
+Wanted wanted_of(const StripJob& job, const std::vector<Strip>& strips, const std::vector<double>& joints) {
   Wanted wanted{volume_along(job, job.section, {0.0, job.track.length()}, true), 0.0};
-  for (const SectionPlate& plate : job.section.plates) wanted.volume -= missing_volume(job, plate, true);
+  wanted.volume -= missing_volume(job, joints, true);
   for (const Strip& strip : strips) {
     if (strip.edge_mismatch) {
       wanted.edge_mismatch = std::max(wanted.edge_mismatch, *strip.edge_mismatch);
       continue;
     }
-    const SectionPlate& plate = job.section.plates[strip.plate];
+    const SectionPlate& plate = job.section.plates_of(strip.unit)[strip.plate];
     double from = 0.0;
     double to = 0.0;
     for (const StripArc& one : job.arcs_in(strip.span)) {
@@ -137,17 +148,17 @@ Wanted wanted_of(const BentStrips& bent, const std::vector<Strip>& strips) {
 
 /// The section by design over what the plates cover, along the arcs.
 double exact_volume(const StripJob& job, const std::optional<BentStrips>& bent,
-                    const std::vector<Strip>& strips) {
+                    const std::vector<Strip>& strips, const std::vector<double>& joints) {
   double volume = 0.0;
   if (!bent) {
     volume = volume_along(job, job.section, {0.0, job.track.length()}, false);
     // What is missing where the track bends tighter than a strip is high.
-    for (const SectionPlate& plate : job.section.plates) volume -= missing_volume(job, plate, false);
+    volume -= missing_volume(job, joints, false);
     return volume;
   }
   for (const Strip& strip : strips) {
     PlateSection alone;
-    alone.plates = {job.section.plates[strip.plate]};
+    alone.plates = {job.section.plates_of(strip.unit)[strip.plate]};
     volume += volume_along(job, alone, strip.span, false);
   }
   return volume;
@@ -178,7 +189,6 @@ Vec2 opening_moments(const StripJob& job, const SectionPlate& plate, const Strip
 }  // namespace
 
 std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::vector<Strip>& strips,
-                                              const std::vector<double>& joints,
                                               const std::vector<UnitWork>& works) {
   // Of two plates that meet, one has what the mitre would have left to the other: a difference where only one of them goes on.
   VolumeDifference ends{"edges beyond the ends of other plates", 0.0};
@@ -188,13 +198,13 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
   VolumeDifference holes{"holes of the liner", 0.0};
   VolumeDifference openings{"openings", 0.0};
   VolumeDifference lids{"holes of lids", 0.0};
-  const std::vector<CorneredPlate> edges = cornered(job.section, job.options);
+  const std::array<std::vector<CorneredPlate>, 2> all_edges = {cornered(job.section.of_unit(0), job.options),
+                                                               cornered(job.section.of_unit(1), job.options)};
   const double t = job.section.thickness;
   for (const Strip& strip : strips) {
-    const auto unit = static_cast<std::size_t>(
-        std::upper_bound(joints.begin(), joints.end() - 1, strip.span.from) - joints.begin() - 1);
-    const UnitWork& work = works[unit];
-    const SectionPlate& plate = job.section.plates[strip.plate];
+    const UnitWork& work = works[strip.unit];
+    const std::vector<CorneredPlate>& edges = all_edges[strip.unit % 2];
+    const SectionPlate& plate = job.section.plates_of(strip.unit)[strip.plate];
     const CorneredPlate& own = edges[strip.plate];
     const CorneredPlate mitred = plain_cut(plate, t, strip.span, job.options.material).edges;
     ends.volume += volume_along(job,
@@ -238,11 +248,11 @@ std::vector<VolumeDifference> cut_differences(const StripJob& job, const std::ve
 }
 
 PartsProof prove_strips(const StripJob& job, const std::optional<BentStrips>& bent,
-                        const std::vector<Strip>& strips, const std::vector<VolumeDifference>& cut,
-                        const Workshop& workshop) {
+                        const std::vector<Strip>& strips, const std::vector<double>& joints,
+                        const std::vector<VolumeDifference>& cut, const Workshop& workshop) {
   PartsProof proof;
-  proof.exact_volume = exact_volume(job, bent, strips);
-  Wanted wanted = bent ? wanted_of(*bent, strips) : wanted_of(job, strips);
+  proof.exact_volume = exact_volume(job, bent, strips, joints);
+  Wanted wanted = bent ? wanted_of(*bent, strips) : wanted_of(job, strips, joints);
   if (bent) {
     proof.differences = {{job.widens() ? "flats for arcs, lean of the walls" : "flats for arcs",
                           wanted.volume - proof.exact_volume}};

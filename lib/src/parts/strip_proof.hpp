@@ -14,7 +14,6 @@ namespace glissade::parts {
 /// What laps, tabs, slots and holes make more or less than mitred plates are, in closed form but for holes in leaning ones.
 [[nodiscard]] std::vector<VolumeDifference> cut_differences(const StripJob& job,
                                                             const std::vector<Strip>& strips,
-                                                            const std::vector<double>& joints,
                                                             const std::vector<UnitWork>& works);
 
 /// Volumes and edges of strips against the section's outline, and every part against every other.
@@ -22,7 +21,7 @@ namespace glissade::parts {
 /// @param cut   by which they differ from mitred ones
 /// @throws InternalError where they do not agree, or clash
 [[nodiscard]] PartsProof prove_strips(const StripJob& job, const std::optional<BentStrips>& bent,
-                                      const std::vector<Strip>& strips,
+                                      const std::vector<Strip>& strips, const std::vector<double>& joints,
                                       const std::vector<VolumeDifference>& cut, const Workshop& workshop);
 
 }  // namespace glissade::parts

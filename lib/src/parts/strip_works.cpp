@@ -12,6 +12,7 @@
 #include "parts/strip_sheet.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -76,9 +77,11 @@ bool has_tabs(const StripJob& job) {
 
 Span all_unfolded(const StripJob& job) {
   Span span{0.0, job.track.length()};
-  for (const SectionPlate& plate : job.section.plates) {
-    const Span one = unfolded(job, plate);
-    span = {std::max(span.from, one.from), std::min(span.to, one.to)};
+  for (const std::size_t unit : {0U, 1U}) {
+    for (const SectionPlate& plate : job.section.plates_of(unit)) {
+      const Span one = unfolded(job, plate);
+      span = {std::max(span.from, one.from), std::min(span.to, one.to)};
+    }
   }
   return span;
 }
@@ -138,13 +141,14 @@ std::vector<Span> tabs_of(const StripJob& job, const Span& laps, std::size_t num
        "tab: " + length_text(0.3 * longest, 2) + ", or corners: lap"});
 }
 
+/// @param index  of the unit, from 0
 /// @param row  courses of tiles before the unit; counts on
-UnitWork work_of(const StripJob& job, const Span& unit, std::size_t number, int& row) {
+UnitWork work_of(const StripJob& job, const Span& unit, std::size_t index, int& row) {
   UnitWork work;
   work.holes.resize(job.section.plates.size());
   if (job.options.corners.kind != CornerJoint::butt) {
     work.laps = laps_of(job, unit);
-    if (has_tabs(job)) work.tabs = tabs_of(job, work.laps, number);
+    if (has_tabs(job)) work.tabs = tabs_of(job, work.laps, index + 1);
   }
   std::vector<double> breaks;
   for (const Span& tab : work.tabs)
@@ -153,10 +157,10 @@ UnitWork work_of(const StripJob& job, const Span& unit, std::size_t number, int&
   if (job.options.corners.kind != CornerJoint::butt)
     breaks.insert(breaks.end(), {work.laps.from, work.laps.to});
   if (job.options.liner) {
-    work.tiles = strip_tiles(job, unit, breaks, row);
-    work.holes = holes_below(job, work.tiles);
+    work.tiles = strip_tiles(job, unit, index, breaks, row);
+    work.holes = holes_below(job, index, work.tiles);
   }
-  work.windows = windows_of(job, unit, breaks);
+  work.windows = windows_of(job, unit, index, breaks);
   for (const StripWindow& window : work.windows) {
     for (const Vec2 bolt : window.bolts)
       work.holes[window.plate].push_back({bolt, 0.5 * clearance_hole(window.bolt, HoleFit::medium)});
@@ -172,10 +176,16 @@ std::vector<SheetOpening> openings_in(const UnitWork& work, std::size_t plate) {
   return openings;
 }
 
+struct PlateOfUnit {
+  std::size_t plate = 0;
+  std::size_t unit = 0;
+};
+
 /// A strip with laps, tabs, slots or holes.
-SheetCut worked_cut(const StripJob& job, std::size_t index, const Span& span, const CorneredPlate& edges,
+SheetCut worked_cut(const StripJob& job, const PlateOfUnit& of, const Span& span, const CorneredPlate& edges,
                     const UnitWork& work) {
-  const SectionPlate& plate = job.section.plates[index];
+  const auto [index, unit] = of;
+  const SectionPlate& plate = job.section.plates_of(unit)[index];
   SheetCut cut = plain_cut(plate, job.section.thickness, span, job.options.material);
   cut.edges = edges;
   cut.laps = {std::max(work.laps.from, span.from), std::min(work.laps.to, span.to)};
@@ -186,13 +196,14 @@ SheetCut worked_cut(const StripJob& job, std::size_t index, const Span& span, co
   return cut;
 }
 
-Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, const CorneredPlate& edges,
+Strip worked_strip(const StripJob& job, const PlateOfUnit& of, const Span& span, const CorneredPlate& edges,
                    const UnitWork& work) {
-  const SectionPlate& plate = job.section.plates[index];
+  const SectionPlate& plate = job.section.plates_of(of.unit)[of.plate];
   Strip strip;
-  strip.plate = index;
+  strip.plate = of.plate;
+  strip.unit = of.unit;
   strip.span = span;
-  const SheetCut cut = worked_cut(job, index, span, edges, work);
+  const SheetCut cut = worked_cut(job, of, span, edges, work);
   double mismatch = 0.0;
   strip.part = sheet_part(job, cut, rolled_radii(job, plate, span, strip.steps), mismatch);
   strip.edge_mismatch = mismatch;
@@ -200,11 +211,13 @@ Strip worked_strip(const StripJob& job, std::size_t index, const Span& span, con
 }
 
 /// @param work  beside a width that changes
-Strip strip_of(const StripJob& job, std::size_t index, const Span& span, const UnitWork& work) {
-  const SectionPlate& plate = job.section.plates[index];
+Strip strip_of(const StripJob& job, const PlateOfUnit& of, const Span& span, const UnitWork& work) {
+  const auto [index, unit] = of;
+  const SectionPlate& plate = job.section.plates_of(unit)[index];
   Development flat = developed(job, plate, span);
   Strip strip;
   strip.plate = index;
+  strip.unit = unit;
   strip.span = span;
   strip.edge_to = length_along(flat.base, flat.turns);
   strip.edge_from = length_along(flat.upper, flat.turns);
@@ -239,44 +252,49 @@ std::vector<UnitWork> works_between(const StripJob& job, const std::vector<doubl
   std::vector<UnitWork> works;
   int row = 0;
   for (std::size_t j = 0; j + 1 < joints.size(); ++j)
-    works.push_back(work_of(job, {joints[j], joints[j + 1]}, j + 1, row));
+    works.push_back(work_of(job, {joints[j], joints[j + 1]}, j, row));
   return works;
 }
 
 std::vector<Strip> strips_between(const StripJob& job, const std::vector<double>& joints,
                                   const std::vector<UnitWork>& works) {
   std::vector<Strip> strips;
-  const std::vector<CorneredPlate> edges = cornered(job.section, job.options);
+  const std::array<std::vector<CorneredPlate>, 2> all = {cornered(job.section.of_unit(0), job.options),
+                                                         cornered(job.section.of_unit(1), job.options)};
   for (std::size_t p = 0; p < job.section.plates.size(); ++p) {
-    const Span whole = unfolded(job, job.section.plates[p]);
     for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
+      const std::vector<CorneredPlate>& edges = all[j % 2];
+      const Span whole = unfolded(job, job.section.plates_of(j)[p]);
       const Span span{std::max(joints[j], whole.from), std::min(joints[j + 1], whole.to)};
       if (!(span.to - span.from > 1e-6)) continue;
       const bool meets = edges[p].from.meeting != CornerEdge::Meeting::mitre ||
                          edges[p].to.meeting != CornerEdge::Meeting::mitre;
       const bool worked = !job.widens() && (meets || !works[j].holes[p].empty());
-      strips.push_back(worked ? worked_strip(job, p, span, edges[p], works[j])
-                              : strip_of(job, p, span, works[j]));
+      strips.push_back(worked ? worked_strip(job, {p, j}, span, edges[p], works[j])
+                              : strip_of(job, {p, j}, span, works[j]));
       if (joints.size() > 2) strips.back().part.name += "_" + std::to_string(j + 1);
     }
   }
   return strips;
 }
 
-void work_bent(const StripJob& on_flats, const std::vector<Span>& spans, const std::vector<double>& joints,
-               const std::vector<UnitWork>& works, std::vector<Strip>& strips) {
-  const std::vector<CorneredPlate> edges = cornered(on_flats.section, on_flats.options);
+void work_bent(const StripJob& on_flats, const std::vector<Span>& spans, const std::vector<UnitWork>& works,
+               std::vector<Strip>& strips) {
+  const std::array<std::vector<CorneredPlate>, 2> all = {
+      cornered(on_flats.section.of_unit(0), on_flats.options),
+      cornered(on_flats.section.of_unit(1), on_flats.options)};
   for (std::size_t i = 0; i < strips.size(); ++i) {
     Strip& strip = strips[i];
-    const auto unit = static_cast<std::size_t>(
-        std::upper_bound(joints.begin(), joints.end() - 1, spans[i].from) - joints.begin() - 1);
+    const std::vector<CorneredPlate>& edges = all[strip.unit % 2];
+    const std::size_t unit = strip.unit;
     const std::size_t p = strip.plate;
     const bool meets = edges[p].from.meeting != CornerEdge::Meeting::mitre ||
                        edges[p].to.meeting != CornerEdge::Meeting::mitre;
     if (!meets && works[unit].holes[p].empty()) continue;
     double mismatch = 0.0;
     std::string name = std::move(strip.part.name);
-    strip.part = sheet_part(on_flats, worked_cut(on_flats, p, spans[i], edges[p], works[unit]), {}, mismatch);
+    strip.part =
+        sheet_part(on_flats, worked_cut(on_flats, {p, unit}, spans[i], edges[p], works[unit]), {}, mismatch);
     strip.part.name = std::move(name);
     strip.edge_mismatch = mismatch;
   }

@@ -39,8 +39,8 @@ struct UnitWork {
 /// Plates of a bent job that have more than mitred edges get their laps, tabs, slots, holes and openings.
 /// @param on_flats  along the flats, as its works
 /// @param spans     of the strips along the line
-void work_bent(const StripJob& on_flats, const std::vector<Span>& spans, const std::vector<double>& joints,
-               const std::vector<UnitWork>& works, std::vector<Strip>& strips);
+void work_bent(const StripJob& on_flats, const std::vector<Span>& spans, const std::vector<UnitWork>& works,
+               std::vector<Strip>& strips);
 
 /// What rules of the shop may bound of tabs and slots.
 void measure_tabs(const StripJob& job, const std::vector<double>& joints, const std::vector<UnitWork>& works,

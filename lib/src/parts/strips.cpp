@@ -79,7 +79,7 @@ std::vector<Strip> on_line(const FlatsJob& flats, std::vector<Strip> strips) {
 void work_bent(const FlatsJob& flats, const std::vector<UnitWork>& works, std::vector<Strip>& strips) {
   std::vector<Span> spans;
   for (const Strip& strip : on_line(flats, strips)) spans.push_back(strip.span);
-  work_bent(flats.job(), spans, flats.joints(), works, strips);
+  work_bent(flats.job(), spans, works, strips);
 }
 
 /// The largest bend that costs no more than is allowed.
@@ -95,10 +95,9 @@ double kink_of(const StripJob& job, const Body& body, double gravity, double exi
 /// By what works make strips differ from mitred ones.
 /// @param flats  of bent ones with works
 std::vector<VolumeDifference> cut_from(const StripJob& job, bool bent, const FlatsJob* flats,
-                                       const std::vector<Strip>& strips, const std::vector<double>& joints,
-                                       const std::vector<UnitWork>& works) {
-  if (flats != nullptr) return cut_differences(flats->job(), on_line(*flats, strips), flats->joints(), works);
-  return bent ? std::vector<VolumeDifference>() : cut_differences(job, strips, joints, works);
+                                       const std::vector<Strip>& strips, const std::vector<UnitWork>& works) {
+  if (flats != nullptr) return cut_differences(flats->job(), on_line(*flats, strips), works);
+  return bent ? std::vector<VolumeDifference>() : cut_differences(job, strips, works);
 }
 
 /// Frames, rims, covers, liner, stiffeners, lugs and trestles, each with room for those before.
@@ -223,9 +222,8 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
     measure_strips(strips, workshop);
   measure_tabs(job, build.joints, works, workshop);
   measure_steps(section_places(job, build.joints), options, build);
-  const std::vector<VolumeDifference> cut =
-      cut_from(job, bent.has_value(), flats.get(), strips, build.joints, works);
-  build.proof = prove_strips(job, bent, strips, cut, workshop);
+  const std::vector<VolumeDifference> cut = cut_from(job, bent.has_value(), flats.get(), strips, works);
+  build.proof = prove_strips(job, bent, strips, build.joints, cut, workshop);
   add_strip_notes(job, bent, build.proof, strips, workshop);
   if (!cut.empty()) note_differences(build.proof, "mitred plates", workshop);
   return build;
