@@ -105,6 +105,9 @@ TEST_CASE("a kind that is not known is refused with the one that was meant") {
       StartsWith("d.yaml:8:20: kind: fastst is not known\n      It is one of fastest, constant-speed, "
                  "straight, cycloid, no-curvature-load, segments, points or in-run.\n      Try: fastest"));
   CHECK_THAT(problems_with("off", "obj"), Contains("d.yaml:11:15: export[1]: obj is not known"));
+  CHECK_THAT(problems_with("off", "report"), Contains("export[1]: the report page is no format") &&
+                                                 Contains("A build writes it anyway") &&
+                                                 !Contains("is not known"));
 }
 
 TEST_CASE("another version of design files is refused") {
@@ -365,7 +368,7 @@ TEST_CASE("the file of a profile is found beside the design file") {
   CHECK(design.centerline.points_height_column == "h");
   CHECK(design.centerline.points_unit == LengthUnit::millimetre);
   CHECK_THAT(problems_with("{kind: fastest}", "{kind: points, file: p.csv, columns: [s]}"),
-             Contains("columns: 1 names instead of 2"));
+             Contains("columns: 1 name instead of 2"));
   CHECK_THAT(problems_with("{kind: fastest}", "{kind: points}"), Contains("file is missing"));
 }
 

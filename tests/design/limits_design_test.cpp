@@ -294,7 +294,7 @@ TEST_CASE("shapes of clearances are sound") {
              Contains("outline: 2 corners"));
   CHECK_THAT(problems_of_limits("stay_above: [{line: [[1 m, 2 m], [1 m, 3 m]]}]"),
              Contains("line[1]: x does not grow from 1 m to 1 m"));
-  CHECK_THAT(problems_of_limits("stay_below: [{line: [[1 m, 2 m]]}]"), Contains("line: 1 points"));
+  CHECK_THAT(problems_of_limits("stay_below: [{line: [[1 m, 2 m]]}]"), Contains("line: 1 point\n"));
   CHECK_THAT(problems_of_limits("half_planes: [{line: [[1 m, 2 m], [3 m, 2 m]], stay: left}]"),
              Contains("stay: left is no side of this line"));
   CHECK_THAT(problems_of_limits("half_planes: [{line: [[1 m, 2 m], [3 m, 2 m], [4 m, 2 m]], stay: above}]"),
@@ -330,7 +330,7 @@ TEST_CASE("a line of ground comes from a CSV file beside the design, its faults 
              Contains("file: ground.csv:4: x does not grow from 3 m to 2 m"));
   CHECK_THAT(refusal("x,z\n0,0\n3,high\n", ""),
              Contains("ground.csv:3:3: column \"z\": \"high\" is no number"));
-  CHECK_THAT(refusal("x,z\n0,0\n", ""), Contains("ground.csv has 1 points"));
+  CHECK_THAT(refusal("x,z\n0,0\n", ""), Contains("ground.csv has 1 point\n"));
   CHECK_THAT(refusal("x,z\n0,0\n6,0\n", ", line: [[0 m, 0 m], [1 m, 0 m]]"),
              Contains("unknown key line") && Contains("either line or file"));
   CHECK_THAT(problems_of(std::string(kSoundDesign) + "limits: {stay_above: [{file: nowhere.csv}]}\n"),

@@ -110,7 +110,7 @@ TEST_CASE("an OpenSCAD file says unit, name and section, and holds doubles in fu
 
 TEST_CASE("an OpenSCAD file needs a centerline in one vertical plane") {
   const double infinity = std::numeric_limits<double>::infinity();
-  CHECK_THAT(scad_refusal({{0, 0, 0}}), Contains("centerline: has 1 points"));
+  CHECK_THAT(scad_refusal({{0, 0, 0}}), Contains("centerline: has 1 point"));
   CHECK_THAT(scad_refusal({{0, 0, 0}, {1, 0, infinity}}),
              Contains("centerline, point 1: a coordinate is not"));
   CHECK_THAT(scad_refusal({{0, 0, 0}, {1, 0.001, 0}, {2, 0, 0}}),

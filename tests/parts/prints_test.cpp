@@ -503,6 +503,27 @@ TEST_CASE("prints: pieces that are asked to be shorter or lighter than any are r
   CHECK(refusal(options, groove()).starts_with("split.heaviest|heaviest: 0.0001 kg is a piece of "));
 }
 
+TEST_CASE("prints: no part is heavier than allowed, with the tongue that it has, on stands as high as any") {
+  PrintOptions options = on_stands(0.3);
+  options.stands->ground = {{0.0, -0.15}, {0.3, -0.4}, {0.6, -0.45}};
+  options.split.bed = {0.3, 0.3, 0.6, 5e-3};
+  for (const PrintJoint joint : {PrintJoint::dowels, PrintJoint::tongue, PrintJoint::dovetail}) {
+    options.joint = joint;
+    for (const double heaviest : {0.04, 0.06, 0.1}) {
+      options.split.heaviest = heaviest;
+      const WorkshopBuild build = prints(run(), groove(), options);
+      for (const ShopPart& part : build.workshop.parts) {
+        INFO(part.name << ", no heavier than " << heaviest << " kg");
+        CHECK(part.mass <= heaviest);
+      }
+    }
+  }
+  options.split.heaviest = 4e-3;
+  options.joint = PrintJoint::dowels;
+  CHECK(refusal(options, groove())
+            .starts_with("split.heaviest|heaviest: 0.004 kg is less than a block of the stand"));
+}
+
 TEST_CASE("prints: tongues are refused where a section has no place for them, with what would do") {
   PrintOptions options;
   options.joint = PrintJoint::dovetail;

@@ -278,6 +278,27 @@ TEST_CASE("timber: long legs are braced across and along, boards end on the legs
   CHECK(told.bound == "at most 1.5 m");
 }
 
+TEST_CASE("timber: boards of narrow and steep ramps keep below the bearers and off the ground") {
+  testing::Random random = testing::seeded_random();
+  for (int k = 0; k < 6; ++k) {
+    INFO("GLISSADE_SEED=" << random.seed() << ", problem " << k);
+    // Boards of a narrow row stand steep; beside its legs the bearers of a steep track lie lower than above them.
+    const ArcSpline track = bend(random.between(9.0, 30.0), random.between(4.0, 8.0));
+    TimberOptions options;
+    options.frame = k % 2 == 0 ? TimberFrame::beams : TimberFrame::ribs;
+    options.legs = LegOptions{{{0.0, random.between(-18.0, -12.0)}}, 2.0, 90e-3};
+    options.legs->brace_thickness = random.between(24e-3, 60e-3);
+    const section::Slab narrow{WidthLaw(random.between(0.3, 0.6)), 24e-3, 0.0, 0.0};
+    const WorkshopBuild build = timber(track, options, narrow);  // proves that nothing clashes
+    CHECK_FALSE(named(build, "cross_brace_").empty());
+    for (const ShopPart* board : named(build, "cross_brace_")) {
+      const PlaneBox box = bounds(std::get<Prism>(board->body).region.outline);
+      for (const Frame& place : board->places)
+        CHECK(place.to_space({box.low.x, box.low.y, 0.0}).z > options.legs->ground.front().y);
+    }
+  }
+}
+
 TEST_CASE(
     "timber: a deck of boards adds up to the section less its gaps, and seams of neighbours are apart") {
   for (const double gap : {0.0, 5e-3}) {

@@ -4,6 +4,7 @@
 #include "glissade/core/units.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "core/counted.hpp"
 #include "design/checks.hpp"
 #include "design/outline.hpp"
 
@@ -158,7 +159,7 @@ void check_clearance(double clearance, const std::string& key, Collected& findin
 void check_line(const std::vector<Vec2>& line, const std::string& key, Collected& findings) {
   if (line.size() < 2) {
     report(findings, {path(key) + ".line"},
-           {"", "line: " + std::to_string(line.size()) + " points", "A line has at least two.", ""});
+           {"", "line: " + core::counted(line.size(), "point"), "A line has at least two.", ""});
     return;
   }
   for (std::size_t index = 1; index < line.size(); ++index) {

@@ -5,6 +5,8 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
 
+#include "core/counted.hpp"
+
 #include <algorithm>
 #include <variant>
 
@@ -107,7 +109,7 @@ std::optional<Vec2> as_point(const Value& value, Findings& findings) {
   if (value.node->kind != Node::Kind::sequence) return {};
   if (numbers.size() != 2) {
     findings.add(value.node->at, value.key_path,
-                 {"", value.key + " has " + std::to_string(numbers.size()) + " values instead of 2",
+                 {"", value.key + " has " + core::counted(numbers.size(), "value") + " instead of 2",
                   "A point is a pair.", "[-200 mm, 250 mm]"});
     return {};
   }

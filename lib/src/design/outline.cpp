@@ -1,5 +1,6 @@
 #include "design/outline.hpp"
 
+#include "core/counted.hpp"
 #include "core/plane_geometry.hpp"
 
 #include <algorithm>
@@ -76,8 +77,7 @@ std::optional<Issue> outline_fault(const std::vector<Vec2>& outline, const std::
     return Issue{"", name + ": " + what, why, hint};
   };
   if (outline.size() < 3 || outline.size() > kMostCorners) {
-    return fault(std::to_string(outline.size()) + " corners", "An outline has between 3 and 2000 corners.",
-                 "");
+    return fault(core::counted(outline.size(), "corner"), "An outline has between 3 and 2000 corners.", "");
   }
   for (std::size_t index = 0; index < outline.size(); ++index) {
     const Vec2 corner = outline[index];

@@ -5,6 +5,7 @@
 #include "glissade/design/design.hpp"
 #include "glissade/design/design_source.hpp"
 
+#include "core/counted.hpp"
 #include "design/check.hpp"
 #include "design/findings.hpp"
 #include "design/map_reader.hpp"
@@ -261,7 +262,7 @@ void read_point_columns(MapReader& map, CenterlineDesign& centerline, Findings& 
     }
   } else if (value->node->kind == Node::Kind::sequence) {
     findings.add(value->node->at, value->key_path,
-                 {"", "columns: " + std::to_string(columns.size()) + " names instead of 2 or 4",
+                 {"", "columns: " + core::counted(columns.size(), "name") + " instead of 2 or 4",
                   "A profile needs the column of horizontal distance and that of height; one whose slope "
                   "angles and curvatures "
                   "are known has two columns more.",
@@ -331,6 +332,13 @@ MeshDesign read_mesh(MapReader& top, Findings& findings) {
 void read_formats(MapReader& top, const Value& list, ExportDesign& exports, Findings& findings) {
   exports.formats.clear();
   for (const Value& item : as_list(list, "[stl, off, scad]", findings)) {
+    if (item.node->kind == Node::Kind::scalar && item.node->scalar == "report") {
+      findings.add(
+          item.node->at, item.key_path,
+          {"", item.key + ": the report page is no format",
+           "A build writes it anyway; glissade build --no-report leaves it out.", "the list without report"});
+      continue;
+    }
     const auto asked = top.choice(item, export_words());
     if (!asked) continue;
     if (asked->solid) {

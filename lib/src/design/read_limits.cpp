@@ -3,6 +3,7 @@
 #include "glissade/core/words.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "core/counted.hpp"
 #include "design/read_line.hpp"
 #include "design/schema_words.hpp"
 
@@ -119,7 +120,7 @@ std::optional<HalfPlane> read_half_plane(const Value& value, Findings& findings)
   if (!stay || !line_value || line_value->node->items.size() != line.size()) return {};
   if (line.size() != 2) {
     findings.add(line_value->node->at, line_value->key_path,
-                 {"", "line: " + std::to_string(line.size()) + " points instead of 2",
+                 {"", "line: " + core::counted(line.size(), "point") + " instead of 2",
                   "Two points give a straight line.", "stay_above or stay_below for a line with corners"});
     return {};
   }

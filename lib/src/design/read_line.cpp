@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/profile_csv.hpp"
 
+#include "core/counted.hpp"
 #include "design/schema_words.hpp"
 
 #include <cstddef>
@@ -29,7 +30,7 @@ ProfileCsvOptions read_columns(MapReader& map, Findings& findings) {
     options.height_column = as_text(columns[1], findings).value_or("");
   } else if (value->node->kind == Node::Kind::sequence) {
     findings.add(value->node->at, value->key_path,
-                 {"", "columns: " + std::to_string(columns.size()) + " names instead of 2",
+                 {"", "columns: " + core::counted(columns.size(), "name") + " instead of 2",
                   "A line needs the column of x and that of height.", "columns: [x, z]"});
   }
   return options;
@@ -38,7 +39,7 @@ ProfileCsvOptions read_columns(MapReader& map, Findings& findings) {
 /// What is wrong with the points as a line; none if nothing is.
 std::optional<Issue> line_fault(const std::string& file, const ProfilePoints& points) {
   if (points.points.size() < 2) {
-    return Issue{"", "file: " + file + " has " + std::to_string(points.points.size()) + " points",
+    return Issue{"", "file: " + file + " has " + core::counted(points.points.size(), "point"),
                  "A line has at least two.", ""};
   }
   for (std::size_t i = 1; i < points.points.size(); ++i) {

@@ -1,3 +1,4 @@
+#include "core/counted.hpp"
 #include "design/read_process.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ PrintBed read_bed(const Value& value, PrintBed bed, Findings& findings) {
   }
   if (sides.size() != lengths.size()) {
     findings.add(value.node->at, value.key_path,
-                 {"", "bed: " + std::to_string(sides.size()) + " lengths",
+                 {"", "bed: " + core::counted(sides.size(), "length"),
                   "A bed has a width, a depth and a height.", "bed: " + std::string(kExample)});
   }
   return bed;

@@ -4,6 +4,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/scad_file.hpp"
 
+#include "core/counted.hpp"
 #include "io/coordinates.hpp"
 #include "io/parallel.hpp"
 #include "io/printable_name.hpp"
@@ -56,7 +57,7 @@ Vec3 direction_of(const std::vector<Vec3>& centerline) {
 
 void require_centerline(const std::vector<Vec3>& centerline) {
   if (centerline.size() < 2) {
-    throw InputError({"centerline", "has " + std::to_string(centerline.size()) + " points",
+    throw InputError({"centerline", "has " + core::counted(centerline.size(), "point"),
                       "A line needs two points or more.", ""});
   }
   constexpr double kFlatness = 1e-9;

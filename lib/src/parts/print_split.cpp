@@ -33,12 +33,19 @@ bool stands_well(const PrintJob& job, const Pose& pose, const Span& span) {
   return pose.up.x * along.x + pose.up.z * along.y > 0.0;
 }
 
+/// @return no less than the mass of a piece: its sweep along the arcs and the tongue that it has unless it is the last one [kg]
+double most_mass(const PrintJob& job, PrintPose kind, const Span& span) {
+  const double turned = job.track.direction(span.from).slope_angle - job.track.direction(span.to).slope_angle;
+  const double swept = job.section.area() * (span.to - span.from) - job.section.first_moment() * turned;
+  const double tongue = span.to < job.track.length() ? most_tongue_volume(job, kind) : 0.0;
+  return (swept + tongue) * job.options.material.density;
+}
+
 bool fits(const PrintJob& job, PrintPose kind, const Span& span) {
   const PrintSplit& split = job.options.split;
   const double length = span.to - span.from;
   if (split.longest && length > *split.longest * (1.0 + 1e-12)) return false;
-  const double mass = job.section.area() * length * job.options.material.density;
-  if (split.heaviest && mass > *split.heaviest) return false;
+  if (split.heaviest && most_mass(job, kind, span) > *split.heaviest) return false;
   PrintBed bed = split.bed;
   // Points of the outline stand for the piece, and its tongue lies beyond them.
   const double reach = tongue_reach(job, kind);
@@ -108,13 +115,21 @@ std::optional<InputError> too_short(const PrintJob& job) {
          "longest: " + length_text(10.0 * least) + ", or more"});
   }
   const double per_metre = job.section.area() * job.options.material.density;
-  if (split.heaviest && *split.heaviest < per_metre * least) {
+  const double tongue = most_tongue_volume(job, PrintPose::side) * job.options.material.density;
+  if (split.heaviest && *split.heaviest > tongue && *split.heaviest < tongue + per_metre * least) {
     return InputError(
         {"split.heaviest",
          "heaviest: " + quantity_text(*split.heaviest, Dimension::mass) + " is a piece of " +
-             length_text(*split.heaviest / per_metre, 3) + " along the track",
+             length_text((*split.heaviest - tongue) / per_metre, 3) + " along the track",
          "Pieces are at least " + length_text(least) + " long, so that their joints have a place.",
          "a larger mass, or a thinner section"});
+  }
+  if (split.heaviest && *split.heaviest <= tongue) {
+    return InputError({"split.heaviest",
+                       "heaviest: " + quantity_text(*split.heaviest, Dimension::mass) +
+                           " is no more than the tongue of a joint weighs, " +
+                           quantity_text(tongue, Dimension::mass),
+                       "A piece and its tongue are one.", "a larger mass, or joint: dowels"});
   }
   return std::nullopt;
 }

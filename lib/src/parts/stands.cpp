@@ -6,6 +6,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "parts/ground.hpp"
@@ -284,12 +285,33 @@ std::vector<Vec3> pins_at(const Shape& shape, const std::array<double, 4>& acros
   return {{middle, centre - 0.25 * wide, height}, {middle, centre + 0.25 * wide, height}};
 }
 
-/// A stand in as many blocks of one height as the printer's room asks for, pinned together.
-void make_blocks(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across, Stand& stand) {
-  const double height = std::max(shape.top.front().y, shape.top.back().y) + shape.cheek - stand.ground;
-  const double count = std::ceil(height / (job.options.split.bed.z - 1e-6));
+/// @return the heaviest block of a stand in so many of one height [kg], without the holes of its pins
+double heaviest_block(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across,
+                      double ground, double height, double count) {
+  double most = 0.0;
+  for (double k = 1.0; k <= count; k += 1.0) {
+    const double from = ground + height * (k - 1.0) / count;
+    Shape upper = shape;
+    upper.foot = edges_at(shape, from);
+    const double volume = k == count ? StandMesh(upper, across).volume()
+                                     : lower_block(shape, across, from, ground + height * k / count).volume;
+    most = std::max(most, volume * job.options.material.density);
+  }
+  return most;
+}
+
+/// As few blocks as the printer's room and the heaviest part ask for.
+/// @throws InputError where the uppermost one would be lower than the top is uneven
+double block_count(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across,
+                   const Stand& stand, double height) {
+  const auto& heaviest = job.options.split.heaviest;
   const double lowest = std::min(shape.top.front().y, shape.top.back().y);
-  if (count > 1.0 && stand.ground + height * (count - 1.0) / count > lowest - kStandPinDepth - kLeastStand) {
+  const auto passes_top = [&](double count) {
+    return count > 1.0 &&
+           stand.ground + height * (count - 1.0) / count > lowest - kStandPinDepth - kLeastStand;
+  };
+  double count = std::ceil(height / (job.options.split.bed.z - 1e-6));
+  if (passes_top(count)) {
     throw InputError(
         {"stands.thickness",
          "thickness: " + length_text(job.options.stands->thickness) +
@@ -299,6 +321,29 @@ void make_blocks(const PrintJob& job, const Shape& shape, const std::array<doubl
          "It comes in blocks of " + length_text(height / count, 3) + ", and no cut may pass its top.",
          "a smaller thickness, or a higher bed"});
   }
+  while (heaviest && heaviest_block(job, shape, across, stand.ground, height, count) > *heaviest) {
+    // Pins of two cuts keep clear of one another.
+    const bool low = height / (count + 1.0) < 2.0 * kStandPinDepth + kLeastStand;
+    if (!low && !passes_top(count + 1.0)) {
+      count += 1.0;
+      continue;
+    }
+    throw InputError(
+        {"split.heaviest",
+         "heaviest: " + quantity_text(*heaviest, Dimension::mass) +
+             " is less than a block of the stand below " + stand.what + " weighs, " +
+             quantity_text(heaviest_block(job, shape, across, stand.ground, height, count), Dimension::mass),
+         "It comes in " + rounded_text(count, 3) + (count == 1.0 ? " block of " : " blocks of ") +
+             length_text(height / count, 3) + "; lower ones have no room for pins.",
+         "a larger mass, stands of a smaller thickness, or a higher ground"});
+  }
+  return count;
+}
+
+/// A stand in as many blocks of one height as the printer's room and the heaviest part ask for, pinned together.
+void make_blocks(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across, Stand& stand) {
+  const double height = std::max(shape.top.front().y, shape.top.back().y) + shape.cheek - stand.ground;
+  const double count = block_count(job, shape, across, stand, height);
   Shape upper = shape;
   double from = stand.ground;
   std::vector<Vec3> below;

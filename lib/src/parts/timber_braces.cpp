@@ -23,12 +23,6 @@ struct Reach {
   double high = 0.0;
 };
 
-/// @return 1.5 board widths below the slanted top, one above the ground
-Reach reach_of(const TimberJob& job, const Leg& leg) {
-  const double width = job.options.legs->brace_width;
-  return {leg.ground + width, std::min(leg.top_left.y, leg.top_right.y) - 1.5 * width};
-}
-
 /// A board between two plumb cuts, from the lower left to the upper right or from the upper left to the lower right.
 /// @param run     distance of the cuts
 /// @param from,to heights of its middle line at the left and at the right cut
@@ -66,6 +60,53 @@ std::vector<double> levels(double low, double high, double run) {
   return heights;
 }
 
+/// Height of the bearers' underside at x.
+double underside_at(const TimberJob& job, double x) {
+  const auto point = [&](double s) {
+    const TrackFrame at = frame_at(job.track, s);
+    return at.at + job.bearer_bottom() * at.up;
+  };
+  double low = 0.0;
+  double high = job.track.length();
+  for (int round = 0; round < 60; ++round) {
+    const double middle = 0.5 * (low + high);
+    (point(middle).x < x ? low : high) = middle;
+  }
+  return point(0.5 * (low + high)).y;
+}
+
+/// Height of a board above its middle line: greater the steeper it stands.
+double half_height(const TimberJob& job, double rise_per_run) {
+  return 0.5 * job.options.legs->brace_width * std::sqrt(1.0 + rise_per_run * rise_per_run);
+}
+
+/// @param run  of the bay
+/// @return 1.5 board widths below the slanted top, one above the ground; more where steep boards ask for it
+Reach reach_of(const TimberJob& job, const Leg& leg, double run) {
+  const double width = job.options.legs->brace_width;
+  Reach reach{leg.ground + width, std::min(leg.top_left.y, leg.top_right.y) - 1.5 * width};
+  const double steepest = std::max(kSteepestBay, (reach.high - reach.low) / (kMostBoards * run));
+  reach.low = std::max(reach.low, leg.ground + half_height(job, steepest) + kClear);
+  return reach;
+}
+
+/// Distance of the outer legs' middles, less what boards keep off their outer faces.
+double row_run(const TimberJob& job, const BearerPlan& plan) {
+  return plan.across.front() - plan.across.back() + 0.9 * job.options.legs->side;
+}
+
+/// Of boards on both faces of a row: they lie beside the leg, where the bearers may be lower than above it.
+Reach reach_of_row(const TimberJob& job, const Leg& leg, const BearerPlan& plan) {
+  const double run = row_run(job, plan);
+  Reach reach = reach_of(job, leg, run);
+  const double steepest = std::max(kSteepestBay, (reach.high - reach.low) / (kMostBoards * run));
+  const double near = 0.5 * job.options.legs->side;
+  const double far = near + job.options.legs->brace_thickness;
+  for (const double along : {-far, -near, near, far})
+    reach.high = std::min(reach.high, underside_at(job, leg.x + along) - kClear - half_height(job, steepest));
+  return reach;
+}
+
 /// Crossed boards on both faces of a row of legs.
 void brace_row(const TimberJob& job, const Leg& leg, const BearerPlan& plan, const std::string& number,
                std::vector<ShopPart>& parts) {
@@ -73,7 +114,7 @@ void brace_row(const TimberJob& job, const Leg& leg, const BearerPlan& plan, con
   const double outer = 0.45 * options.side;
   const double left = plan.across.front() + outer;
   const double right = plan.across.back() - outer;
-  const Reach reach = reach_of(job, leg);
+  const Reach reach = reach_of_row(job, leg, plan);
   const std::vector<double> heights = levels(reach.low, reach.high, left - right);
   const Vec3 to_left = across(job.placement);
   const Vec3 downstream = along(job.placement);
@@ -94,21 +135,6 @@ void brace_row(const TimberJob& job, const Leg& leg, const BearerPlan& plan, con
   }
 }
 
-/// Height of the bearers' underside at x.
-double underside_at(const TimberJob& job, double x) {
-  const auto point = [&](double s) {
-    const TrackFrame at = frame_at(job.track, s);
-    return at.at + job.bearer_bottom() * at.up;
-  };
-  double low = 0.0;
-  double high = job.track.length();
-  for (int round = 0; round < 60; ++round) {
-    const double middle = 0.5 * (low + high);
-    (point(middle).x < x ? low : high) = middle;
-  }
-  return point(0.5 * (low + high)).y;
-}
-
 /// A way to put boards into a bay.
 struct Diagonal {
   bool rises = true;  ///< downstream
@@ -120,7 +146,7 @@ bool is_clear(const TimberJob& job, const Diagonal& diagonal, double from, doubl
   const double top = diagonal.heights.back();
   const double below = diagonal.heights[diagonal.heights.size() - 2];
   const double rise = (diagonal.rises ? 1.0 : -1.0) * (top - below) / run;
-  const double half = 0.5 * job.options.legs->brace_width * std::sqrt(1.0 + rise * rise);
+  const double half = half_height(job, rise);
   constexpr int kPlaces = 24;
   for (int k = 0; k <= kPlaces; ++k) {
     const double along = run * k / kPlaces;
@@ -135,10 +161,10 @@ bool is_clear(const TimberJob& job, const Diagonal& diagonal, double from, doubl
 void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const BearerPlan& plan,
                const std::string& number, std::vector<ShopPart>& parts) {
   const LegOptions& options = *job.options.legs;
-  const Reach a = reach_of(job, before);
-  const Reach b = reach_of(job, after);
   const double from = before.x + kBeside;
   const double run = after.x - kBeside - from;
+  const Reach a = reach_of(job, before, run);
+  const Reach b = reach_of(job, after, run);
   const bool shorter_is_after = b.high <= a.high;
   for (const bool rises : {shorter_is_after, !shorter_is_after}) {
     const double low = rises ? a.low : b.low;
@@ -165,8 +191,8 @@ void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const 
 
 }  // namespace
 
-bool is_braced(const TimberJob& job, const Leg& leg) {
-  const Reach reach = reach_of(job, leg);
+bool is_braced(const TimberJob& job, const Leg& leg, const BearerPlan& plan) {
+  const Reach reach = reach_of_row(job, leg, plan);
   return leg.length() >= job.options.legs->braced_from &&
          reach.high - reach.low > 2.0 * job.options.legs->brace_width;
 }
@@ -176,8 +202,8 @@ std::vector<ShopPart> brace_parts(const TimberJob& job, const std::vector<Leg>& 
   std::vector<ShopPart> parts;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const std::string number = std::to_string(i + 1);
-    if (is_braced(job, legs[i])) brace_row(job, legs[i], plan, number, parts);
-    if (i + 1 < legs.size() && (is_braced(job, legs[i]) || is_braced(job, legs[i + 1])))
+    if (is_braced(job, legs[i], plan)) brace_row(job, legs[i], plan, number, parts);
+    if (i + 1 < legs.size() && (is_braced(job, legs[i], plan) || is_braced(job, legs[i + 1], plan)))
       brace_bay(job, legs[i], legs[i + 1], plan, number, parts);
   }
   return parts;

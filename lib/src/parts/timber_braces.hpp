@@ -12,6 +12,6 @@ namespace glissade::parts {
 [[nodiscard]] std::vector<ShopPart> brace_parts(const TimberJob& job, const std::vector<Leg>& legs,
                                                 const BearerPlan& plan);
 /// @return whether a leg is so long that it is braced
-[[nodiscard]] bool is_braced(const TimberJob& job, const Leg& leg);
+[[nodiscard]] bool is_braced(const TimberJob& job, const Leg& leg, const BearerPlan& plan);
 
 }  // namespace glissade::parts

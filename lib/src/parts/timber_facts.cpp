@@ -51,10 +51,11 @@ void measure_seams(const TimberJob& job, const std::vector<std::vector<DeckRow>>
   }
 }
 
-void measure_legs(const TimberJob& job, const std::vector<Leg>& legs, ShopFacts& facts) {
+void measure_legs(const TimberJob& job, const std::vector<Leg>& legs, const BearerPlan& bearers,
+                  ShopFacts& facts) {
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const std::string where = "leg " + std::to_string(i + 1);
-    if (!is_braced(job, legs[i])) facts.at(where, "unbraced_leg", legs[i].length());
+    if (!is_braced(job, legs[i], bearers)) facts.at(where, "unbraced_leg", legs[i].length());
     if (i > 0 && job.options.frame == TimberFrame::ribs)
       facts.at(where, "leg_spacing", legs[i].x - legs[i - 1].x);
   }
@@ -77,7 +78,7 @@ void measure_timber(const TimberJob& job, const std::vector<std::vector<DeckRow>
   measure_seams(job, rows, members, facts);
   for (std::size_t i = 1; i < bearers.across.size(); ++i)
     facts.at("bearer " + std::to_string(i + 1), "bearer_spacing", bearers.across[i - 1] - bearers.across[i]);
-  measure_legs(job, legs, facts);
+  measure_legs(job, legs, bearers, facts);
 }
 
 }  // namespace glissade::parts

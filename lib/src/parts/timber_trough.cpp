@@ -40,15 +40,13 @@ struct SideCut {
   Vec2 back;
 };
 
-/// Edges between strips are square to the side; those at its ends are its own.
-std::vector<SectionPlate> strips_across(const SectionPlate& side, double thickness, double widest,
-                                        double gap) {
+/// A side cut into so many strips. Edges between them are square to it; those at its ends are its own.
+std::vector<SectionPlate> cut_across(const SectionPlate& side, double thickness, int count, double gap) {
   const Vec2 run = side.face_to - side.face_from;
   const double width = norm(run);
   const Vec2 along = (1.0 / width) * run;
   Vec2 out{-along.y, along.x};
   if (dot(side.back_from - side.face_from, out) < 0.0) out = -1.0 * out;
-  const int count = std::max(1, static_cast<int>(std::ceil((width + gap) / (widest + gap) - 1e-9)));
   const double pitch = (width + gap) / count;
   std::vector<SectionPlate> strips;
   for (int k = 0; k < count; ++k) {
@@ -61,6 +59,22 @@ std::vector<SectionPlate> strips_across(const SectionPlate& side, double thickne
     strips.push_back({side.name, from.face, to.face, from.back, to.back});
   }
   return strips;
+}
+
+/// As few strips of a side as are no wider than the widest, on the face or on the back, which its mitres make wider; where mitres alone
+/// are too much for that, as few as their faces ask for.
+std::vector<SectionPlate> strips_across(const SectionPlate& side, double thickness, double widest,
+                                        double gap) {
+  const double face = norm(side.face_to - side.face_from);
+  const int least = std::max(1, static_cast<int>(std::ceil((face + gap) / (widest + gap) - 1e-9)));
+  const auto fits = [&](const SectionPlate& strip) {
+    return norm(strip.back_to - strip.back_from) <= widest * (1.0 + 1e-9);
+  };
+  for (int count = least; (face + gap) / count - gap >= kNarrowestStave; ++count) {
+    std::vector<SectionPlate> strips = cut_across(side, thickness, count, gap);
+    if (std::all_of(strips.begin(), strips.end(), fits)) return strips;
+  }
+  return cut_across(side, thickness, least, gap);
 }
 
 /// A layer of a strip, between two shares of its thickness.
@@ -229,6 +243,7 @@ std::vector<Issue> lining_problems(const TimberChannel& channel, const TimberOpt
   // Templates that are cut off lower down fit where only their height is too much.
   const double over = box.height() - (box.width() <= short_side ? long_side : short_side);
   const double reach = std::floor((channel.trough->seat.front().y - over) * 1e3) * 1e-3;
+  const double edges = 2.0 * options.split.sawn().margin;
   const bool lower_do = box.width() <= long_side && reach > 0.0;
   issues.push_back({"split.sheet",
                     "sheet: templates of " + length_text(box.width(), 4) + " x " +
@@ -236,8 +251,10 @@ std::vector<Issue> lining_problems(const TimberChannel& channel, const TimberOpt
                         length_text(sheet.y),
                     "Each is cut in one piece, " + length_text(options.split.sawn().margin) +
                         " from the edges; it reaches up to the rim, or to cross_members.reach.",
-                    lower_do ? "a larger sheet, or cross_members: {reach: " + length_text(reach) + "}"
-                             : "a larger sheet, or a narrower section"});
+                    "a sheet of at least " + length_text(std::ceil((longer + edges) * 1e3 - 1e-6) * 1e-3) +
+                        " x " + length_text(std::ceil((shorter + edges) * 1e3 - 1e-6) * 1e-3) +
+                        (lower_do ? ", or cross_members: {reach: " + length_text(reach) + "}"
+                                  : ", or a narrower section")});
   return issues;
 }
 

@@ -398,6 +398,14 @@ std::array<std::vector<Vec2>, 2> shape_end(TriangleMesh& mesh, const FacePlane& 
   return faces;
 }
 
+double most_tongue_volume(const PrintJob& job, PrintPose kind) {
+  const double reach = tongue_reach(job, kind);
+  const auto band = level_band(job.face);
+  if (!(reach > 0.0) || !band) return 0.0;
+  return profile_volume(tongue_of(job.options, kind, *band, reach).profile(),
+                        job.face.high().x - job.face.low().x);
+}
+
 double profile_volume(const std::vector<Vec2>& profile, double width) {
   return std::fabs(area_of(profile)) * width;
 }

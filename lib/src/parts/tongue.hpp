@@ -65,6 +65,8 @@ struct Tongue {
 std::array<std::vector<Vec2>, 2> shape_end(TriangleMesh& mesh, const FacePlane& end, Vec3 along,
                                            const std::vector<Vec2>& profile);
 
+/// @return the most that a tongue adds to the piece upstream of a joint [m^3]; 0 of joints with pins
+[[nodiscard]] double most_tongue_volume(const PrintJob& job, PrintPose kind);
 /// @return volume of a tongue, or of a notch, over a width
 [[nodiscard]] double profile_volume(const std::vector<Vec2>& profile, double width);
 

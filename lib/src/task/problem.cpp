@@ -5,6 +5,8 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
+#include "core/counted.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -34,7 +36,7 @@ class Checker {
   }
   void add(Issue issue) { issues_.push_back(std::move(issue)); }
   void points(const std::string& name, const std::vector<Vec2>& points, std::size_t least) {
-    require(points.size() >= least, name + ": " + std::to_string(points.size()) + " points",
+    require(points.size() >= least, name + ": " + core::counted(points.size(), "point"),
             "too few points for its shape");
     for (const Vec2& point : points) {
       require(std::isfinite(point.x) && std::isfinite(point.y), name + ": a coordinate is not finite",

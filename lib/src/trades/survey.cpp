@@ -4,6 +4,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/counted.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -171,9 +173,11 @@ Survey survey_of(const Centerline& design, const std::vector<SurveyPoint>& point
                  const SurveyOptions& options) {
   require_options(options);
   if (points.size() < kFewestPoints) {
-    throw InputError({"points", std::to_string(points.size()) + " points make no survey",
-                      "Slope and radius as built need at least " + std::to_string(kFewestPoints) + ".",
-                      "a point every 2 m along the track"});
+    throw InputError(
+        {"points",
+         core::counted(points.size(), "point") + (points.size() == 1 ? " makes" : " make") + " no survey",
+         "Slope and radius as built need at least " + std::to_string(kFewestPoints) + ".",
+         "a point every 2 m along the track"});
   }
   const std::vector<std::pair<Foot, SurveyPoint>> feet = footed(design, points, options);
   std::vector<Vec2> moved = on_track(design, feet, options.height);
