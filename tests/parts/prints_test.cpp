@@ -524,6 +524,16 @@ TEST_CASE("prints: no part is heavier than allowed, with the tongue that it has,
             .starts_with("split.heaviest|heaviest: 0.004 kg is less than a block of the stand"));
 }
 
+TEST_CASE("prints: joints that nothing holds are glued, others are not") {
+  PrintOptions options = on_stands(0.3);
+  CHECK(prints(run(), groove(), options).workshop.items.empty());
+  options.dowels.wanted = false;
+  const WorkshopBuild build = prints(run(), groove(), options);
+  REQUIRE(build.workshop.items.size() == 1);
+  CHECK(build.workshop.items.front().name == "adhesive for PLA");
+  CHECK(build.workshop.items.front().quantity == build.joints.size() - 2);
+}
+
 TEST_CASE("prints: tongues are refused where a section has no place for them, with what would do") {
   PrintOptions options;
   options.joint = PrintJoint::dovetail;

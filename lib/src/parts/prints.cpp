@@ -16,6 +16,7 @@
 #include "parts/setting_out.hpp"
 #include "parts/stands.hpp"
 #include "parts/tongue.hpp"
+#include "parts/workshop_list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -365,6 +366,18 @@ std::vector<std::string> notes_of(const PrintJob& job, const PrintPlan& plan, co
   return notes;
 }
 
+/// Joints and cuts of stands that nothing holds are glued.
+void add_glue(const PrintJob& job, const Hold& hold, const std::vector<Stand>& stands, WorkshopBuild& build) {
+  const std::string name = "adhesive for " + job.options.material.name;
+  if (!hold.dowels && !hold.tongue)
+    add_item(build.workshop, {name, "by its maker's table", build.joints.size() - 2, "joints without pins"});
+  std::size_t cuts = 0;
+  for (const Stand& stand : stands) {
+    if (stand.pins.empty()) cuts += stand.blocks.size() - 1;
+  }
+  add_item(build.workshop, {name, "by its maker's table", cuts, "cuts of stands without pins"});
+}
+
 }  // namespace
 
 WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, const MasterCurveOptions& fit,
@@ -390,6 +403,7 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
   if (hold.dowels) add_pins(job, plan.joints, *hold.dowels, build);
   build.workshop.setting_out = setting_out(job.track, build.joints, placement);
   add_stands(job, stands, build);
+  add_glue(job, hold, stands, build);
   build.workshop.tolerance = "Printed to 0.2 mm; seams off the running surface";
   build.workshop.notes = notes_of(job, plan, hold, stands);
   const double drop = hold.tongue ? hold.tongue->fit : hold.dowels ? options.dowels.fit : 0.0;

@@ -13,6 +13,7 @@
 #include "parts/setting_out.hpp"
 #include "parts/timber_braces.hpp"
 #include "parts/timber_facts.hpp"
+#include "parts/timber_fasteners.hpp"
 #include "parts/timber_frame.hpp"
 #include "parts/timber_trough.hpp"
 #include "parts/workshop_list.hpp"
@@ -178,6 +179,7 @@ double add_curbs(const TimberJob& job, const std::vector<DeckRow>& upper, Worksh
     part.bought_in = sawn;
     set_own_pattern(part);
     volume += part.volume * static_cast<double>(part.quantity());
+    fix_curb(job, joints[i + 1] - joints[i], part.quantity(), workshop);
     add_part(workshop, std::move(part), kCurbColour);
   }
   return volume;
@@ -247,6 +249,7 @@ void add_splices(const TimberJob& job, const std::vector<double>& joints, const 
                                  width, middles, job.options.material);
     part.name = name + "_" + std::to_string(i);
     set_own_pattern(part);
+    fix_splices(job, 2.0 * reach, part.quantity(), workshop);
     add_part(workshop, std::move(part), kSpliceColour);
   }
 }
@@ -302,6 +305,32 @@ void add_legs(const TimberJob& job, const std::vector<Leg>& legs, const BearerPl
     set_own_pattern(part);
     add_part(workshop, std::move(part), kLegColour);
   }
+}
+
+/// @return how many boards brace the legs
+std::size_t add_braces(const TimberJob& job, const std::vector<Leg>& legs, const BearerPlan& plan,
+                       Workshop& workshop) {
+  std::size_t boards = 0;
+  if (legs.empty()) return boards;
+  for (ShopPart& part : brace_parts(job, legs, plan)) {
+    boards += part.quantity();
+    add_part(workshop, std::move(part), kLegColour);
+  }
+  return boards;
+}
+
+/// Says which legs and boards are longer than what lumber comes in.
+void note_long_lumber(const TimberJob& job, Workshop& workshop) {
+  std::string listed;
+  for (const ShopPart& part : workshop.parts) {
+    if (!part.stands) continue;
+    const PlaneBox box = bounds(part.pattern->region.outline);
+    if (std::max(box.width(), box.height()) <= job.options.split.longest) continue;
+    listed += (listed.empty() ? "" : ", ") + part.name;
+  }
+  if (listed.empty()) return;
+  workshop.notes.push_back("Longer than the " + length_text(job.options.split.longest) +
+                           " of split.longest, to be spliced: " + listed + ".");
 }
 
 /// Heights of the lines that are set out below the floor.
@@ -448,16 +477,18 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   double made = 0.0;
   if (lining) {
     made = add_lining(*lining, workshop);
+    fix_lining(job, *lining, members, workshop);
     add_templates(job, members, workshop);
   } else {
+    fix_deck(job, rows, members, workshop);
     made = add_deck(job, rows, workshop) + add_curbs(job, rows.front(), workshop);
     add_cross_members(job, members, workshop);
   }
   add_bearers(job, bearers, workshop);
   add_legs(job, legs, bearers, workshop);
-  if (!legs.empty()) {
-    for (ShopPart& part : brace_parts(job, legs, bearers)) add_part(workshop, std::move(part), kLegColour);
-  }
+  const std::size_t boards = add_braces(job, legs, bearers, workshop);
+  note_long_lumber(job, workshop);
+  fix_frame(job, {members.size(), bearers.across.size(), legs.size(), boards}, workshop);
   workshop.setting_out = setting_out(job.track, bearers.joints, placement);
   set_out_frame(job, bearers, legs, workshop);
   add_offsets(job, workshop);

@@ -7,6 +7,7 @@
 #include "parts/equal_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -86,6 +87,19 @@ void add_bolts(Workshop& workshop, int size, double grip, std::size_t count, con
   const std::string name = "M" + std::to_string(size);
   add_fastener(workshop, size, grip, count, where);
   add_item(workshop, {"washer " + name, "ISO 7089 200 HV", 2 * count, where});
+}
+
+void add_timber_bolts(Workshop& workshop, int size, double grip, std::size_t count,
+                      const std::string& where) {
+  const Bolt& bolt = bolt_of(size);
+  constexpr double kWasher = 0.3;  // thickness over the diameter: ISO 7094, and EN 1995-1-1, 10.4.3
+  constexpr double kStep = 10e-3;  // long bolts come in these
+  const double washers = 2.0 * (kWasher * 1e-3 * size - bolt.washer_height);
+  const double length = kStep * std::ceil(bolt_length(bolt, grip + washers) / kStep - 1e-9);
+  const std::string name = "M" + std::to_string(size);
+  add_item(workshop, {"bolt " + name + " x " + rounded_text(1e3 * length, 4), "EN 14592", count, where});
+  add_item(workshop, {"nut " + name, "ISO 4032 8", count, where});
+  add_item(workshop, {"large washer " + name, "ISO 7094 100 HV", 2 * count, where});
 }
 
 void add_joint_bolts(Workshop& workshop, const FlangeOptions& flange, std::size_t bolts, std::size_t joints) {

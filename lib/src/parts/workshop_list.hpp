@@ -33,6 +33,9 @@ void add_item(Workshop& workshop, BoughtInItem item);
 /// A bolt with its nut and two washers through a grip.
 void add_bolts(Workshop& workshop, int size, double grip, std::size_t count, const std::string& where);
 
+/// A bolt with its nut and two large washers through a grip of timber.
+void add_timber_bolts(Workshop& workshop, int size, double grip, std::size_t count, const std::string& where);
+
 /// Bolts of the frames that meet at joints; where one frame is slotted, with a large washer on that side.
 /// @param bolts   of all of them
 /// @param joints  between units

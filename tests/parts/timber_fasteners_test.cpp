@@ -1,0 +1,147 @@
+// What holds timber together: screws deep enough and short enough, as many as spacings ask for.
+
+#include "parts/timber_fasteners.hpp"
+
+#include "glissade/core/math.hpp"
+#include "glissade/parts/timber.hpp"
+
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace glissade;
+using parts::screw_for;
+using parts::screws_across;
+
+const Friction kFriction = Friction::from_angle(Angle::from_degrees(10.0));
+
+/// Straight on a slope of three in four.
+ArcSpline slope(double length) {
+  return ArcSpline({{{{0.0, 0.0}, 0.0}, {{0.8 * length, -0.6 * length}, 0.0}}, false});
+}
+
+WorkshopBuild timber(const TimberOptions& options, const section::Measures& measures, double length = 5.0) {
+  return make_timber(slope(length), measures, {TimberOptions::kArcTolerance}, options, Placement(),
+                     {.friction = kFriction});
+}
+
+std::size_t count_of(const WorkshopBuild& build, const std::string& start, const std::string& where) {
+  std::size_t count = 0;
+  for (const BoughtInItem& item : build.workshop.items) {
+    if (item.name.starts_with(start) && item.where.find(where) != std::string::npos) count += item.quantity;
+  }
+  return count;
+}
+
+std::size_t pieces_of(const WorkshopBuild& build, const std::string& start) {
+  std::size_t count = 0;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (part.name.starts_with(start)) count += part.quantity();
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("screws: as thick as what they fix asks for, six diameters deep, and never through") {
+  CHECK(screw_for({12e-3, 12e-3, 70e-3, 30e-3}).name() == "screw 4 x 40");
+  CHECK(screw_for({18e-3, 18e-3, 70e-3, 30e-3}).name() == "screw 5 x 50");
+  CHECK(screw_for({39e-3, 78e-3, 120e-3, 30e-3}).name() == "screw 6 x 120");
+  // 12.5 mm from an edge no thicker than 4 mm, 22.5 mm no thicker than 6 mm.
+  CHECK(screw_for({39e-3, 39e-3, 120e-3, 12.5e-3}).diameter == 4);
+  CHECK(screw_for({72e-3, 72e-3, 200e-3, 22.5e-3}).name() == "screw 6 x 120");
+  // A thin member holds what it can.
+  CHECK(screw_for({18e-3, 18e-3, 18e-3, 18e-3}).name() == "screw 4 x 30");
+  testing::Random random = testing::seeded_random();
+  for (int k = 0; k < 400; ++k) {
+    const double fixed = random.between(6e-3, 0.15);
+    const parts::ScrewedJoint joint{fixed, fixed * random.integer(1, 3), random.between(10e-3, 0.4),
+                                    random.between(5e-3, 60e-3)};
+    const parts::Screw screw = screw_for(joint);
+    INFO("GLISSADE_SEED=" << random.seed() << ", joint " << k << ": " << screw.name());
+    CHECK(screw.length < joint.through + joint.into);
+    CHECK((screw.diameter == 4 || 3e-3 * screw.diameter <= joint.edge + 1e-9));
+    // Deeper, thicker members never take a shorter one.
+    parts::ScrewedJoint deeper = joint;
+    deeper.into *= 2.0;
+    CHECK(screw_for(deeper).length >= screw.length - 1e-9);
+  }
+}
+
+TEST_CASE("screws: a row has one in a slat, two in a board, more in a sheet by the spacing") {
+  CHECK(screws_across(40e-3, 0.3) == 1);
+  CHECK(screws_across(120e-3, 0.3) == 2);
+  CHECK(screws_across(0.35, 0.3) == 2);
+  CHECK(screws_across(0.36, 0.3) == 3);
+  CHECK(screws_across(1.25, 0.15) == 9);
+}
+
+TEST_CASE(
+    "timber: sheets are screwed to every cross member, closer where they end, on both sides of a seam") {
+  TimberOptions options;
+  options.deck.layers = 1;
+  const WorkshopBuild build = timber(options, section::Slab{WidthLaw(1.2), 18e-3, 0.0, 0.0});
+  const std::size_t members = pieces_of(build, "cross_member");
+  const std::size_t sheets = pieces_of(build, "deck_");
+  REQUIRE(sheets == 2);
+  // Across 1.2 m: 5 in the field, 9 at the ends; the seam's member has both.
+  CHECK(count_of(build, "screw 4 x 45", "sheets to cross members") == 5 * (members - 3) + 9 * 4);
+  // On ribs, which are too narrow for screws from above, brackets.
+  CHECK(count_of(build, "angle bracket", "cross members on bearers") == 3 * members);
+  CHECK(count_of(build, "screw", "curbs") == 0);
+}
+
+TEST_CASE("timber: two screws a board and cross member, curbs from below, beams from above") {
+  TimberOptions options;
+  options.frame = TimberFrame::beams;
+  options.bearers.count = 2;
+  options.deck = {1, 2e-3, BoardOptions{120e-3, 6.0, 0.0}};
+  const WorkshopBuild build = timber(options, section::Slab{WidthLaw(1.104), 30e-3, 0.2, 48e-3});
+  const std::size_t members = pieces_of(build, "cross_member");
+  // Ten side by side; every other one has a seam.
+  REQUIRE(pieces_of(build, "board_") == 15);
+  CHECK(count_of(build, "screw", "boards to cross members") == 2 * 10 * members + 2 * 5);
+  CHECK(count_of(build, "screw 6 x 120", "two askew") == 2 * 2 * members);
+  CHECK(count_of(build, "screw 6 x 70", "curbs") > 0);
+}
+
+TEST_CASE("timber: legs have heads and feet, every board of theirs two bolts with two large washers each") {
+  TimberOptions options;
+  options.legs = LegOptions{{{0.0, -8.0}}, 2.0, 90e-3};
+  const WorkshopBuild build = timber(options, section::Slab{WidthLaw(1.2), 24e-3, 0.0, 0.0}, 9.0);
+  const std::size_t legs = pieces_of(build, "leg_");
+  const std::size_t boards = pieces_of(build, "cross_brace_") + pieces_of(build, "long_brace_");
+  REQUIRE(boards > 4);
+  CHECK(count_of(build, "pair of head plates", "") == legs);
+  CHECK(count_of(build, "post base", "") == legs);
+  // 90 + 24 mm of timber, two washers of 3 mm, a nut, two threads.
+  CHECK(count_of(build, "bolt M10 x 140", "") == 2 * boards);
+  CHECK(count_of(build, "nut M10", "") == 2 * boards);
+  CHECK(count_of(build, "large washer M10", "") == 4 * boards);
+  // Legs longer than lumber comes are told.
+  options.split.longest = 4.0;
+  const WorkshopBuild spliced = timber(options, section::Slab{WidthLaw(1.2), 24e-3, 0.0, 0.0}, 9.0);
+  bool told = false;
+  for (const std::string& note : spliced.workshop.notes)
+    told = told || note.starts_with("Longer than the 4 m of split.longest, to be spliced: leg_1");
+  CHECK(told);
+}
+
+TEST_CASE("timber troughs: every strip is screwed to every template below it") {
+  TimberOptions options;
+  options.deck.layers = 2;
+  const WorkshopBuild build =
+      timber(options, section::Trapezoid{WidthLaw(0.4), 0.2, Angle::from_degrees(25.0), 24e-3}, 2.0);
+  const std::size_t templates = pieces_of(build, "template");
+  // Across the floor 3 screws, at its ends 4; across each wall 2, at its ends and on both sides of its seam 3.
+  REQUIRE(pieces_of(build, "floor_layer_1") == 1);
+  REQUIRE(pieces_of(build, "left_wall_layer_1") + pieces_of(build, "wall_layer_1") == 4);
+  CHECK(count_of(build, "screw", "layer 1 of 2 from above, strips to templates") ==
+        3 * (templates - 2) + 4 * 2 + 2 * (2 * (templates - 3) + 3 * 4));
+  CHECK(count_of(build, "angle bracket", "templates on bearers") > 0);
+}
