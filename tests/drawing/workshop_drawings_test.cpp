@@ -7,15 +7,19 @@
 #include "glissade/io/sheet_file.hpp"
 #include "glissade/io/workshop_tables.hpp"
 
+#include "drawing/balloons.hpp"
 #include "parts/angle_bar.hpp"
 #include "support/catch.hpp"
 #include "support/shop_parts.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 using namespace glissade;
 
@@ -297,6 +301,118 @@ TEST_CASE("no line of the general arrangement runs through the numbers of its ov
     }
   }
   CHECK(joints > 100);
+}
+
+namespace {
+
+/// A track of boxes on legs: so many units, each of two kinds of its own, and one kind that all have.
+Workshop row_of_units(int units, double step, double drop) {
+  Workshop workshop;
+  workshop.name = "row";
+  int number = 0;
+  const auto add = [&](const std::string& name, double wide, double high, std::vector<Vec3> places) {
+    ShopPart part = testing::shop_part(
+        ++number, name,
+        Prism{{rectangle({-0.5 * wide, -0.5 * high}, {0.5 * wide, 0.5 * high}), {}, {}}, 0.4});
+    part.places.clear();
+    for (const Vec3 place : places)
+      part.places.push_back({place, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, -1.0, 0.0}});
+    part.centre_of_gravity = places.front() + Vec3{0.0, -0.2, 0.0};
+    workshop.parts.push_back(std::move(part));
+  };
+  std::vector<Vec3> all;
+  for (int i = 0; i < units; ++i) {
+    const Vec3 at{step * i, 0.0, -drop * i};
+    add("box_" + std::to_string(i + 1), 0.9 * step, 0.2, {at});
+    add("leg_" + std::to_string(i + 1), 0.05, 0.8, {at + Vec3{0.0, 0.1, -0.6}, at + Vec3{0.0, -0.1, -0.6}});
+    all.push_back(at + Vec3{0.3 * step, 0.0, 0.2});
+  }
+  add("knob", 0.05, 0.05, all);
+  workshop.setting_out = {{"start", 0, 0, 0, {}, {}, 0, 0, {}},
+                          {"finish",
+                           step * units,
+                           step * units,
+                           -drop * units,
+                           {step * units, 0.0, -drop * units},
+                           {},
+                           0,
+                           0,
+                           {}}};
+  return workshop;
+}
+
+/// Lines from numbers to parts, with the balloons in which they begin.
+struct Pointed {
+  std::vector<Vec2> balloons;
+  std::vector<std::pair<Vec2, Vec2>> lines;
+  std::map<std::string, int> numbers;
+};
+
+Pointed pointed_in(const SheetView& view) {
+  Pointed all;
+  for (const DrawnText& text : view.drawing.texts) {
+    if (view.drawing.layers[text.layer].name == "NUMBERS" && text.text.find('x') == std::string::npos)
+      ++all.numbers[text.text];
+  }
+  for (const DrawnCircle& drawn : view.drawing.circles) {
+    if (view.drawing.layers[drawn.layer].name == "NUMBERS" && drawn.circle.radius * view.scale > 1.0)
+      all.balloons.push_back(drawn.circle.centre);
+  }
+  for (const DrawnPath& drawn : view.drawing.paths) {
+    if (view.drawing.layers[drawn.layer].name == "NUMBERS")
+      all.lines.emplace_back(drawn.path.vertices.front().at, drawn.path.vertices.back().at);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "arrangements of many parts: stretches number every part, lines cross neither one another nor numbers") {
+  for (const int units : {4, 11, 12, 20, 45}) {
+    for (const double drop : {0.0, 0.4, 1.5}) {
+      CAPTURE(units, drop);
+      const Workshop workshop = row_of_units(units, 1.0, drop);
+      const std::vector<Sheet> set = drawing_set(workshop);
+      std::vector<const Sheet*> sheets;
+      for (const Sheet& sheet : set) {
+        if (says(sheet, "rrangement")) sheets.push_back(&sheet);
+      }
+      const bool many = workshop.parts.size() > 24;
+      CHECK((sheets.size() > 1) == many);
+      std::map<std::string, int> numbers;
+      int pieces = 0;
+      for (std::size_t i = 0; i < sheets.size(); ++i) {
+        const SheetView& view = sheets[i]->views.front();
+        const Pointed all = pointed_in(view);
+        CHECK(all.balloons.size() <= 24);
+        REQUIRE(all.lines.size() == all.balloons.size());
+        for (std::size_t a = 0; a < all.lines.size(); ++a) {
+          for (std::size_t b = 0; b < all.lines.size(); ++b) {
+            if (a == b) continue;
+            CHECK_FALSE(drawing::lines_cross(all.lines[a].first, all.lines[a].second, all.lines[b].first,
+                                             all.lines[b].second));
+            CHECK_FALSE(drawing::line_passes(all.lines[a].first, all.lines[a].second, all.balloons[b],
+                                             3.5 / view.scale));
+          }
+        }
+        if (many && i == 0) continue;
+        CHECK(view.scale >= sheets.front()->views.front().scale);
+        for (const auto& [number, count] : all.numbers) {
+          CHECK(count == 1);
+          numbers[number] += count;
+        }
+        // How many there are stands in the balloon, one alone without.
+        pieces += static_cast<int>(all.balloons.size());
+        for (const DrawnText& text : view.drawing.texts) {
+          if (view.drawing.layers[text.layer].name == "NUMBERS" && text.text.find('x') != std::string::npos)
+            pieces += std::stoi(text.text) - 1;
+        }
+      }
+      CHECK(numbers.size() == workshop.parts.size());
+      CHECK(pieces == 4 * units);
+    }
+  }
 }
 
 TEST_CASE("of a round pin of facets both sides are drawn where they turn away, and no other facet's edge") {

@@ -5,6 +5,7 @@
 #include "drawing/balloons.hpp"
 #include "drawing/ink.hpp"
 #include "drawing/sheet_words.hpp"
+#include "drawing/stretches.hpp"
 #include "drawing/views.hpp"
 
 #include <algorithm>
@@ -24,22 +25,20 @@ constexpr double kDimension = 28.0;    // for balloons and dimensions to the rig
 constexpr double kNames = 32.0;        // for names below the view from the side
 constexpr double kSizeAway = 9.0;      // of dimensions from what is seen, or from balloons beside it
 constexpr double kAroundPlan = 8.0;    // below and above the plan
+/// Kinds of parts that one view tells apart by numbers round it: a row above, and columns as high as a flat view lets them be.
+constexpr std::size_t kMostNumbers = 24;
 
 /// Middles of all pieces of a part as an eye sees them [mm].
 Named pieces_of(const ShopPart& part, const Eye& eye) {
-  const Frame& first = part.places.front();
-  const Vec3 from = part.centre_of_gravity - first.origin;
-  const Vec3 own{dot(from, first.x), dot(from, first.y), dot(from, first.z)};
   Named named;
-  for (const Frame& place : part.places)
-    named.pieces.push_back(core::kMillimetres * eye.see(place.to_space(own)));
+  for (const Frame& place : part.places) named.pieces.push_back(middle_of(part, place, eye));
   return named;
 }
 
 /// What carries a number. Where there are more parts than there is room for, the first of each family stands for all.
 std::vector<const ShopPart*> numbered_parts(const Workshop& workshop, std::size_t room) {
   std::vector<const ShopPart*> parts;
-  const bool all = workshop.parts.size() <= room;
+  const bool all = workshop.parts.size() <= std::min(room, kMostNumbers);
   std::set<std::string> families;
   for (const ShopPart& part : workshop.parts) {
     if (part.places.empty() || parts.size() == room) continue;
@@ -99,7 +98,7 @@ std::vector<Vec2> words_of_length(const PlaneBox& seen, double per_paper) {
   return {middle - aside, middle, middle + aside};
 }
 
-/// Numbers of the parts round a view, each with a line to a piece of the part.
+/// Numbers of the parts round a view, each with a line to a piece of the part and how many there are.
 /// @return whether some stand to the right of it
 bool add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen,
                   const PlaneBox& paper) {
@@ -108,6 +107,7 @@ bool add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, con
   constexpr double kDot = 0.4;  // where a line ends on a part
   const std::size_t most = balloon_places(view, seen, paper, workshop.parts.size()).size();
   const std::vector<const ShopPart*> parts = numbered_parts(workshop, most);
+  const bool counted = parts.size() == workshop.parts.size();
   const std::vector<Vec2> places = balloon_places(view, seen, paper, parts.size());
   std::vector<Named> names;
   names.reserve(parts.size());
@@ -122,12 +122,14 @@ bool add_balloons(SheetView& view, const Workshop& workshop, const Eye& eye, con
     view.drawing.add(layer, Circle{at, kRadius * per_paper});
     view.drawing.line(layer, at + kRadius * per_paper * along, labels[i].target);
     view.drawing.add(layer, Circle{labels[i].target, kDot * per_paper});
-    DrawnText text;
-    text.layer = layer;
-    text.at = at - Vec2{0.0, 1.25 * per_paper};
-    text.text = number_of(*parts[i]);
-    text.anchor = TextAnchor::centre;
-    view.drawing.texts.push_back(std::move(text));
+    const std::size_t pieces = parts[i]->places.size();
+    const auto write = [&](std::string text, double below, double height) {
+      view.drawing.texts.push_back(
+          {layer, at - Vec2{0.0, below * per_paper}, height, std::move(text), TextAnchor::centre, {}});
+    };
+    const bool several = pieces > 1 && counted;
+    write(number_of(*parts[i]), several ? 0.4 : 1.25, 2.5);
+    if (several) write(std::to_string(pieces) + "x", 2.7, 1.8);
   }
   return std::any_of(labels.begin(), labels.end(), [&](const Label& one) {
     return places[one.slot].x > seen.high.x && places[one.slot].y < seen.high.y;
@@ -148,11 +150,17 @@ std::vector<std::pair<Vec2, Vec2>> clear_of_length(Vec2 from, double low, const 
 
 /// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn. Of names
 /// that would lie across one another the first is told, mitres last; the setting-out table has all.
-void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen) {
+/// @param whole  what all sheets together show
+void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen,
+               const PlaneBox& whole) {
   const double per_paper = 1.0 / view.scale;
   constexpr double kBelow = 12.0;  // of the names, with room for a dimension above them, on paper [mm]
   constexpr double kApart = 3.5;   // names, on paper [mm]
-  std::vector<MarkedPlace> places = marked_places(workshop, seen, eye);
+  std::vector<MarkedPlace> places = marked_places(workshop, whole, eye);
+  if (seen.low.x > whole.low.x)
+    std::erase_if(places, [&](const MarkedPlace& place) { return place.at.x < seen.low.x; });
+  if (seen.high.x < whole.high.x)
+    std::erase_if(places, [&](const MarkedPlace& place) { return place.at.x > seen.high.x; });
   // Mitres, of which there are many, leave the room to all others.
   const auto later = [](const MarkedPlace& place) { return place.what.starts_with("mitre"); };
   std::stable_sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
@@ -222,9 +230,9 @@ std::vector<std::string> note_lines(const std::vector<std::string>& notes, doubl
 
 /// Notes beside the title block, as many as there is room for.
 /// @return whether all were told
-bool add_notes(const Workshop& workshop, Sheet& sheet) {
+bool add_notes(const std::vector<std::string>& notes, Sheet& sheet) {
   const PlaneBox room = notes_area(sheet);
-  std::vector<std::string> lines = note_lines(workshop.notes, room.width());
+  std::vector<std::string> lines = note_lines(notes, room.width());
   const auto most = static_cast<std::size_t>(room.height() / kNoteStep);
   const bool all = lines.size() <= most;
   if (!all) {
@@ -254,11 +262,11 @@ std::vector<Sheet> sheets_of_notes(const Workshop& workshop) {
   return table_sheets(title_of(workshop, "Notes"), PaperSize::a4, std::move(table));
 }
 
-}  // namespace
-
-std::vector<Sheet> general_arrangement(const Workshop& workshop) {
+/// Both views of a workshop on a sheet, with numbers, names and sizes.
+/// @param whole  from the side, what all sheets together show
+Sheet arrangement_sheet(const Workshop& workshop, std::string title, const PlaneBox* whole) {
   Sheet sheet = blank_sheet(PaperSize::a3);
-  sheet.title = title_of(workshop, "General arrangement");
+  sheet.title = title_of(workshop, std::move(title));
   const PlaneBox room = drawing_area(sheet);
   Drawing side = side_view(workshop);
   Drawing plan = plan_view(workshop);
@@ -277,12 +285,56 @@ std::vector<Sheet> general_arrangement(const Workshop& workshop) {
   from_side.scale = from_above.scale = std::min(from_side.scale, from_above.scale);
   const Eye eye = eye_beside(workshop);
   const bool numbered = add_balloons(from_side, workshop, eye, beside, room);
-  add_marks(from_side, workshop, eye, beside);
+  add_marks(from_side, workshop, eye, beside, whole != nullptr ? *whole : beside);
   add_sizes(from_side, beside, numbered, from_above, above);
   sheet.views = {std::move(from_side), std::move(from_above)};
-  const bool all_notes = add_notes(workshop, sheet);
-  std::vector<Sheet> sheets{std::move(sheet)};
-  if (!all_notes) {
+  return sheet;
+}
+
+}  // namespace
+
+namespace {
+
+/// The sheets of a workshop's stretches, at a larger scale than the whole where more of them make it so.
+std::vector<Sheet> stretch_sheets(const Workshop& workshop, const SheetView& whole) {
+  // Seen before numbers and names were added: as the parts are.
+  const PlaneBox seen = bounds(side_view(workshop)).value_or(PlaneBox{});
+  const auto sheets_with = [&](std::size_t most) {
+    const std::vector<Workshop> stretches = stretches_of(workshop, eye_beside(workshop), most);
+    std::vector<Sheet> sheets;
+    for (const Workshop& stretch : stretches) {
+      sheets.push_back(arrangement_sheet(stretch,
+                                         "Arrangement, stretch " + std::to_string(sheets.size() + 1) +
+                                             " of " + std::to_string(stretches.size()),
+                                         &seen));
+      (void)add_notes({"Pieces whose middles lie in this stretch, with how many of a number there are."},
+                      sheets.back());
+    }
+    return sheets;
+  };
+  constexpr std::size_t kFewest = 12;  // numbers of a sheet that is cut for its scale
+  std::vector<Sheet> sheets = sheets_with(kMostNumbers);
+  const auto is_larger = [&](const Sheet& sheet) { return sheet.views.front().scale > whole.scale; };
+  for (std::size_t most = kMostNumbers;
+       most > kFewest && !std::all_of(sheets.begin(), sheets.end(), is_larger); most -= 6) {
+    std::vector<Sheet> more = sheets_with(most - 6);
+    if (std::all_of(more.begin(), more.end(), is_larger)) sheets = std::move(more);
+  }
+  return sheets;
+}
+
+}  // namespace
+
+std::vector<Sheet> general_arrangement(const Workshop& workshop) {
+  std::vector<Sheet> sheets{arrangement_sheet(workshop, "General arrangement", nullptr)};
+  std::vector<std::string> notes = workshop.notes;
+  if (workshop.parts.size() > kMostNumbers) {
+    for (Sheet& stretch : stretch_sheets(workshop, sheets.front().views.front()))
+      sheets.push_back(std::move(stretch));
+    notes.insert(notes.begin(), "One number a family of parts; all numbers are on sheets 2 to " +
+                                    std::to_string(sheets.size()) + ".");
+  }
+  if (!add_notes(notes, sheets.front())) {
     for (Sheet& more : sheets_of_notes(workshop)) sheets.push_back(std::move(more));
   }
   return sheets;

@@ -1,0 +1,87 @@
+#include "drawing/stretches.hpp"
+
+#include "core/millimetres.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace glissade::drawing {
+namespace {
+
+struct Piece {
+  double x = 0.0;
+  std::size_t part = 0;
+  std::size_t place = 0;
+};
+
+std::vector<Piece> pieces_in_order(const Workshop& workshop, const Eye& eye) {
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
+    const ShopPart& part = workshop.parts[i];
+    for (std::size_t k = 0; k < part.places.size(); ++k)
+      pieces.push_back({middle_of(part, part.places[k], eye).x, i, k});
+  }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.x < b.x; });
+  return pieces;
+}
+
+/// @return where stretches with so many kinds of parts at most begin among pieces in order
+std::vector<std::size_t> begins(const std::vector<Piece>& pieces, std::size_t most) {
+  std::vector<std::size_t> starts;
+  std::set<std::size_t> kinds;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    kinds.insert(pieces[i].part);
+    if (!starts.empty() && kinds.size() <= most) continue;
+    starts.push_back(i);
+    kinds = {pieces[i].part};
+  }
+  return starts;
+}
+
+}  // namespace
+
+Vec2 middle_of(const ShopPart& part, const Frame& place, const Eye& eye) {
+  const Frame& first = part.places.front();
+  const Vec3 from = part.centre_of_gravity - first.origin;
+  const Vec3 own{dot(from, first.x), dot(from, first.y), dot(from, first.z)};
+  return core::kMillimetres * eye.see(place.to_space(own));
+}
+
+std::vector<Workshop> stretches_of(const Workshop& workshop, const Eye& eye, std::size_t most) {
+  const std::vector<Piece> pieces = pieces_in_order(workshop, eye);
+  std::vector<std::size_t> starts = begins(pieces, most);
+  // No more stretches, as evenly full as these can be.
+  for (std::size_t fewer = most - 1; fewer > 0; --fewer) {
+    std::vector<std::size_t> even = begins(pieces, fewer);
+    if (even.size() > starts.size()) break;
+    starts = std::move(even);
+  }
+  std::vector<Workshop> stretches;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const std::size_t end = k + 1 < starts.size() ? starts[k + 1] : pieces.size();
+    std::vector<std::vector<std::size_t>> places(workshop.parts.size());
+    for (std::size_t i = starts[k]; i < end; ++i) places[pieces[i].part].push_back(pieces[i].place);
+    Workshop stretch;
+    stretch.name = workshop.name;
+    stretch.tolerance = workshop.tolerance;
+    stretch.setting_out = workshop.setting_out;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (places[i].empty()) continue;
+      const ShopPart& whole = workshop.parts[i];
+      ShopPart part = whole;
+      part.places.clear();
+      for (const std::size_t place : places[i]) part.places.push_back(whole.places[place]);
+      // Of the first of its pieces, which may be another one here.
+      const Frame& first = whole.places.front();
+      const Vec3 from = whole.centre_of_gravity - first.origin;
+      part.centre_of_gravity =
+          part.places.front().to_space({dot(from, first.x), dot(from, first.y), dot(from, first.z)});
+      stretch.parts.push_back(std::move(part));
+    }
+    stretches.push_back(std::move(stretch));
+  }
+  return stretches;
+}
+
+}  // namespace glissade::drawing
