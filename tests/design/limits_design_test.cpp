@@ -1,9 +1,13 @@
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/design/design.hpp"
 
 #include "design/design_text.hpp"
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 using namespace glissade;
@@ -331,6 +335,7 @@ TEST_CASE("a line of ground comes from a CSV file beside the design, its faults 
   CHECK_THAT(refusal("x,z\n0,0\n3,high\n", ""),
              Contains("ground.csv:3:3: column \"z\": \"high\" is no number"));
   CHECK_THAT(refusal("x,z\n0,0\n", ""), Contains("ground.csv has 1 point\n"));
+  CHECK_THAT(refusal("x,z\n", ""), Contains("ground.csv has 0 points"));
   CHECK_THAT(refusal("x,z\n0,0\n6,0\n", ", line: [[0 m, 0 m], [1 m, 0 m]]"),
              Contains("unknown key line") && Contains("either line or file"));
   CHECK_THAT(problems_of(std::string(kSoundDesign) + "limits: {stay_above: [{file: nowhere.csv}]}\n"),
@@ -338,6 +343,44 @@ TEST_CASE("a line of ground comes from a CSV file beside the design, its faults 
   CHECK_THAT(problems_of(std::string(kSoundDesign) +
                          "limits: {stay_above: [{line: [[0 m, 0 m], [6 m, 0 m]], unit: mm}]}\n"),
              Contains("unknown key unit"));
+}
+
+TEST_CASE("a line of ground by a coordinate of the site is refused where its other coordinate runs") {
+  const TempDir place;
+  const auto refusal = [&](double azimuth, const std::string& names, const std::string& columns,
+                           const std::string& key) -> std::string {
+    std::string csv = names + "\n";
+    for (int i = 0; i <= 20; ++i) {
+      csv += exact_text(0.3 * i) + "," + exact_text(0.3 * i * std::cos(azimuth)) + "," +
+             exact_text(0.3 * i * std::sin(azimuth)) + "," + exact_text(key == "stay_above" ? -1.0 : 9.0) +
+             "\n";
+    }
+    put_bytes(place / "ground.csv", csv);
+    put_bytes(place / "d.yaml", std::string(kSoundDesign) + "limits: {" + key +
+                                    ": [{file: ground.csv, columns: " + columns + "}]}\n");
+    try {
+      static_cast<void>(read_design(place / "d.yaml"));
+      return {};
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  for (const std::string key : {"stay_above", "stay_below"}) {
+    // 150 deg has an x that falls besides, 90 deg one that stays: what is told is the cause of both.
+    for (const double degrees : {4.0, 45.0, 86.0, 90.0, 150.0, -30.0}) {
+      CAPTURE(key, degrees);
+      const double azimuth = degrees * std::numbers::pi / 180.0;
+      CHECK_THAT(refusal(azimuth, "run_m,x_m,y_m,z_m", "[x_m, z_m]", key),
+                 Contains("file: ground.csv: x_m is not the horizontal distance") &&
+                     Contains("columns: [run_m, z_m], if run_m counts from the start of this track"));
+      CHECK_THAT(refusal(azimuth, "way,Easting,Northing,z", "[Easting, z]", key),
+                 Contains("Easting is not the horizontal distance") && Contains("Northing changes by") &&
+                     Contains("if the heights do not depend on it"));
+      CHECK(refusal(azimuth, "run_m,x_m,y_m,z_m", "[run_m, z_m]", key) == "");
+      CHECK(refusal(azimuth, "way,x,offset,z", "[way, z]", key) == "");
+    }
+    CHECK(refusal(0.02, "way,x,y,z", "[x, z]", key) == "");
+  }
 }
 
 TEST_CASE("a condition of gates may have a drag area of its own, where the body's mass is known") {

@@ -36,12 +36,30 @@ ProfileCsvOptions read_columns(MapReader& map, Findings& findings) {
   return options;
 }
 
+/// A line lies in the vertical plane of the track, where one coordinate of the site alone is no distance.
+std::optional<Issue> oblique_fault(const std::string& file, const ProfilePoints& points,
+                                   const ProfileCsvOptions& options) {
+  auto fault = distance_fault(points, options);
+  if (!fault) return {};
+  const std::string& other = points.other->column;
+  fault->what = "file: " + file + ": " + fault->what;
+  fault->hint =
+      points.other->has_run
+          ? fault->hint + ", if run_m counts from the start of this track"
+          : "a column of the distance from the start towards the finish, sqrt(dx^2 + dy^2), of points "
+            "in the vertical plane of the track; or another name for " +
+                other + " if the heights do not depend on it";
+  return fault;
+}
+
 /// What is wrong with the points as a line; none if nothing is.
-std::optional<Issue> line_fault(const std::string& file, const ProfilePoints& points) {
+std::optional<Issue> line_fault(const std::string& file, const ProfilePoints& points,
+                                const ProfileCsvOptions& options) {
   if (points.points.size() < 2) {
     return Issue{"", "file: " + file + " has " + core::counted(points.points.size(), "point"),
                  "A line has at least two.", ""};
   }
+  if (auto oblique = oblique_fault(file, points, options)) return oblique;
   for (std::size_t i = 1; i < points.points.size(); ++i) {
     if (points.points[i].x > points.points[i - 1].x) continue;
     return Issue{"",
@@ -64,7 +82,7 @@ std::vector<Vec2> read_file(MapReader& map, const Value& file, const std::filesy
   findings.add_data_file(directory / name);
   try {
     const ProfilePoints points = read_profile_csv(directory / name, options);
-    if (auto fault = line_fault(name, points)) {
+    if (auto fault = line_fault(name, points, options)) {
       report(*std::move(fault));
       return {};
     }

@@ -1,18 +1,22 @@
 #include "glissade/io/profile_csv.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/odd_characters.hpp"
 
 #include "io/csv_lines.hpp"
 #include "io/reading.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace glissade {
 
@@ -31,13 +35,16 @@ std::size_t column_named(const std::vector<std::string_view>& names, const std::
                    "columns: [x, z] in the design, with the names of your file"});
 }
 
-/// @return x of y and y of x, with what follows the letter; empty for other names
-std::string other_coordinate_of(const std::string& name) {
-  constexpr std::string_view kLetters = "xyXY";
-  constexpr std::string_view kOthers = "yxYX";
-  const std::size_t letter = name.empty() ? std::string_view::npos : kLetters.find(name.front());
-  if (letter == std::string_view::npos) return {};
-  return kOthers[letter] + name.substr(1);
+/// @return x of y and y of x, north of east and east of north, with what follows; empty for other names
+std::string other_coordinate_of(std::string_view name) {
+  using Names = std::pair<std::string_view, std::string_view>;
+  constexpr std::array<Names, 5> kPairs{
+      {{"x", "y"}, {"X", "Y"}, {"east", "north"}, {"East", "North"}, {"EAST", "NORTH"}}};
+  for (const auto& [first, second] : kPairs) {
+    if (name.starts_with(first)) return std::string(second) + std::string(name.substr(first.size()));
+    if (name.starts_with(second)) return std::string(first) + std::string(name.substr(second.size()));
+  }
+  return {};
 }
 
 std::optional<double> finite_number(std::string_view cell) {
@@ -162,6 +169,22 @@ class ProfileReader {
 ProfilePoints read_profile_csv(const std::filesystem::path& file, const ProfileCsvOptions& options) {
   const std::string text = read_csv_text(file, "the profile", kLargestProfileFile);
   return ProfileReader(file, text, options).read();
+}
+
+std::optional<Issue> distance_fault(const ProfilePoints& profile, const ProfileCsvOptions& options) {
+  if (!profile.other) return {};
+  const OtherCoordinate& other = *profile.other;
+  const double run = math::hypot(other.distance, other.reach);
+  if (run <= (1.0 + kMostMissingRun) * other.distance) return {};
+  const std::string& column = options.distance_column;
+  return Issue{"", column + " is not the horizontal distance of this profile",
+               "Beside " + length_text(other.distance) + " of " + column + ", " + other.column +
+                   " changes by " + length_text(other.reach) + ": from end to end that is " +
+                   length_text(run) + ".",
+               other.has_run ? "columns: [run_m, " + options.height_column + "]"
+                             : "a column of the distance along the way, summed over sqrt(dx^2 + dy^2); or "
+                               "another name for " +
+                                   other.column + " if it is no coordinate"};
 }
 
 }  // namespace glissade

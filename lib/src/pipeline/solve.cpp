@@ -110,32 +110,15 @@ CenterlinePtr make_tabulated(const CenterlineDesign& design, const ProfilePoints
   return std::make_shared<TabulatedCurve>(std::move(rows));
 }
 
-/// A coordinate of the site is no horizontal distance of a profile that leads away from its axis.
-void require_distance(const CenterlineDesign& design, const ProfilePoints& profile) {
-  // By so much may a run be told too short before it is refused: radii are read some three times that wrong.
-  constexpr double kMostMissing = 1e-3;
-  if (!profile.other) return;
-  const OtherCoordinate& other = *profile.other;
-  const double run = math::hypot(other.distance, other.reach);
-  if (run <= (1.0 + kMostMissing) * other.distance) return;
-  const std::string& column = design.points_distance_column;
-  const std::string hint =
-      other.has_run
-          ? "columns: [run_m, " + design.points_height_column + "]"
-          : "a column of the distance along the way, summed over sqrt(dx^2 + dy^2); or another name for " +
-                other.column + " if it is no coordinate";
-  throw InputError({design.points_file.string(), column + " is not the horizontal distance of this profile",
-                    "Beside " + length_text(other.distance) + " of " + column + ", " + other.column +
-                        " changes by " + length_text(other.reach) + ": from end to end that is " +
-                        length_text(run) + ".",
-                    hint});
-}
-
 ProfilePoints read_points(const CenterlineDesign& design) {
-  ProfilePoints profile = read_profile_csv(
-      design.points_file, {design.points_distance_column, design.points_height_column, design.points_unit,
-                           design.points_slope_angle_column, design.points_curvature_column});
-  require_distance(design, profile);
+  const ProfileCsvOptions options{design.points_distance_column, design.points_height_column,
+                                  design.points_unit, design.points_slope_angle_column,
+                                  design.points_curvature_column};
+  ProfilePoints profile = read_profile_csv(design.points_file, options);
+  if (auto fault = distance_fault(profile, options)) {
+    fault->where = design.points_file.string();
+    throw InputError(*std::move(fault));
+  }
   return profile;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/error.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
 
@@ -22,7 +23,7 @@ struct ProfileCsvOptions {
   std::string curvature_column = {};
 };
 
-/// The other horizontal coordinate that stands beside a column of distance: `y_m` of `x_m`, `X` of `Y`.
+/// The other horizontal coordinate that stands beside a column of distance: `y_m` of `x_m`, `X` of `Y`, `Northing` of `Easting`.
 struct OtherCoordinate {
   std::string column;     ///< its name
   double reach = 0.0;     ///< how far its values of the points lie apart [m]
@@ -51,6 +52,14 @@ struct ProfilePoints {
 [[nodiscard]] ProfilePoints read_profile_csv(const std::filesystem::path& file,
                                              const ProfileCsvOptions& options = {});
 
+/// A coordinate of the site is no horizontal distance of points that lead away from its axis: their run is longer.
+/// @return what is wrong with the column of distance where the other coordinate lengthens the run by more than
+///         kMostMissingRun, without a place; none if nothing is
+[[nodiscard]] std::optional<Issue> distance_fault(const ProfilePoints& profile,
+                                                  const ProfileCsvOptions& options);
+
+/// By so much, relatively, may a run be told too short: radii are read some three times that wrong.
+inline constexpr double kMostMissingRun = 1e-3;
 /// [m]
 inline constexpr double kLargestProfileCoordinate = 1e7;
 /// [bytes]
