@@ -524,6 +524,58 @@ TEST_CASE("prints: no part is heavier than allowed, with the tongue that it has,
             .starts_with("split.heaviest|heaviest: 0.004 kg is less than a block of the stand"));
 }
 
+TEST_CASE("prints: stands with an uneven top come in blocks that are lower below it") {
+  PrintOptions options = on_stands(0.3);
+  options.stands->thickness = 40e-3;
+  options.stands->steepest = Angle::from_degrees(75.0);
+  options.stands->ground = {{0.0, -0.6}};
+  options.split.bed.z = 0.1;
+  const WorkshopBuild build = prints(run(), groove(), options);
+  std::size_t blocks = 0;
+  for (const PrintPiece& piece : build.prints) {
+    if (!piece.name.starts_with("stand_")) continue;
+    ++blocks;
+    CHECK(size_of(piece.mesh).z <= 0.1);
+  }
+  CHECK(blocks > 10);
+}
+
+TEST_CASE("prints: a way out of pins or tongues without room is one") {
+  PrintOptions options;
+  const auto proposed = [](const std::string& text, const std::string& key) {
+    const std::size_t at = text.rfind('|' + key + ": ");
+    REQUIRE(at != std::string::npos);
+    return std::stod(text.substr(at + key.size() + 3)) * 1e-3;
+  };
+  const CrossSection flat = CrossSection::slab(40e-3, 6e-3, 0.0, 0.0);
+  options.dowels.diameter = 5e-3;
+  options.dowels.depth = 10e-3;
+  std::string text = refusal(options, flat);
+  INFO(text);
+  options.dowels.diameter = proposed(text, "diameter");
+  options.dowels.depth = std::stod(text.substr(text.rfind("and depth: ") + 11)) * 1e-3;
+  CHECK(prints(run(), flat, options).joints.size() > 2);
+  // Where no pin has room, none is proposed.
+  options.dowels = {};
+  options.dowels.diameter = 3e-3;
+  text = refusal(options, CrossSection::slab(40e-3, 2e-3, 0.0, 0.0));
+  CHECK(text.ends_with("|a thicker section, or dowels: none\n"));
+  // A flare that leaves no neck.
+  options = {};
+  options.joint = PrintJoint::dovetail;
+  options.tongue.height = 2.2e-3;
+  options.tongue.depth = 5.9e-3;
+  text = refusal(options, groove());
+  CHECK(text.starts_with(
+      "tongue.depth|depth: a dovetail of 5.9 mm with a head of 2.2 mm has a neck of 0.119 mm|"));
+  options.tongue.depth = proposed(text, "depth");
+  CHECK(prints(run(), groove(), options).joints.size() > 2);
+  options.tongue.depth.reset();
+  options.tongue.height = 7e-3;
+  options.tongue.height = proposed(refusal(options, groove()), "height");
+  CHECK(prints(run(), groove(), options).joints.size() > 2);
+}
+
 TEST_CASE("prints: joints that nothing holds are glued, others are not") {
   PrintOptions options = on_stands(0.3);
   CHECK(prints(run(), groove(), options).workshop.items.empty());
@@ -560,7 +612,10 @@ TEST_CASE("prints: tongues are refused where a section has no place for them, wi
   CHECK(refusal(options, groove()).starts_with("tongue.height|height: a dovetail of 7 mm does not fit"));
   options.tongue.height.reset();
   options.tongue.depth = 90e-3;
-  CHECK(refusal(options, groove()).starts_with("tongue.depth|depth: a dovetail of 90 mm leaves a wall of "));
+  CHECK(refusal(options, groove()).starts_with("tongue.depth|depth: a dovetail of 90 mm with a head of "));
+  options.joint = PrintJoint::tongue;
+  CHECK(refusal(options, groove()).starts_with("tongue.depth|depth: a tongue of 90 mm leaves a wall of "));
+  options.joint = PrintJoint::dovetail;
   // A U-channel with a thick floor has the place; on its side it overhangs, so that it stands.
   options.tongue.depth.reset();
   options.tongue.flare = Angle::from_degrees(44.0);

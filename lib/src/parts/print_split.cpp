@@ -195,8 +195,9 @@ double deepest_hole(const PrintJob& job, const std::vector<double>& joints) {
 }
 
 /// The deepest holes of a diameter that keep the wall; none where not even one diameter deep ones do.
+/// @param depth  none: 2.5 diameters, less where they leave too little
 std::optional<Dowels> holes_of(const PrintJob& job, const std::vector<double>& joints, double diameter,
-                               const std::vector<Vec2>& places) {
+                               const std::optional<double>& depth, const std::vector<Vec2>& places) {
   const DowelOptions& asked = job.options.dowels;
   Dowels dowels{diameter, diameter + asked.fit, 0.0, 0.0, places};
   const double mouth = 0.5 * dowels.hole + asked.chamfer + std::max(0.2e-3, job.options.ease);
@@ -204,12 +205,35 @@ std::optional<Dowels> holes_of(const PrintJob& job, const std::vector<double>& j
     if (job.face.room(place) < mouth) return std::nullopt;
   }
   for (const double share : {2.5, 2.25, 2.0, 1.75, 1.5, 1.25, 1.0}) {
-    dowels.depth = asked.depth.value_or(share * diameter);
+    dowels.depth = depth.value_or(share * diameter);
     if (dowels.depth > deepest_hole(job, joints)) continue;
     dowels.wall = thinnest_wall(job, joints, dowels).wall;
     if (dowels.wall >= job.options.wall) return dowels;
   }
   return std::nullopt;
+}
+
+constexpr std::array<double, 7> kDiameters = {6e-3, 5e-3, 4e-3, 3e-3, 2.5e-3, 2e-3, 1.5e-3};
+
+/// Pins that do where those asked for do not: of another depth, or thinner ones. Empty: none do.
+std::string other_pins(const PrintJob& job, const std::vector<double>& joints,
+                       const std::vector<Vec2>& places) {
+  const DowelOptions& asked = job.options.dowels;
+  if (asked.diameter && asked.depth) {
+    if (const auto dowels = holes_of(job, joints, *asked.diameter, std::nullopt, places))
+      return "depth: " + length_text(dowels->depth) + ", ";
+  }
+  for (const double diameter : kDiameters) {
+    if (asked.diameter && diameter >= *asked.diameter) continue;
+    if (asked.diameter && holes_of(job, joints, diameter, asked.depth, places))
+      return "diameter: " + length_text(diameter) + ", ";
+    const auto dowels = holes_of(job, joints, diameter, std::nullopt, places);
+    if (!dowels) continue;
+    const std::string depth = asked.depth ? "depth: " + length_text(dowels->depth) + ", " : "";
+    return asked.diameter ? "diameter: " + length_text(diameter) + (asked.depth ? " and " : ", ") + depth
+                          : depth;
+  }
+  return "";
 }
 
 InputError thin_wall(const PrintJob& job, const std::vector<double>& joints, Dowels dowels) {
@@ -218,13 +242,12 @@ InputError thin_wall(const PrintJob& job, const std::vector<double>& joints, Dow
   const ThinnestWall thinnest = thinnest_wall(job, joints, dowels);
   const std::string key = asked.diameter ? "diameter" : "depth";
   const double value = asked.diameter ? *asked.diameter : *asked.depth;
+  const auto [wall, least] = texts_apart(std::max(0.0, thinnest.wall), job.options.wall, &length_text, 3);
   return InputError({"dowels." + key,
-                     key + ": holes of " + length_text(dowels.hole) + " leave a wall of " +
-                         length_text(std::max(0.0, thinnest.wall), 3) + " at the joint " +
-                         length_text(thinnest.joint) + " along the track",
-                     "The printer's least wall is " + length_text(job.options.wall) + ", " + key + " is " +
-                         length_text(value) + ".",
-                     "a smaller " + key + ", a thicker section, or dowels: none"});
+                     key + ": holes of " + length_text(dowels.hole) + " leave a wall of " + wall +
+                         " at the joint " + length_text(thinnest.joint) + " along the track",
+                     "The printer's least wall is " + least + ", " + key + " is " + length_text(value) + ".",
+                     other_pins(job, joints, dowels.places) + "a thicker section, or dowels: none"});
 }
 
 /// Pieces with tongues lie on their side where that has no overhang; else they stand on their upstream face, or, with tongues
@@ -283,12 +306,11 @@ std::optional<Dowels> place_dowels(const PrintJob& job, const std::vector<double
   if (!asked.wanted || joints.size() < 3) return std::nullopt;
   const std::vector<Vec2> places = {job.face.roomiest(true), job.face.roomiest(false)};
   if (asked.diameter) {
-    if (auto dowels = holes_of(job, joints, *asked.diameter, places)) return dowels;
+    if (auto dowels = holes_of(job, joints, *asked.diameter, asked.depth, places)) return dowels;
     throw thin_wall(job, joints, {*asked.diameter, *asked.diameter + asked.fit, 0.0, 0.0, places});
   }
-  constexpr std::array<double, 7> kDiameters = {6e-3, 5e-3, 4e-3, 3e-3, 2.5e-3, 2e-3, 1.5e-3};
   for (const double diameter : kDiameters) {
-    if (auto dowels = holes_of(job, joints, diameter, places)) return dowels;
+    if (auto dowels = holes_of(job, joints, diameter, asked.depth, places)) return dowels;
   }
   if (asked.depth) throw thin_wall(job, joints, {1.5e-3, 1.5e-3 + asked.fit, 0.0, 0.0, places});
   return std::nullopt;

@@ -146,10 +146,13 @@ void add_block(const PrintJob& job, const Stand& stand, const StandBlock& block,
   const auto turned = turned_to_fit(pose, mesh.vertices, job.options.split.bed);
   if (!turned) {
     const Vec3 size = size_on_bed(pose, mesh.vertices);
+    const double margin = 2.0 * job.options.split.bed.gap + 1e-3;
     throw InputError({"stands",
                       "stands: the one below " + stand.what + " is " + length_text(size.x, 3) + " x " +
                           length_text(size.y, 3) + " wide, which fits the bed in no way",
-                      "It is printed standing on its foot.", "a larger bed, or stands: none"});
+                      "It is printed standing on its foot.",
+                      "a bed of at least " + length_text(size.x + margin, 3) + " x " +
+                          length_text(size.y + margin, 3) + ", or stands: none"});
   }
   build.prints.push_back({name, std::to_string(part.number), posed(mesh, *turned)});
   build.workshop.parts.push_back(std::move(part));

@@ -285,88 +285,100 @@ std::vector<Vec3> pins_at(const Shape& shape, const std::array<double, 4>& acros
   return {{middle, centre - 0.25 * wide, height}, {middle, centre + 0.25 * wide, height}};
 }
 
-/// @return the heaviest block of a stand in so many of one height [kg], without the holes of its pins
+/// Heights between which the blocks of a stand lie, from its ground up: of one height, but for an uppermost one whose top is so uneven that it
+/// has to be higher.
+std::vector<double> cuts_of(const Shape& shape, double ground, double height, double count) {
+  const double lowest = std::min(shape.top.front().y, shape.top.back().y);
+  const double last = ground + height - (lowest - kStandPinDepth - kLeastStand);
+  const bool even = count == 1.0 || height / count >= last;
+  std::vector<double> cuts = {ground};
+  for (double k = 1.0; k < count; k += 1.0)
+    cuts.push_back(ground + (even ? height * k / count : (height - last) * k / (count - 1.0)));
+  cuts.push_back(ground + height);
+  return cuts;
+}
+
+/// @return the heaviest block between cuts [kg], without the holes of its pins
 double heaviest_block(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across,
-                      double ground, double height, double count) {
+                      const std::vector<double>& cuts) {
   double most = 0.0;
-  for (double k = 1.0; k <= count; k += 1.0) {
-    const double from = ground + height * (k - 1.0) / count;
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
     Shape upper = shape;
-    upper.foot = edges_at(shape, from);
-    const double volume = k == count ? StandMesh(upper, across).volume()
-                                     : lower_block(shape, across, from, ground + height * k / count).volume;
+    upper.foot = edges_at(shape, cuts[k]);
+    const double volume = k + 2 == cuts.size() ? StandMesh(upper, across).volume()
+                                               : lower_block(shape, across, cuts[k], cuts[k + 1]).volume;
     most = std::max(most, volume * job.options.material.density);
   }
   return most;
 }
 
+double highest_block(const std::vector<double>& cuts) {
+  double most = 0.0;
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) most = std::max(most, cuts[k + 1] - cuts[k]);
+  return most;
+}
+
 /// As few blocks as the printer's room and the heaviest part ask for.
-/// @throws InputError where the uppermost one would be lower than the top is uneven
-double block_count(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across,
-                   const Stand& stand, double height) {
+/// @throws InputError where the uppermost one is too high or too heavy
+std::vector<double> cuts_for(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across,
+                             const Stand& stand, double height) {
   const auto& heaviest = job.options.split.heaviest;
-  const double lowest = std::min(shape.top.front().y, shape.top.back().y);
-  const auto passes_top = [&](double count) {
-    return count > 1.0 &&
-           stand.ground + height * (count - 1.0) / count > lowest - kStandPinDepth - kLeastStand;
-  };
-  double count = std::ceil(height / (job.options.split.bed.z - 1e-6));
-  if (passes_top(count)) {
+  const double room = job.options.split.bed.z - 1e-6;
+  double count = std::ceil(height / room);
+  std::vector<double> cuts = cuts_of(shape, stand.ground, height, count);
+  if (count > 1.0 && !(cuts[1] > cuts[0] + kLeastStand && highest_block(cuts) <= room)) {
     throw InputError(
         {"stands.thickness",
          "thickness: " + length_text(job.options.stands->thickness) +
              " along the run makes the stand below " + stand.what + " " +
              length_text(std::fabs(shape.top.front().y - shape.top.back().y), 3) +
              " higher on one side than on the other",
-         "It comes in blocks of " + length_text(height / count, 3) + ", and no cut may pass its top.",
+         "No cut may pass its top, and the bed takes blocks of " + length_text(job.options.split.bed.z) + ".",
          "a smaller thickness, or a higher bed"});
   }
-  while (heaviest && heaviest_block(job, shape, across, stand.ground, height, count) > *heaviest) {
+  while (heaviest && heaviest_block(job, shape, across, cuts) > *heaviest) {
+    count += 1.0;
+    std::vector<double> more = cuts_of(shape, stand.ground, height, count);
     // Pins of two cuts keep clear of one another.
-    const bool low = height / (count + 1.0) < 2.0 * kStandPinDepth + kLeastStand;
-    if (!low && !passes_top(count + 1.0)) {
-      count += 1.0;
+    if (more[1] - more[0] >= 2.0 * kStandPinDepth + kLeastStand) {
+      cuts = std::move(more);
       continue;
     }
-    throw InputError(
-        {"split.heaviest",
-         "heaviest: " + quantity_text(*heaviest, Dimension::mass) +
-             " is less than a block of the stand below " + stand.what + " weighs, " +
-             quantity_text(heaviest_block(job, shape, across, stand.ground, height, count), Dimension::mass),
-         "It comes in " + rounded_text(count, 3) + (count == 1.0 ? " block of " : " blocks of ") +
-             length_text(height / count, 3) + "; lower ones have no room for pins.",
-         "a larger mass, stands of a smaller thickness, or a higher ground"});
+    throw InputError({"split.heaviest",
+                      "heaviest: " + quantity_text(*heaviest, Dimension::mass) +
+                          " is less than a block of the stand below " + stand.what + " weighs, " +
+                          quantity_text(heaviest_block(job, shape, across, cuts), Dimension::mass),
+                      "It comes in blocks of " + length_text(highest_block(cuts), 3) +
+                          " and less; lower ones have no room for pins, and no cut may pass its top.",
+                      "a larger mass, or stands of a smaller thickness"});
   }
-  return count;
+  return cuts;
 }
 
-/// A stand in as many blocks of one height as the printer's room and the heaviest part ask for, pinned together.
+/// A stand in blocks that the printer holds, pinned together.
 void make_blocks(const PrintJob& job, const Shape& shape, const std::array<double, 4>& across, Stand& stand) {
   const double height = std::max(shape.top.front().y, shape.top.back().y) + shape.cheek - stand.ground;
-  const double count = block_count(job, shape, across, stand, height);
-  Shape upper = shape;
-  double from = stand.ground;
+  const std::vector<double> cuts = cuts_for(job, shape, across, stand, height);
   std::vector<Vec3> below;
-  for (double k = 1.0; k <= count; k += 1.0) {
-    const bool last = k == count;
-    const double to = stand.ground + height * k / count;
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+    const bool last = k + 2 == cuts.size();
     StandBlock block;
     if (last) {
-      upper.foot = edges_at(shape, from);
+      Shape upper = shape;
+      upper.foot = edges_at(shape, cuts[k]);
       StandMesh mesh(upper, across);
       block.volume = mesh.volume();
       block.mesh = std::move(mesh).take();
     } else {
-      block = lower_block(shape, across, from, to);
+      block = lower_block(shape, across, cuts[k], cuts[k + 1]);
     }
-    sink_pins(block, from, false, below, job.options.dowels);
+    sink_pins(block, cuts[k], false, below, job.options.dowels);
     if (!last) {
-      below = pins_at(shape, across, to);
-      sink_pins(block, to, true, below, job.options.dowels);
+      below = pins_at(shape, across, cuts[k + 1]);
+      sink_pins(block, cuts[k + 1], true, below, job.options.dowels);
       stand.pins.insert(stand.pins.end(), below.begin(), below.end());
     }
     stand.blocks.push_back(std::move(block));
-    from = to;
   }
 }
 

@@ -201,6 +201,34 @@ void reshape_side(TriangleMesh& mesh, const FacePlane& side, std::uint32_t from,
   }
 }
 
+/// Of a dovetail whose flare leaves too little at its root.
+InputError thin_neck(const PrintOptions& options, const Tongue& tongue) {
+  const double head = tongue.high - tongue.low + 2.0 * tongue.spread;
+  const double slope = tongue.spread / tongue.depth;
+  const double deepest = std::floor(0.5 * (head - options.wall) / slope * 1e5) * 1e-5;
+  const std::string key = options.tongue.depth ? "depth" : "flare";
+  return InputError({"tongue." + key,
+                     key + ": a " + word_of(options.joint) + " of " + length_text(tongue.depth, 3) +
+                         " with a head of " + length_text(head, 3) + " has a neck of " +
+                         length_text(std::max(0.0, tongue.high - tongue.low), 3),
+                     "The printer's least wall is " + length_text(options.wall) + "; a flare of " +
+                         angle_text(options.tongue.flare) + " takes from both sides.",
+                     (deepest > 0.0 ? "depth: " + length_text(deepest) + ", " : "") +
+                         "a smaller flare, a greater height, or joint: dowels"});
+}
+
+InputError thin_beside(const PrintOptions& options, double thinnest, double where, double wanted) {
+  const std::string word = word_of(options.joint);
+  const auto [wall, least] = texts_apart(std::max(0.0, thinnest), options.wall, &length_text, 3);
+  return InputError(
+      {options.tongue.depth ? "tongue.depth" : "joint",
+       (options.tongue.depth ? "depth: a " + word + " of " + length_text(wanted, 3) : "joint: a " + word) +
+           " leaves a wall of " + wall + " at the joint " + length_text(where, 3) + " along the track",
+       "The printer's least wall is " + least + "; the track bends away from the notch, whose root is " +
+           least + " thick at least.",
+       "a smaller depth or height, a thicker section, or joint: dowels"});
+}
+
 }  // namespace
 
 std::optional<LevelBand> level_band(const FaceOutline& face) {
@@ -285,12 +313,17 @@ std::vector<Issue> tongue_problems(const CrossSection& section, const PrintOptio
   const double least = 2.0 * options.wall;
   if (head < least || head + beside(options) > height * (1.0 + 1e-12)) {
     const double needed = std::max(head, least) + beside(options);
+    // That of tongues whose height is not asked for: it leaves room for a track that bends away.
+    const double usual = std::min(kShareOfBand * height, height - beside(options));
+    const double highest = std::floor(usual * 1e5) * 1e-5;
+    const std::string lower =
+        options.tongue.height && highest >= least ? "height: " + length_text(highest) + ", or " : "";
     return {{options.tongue.height ? "tongue.height" : "joint",
              (options.tongue.height ? "height: a " + word + " of " + length_text(head) : "joint: a " + word) +
                  " does not fit a section that is full from side to side over " + length_text(height, 3),
              "With walls of " + length_text(options.wall) + " and its fit it takes " +
                  length_text(needed, 3) + ".",
-             "a thicker section, a smaller height, or joint: dowels"}};
+             lower + "a section as thick as that, or joint: dowels"}};
   }
   return {};
 }
@@ -331,24 +364,18 @@ std::optional<Tongue> place_tongue(const PrintJob& job, const PrintPlan& plan) {
     if (neck && room && tongue.wall >= options.wall * (1.0 - 1e-9)) return tongue;
     if (options.tongue.depth) break;
   }
-  const std::string word = word_of(options.joint);
+  const Tongue tongue = tongue_of(options, plan.kind, band, wanted);
+  if (tongue.high - tongue.low < options.wall) throw thin_neck(options, tongue);
   if (thinnest >= options.wall) {
+    const std::string what = options.tongue.depth ? "depth" : "joint";
     throw InputError({options.tongue.depth ? "tongue.depth" : "joint",
-                      (options.tongue.depth ? "depth: a " : "joint: a ") + word + " of " +
-                          length_text(wanted, 3) + " finds no room in pieces of " + length_text(shortest, 3),
+                      what + ": a " + word_of(options.joint) + " of " + length_text(wanted, 3) +
+                          " finds no room in pieces of " + length_text(shortest, 3),
                       "Tongue and notch leave the printer's least wall between them, " +
                           length_text(options.wall) + ", and a root as thick.",
                       "a larger overhang or bed, another pose, a smaller depth, or joint: dowels"});
   }
-  throw InputError(
-      {options.tongue.depth ? "tongue.depth" : "joint",
-       (options.tongue.depth ? "depth: a " + word + " of " + length_text(wanted, 3) : "joint: a " + word) +
-           " leaves a wall of " + length_text(std::max(0.0, thinnest), 3) + " at the joint " +
-           length_text(where, 3) + " along the track",
-       "The printer's least wall is " + length_text(options.wall) +
-           "; the track bends away from the notch, whose root is " + length_text(options.wall) +
-           " thick at least.",
-       "a smaller depth or height, a thicker section, or joint: dowels"});
+  throw thin_beside(options, thinnest, where, wanted);
 }
 
 std::array<std::vector<Vec2>, 2> shape_end(TriangleMesh& mesh, const FacePlane& end, Vec3 along,
