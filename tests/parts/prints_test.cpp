@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -574,6 +575,36 @@ TEST_CASE("prints: a way out of pins or tongues without room is one") {
   options.tongue.height = 7e-3;
   options.tongue.height = proposed(refusal(options, groove()), "height");
   CHECK(prints(run(), groove(), options).joints.size() > 2);
+}
+
+TEST_CASE("prints: a bed that is proposed does, and so does another pose") {
+  const CrossSection wide = CrossSection::trapezoid(115e-3, 29e-3, Angle::from_degrees(30.0), 6.3e-3);
+  for (const PrintPose pose : {PrintPose::automatic, PrintPose::side, PrintPose::end, PrintPose::flat}) {
+    for (const CrossSection& section : {wide, groove()}) {
+      PrintOptions options;
+      options.pose = pose;
+      options.split.bed = {0.02, 0.02, 0.02, 5e-3};
+      const std::string text = refusal(options, section);
+      INFO(text);
+      const std::string begin = "a bed of at least ";
+      REQUIRE(text.find(begin) != std::string::npos);
+      std::istringstream words(text.substr(text.find(begin) + begin.size()));
+      std::string skipped;
+      PrintBed& bed = options.split.bed;
+      words >> bed.x >> skipped >> skipped >> bed.y >> skipped >> skipped >> bed.z;
+      bed = {1e-3 * bed.x, 1e-3 * bed.y, 1e-3 * bed.z, 5e-3};
+      CHECK(prints(run(), section, options).joints.size() > 2);
+    }
+  }
+  PrintOptions options;
+  options.pose = PrintPose::side;
+  options.split.bed = {0.3, 0.2, 0.15, 5e-3};
+  const std::string text = refusal(options, wide);
+  CHECK(text.find(
+            "|No piece of the track fits it on its side, with a gap of 5 mm round it.|pose: end, a bed") !=
+        std::string::npos);
+  options.pose = PrintPose::end;
+  CHECK(prints(run(), wide, options).joints.size() > 2);
 }
 
 TEST_CASE("prints: joints that nothing holds are glued, others are not") {

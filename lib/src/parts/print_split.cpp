@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace glissade::parts {
@@ -134,24 +135,64 @@ std::optional<InputError> too_short(const PrintJob& job) {
   return std::nullopt;
 }
 
-/// What to say where no pose fits.
-InputError no_bed(const PrintJob& job, bool on_side) {
-  if (const auto shorter = too_short(job)) return *shorter;
-  const PrintSplit& split = job.options.split;
+std::string_view words_of(PrintPose kind) {
+  return kind == PrintPose::side  ? "on its side"
+         : kind == PrintPose::end ? "on a joint face"
+                                  : "as it is used";
+}
+
+/// A bed on which the track comes in pieces, little larger than it has to be; none where no size would do.
+std::optional<PrintBed> bed_that_does(const PrintJob& job, PrintPose kind) {
   const double width = job.face.high().x - job.face.low().x;
   const double height = job.face.high().y - job.face.low().y;
-  const double margin = 2.0 * split.bed.gap + 1e-3;
   constexpr double kShort = 50e-3;  // a piece that is worth printing [m]
-  const std::string bed =
-      on_side ? bed_text({std::max(height, kShort) + margin, height + margin, width, 0.0}) +
-                    " for pieces on their side"
-              : bed_text({width + margin, height + margin, kShort, 0.0}) + " for pieces on a joint face";
+  const double margin = 2.0 * job.options.split.bed.gap;
+  const double across = std::max(height, kShort);
+  PrintBed bed = kind == PrintPose::side  ? PrintBed{across + margin, height + margin, width, 0.0}
+                 : kind == PrintPose::end ? PrintBed{width + margin, height + margin, kShort, 0.0}
+                                          : PrintBed{width + margin, across + margin, across, 0.0};
+  PrintOptions options = job.options;
+  const PrintJob tried{job.track,          job.section,   job.face, options,
+                       job.mesh_tolerance, job.placement, job.stop};
+  constexpr int kRounds = 12;
+  for (int round = 0; round < kRounds; ++round) {
+    // Whole millimetres, one of which is for what rounding takes.
+    for (double* const side : {&bed.x, &bed.y, &bed.z}) *side = std::ceil(*side * 1e3 + 1.0) * 1e-3;
+    options.split.bed = {bed.x, bed.y, bed.z, job.options.split.bed.gap};
+    if (greedy_joints(tried, kind)) return bed;
+    for (double* const side : {&bed.x, &bed.y, &bed.z}) *side *= 1.12;
+  }
+  return std::nullopt;
+}
+
+/// What to say where no pose fits.
+/// @param kinds  poses that were tried
+InputError no_bed(const PrintJob& job, const std::vector<PrintPose>& kinds) {
+  if (const auto shorter = too_short(job)) return *shorter;
+  const PrintSplit& split = job.options.split;
+  std::string hint;
+  for (const PrintPose kind : {PrintPose::side, PrintPose::end, PrintPose::flat}) {
+    const bool tried = std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+    if (tried || job.options.joint != PrintJoint::dowels || !joints_for(job, kind)) continue;
+    hint = "pose: " +
+           std::string(kind == PrintPose::side  ? "side"
+                       : kind == PrintPose::end ? "end"
+                                                : "flat") +
+           ", ";
+    break;
+  }
+  if (const auto bed = bed_that_does(job, kinds.front()))
+    hint += "a bed of at least " + bed_text(*bed) + " for a piece that lies " +
+            std::string(words_of(kinds.front())) + ", ";
+  const std::string way = job.options.pose == PrintPose::automatic ? "whichever way it lies"
+                                                                   : std::string(words_of(job.options.pose));
   return InputError({"split.bed",
                      "bed: " + bed_text(split.bed) + " is too small for the section of " +
-                         length_text(width) + " x " + length_text(height),
-                     "No piece of the track fits it, whichever way it lies, with a gap of " +
+                         length_text(job.face.high().x - job.face.low().x) + " x " +
+                         length_text(job.face.high().y - job.face.low().y),
+                     "No piece of the track fits it " + way + ", with a gap of " +
                          length_text(split.bed.gap) + " round it.",
-                     "a bed of at least " + bed + ", or a smaller section"});
+                     hint + (hint.empty() ? "" : "or ") + "a smaller section"});
 }
 
 /// The least wall beside a hole, along its depth: the track bends away from it.
@@ -298,7 +339,7 @@ PrintPlan plan_prints(const PrintJob& job) {
     }
     return {kind, std::move(*joints)};
   }
-  throw no_bed(job, kinds.front() == PrintPose::side);
+  throw no_bed(job, kinds);
 }
 
 std::optional<Dowels> place_dowels(const PrintJob& job, const std::vector<double>& joints) {
