@@ -123,6 +123,12 @@ TEST_CASE("timber: legs have heads and feet, every board of theirs two bolts wit
   CHECK(count_of(build, "bolt M10 x 140", "") == 2 * boards);
   CHECK(count_of(build, "nut M10", "") == 2 * boards);
   CHECK(count_of(build, "large washer M10", "") == 4 * boards);
+  // Texts that a column of the drawings holds at full height.
+  for (const BoughtInItem& item : build.workshop.items) {
+    INFO(item.name << ", " << item.where);
+    CHECK(item.name.size() <= 24);
+    CHECK(item.where.size() <= 34);
+  }
   // Legs longer than lumber comes are told.
   options.split.longest = 4.0;
   const WorkshopBuild spliced = timber(options, section::Slab{WidthLaw(1.2), 24e-3, 0.0, 0.0}, 9.0);
@@ -141,7 +147,7 @@ TEST_CASE("timber troughs: every strip is screwed to every template below it") {
   // Across the floor 3 screws, at its ends 4; across each wall 2, at its ends and on both sides of its seam 3.
   REQUIRE(pieces_of(build, "floor_layer_1") == 1);
   REQUIRE(pieces_of(build, "left_wall_layer_1") + pieces_of(build, "wall_layer_1") == 4);
-  CHECK(count_of(build, "screw", "layer 1 of 2 from above, strips to templates") ==
+  CHECK(count_of(build, "screw", "strips of layer 1 to templates") ==
         3 * (templates - 2) + 4 * 2 + 2 * (2 * (templates - 3) + 3 * 4));
   CHECK(count_of(build, "angle bracket", "templates on bearers") > 0);
 }

@@ -282,7 +282,7 @@ void add_bearers(const TimberJob& job, const BearerPlan& plan, Workshop& worksho
     add_splices(job, plan.joints, even, "splice", workshop);
     if (!odd.empty()) add_splices(job, plan.shifted, odd, "splice_shifted", workshop);
   } else if (joints > 0) {
-    workshop.items.push_back({"slotted-in joint plate with dowels", "to the engineer's drawing", joints,
+    workshop.items.push_back({"slotted-in plate, dowels", "to the engineer's drawing", joints,
                               "at the joints of the beams"});
   }
 }

@@ -73,10 +73,10 @@ std::size_t screws_of_row(const Span& row, double width, double member,
   return count;
 }
 
-/// "layer 1 of 2 from above, sheets", or of a single layer "sheets".
-std::string layer_words(std::size_t layer, int layers, const std::string& pieces) {
-  if (layers == 1) return pieces;
-  return "layer " + std::to_string(layer + 1) + " of " + std::to_string(layers) + " from above, " + pieces;
+/// "sheets of layer 1 to cross members", or of a single layer "sheets to cross members": columns of drawings hold no more.
+std::string layer_words(std::size_t layer, int layers, const std::string& pieces,
+                        const std::string& members) {
+  return pieces + (layers == 1 ? "" : " of layer " + std::to_string(layer + 1)) + " to " + members;
 }
 
 /// Screws through a layer and those below it into members.
@@ -128,8 +128,8 @@ void fix_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& row
     for (const DeckRow& row : rows[set])
       count += pieces * screws_of_row(row.span, job.strip_width(), job.member_width(), members);
     add_screws(workshop, screw, count,
-               layer_words(set / sets, job.options.deck.layers,
-                           job.options.deck.boards ? "boards to cross members" : "sheets to cross members"));
+               layer_words(set / sets, job.options.deck.layers, job.options.deck.boards ? "boards" : "sheets",
+                           "cross members"));
   }
 }
 
@@ -142,7 +142,7 @@ void fix_lining(const TimberJob& job, const Lining& lining, const std::vector<Cr
     std::size_t count = 0;
     for (const DeckRow& row : lining.rows()[strip.set])
       count += screws_of_row(row.span, width, job.member_width(), members);
-    add_screws(workshop, screw, count, layer_words(layer, job.options.deck.layers, "strips to templates"));
+    add_screws(workshop, screw, count, layer_words(layer, job.options.deck.layers, "strips", "templates"));
   }
 }
 
@@ -163,11 +163,11 @@ void fix_frame(const TimberJob& job, const FrameCounts& counts, Workshop& worksh
   const double height = job.options.cross_members.height + job.options.fit;
   const double edge = 0.5 * std::min(job.options.bearer_width(), job.member_width());
   if (job.channel.trough || edge < kEdgeDiameters * kThinnestOfFrame) {
-    add_item(workshop, {"angle bracket 60 x 60, with screws shorter than the bearers are wide", "EN 14545",
-                        counts.members * counts.bearers, what + " on bearers"});
+    add_item(workshop,
+             {"angle bracket 60 x 60", "EN 14545", counts.members * counts.bearers, what + " on bearers"});
   } else {
     const Screw screw = screw_for({height, height, job.options.bearer_depth(), edge});
-    add_screws(workshop, screw, counts.members * counts.bearers * 2, what + " to bearers, two askew at each");
+    add_screws(workshop, screw, counts.members * counts.bearers * 2, what + " to beams, two askew");
   }
   if (counts.leg_rows > 0) {
     add_item(workshop, {"pair of head plates", "to the engineer's drawing", counts.leg_rows * counts.bearers,
