@@ -22,6 +22,7 @@
 #include "parts/setting_out.hpp"
 #include "parts/shop_facts.hpp"
 #include "parts/strip_shell.hpp"
+#include "parts/trough_tops.hpp"
 #include "parts/tube_openings.hpp"
 #include "parts/workshop_list.hpp"
 
@@ -528,52 +529,21 @@ void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop&
   add_joint_bolts(workshop, job.options.flanges, bolts * (units.size() - 1), units.size() - 1);
 }
 
-/// Flat bars along the outsides of the troughs' tops, cut at the planes of their ends.
-void add_trough_rims(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
+/// Rims along the troughs' tops, and covers on them.
+void set_on_tops(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop& workshop) {
   if (!job.side || !job.options.rim) return;
-  const RimOptions& rim = *job.options.rim;
   const double taken = job.options.flanges.wanted ? job.options.flanges.along() + kAsideOfFrame : 0.0;
-  const double outer = job.radius() + job.pipe.thickness;
-  const double high = *job.side;
-  const double low = high - rim.thickness;
-  int count = 0;
+  std::vector<TroughTop> troughs;
   for (const GoreUnit& unit : units) {
     for (const Gore& gore : unit.gores) {
-      const double from = &gore == &unit.gores.front() ? taken : 0.0;
-      const double to = gore.body.length - (&gore == &unit.gores.back() ? taken : 0.0);
-      const auto at = [](double place, Angle tilt, double x) {
-        return place + x * math::tan(tilt.radians());
-      };
-      // In the plane of the axis and the way up; the bar's width is its depth.
-      ArcPath outline{{{{at(from, gore.body.start_tilt, low), low}, 0.0},
-                       {{at(to, gore.body.end_tilt, low), low}, 0.0},
-                       {{at(to, gore.body.end_tilt, high), high}, 0.0},
-                       {{at(from, gore.body.start_tilt, high), high}, 0.0}},
-                      true};
-      ShopPart part;
-      part.name = "rim_" + std::to_string(++count);
-      part.material = job.options.material.name;
-      part.density = job.options.material.density;
-      part.thickness = rim.thickness;
-      part.body = Prism{{outline, {}, {}}, rim.width};
-      const Vec3 left = across(job.placement);
-      const Vec3 along = direction_in_space(job.placement, gore.along);
-      const Vec3 up = direction_in_space(job.placement, up_of(gore.along));
-      const Vec3 axis = in_space(job.placement, gore.from);
-      part.places = {{axis + (-outer) * left, along, up, -1.0 * left},
-                     {axis + (outer + rim.width) * left, along, up, -1.0 * left}};
-      // Cut square from the bar through its upper edge, then to the planes.
-      const PlaneBox box = bounds(outline);
-      FlatPattern pattern;
-      pattern.region.outline = rectangle({}, {box.width(), rim.width});
-      set_number_place(pattern, bounds(pattern.region.outline));
-      part.pattern = std::move(pattern);
-      weigh(part);
-      add_part(workshop, std::move(part), kFittingColour);
+      troughs.push_back({gore.from, gore.along, gore.body.length, gore.body.start_tilt, gore.body.end_tilt,
+                         &gore == &unit.gores.front() ? taken : 0.0,
+                         &gore == &unit.gores.back() ? taken : 0.0});
     }
   }
-  workshop.notes.emplace_back(
-      "Bars of the rim are cut to the planes between troughs; their lengths are the greatest.");
+  const TopMeasures tops{job.radius() + job.pipe.thickness, *job.side};
+  add_trough_rims(troughs, tops, job.options, job.placement, workshop);
+  if (job.options.cover) add_trough_covers(troughs, tops, job.options, job.placement, workshop);
 }
 
 // --- openings
@@ -805,7 +775,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   const std::vector<TubeOpening> openings = cut_openings(job, facets, units, rooms);
   list_tubes(job, units, workshop);
   add_rings(job, units, workshop);
-  add_trough_rims(job, units, workshop);
+  set_on_tops(job, units, workshop);
   build.joints = on_track(facets, joints, track.length());
   workshop.setting_out = setting_out(track, build.joints, placement);
   TakenUp taken;
@@ -855,10 +825,11 @@ std::vector<Issue> mitred_problems(const section::Pipe& pipe, std::optional<doub
     add("corners", "corners: mitred " + word + " have no corners along the track", "", "round: staves");
   if (options.rim && !side)
     add("rim", "rim: a closed section has no tops that it could lie along", "", "no rim");
-  if (options.cover)
-    add("cover", "cover: it would be bolted across the mitres of " + word,
-        "Its rims are bars between planes that are not square to them.",
-        side ? "round: staves, or no cover" : "no cover");
+  if (options.cover && !side)
+    add("cover", "cover: a closed section has no tops that it could lie on", "", "no cover");
+  if (side) {
+    for (Issue& issue : cover_problems(options)) issues.push_back(std::move(issue));
+  }
   if (!options.rim || !side) return issues;
   if (!(options.rim->width > 0.0))
     add("rim.width", "width: " + length_text(options.rim->width) + " is not positive", "",
