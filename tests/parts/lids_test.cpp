@@ -47,6 +47,36 @@ TEST_CASE("lids and covers keep bolts of any size as far off their edges as is a
   }
 }
 
+TEST_CASE("covers wider across than the sheet are refused with what does, those that fit are pieces") {
+  PlateOptions options;
+  options.rim.emplace();
+  options.cover.emplace();
+  for (const bool one : {false, true}) {
+    options.split.sheet = {one ? 8.0 : 4.0, one ? 6.0 : 1.5};
+    options.split.allowed = !one;
+    for (const section::Measures& measures :
+         {section::Measures{section::UChannel{WidthLaw(one ? 6.1 : 4.2), 0.4, 4e-3}},
+          section::Measures{
+              section::Trapezoid{WidthLaw(one ? 6.0 : 4.0), 0.4, Angle::from_degrees(10.0), 4e-3}}}) {
+      CAPTURE(one, measures.index());
+      const ClothoidSpline track(Angle::from_degrees(45.0), {{one ? 6.5 : 3.0, 0.0, 0.0}});
+      const auto told = [&] { return refusal_of([&] { return plates_of(track, measures, options); }); };
+      const std::string refused = told();
+      INFO(refused);
+      if (one) {
+        CHECK((refused.find("cover|cover: a piece takes ") == 0 || refused.find("split|") == 0));
+        continue;
+      }
+      REQUIRE(refused.find("cover|cover: a piece takes 4.") == 0);
+      CHECK(refused.find("|No shorter piece does, and the sheet is 4 m x 1.5 m.|a larger sheet") !=
+            std::string::npos);
+      options.split.sheet = {6.0, 1.5};
+      CHECK(told() == "");
+      options.split.sheet = {4.0, 1.5};
+    }
+  }
+}
+
 TEST_CASE("openings whose lids would lie upon one another are refused, with a place that does") {
   PlateOptions options;
   for (const double at : {4.45, 4.6}) {

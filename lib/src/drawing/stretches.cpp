@@ -9,25 +9,26 @@
 namespace glissade::drawing {
 namespace {
 
-struct Piece {
+struct SeenPiece {
   double x = 0.0;
   std::size_t part = 0;
   std::size_t place = 0;
 };
 
-std::vector<Piece> pieces_in_order(const Workshop& workshop, const Eye& eye) {
-  std::vector<Piece> pieces;
+std::vector<SeenPiece> pieces_in_order(const Workshop& workshop, const Eye& eye) {
+  std::vector<SeenPiece> pieces;
   for (std::size_t i = 0; i < workshop.parts.size(); ++i) {
     const ShopPart& part = workshop.parts[i];
     for (std::size_t k = 0; k < part.places.size(); ++k)
       pieces.push_back({middle_of(part, part.places[k], eye).x, i, k});
   }
-  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.x < b.x; });
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const SeenPiece& a, const SeenPiece& b) { return a.x < b.x; });
   return pieces;
 }
 
 /// @return where stretches with so many kinds of parts at most begin among pieces in order
-std::vector<std::size_t> begins(const std::vector<Piece>& pieces, std::size_t most) {
+std::vector<std::size_t> stretch_starts(const std::vector<SeenPiece>& pieces, std::size_t most) {
   std::vector<std::size_t> starts;
   std::set<std::size_t> kinds;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -49,11 +50,11 @@ Vec2 middle_of(const ShopPart& part, const Frame& place, const Eye& eye) {
 }
 
 std::vector<Workshop> stretches_of(const Workshop& workshop, const Eye& eye, std::size_t most) {
-  const std::vector<Piece> pieces = pieces_in_order(workshop, eye);
-  std::vector<std::size_t> starts = begins(pieces, most);
+  const std::vector<SeenPiece> pieces = pieces_in_order(workshop, eye);
+  std::vector<std::size_t> starts = stretch_starts(pieces, most);
   // No more stretches, as evenly full as these can be.
   for (std::size_t fewer = most - 1; fewer > 0; --fewer) {
-    std::vector<std::size_t> even = begins(pieces, fewer);
+    std::vector<std::size_t> even = stretch_starts(pieces, fewer);
     if (even.size() > starts.size()) break;
     starts = std::move(even);
   }

@@ -147,15 +147,24 @@ std::vector<double> cover_bolts(const Job& job, const Span& span) {
 
 /// The pieces of a unit's cover: as the sheet and the heaviest part ask.
 std::vector<Span> cover_pieces(const Job& job, const Span& span) {
-  if (!job.options.split.allowed) return {span};
   const Span heights{job.channel.wall_height, job.channel.wall_height + job.options.cover->thickness};
   const double width = 2.0 * (outside(job) + job.options.rim->width);
-  return pieces_that_fit(span, {job.track, 0.5 * kLidGap, heights}, [&](const Span& piece) {
+  const auto made = [&](const Span& piece) {
     auto part = along_track(job, piece, heights, width, {-0.5 * width});
-    if (!part) return true;
-    weigh(*part);
-    return !excess(job.options.split, *part);
-  });
+    if (part) weigh(*part);
+    return part;
+  };
+  std::vector<Span> pieces{span};
+  if (job.options.split.allowed) {
+    pieces = pieces_that_fit(span, {job.track, 0.5 * kLidGap, heights}, [&](const Span& piece) {
+      const auto part = made(piece);
+      return !part || !excess(job.options.split, *part);
+    });
+  }
+  for (const Span& piece : pieces) {
+    if (const auto part = made(piece)) require_cover_fits(*part, job.options);
+  }
+  return pieces;
 }
 
 /// Places along a unit at which the pieces of its cover are bolted to rims.
@@ -187,6 +196,15 @@ std::vector<Span> pieces_that_fit(const Span& span, const OnOneArc& seams,
       return pieces;
   }
   return {span};
+}
+
+void require_cover_fits(const ShopPart& piece, const PlateOptions& options) {
+  const auto found = excess(options.split, piece);
+  if (!found) return;
+  throw InputError({"cover", "cover: a piece " + found->what,
+                    (options.split.allowed ? "No shorter piece does, and " : "One piece is asked for, and ") +
+                        found->bound + ".",
+                    "a larger sheet or heaviest, a narrower cross_section or rim, or no cover"});
 }
 
 bool TakenUp::is_free(double s, double half, const Span& within) const {

@@ -73,6 +73,9 @@ void drill_plate(const Job& job, const Span& span, double upper, double width,
 /// @param seams  where pieces may end
 [[nodiscard]] std::vector<Span> pieces_that_fit(const Span& span, const OnOneArc& seams,
                                                 const std::function<bool(const Span&)>& fits);
+/// Refuses a cover of which no shorter pieces fit.
+/// @throws InputError of cover: what it takes, the bound, ways out
+void require_cover_fits(const ShopPart& piece, const PlateOptions& options);
 inline constexpr double kLidGap = 1e-3;  ///< between the pieces of a cover [m]
 
 /// How far a cover's first bolts are from the ends of its unit: `least` where no one arc is nearer to the usual place [m].

@@ -21,7 +21,7 @@ constexpr double kOfSheet = 0.95;      // of a sheet that curved strips may take
 constexpr double kStep = 1e-3;         // in which seams move off what is taken [m]
 constexpr double kMostStagger = 0.25;  // of a strip
 constexpr double kLeastApart = 50e-3;  // seams of units that are welded end to end [m]
-constexpr double kLeastShare = 0.125;  // of a strip, that is
+constexpr double kApartShare = 0.125;  // of a strip, that is
 constexpr int kMoreStrips = 10;        // than an even division asks for
 constexpr double kTouch = 1e-9;        // [m]
 
@@ -109,7 +109,7 @@ Seams seams_across(const std::string& plate, const Span& across, bool straight,
     Seams seams;
     seams.even = seams_of_unit(plate, across, straight, taken, split, kSeamStagger, least);
     const double strip = (across.to - across.from) / static_cast<double>(seams.even.size() + 1);
-    const double apart = std::min(kLeastApart, kLeastShare * strip);
+    const double apart = std::min(kLeastApart, kApartShare * strip);
     std::vector<Span> both = taken;
     for (const double seam : seams.even) both.push_back({seam - apart, seam + apart});
     seams.odd = seams_of_unit(plate, across, straight, both, split, -kSeamStagger, least);

@@ -96,14 +96,19 @@ std::vector<double> cover_bolts(const StripJob& job, const Span& span, const Sec
 
 /// As the sheet and the heaviest part ask.
 std::vector<Span> cover_pieces(const StripJob& job, const Span& span, const SectionPlate& cover) {
-  if (!job.options.split.allowed) return {span};
   const Span heights{cover.back_from.y, cover.face_from.y};
   const OnOneArc seams(job.track, 0.5 * kLidGap, heights, job.widens() ? job.pieces() : std::vector<double>(),
                        job.rooms_at_bends(heights));
-  return pieces_that_fit(span, seams, [&](const Span& piece) {
-    return !excess(job.options.split,
-                   set_plate(job, cover, job.options.cover->thickness, piece, job.options.material, {}));
-  });
+  const auto made = [&](const Span& piece) {
+    return set_plate(job, cover, job.options.cover->thickness, piece, job.options.material, {});
+  };
+  std::vector<Span> pieces{span};
+  if (job.options.split.allowed) {
+    pieces = pieces_that_fit(span, seams,
+                             [&](const Span& piece) { return !excess(job.options.split, made(piece)); });
+  }
+  for (const Span& piece : pieces) require_cover_fits(made(piece), job.options);
+  return pieces;
 }
 
 /// Where rims and cover of a unit lie, and are bolted.

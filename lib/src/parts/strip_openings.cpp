@@ -211,7 +211,8 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::
     }
     // It may not be moved out of reach of what it is there for.
     if (std::fabs(*at - opening.at) > reach) {
-      refuse(where + " lies across a change of radius, or the end of a unit",
+      refuse(where + " lies across a change of radius" + (job.widens() ? ", where the width changes," : ",") +
+                 " or the end of a unit",
              "Openings lie on one arc of the " + plate.name + ", " + length_text(opening.length) +
                  " long, with lids that lap over by " + length_text(lap) + ".",
              "at: " + length_text(*at, 4) + ", or a smaller length");

@@ -22,13 +22,13 @@ namespace glissade::parts {
 namespace {
 
 /// Where the planes of a trough's ends cut a height above its axis, frames aside, along the axis.
-Span span_at(const TroughTop& trough, double height) {
+Span span_between_planes(const TroughTop& trough, double height) {
   return {trough.before + height * math::tan(trough.start_tilt.radians()),
           trough.length - trough.after + height * math::tan(trough.end_tilt.radians())};
 }
 
 /// Directions of a plate that lies on the tops, and where the axis begins.
-Frame frame_of(const TroughTop& trough, const Placement& placement) {
+Frame directions_of(const TroughTop& trough, const Placement& placement) {
   return {in_space(placement, trough.from), direction_in_space(placement, trough.along), across(placement),
           direction_in_space(placement, {-trough.along.y, trough.along.x})};
 }
@@ -58,8 +58,8 @@ ShopPart mitred_rim(const TroughTop& trough, std::string name, const TopMeasures
                     const PlateOptions& options, const Placement& placement) {
   const RimOptions& rim = *options.rim;
   const double low = measures.high - rim.thickness;
-  const Span below = span_at(trough, low);
-  const Span above = span_at(trough, measures.high);
+  const Span below = span_between_planes(trough, low);
+  const Span above = span_between_planes(trough, measures.high);
   const ArcPath outline{{{{below.from, low}, 0.0},
                          {{below.to, low}, 0.0},
                          {{above.to, measures.high}, 0.0},
@@ -67,7 +67,7 @@ ShopPart mitred_rim(const TroughTop& trough, std::string name, const TopMeasures
                         true};
   ShopPart part = part_named(std::move(name), rim.thickness, options);
   part.body = Prism{{outline, {}, {}}, rim.width};
-  const auto [axis, along, left, up] = frame_of(trough, placement);
+  const auto [axis, along, left, up] = directions_of(trough, placement);
   part.places = {{axis + (-measures.outer) * left, along, up, -1.0 * left},
                  {axis + (measures.outer + rim.width) * left, along, up, -1.0 * left}};
   // Cut square from the bar through its upper edge, then to the planes.
@@ -80,7 +80,7 @@ ShopPart mitred_rim(const TroughTop& trough, std::string name, const TopMeasures
 }
 
 /// Where rim and cover of a trough lie, square between the planes of its ends, and are bolted.
-struct Covered {
+struct CoveredTop {
   Span span;
   std::vector<Span> pieces;                ///< of the cover
   std::vector<std::vector<double>> bolts;  ///< of each piece
@@ -90,7 +90,7 @@ double cover_width(const TopMeasures& measures, const PlateOptions& options) {
   return 2.0 * (measures.outer + options.rim->width);
 }
 
-std::vector<double> bolts_along(const Span& piece, const PlateOptions& options) {
+std::vector<double> bolts_of_piece(const Span& piece, const PlateOptions& options) {
   const CoverEnds ends = cover_ends(options, 1.0);
   if (piece.to - piece.from < 2.0 * ends.usual + ends.least) return {0.5 * (piece.from + piece.to)};
   std::vector<double> places;
@@ -112,13 +112,12 @@ ShopPart cover_piece(std::string name, const Span& piece, const std::vector<doub
   return level_plate(std::move(name), options.cover->thickness, std::move(region), options);
 }
 
-Covered covered(const TroughTop& trough, std::size_t number, const TopMeasures& measures,
-                const PlateOptions& options) {
-  Covered all;
-  all.span = span_at(trough, measures.high);
+CoveredTop covered_top(const TroughTop& trough, const TopMeasures& measures, const PlateOptions& options) {
+  CoveredTop all;
+  all.span = span_between_planes(trough, measures.high);
   for (const double height :
        {measures.high - options.rim->thickness, measures.high + options.cover->thickness}) {
-    const Span at = span_at(trough, height);
+    const Span at = span_between_planes(trough, height);
     all.span = {std::max(all.span.from, at.from), std::min(all.span.to, at.to)};
   }
   const Span whole{all.span.from + 0.5 * kLidGap, all.span.to - 0.5 * kLidGap};
@@ -126,33 +125,27 @@ Covered covered(const TroughTop& trough, std::size_t number, const TopMeasures& 
   const double least = 2.0 * cover_ends(options, 1.0).least;
   // Left open: a trough so short at its top holds no bolts.
   if (!(length >= least)) return all;
-  std::optional<Excess> excessive;
   constexpr int kMostPieces = 20;
   for (int count = 1; count <= kMostPieces; ++count) {
     all.pieces.clear();
     all.bolts.clear();
     const double one = (length - (count - 1) * kLidGap) / count;
-    if (one < least) break;
     for (int k = 0; k < count; ++k) {
       const double from = whole.from + k * (one + kLidGap);
       all.pieces.push_back({from, from + one});
-      all.bolts.push_back(bolts_along(all.pieces.back(), options));
+      all.bolts.push_back(bolts_of_piece(all.pieces.back(), options));
     }
     ShopPart piece = cover_piece("cover", all.pieces.front(), all.bolts.front(), measures, options);
     piece.places.emplace_back();
     weigh(piece);
-    excessive = excess(options.split, piece);
-    if (!excessive) return all;
-    if (!options.split.allowed) break;
+    if (!excess(options.split, piece)) return all;
+    const bool last = count == kMostPieces || (length - count * kLidGap) / (count + 1) < least;
+    if (!options.split.allowed || last) require_cover_fits(piece, options);
   }
-  throw InputError(
-      {"cover", "cover: a piece over trough " + std::to_string(number) + " " + excessive->what,
-       (options.split.allowed ? "No shorter piece holds bolts, and " : "One piece is asked for, and ") +
-           excessive->bound + ".",
-       "a larger sheet or heaviest, a thinner cover, or no cover"});
+  return all;
 }
 
-ShopPart square_rim(std::string name, const Covered& on, const TopMeasures& measures,
+ShopPart square_rim(std::string name, const CoveredTop& on, const TopMeasures& measures,
                     const PlateOptions& options, const TroughTop& trough, const Placement& placement) {
   const RimOptions& rim = *options.rim;
   PlaneRegion region{rectangle({}, {on.span.to - on.span.from, rim.width}), {}, {}};
@@ -161,7 +154,7 @@ ShopPart square_rim(std::string name, const Covered& on, const TopMeasures& meas
     for (const double at : bolts) region.holes.push_back({{at - on.span.from, 0.5 * rim.width}, radius});
   }
   ShopPart part = level_plate(std::move(name), rim.thickness, std::move(region), options);
-  const auto [axis, along, left, up] = frame_of(trough, placement);
+  const auto [axis, along, left, up] = directions_of(trough, placement);
   const Vec3 corner = axis + on.span.from * along + (measures.high - rim.thickness) * up;
   part.places = {{corner + measures.outer * left, along, left, up},
                  {corner - (measures.outer + rim.width) * left, along, left, up}};
@@ -174,7 +167,7 @@ void add_trough_rims(const std::vector<TroughTop>& troughs, const TopMeasures& m
                      const PlateOptions& options, const Placement& placement, Workshop& workshop) {
   for (std::size_t i = 0; i < troughs.size(); ++i) {
     const std::string name = "rim_" + std::to_string(i + 1);
-    ShopPart part = options.cover ? square_rim(name, covered(troughs[i], i + 1, measures, options), measures,
+    ShopPart part = options.cover ? square_rim(name, covered_top(troughs[i], measures, options), measures,
                                                options, troughs[i], placement)
                                   : mitred_rim(troughs[i], name, measures, options, placement);
     weigh(part);
@@ -192,12 +185,12 @@ void add_trough_covers(const std::vector<TroughTop>& troughs, const TopMeasures&
   std::string open;
   std::size_t count = 0;
   for (std::size_t i = 0; i < troughs.size(); ++i) {
-    const Covered on = covered(troughs[i], i + 1, measures, options);
+    const CoveredTop on = covered_top(troughs[i], measures, options);
     if (on.pieces.empty()) {
       open += (open.empty() ? "" : ", ") + std::to_string(i + 1);
       ++count;
     }
-    const auto [axis, along, left, up] = frame_of(troughs[i], placement);
+    const auto [axis, along, left, up] = directions_of(troughs[i], placement);
     for (std::size_t k = 0; k < on.pieces.size(); ++k) {
       ShopPart part = cover_piece("cover_" + std::to_string(i + 1) + strip_letter(k, on.pieces.size()),
                                   on.pieces[k], on.bolts[k], measures, options);
