@@ -402,3 +402,68 @@ TEST_CASE("widths: edges of walls that turn aside far in a bend are as long on t
     CHECK(build.proof.edge_mismatch < 3e-10);
   }
 }
+
+TEST_CASE("widths: what is not made beside a width that changes is refused, and each way out builds") {
+  const ClothoidSpline track(Angle::from_degrees(45.0), {{4.0, 0.2, 0.2}});
+  const section::UChannel changing{WidthLaw({{1.0, 0.6}, {2.5, 0.8}}), 0.4, 4e-3};
+  const section::UChannel one{WidthLaw(0.8), 0.4, 4e-3};
+  struct Case {
+    const char* where;
+    const char* way_out;
+    PlateOptions options;
+    PlateOptions instead;
+  };
+  PlateOptions bent;
+  bent.floor = FloorMake::bent;
+  bent.bend = {FacetRule::segment_angle, 0.1, {}, {}};
+  std::vector<Case> cases;
+  const auto add = [&](const char* where, const char* way_out, PlateOptions options, PlateOptions instead) {
+    cases.push_back({where, way_out, std::move(options), std::move(instead)});
+  };
+  for (const CornerJoint joint : {CornerJoint::lap, CornerJoint::tab_and_slot}) {
+    for (const PlateOptions& plain : {PlateOptions(), bent}) {
+      PlateOptions with = plain;
+      with.corners.kind = joint;
+      add("corners", "corners: butt, or one width", with, plain);
+    }
+  }
+  PlateOptions with = bent;
+  with.inspection = {{3.4, 0.1, 0.1, 6}};
+  PlateOptions rolled = with;
+  rolled.floor = FloorMake::rolled;
+  add("inspection", "floor: rolled, or one width", with, rolled);
+  with = bent;
+  with.rim.emplace();
+  PlateOptions bare = with;
+  with.cover.emplace();
+  add("cover", "no cover, floor: rolled, or one width", with, bare);
+  with = bent;
+  with.liner.emplace();
+  add("liner", "no liner, floor: rolled, or one width", with, bent);
+  for (const Case& one_case : cases) {
+    CAPTURE(one_case.where);
+    const auto refused = [&](const section::Measures& measures, const PlateOptions& options) {
+      return refusal_of([&] { return plates_of(track, measures, options); });
+    };
+    const std::string told = refused(changing, one_case.options);
+    INFO(told);
+    CHECK(told.find(std::string(one_case.where) + "|") == 0);
+    CHECK(told.find(one_case.way_out) != std::string::npos);
+    CHECK(refused(changing, one_case.instead) == "");
+    CHECK(refused(one, one_case.options) == "");
+    if (std::string(one_case.way_out).find("floor: rolled") == std::string::npos) continue;
+    PlateOptions smooth = one_case.options;
+    smooth.floor = FloorMake::rolled;
+    CHECK(refused(changing, smooth) == "");
+  }
+  // An opening within the change is sent to where the width stays.
+  PlateOptions opened;
+  opened.inspection = {{1.7, 0.1, 0.1, 6}};
+  const std::string told = refusal_of([&] { return plates_of(track, changing, opened); });
+  REQUIRE(
+      told.find("inspection|at: an opening at 1.7 m lies across a change of radius, where the width changes, "
+                "or the end of a unit|") == 0);
+  const double place = std::stod(told.substr(told.find("|at: ", 20) + 5));
+  opened.inspection.front().at = place > 10.0 ? 1e-3 * place : place;  // [mm] of less than a metre
+  CHECK(refusal_of([&] { return plates_of(track, changing, opened); }) == "");
+}
