@@ -92,6 +92,41 @@ TEST_CASE("openings whose lids would lie upon one another are refused, with a pl
   }
 }
 
+TEST_CASE(
+    "openings in sides of any section: the place that is told builds, whatever units the sheet asks for") {
+  const CoulombBrachistochrone track({7.5, 5.0}, Friction::from_angle(Angle::from_degrees(7.8)));
+  const section::Trapezoid trough{WidthLaw(1.876), 0.291, Angle::from_degrees(29.9), 5e-3};
+  PlateOptions options;
+  int sent = 0;
+  int built = 0;
+  options.split.heaviest = 50.0;
+  for (const double sheet : {6.0, 3.0}) {
+    for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+      options.split.sheet = {sheet, 1.5};
+      options.floor = floor;
+      options.bend = {FacetRule::segment_angle, 0.1, {}, {}};
+      for (double at = 1.0; at < 8.5; at += 0.41) {
+        CAPTURE(sheet, floor, at);
+        options.inspection = {{at, 0.183, 0.087, 6}};
+        const std::string told = refusal_of([&] { return plates_of(track, trough, options); });
+        INFO(told);
+        built += told.empty() ? 1 : 0;
+        const std::size_t hint = told.rfind("|at: ");
+        if (told.empty() || hint == std::string::npos) {
+          CHECK((told.empty() || told.find("another at, or a smaller length") != std::string::npos));
+          continue;
+        }
+        ++sent;
+        const double place = std::stod(told.substr(hint + 5));
+        options.inspection.front().at = place > 10.0 ? 1e-3 * place : place;  // [mm] of less than a metre
+        CHECK(refusal_of([&] { return plates_of(track, trough, options); }) == "");
+      }
+    }
+  }
+  CAPTURE(sent);
+  CHECK(built > 40);
+}
+
 TEST_CASE("lugs across the track stand off the legs of angles along it") {
   PlateOptions options;
   options.split.sheet = {2.5, 1.25};

@@ -92,6 +92,25 @@ double kink_of(const StripJob& job, const Body& body, double gravity, double exi
       body, gravity, exit_speed);
 }
 
+std::optional<Excess> worst_excess(const SplitOptions& split, const std::vector<Strip>& strips) {
+  std::optional<Excess> worst;
+  for (const Strip& strip : strips) keep_worse(excess(split, strip.part), "the " + strip.part.name, worst);
+  return worst;
+}
+
+/// Of plates with nothing cut into them.
+std::optional<Excess> excess_of_plain(const StripJob& job, const std::optional<BentStrips>& bent,
+                                      const std::vector<double>& joints) {
+  if (job.options.floor == FloorMake::bent)
+    return bent ? worst_excess(job.options.split, bent->strips()) : std::nullopt;
+  PlateOptions options = job.options;
+  options.corners = CornerOptions();
+  options.liner.reset();
+  options.inspection.clear();
+  const StripJob plain(job.track, job.section, options, job.placement);
+  return worst_excess(options.split, strips_between(plain, joints, works_between(plain, joints)));
+}
+
 /// By what works make strips differ from mitred ones.
 /// @param flats  of bent ones with works
 std::vector<VolumeDifference> cut_from(const StripJob& job, bool bent, const FlatsJob* flats,
@@ -186,22 +205,26 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
       options.floor == FloorMake::bent ? kink_of(job, body, gravity, design.exit_speed()) : 1.0;
   split_until_it_fits(options.split, track.length(), [&](std::size_t count) -> std::optional<Excess> {
     build.joints = joints_of(track, options.split, count);
-    if (options.floor == FloorMake::bent) {
-      bent.emplace(job, kink, build.joints);
-      strips = bent->strips();
-      if (has_works(options)) {
-        flats = std::make_unique<FlatsJob>(job, *bent, build.joints);
-        works = works_between(flats->job(), flats->joints());
-        work_bent(*flats, works, strips);
+    try {
+      if (options.floor == FloorMake::bent) {
+        bent.emplace(job, kink, build.joints);
+        strips = bent->strips();
+        if (has_works(options)) {
+          flats = std::make_unique<FlatsJob>(job, *bent, build.joints);
+          works = works_between(flats->job(), flats->joints());
+          work_bent(*flats, works, strips);
+        }
+      } else {
+        works = works_between(job, build.joints);
+        strips = strips_between(job, build.joints, works);
       }
-    } else {
-      works = works_between(job, build.joints);
-      strips = strips_between(job, build.joints, works);
+    } catch (const InputError&) {
+      // What finds no place between these joints may between those of more units.
+      auto found = excess_of_plain(job, bent, build.joints);
+      if (!found || !options.split.allowed) throw;
+      return found;
     }
-    std::optional<Excess> worst;
-    for (const Strip& strip : strips)
-      keep_worse(excess(options.split, strip.part), "the " + strip.part.name, worst);
-    return worst;
+    return worst_excess(options.split, strips);
   });
   require_units_longer(track, build.joints, options, section.lowest, section.highest);
   // Usual frames get the gap that they need (frames_that_clear()).
