@@ -20,7 +20,7 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kBuildDescription =
     "Build a design: centerline, motion, solid, files, and a summary.\n"
     "\n"
     "Either every file appears or none: a build that fails leaves the directory as it was. A search within\n"
@@ -30,14 +30,14 @@ constexpr const char* kDescription =
     "file\n"
     "in the way that no build wrote is kept as FILE.kept. Designs of other names may share the directory.";
 
-constexpr const char* kFooter =
+constexpr const char* kBuildFooter =
     "Examples:\n"
     "  glissade build designs/grain_chute.yaml                     into out/grain_chute/\n"
     "  glissade build designs/grain_chute.yaml -o chute --json\n"
     "  glissade build designs/grain_chute.yaml --set mesh.tolerance=0.1mm --set export=[stl]\n"
     "  glissade build designs/grain_chute.yaml --watch             again at each save, until Ctrl-C";
 
-struct Options {
+struct BuildArguments {
   std::string design;
   std::string directory;
   Overrides overrides;
@@ -48,19 +48,19 @@ struct Options {
   Verbosity verbosity;
 };
 
-std::filesystem::path directory_of(const Options& options) {
+std::filesystem::path directory_of(const BuildArguments& options) {
   if (!options.directory.empty()) return options.directory;
   return std::filesystem::path("out") / std::filesystem::path(options.design).stem();
 }
 
-Build built(const Design& design, const Options& options, RunContext context) {
+Build built(const Design& design, const BuildArguments& options, RunContext context) {
   ProgressLine progress(options.verbosity);
   context.progress = progress.callback();
   context.time_budget = options.time_budget.seconds();
   return build(design, directory_of(options), context, {.report = !options.no_report});
 }
 
-ExitCode build_once(const Options& options) {
+ExitCode build_once(const BuildArguments& options) {
   const Design design = read_design(options.design, options.overrides.values());
   const Interrupt interrupt;
   const Build made = built(design, options, interrupt.context({}));
@@ -75,7 +75,7 @@ ExitCode build_once(const Options& options) {
 }
 
 /// @return one line about what was built
-std::string rebuilt(const Options& options, const RunContext& context) {
+std::string rebuilt(const BuildArguments& options, const RunContext& context) {
   const Design design = read_design(options.design, options.overrides.values());
   const Build made = built(design, options, context);
   print_warnings(warnings(design, made.track));
@@ -85,7 +85,7 @@ std::string rebuilt(const Options& options, const RunContext& context) {
          " files in " + directory_of(options).string();
 }
 
-ExitCode build_design(const Options& options) {
+ExitCode build_design(const BuildArguments& options) {
   if (!options.watch) return build_once(options);
   return watch({options.design, options.overrides,
                 [&](const RunContext& context) { return rebuilt(options, context); },
@@ -95,8 +95,8 @@ ExitCode build_design(const Options& options) {
 }  // namespace
 
 void add_build(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("build", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("build", kBuildDescription)->footer(kBuildFooter);
+  const auto options = std::make_shared<BuildArguments>();
   command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
   command
       .add_option("-o,--output", options->directory,

@@ -18,11 +18,11 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kCommandLineDescription =
     "Gravity tracks: from a design file to the fastest centerline under friction, the ride down it,\n"
     "a watertight solid and the files a workshop needs.";
 
-constexpr const char* kFooter =
+constexpr const char* kCommandLineFooter =
     "Examples:\n"
     "  glissade init > chute.yaml                                a design to start from\n"
     "  glissade build chute.yaml                                 everything, into out/chute/\n"
@@ -38,8 +38,8 @@ constexpr const char* kFooter =
 }  // namespace
 
 ExitCode run(int argc, const char* const* argv) {
-  CLI::App program(kDescription, "glissade");
-  program.footer(kFooter);
+  CLI::App program(kCommandLineDescription, "glissade");
+  program.footer(kCommandLineFooter);
   program.require_subcommand(0, 1);  // what follows a command is its own, also the name of another
   program.set_help_flag("-h,--help", "Print this help and end");
   program.set_version_flag("--version", "glissade " + std::string(version()), "Print the version and end");

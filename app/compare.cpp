@@ -34,7 +34,7 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kCompareDescription =
     "Put every kind of centerline between the same two points side by side, or several designs.\n"
     "\n"
     "A design with limits shows the fastest track within them beside the fastest without; the others are "
@@ -44,7 +44,7 @@ constexpr const char* kDescription =
     "With --friction-sweep: the constant-speed curve (Pudasaini's) over a list of friction angles, as in\n"
     "figure 1 of his paper, beside the fastest track and the straight line.";
 
-constexpr const char* kFooter =
+constexpr const char* kCompareFooter =
     "Examples:\n"
     "  glissade compare designs/grain_chute.yaml\n"
     "  glissade compare --run 10 --drop 5 --friction-coefficient 0.2 --json\n"
@@ -55,7 +55,7 @@ constexpr const char* kFooter =
     "  glissade compare designs/hills/garmisch_hs142.yaml designs/hills/kulm_hs235.yaml --html hills.html\n"
     "  glissade compare designs/grain_chute.yaml --csv curves.csv      the curves themselves";
 
-struct Options {
+struct CompareArguments {
   TrackInput input{TrackInput::Scope::every_kind};
   std::vector<std::string> frictions;
   std::vector<std::string> others;
@@ -304,7 +304,8 @@ std::string curves_csv(const std::vector<Entry>& entries) {
   return table.csv();
 }
 
-std::string json_of(const Options& options, const Design& design, const std::vector<Entry>& entries) {
+std::string json_of(const CompareArguments& options, const Design& design,
+                    const std::vector<Entry>& entries) {
   std::vector<ComparedTrack> tracks;
   for (const Entry& entry : entries) {
     tracks.push_back({entry.design, entry.track ? &*entry.track : nullptr, entry.problem});
@@ -322,7 +323,7 @@ std::vector<Friction> frictions_of(const std::vector<std::string>& texts) {
   return frictions;
 }
 
-std::vector<Entry> designs_given(const Options& options, Design first, const RunContext& context) {
+std::vector<Entry> designs_given(const CompareArguments& options, Design first, const RunContext& context) {
   std::vector<Design> designs = {std::move(first)};
   for (const std::string& file : options.others)
     designs.push_back(read_design(file, options.input.overrides()));
@@ -337,8 +338,8 @@ struct Comparison {
   Table table;
 };
 
-Comparison comparison_of(const Options& options, const Design& design, const std::vector<Friction>& frictions,
-                         const RunContext& context) {
+Comparison comparison_of(const CompareArguments& options, const Design& design,
+                         const std::vector<Friction>& frictions, const RunContext& context) {
   const std::string heading = design.name.empty() ? std::string("Comparison") : design.name;
   if (!options.others.empty()) {
     std::vector<Entry> entries = designs_given(options, design, context);
@@ -359,7 +360,7 @@ Comparison comparison_of(const Options& options, const Design& design, const std
   return {heading, task_line(design, endpoints), std::move(entries), std::move(table)};
 }
 
-std::vector<Figure> figures_of(const Options& options, const Design& design,
+std::vector<Figure> figures_of(const CompareArguments& options, const Design& design,
                                const std::vector<Entry>& entries, const RunContext& context) {
   if (!options.others.empty()) return design_figures(entries);
   return options.frictions.empty() ? kinds_figures(design, entries, context) : sweep_figures(entries);
@@ -369,7 +370,7 @@ void write_text(const std::string& file, const std::string& text) {
   write_atomically(file, text);
 }
 
-void write_figures(const Options& options, const Design& design, const Comparison& comparison,
+void write_figures(const CompareArguments& options, const Design& design, const Comparison& comparison,
                    const RunContext& context) {
   if (options.svg.empty() && options.html.empty()) return;
   const std::vector<Figure> figures = figures_of(options, design, comparison.entries, context);
@@ -387,7 +388,7 @@ void write_figures(const Options& options, const Design& design, const Compariso
                                              std::move(choices)}));
 }
 
-ExitCode compare(const Options& options) {
+ExitCode compare(const CompareArguments& options) {
   const std::vector<Friction> frictions = frictions_of(options.frictions);
   const Design design =
       with_finish(options.input.design(frictions.empty() ? std::nullopt : std::optional(frictions.front())));
@@ -415,8 +416,8 @@ ExitCode compare(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("compare", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("compare", kCompareDescription)->footer(kCompareFooter);
+  const auto options = std::make_shared<CompareArguments>();
   options->input.add_to(command);
   command
       .add_option("--friction-sweep", options->frictions,

@@ -13,12 +13,12 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kCompletionDescription =
     "Print a script with which a shell completes commands, options, keys, kinds, formats and file names.\n"
     "\n"
     "'cmake --install' puts the scripts where bash, zsh and fish find them by themselves.";
 
-constexpr const char* kFooter =
+constexpr const char* kCompletionFooter =
     "Examples:\n"
     "  glissade completion bash > glissade.bash   then, in ~/.bashrc: source .../glissade.bash\n"
     "  glissade completion zsh > _glissade        into a directory of your fpath\n"
@@ -37,7 +37,8 @@ ExitCode print_script(const std::string& shell) {
 }  // namespace
 
 void add_completion(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("completion", kDescription)->footer(kFooter);
+  CLI::App& command =
+      *program.add_subcommand("completion", kCompletionDescription)->footer(kCompletionFooter);
   const auto shell = std::make_shared<std::string>();
   command.add_option("shell", *shell, "bash, zsh or fish")->type_name("SHELL")->required();
   command.callback([shell, &action] { action = [shell] { return print_script(*shell); }; });

@@ -21,7 +21,7 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kFitDescription =
     "Fit friction and drag to measured speeds, with their uncertainty and correlation, and tell how well "
     "they\n"
     "and those of the design explain each speed.\n"
@@ -30,12 +30,12 @@ constexpr const char* kDescription =
     "gate or\n"
     "length_m, speed_km_h or speed_m_per_s and, if wanted, before_edge_m and count.";
 
-constexpr const char* kFooter =
+constexpr const char* kFitFooter =
     "Examples:\n"
     "  glissade fit designs/hills/measured_speeds.csv\n"
     "  glissade fit designs/hills/measured_speeds.csv --drag \"0.0013 1/m\"    the friction alone";
 
-struct Options {
+struct FitArguments {
   std::string speeds;
   std::string design;
   std::string friction;
@@ -88,7 +88,7 @@ std::string fit_summary(const SpeedSheet& sheet, const SpeedFit& fit,
   return text + labelled("Correlation", correlation);
 }
 
-ExitCode fit(const Options& options) {
+ExitCode fit(const FitArguments& options) {
   std::optional<std::filesystem::path> design;
   if (!options.design.empty()) design = options.design;
   const SpeedSheet sheet = read_speeds(options.speeds, design);
@@ -111,8 +111,8 @@ ExitCode fit(const Options& options) {
 }  // namespace
 
 void add_fit(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("fit", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("fit", kFitDescription)->footer(kFitFooter);
+  const auto options = std::make_shared<FitArguments>();
   command.add_option("speeds", options->speeds, "CSV file of measured speeds")
       ->type_name("SPEEDS.csv")
       ->required();

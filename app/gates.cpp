@@ -24,11 +24,11 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kGatesDescription =
     "The start gates of a ski jump: where each lies, and the speed, time and load from it in every "
     "condition.";
 
-constexpr const char* kFooter =
+constexpr const char* kGatesFooter =
     "Examples:\n"
     "  glissade gates designs/hills/garmisch_hs142.yaml\n"
     "  glissade gates designs/hills/garmisch_hs142.yaml --speed 90km/h            the gate for that speed\n"
@@ -38,7 +38,7 @@ constexpr const char* kFooter =
     "cost\n"
     "  glissade gates designs/hills/garmisch_hs142.yaml --csv gates.csv";
 
-struct Options {
+struct GatesArguments {
   DesignInput design;
   std::string speed;
   std::string wind_change;
@@ -88,7 +88,7 @@ std::string gates_for_wind(const Design& design, const Track& track, double chan
 }
 
 /// What was asked beside the table.
-std::string answers(const Options& options, const Design& design, const Track& track) {
+std::string answers(const GatesArguments& options, const Design& design, const Track& track) {
   std::string text;
   if (!options.speed.empty()) {
     text += gate_for(*track.gates, option_value(options.speed, Dimension::speed, "--speed"));
@@ -118,7 +118,7 @@ void require_arrivals(const Design& design, const GateTable& table) {
   }
 }
 
-ExitCode show_gates(const Options& options) {
+ExitCode show_gates(const GatesArguments& options) {
   const Design design = options.design.read();
   if (!design.gates) {
     throw InputError({design.where("centerline"), "the design has no gates", "",
@@ -143,8 +143,8 @@ ExitCode show_gates(const Options& options) {
 }  // namespace
 
 void add_gates(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("gates", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("gates", kGatesDescription)->footer(kGatesFooter);
+  const auto options = std::make_shared<GatesArguments>();
   options->design.add_to(command);
   command.add_option("--speed", options->speed, "Tell which gate gives this speed at the measuring place")
       ->type_name("SPEED");

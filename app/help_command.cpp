@@ -17,17 +17,17 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kHelpDescription =
     "Print the help of a command, as 'glissade COMMAND --help' does.\n"
     "\n"
     "--man-pages writes the same as pages for man(1), one a command.";
 
-constexpr const char* kFooter =
+constexpr const char* kHelpFooter =
     "Examples:\n"
     "  glissade help build\n"
     "  glissade help --man-pages man && man -l man/glissade-build.1";
 
-struct Options {
+struct HelpArguments {
   std::string command;
   std::string directory;
 };
@@ -53,7 +53,7 @@ void write_man_pages(const CLI::App& program, const std::filesystem::path& direc
   write_page(directory, help_page(program), names);
 }
 
-ExitCode help(const CLI::App& program, const Options& options) {
+ExitCode help(const CLI::App& program, const HelpArguments& options) {
   if (!options.directory.empty()) {
     write_man_pages(program, options.directory);
     return ExitCode::done;
@@ -72,8 +72,8 @@ ExitCode help(const CLI::App& program, const Options& options) {
 }  // namespace
 
 void add_help(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("help", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("help", kHelpDescription)->footer(kHelpFooter);
+  const auto options = std::make_shared<HelpArguments>();
   command.add_option("command", options->command, "Of which command [default: of all]")->type_name("COMMAND");
   command
       .add_option("--man-pages", options->directory, "Write all of it for man(1) into a directory instead")

@@ -20,10 +20,10 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kInitDescription =
     "Write a commented design file to start from, to standard output or to a file.";
 
-struct Options {
+struct InitArguments {
   std::string kind;
   std::string output;
   std::string hill_size;
@@ -60,7 +60,7 @@ std::string profile_note() {
          "      'glissade init points -o FILE' writes both.\n";
 }
 
-std::string template_of(const std::string& kind, const Options& options) {
+std::string template_of(const std::string& kind, const InitArguments& options) {
   if (options.hill_size.empty()) return design_template(kind);
   if (kind != "in-run") {
     throw InputError({"--hill-size", "a design of kind " + kind + " has no hill", "",
@@ -69,7 +69,7 @@ std::string template_of(const std::string& kind, const Options& options) {
   return in_run_template(option_value(options.hill_size, Dimension::length, "--hill-size"));
 }
 
-ExitCode write_template(const Options& options) {
+ExitCode write_template(const InitArguments& options) {
   const std::string kind = options.kind.empty() ? std::string(design_templates().front().kind) : options.kind;
   const std::string text = template_of(kind, options);
   const bool needs_profile = kind == "points";
@@ -95,8 +95,8 @@ ExitCode write_template(const Options& options) {
 }  // namespace
 
 void add_init(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("init", kDescription)->footer(footer());
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("init", kInitDescription)->footer(footer());
+  const auto options = std::make_shared<InitArguments>();
   command.add_option("kind", options->kind, "What to start from, see below")->type_name("KIND");
   command.add_option("-o,--output", options->output, "File to write; one that exists is kept")
       ->type_name("FILE");

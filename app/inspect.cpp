@@ -18,17 +18,17 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kInspectDescription =
     "Measure any mesh file: closed, manifold, facing outward, free of self-intersection.\n"
     "\n"
     "The exit code is 0 for a valid solid, 1 for a faulty one, 5 for a file that is no mesh.";
 
-constexpr const char* kFooter =
+constexpr const char* kInspectFooter =
     "Examples:\n"
     "  glissade inspect out/grain_chute/grain_chute.stl\n"
     "  glissade inspect part.off --unit m --json";
 
-struct Options {
+struct InspectArguments {
   std::string file;
   std::string unit = "mm";
   bool json = false;
@@ -64,7 +64,7 @@ std::string facts_summary(const std::string& file, const MeshFacts& facts) {
   return text + labelled("Verdict", faults);
 }
 
-ExitCode inspect_mesh(const Options& options) {
+ExitCode inspect_mesh(const InspectArguments& options) {
   const MeshFacts facts = measure(read_mesh(options.file, unit_named(options.unit)));
   print(options.json ? mesh_json(facts) : facts_summary(options.file, facts));
   return facts.valid() ? ExitCode::done : ExitCode::faulty;
@@ -73,8 +73,8 @@ ExitCode inspect_mesh(const Options& options) {
 }  // namespace
 
 void add_inspect(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("inspect", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("inspect", kInspectDescription)->footer(kInspectFooter);
+  const auto options = std::make_shared<InspectArguments>();
   command.add_option("mesh", options->file, "STL (binary or ASCII) or OFF file")
       ->type_name("MESH")
       ->required();

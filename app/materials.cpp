@@ -22,10 +22,10 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kMaterialsDescription =
     "List what is known of bulk solids and liners, with source and certainty.";
 
-constexpr const char* kFooter =
+constexpr const char* kMaterialsFooter =
     "Examples:\n"
     "  glissade materials           all of them, with bulk density and wall friction\n"
     "  glissade materials wheat     one, on each liner, each number with its source\n"
@@ -149,7 +149,7 @@ ExitCode list_materials(const std::string& wanted) {
 
 void add_materials(CLI::App& program, Action& action) {
   const auto wanted = std::make_shared<std::string>();
-  CLI::App& command = *program.add_subcommand("materials", kDescription)->footer(kFooter);
+  CLI::App& command = *program.add_subcommand("materials", kMaterialsDescription)->footer(kMaterialsFooter);
   command.add_option("WORD", *wanted, "a material or a liner, for all that is known of it");
   command.callback([wanted, &action] { action = [wanted] { return list_materials(*wanted); }; });
 }

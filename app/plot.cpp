@@ -23,19 +23,19 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kPlotDescription =
     "Draw a track and the ride down it as an SVG or PNG file: profile, slope, speed, load, curvature, "
     "energy.\n"
     "\n"
     "A profile shows the straight line and the fastest track beside the one that is asked for.";
 
-constexpr const char* kFooter =
+constexpr const char* kPlotFooter =
     "Examples:\n"
     "  glissade plot designs/grain_chute.yaml -o chute.svg\n"
     "  glissade plot designs/grain_chute.yaml --what speed,load -o ride.png\n"
     "  glissade plot --run 10 --drop 5 --friction-angle 11deg --what energy -o energy.svg";
 
-struct Options {
+struct PlotArguments {
   TrackInput input{TrackInput::Scope::one_kind};
   std::vector<std::string> what = {"profile"};
   std::string output;
@@ -126,7 +126,7 @@ Figure figure_of(RideQuantity quantity, const Design& design, const Track& track
   return figure;
 }
 
-ExitCode plot(const Options& options) {
+ExitCode plot(const PlotArguments& options) {
   const std::filesystem::path file = options.output;
   const bool png = is_png(file);
   std::vector<RideQuantity> quantities;
@@ -152,8 +152,8 @@ ExitCode plot(const Options& options) {
 }  // namespace
 
 void add_plot(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("plot", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("plot", kPlotDescription)->footer(kPlotFooter);
+  const auto options = std::make_shared<PlotArguments>();
   options->input.add_to(command);
   command
       .add_option("--what", options->what,

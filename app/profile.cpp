@@ -26,19 +26,19 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kProfileDescription =
     "Draw the longitudinal section: DXF at 1:1, PDF sheets with the section, the parameters in English, "
     "German and\n"
     "French, gates and coordinates, the coordinate table as CSV, and the cross-section with its grooves as "
     "DXF.";
 
-constexpr const char* kFooter =
+constexpr const char* kProfileFooter =
     "Examples:\n"
     "  glissade profile designs/hills/garmisch_hs142.yaml                  into out/garmisch_hs142/\n"
     "  glissade profile designs/hills/garmisch_hs142.yaml --step 0.5m --row run\n"
     "  glissade profile designs/hills/garmisch_hs142.yaml --offset beam=-350mm --offset tube=120mm";
 
-struct Options {
+struct ProfileArguments {
   DesignInput design;
   std::string directory;
   std::string step;
@@ -68,7 +68,7 @@ ParallelLine parallel_of(const std::string& text) {
   return {name, option_value(text.substr(sign + 1), Dimension::length, "--offset")};
 }
 
-ProfileOptions options_of(const Options& options) {
+ProfileOptions options_of(const ProfileArguments& options) {
   ProfileOptions profile;
   if (!options.step.empty()) profile.step = option_value(options.step, Dimension::length, "--step");
   profile.row = row_named(options.row);
@@ -82,7 +82,7 @@ ProfileOptions options_of(const Options& options) {
   return profile;
 }
 
-ExitCode draw_profile(const Options& options) {
+ExitCode draw_profile(const ProfileArguments& options) {
   const ProfileOptions wanted = options_of(options);
   const Design design = options.design.read();
   const Track track = [&] {
@@ -104,8 +104,8 @@ ExitCode draw_profile(const Options& options) {
 }  // namespace
 
 void add_profile(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("profile", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("profile", kProfileDescription)->footer(kProfileFooter);
+  const auto options = std::make_shared<ProfileArguments>();
   options->design.add_to(command);
   command.add_option("-d,--directory", options->directory, "Directory for the files [default: out/NAME]")
       ->type_name("DIR");

@@ -32,21 +32,21 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kRedesignDescription =
     "Compare an in-run with what the rules would allow for the same take-off speed: its letters at the "
     "bounds of\n"
     "the rules, other transitions, and the free shape that a search finds; with metres of tower saved and "
     "the\n"
     "price of each letter.";
 
-constexpr const char* kFooter =
+constexpr const char* kRedesignFooter =
     "Examples:\n"
     "  glissade redesign designs/hills/garmisch_hs142.yaml\n"
     "  glissade redesign designs/hills/garmisch_hs142.yaml --for least-load      from the same height\n"
     "  glissade redesign designs/hills/garmisch_hs142.yaml --speed 26.5m/s -o lower.yaml\n"
     "  glissade redesign designs/hills/garmisch_hs142.yaml --letters -o letters.yaml   a certificate again";
 
-struct Options {
+struct RedesignArguments {
   DesignInput design;
   std::string goal = "least-drop";
   std::string speed;
@@ -74,7 +74,7 @@ double positive(const std::string& text, Dimension dimension, const char* option
   throw InputError({option, text + " is not positive", "", ""});
 }
 
-RedesignOptions wanted(const Options& options) {
+RedesignOptions wanted(const RedesignArguments& options) {
   RedesignOptions wanted;
   wanted.goal = goal_named(options.goal);
   if (!options.speed.empty()) wanted.speed = positive(options.speed, Dimension::speed, "--speed");
@@ -157,7 +157,7 @@ std::string breaks_text(const Redesign& found) {
   return text.empty() ? "" : labelled("In the way", text);
 }
 
-void write_design(const Options& options, const Design& design, const Redesign& found) {
+void write_design(const RedesignArguments& options, const Design& design, const Redesign& found) {
   if (options.output.empty()) return;
   Design made = redesigned(design, found, !options.letters);
   made.file = options.output;
@@ -170,7 +170,7 @@ void write_design(const Options& options, const Design& design, const Redesign& 
   target.commit();
 }
 
-ExitCode show_redesign(const Options& options) {
+ExitCode show_redesign(const RedesignArguments& options) {
   const RedesignOptions asked = wanted(options);
   const Design design = options.design.read();
   const Redesign found = [&] {
@@ -195,8 +195,8 @@ ExitCode show_redesign(const Options& options) {
 }  // namespace
 
 void add_redesign(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("redesign", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("redesign", kRedesignDescription)->footer(kRedesignFooter);
+  const auto options = std::make_shared<RedesignArguments>();
   options->design.add_to(command, "Design file, of kind in-run");
   command
       .add_option(

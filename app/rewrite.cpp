@@ -15,25 +15,25 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kRewriteDescription =
     "Write a design as it is read, with what --set replaces, as a design file that reads as the same "
     "design.\n"
     "\n"
     "Each number is the shortest decimal, in a metric unit, that reads as the same value. Comments are not "
     "kept.";
 
-constexpr const char* kFooter =
+constexpr const char* kRewriteFooter =
     "Examples:\n"
     "  glissade rewrite designs/grain_chute.yaml --set body.friction_angle=19deg -o rough.yaml\n"
     "  glissade rewrite --run 10 --drop 5 --friction-angle 11deg          options become a design file";
 
-struct Options {
+struct RewriteArguments {
   TrackInput input{TrackInput::Scope::one_kind};
   std::string output;
   bool force = false;
 };
 
-ExitCode rewrite(const Options& options) {
+ExitCode rewrite(const RewriteArguments& options) {
   Design design = options.input.design();
   if (options.output.empty()) {
     print(design_text(design));
@@ -53,8 +53,8 @@ ExitCode rewrite(const Options& options) {
 }  // namespace
 
 void add_rewrite(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("rewrite", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("rewrite", kRewriteDescription)->footer(kRewriteFooter);
+  const auto options = std::make_shared<RewriteArguments>();
   options->input.add_to(command);
   command.add_option("-o,--output", options->output, "File to write; one that exists is kept")
       ->type_name("FILE")

@@ -22,7 +22,7 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kRideDescription =
     "Ride the track of a design at other frictions; the track stays as it is.\n"
     "\n"
     "The track is found once, at the design's own friction, as 'glissade solve' finds it. Each friction "
@@ -30,12 +30,12 @@ constexpr const char* kDescription =
     "here then rides that same track: time, speeds, loads, how far it is from a stall, and the limits held\n"
     "against that friction alone. A ride that ends early or breaks a limit is a result: the exit code is 0.";
 
-constexpr const char* kFooter =
+constexpr const char* kRideFooter =
     "Examples:\n"
     "  glissade ride designs/grain_chute.yaml --friction-angle 14deg,16deg,18deg\n"
     "  glissade ride designs/grain_chute.yaml --friction-coefficient 0.2,0.3,0.4 --json";
 
-struct Options {
+struct RideArguments {
   std::string design;
   Overrides overrides;
   std::vector<std::string> angles;
@@ -45,7 +45,7 @@ struct Options {
   bool json = false;
 };
 
-std::vector<Friction> frictions_of(const Options& options) {
+std::vector<Friction> frictions_of(const RideArguments& options) {
   std::vector<Friction> frictions;
   for (const std::string& text : options.angles) {
     frictions.push_back(at_option("--friction-angle", [&] {
@@ -87,7 +87,7 @@ std::string rides_summary(const Design& design, const Track& track, const std::v
          table.text();
 }
 
-ExitCode ride_track(const Options& options) {
+ExitCode ride_track(const RideArguments& options) {
   const std::vector<Friction> frictions = frictions_of(options);
   const Design design = read_design(options.design, options.overrides.values());
   const Track track = [&] {
@@ -107,8 +107,8 @@ ExitCode ride_track(const Options& options) {
 }  // namespace
 
 void add_ride(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("ride", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("ride", kRideDescription)->footer(kRideFooter);
+  const auto options = std::make_shared<RideArguments>();
   command.add_option("design", options->design, "Design file")->type_name("DESIGN.yaml")->required();
   command
       .add_option("--friction-angle", options->angles,

@@ -25,7 +25,7 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kRulesDescription =
     "List the rules that tracks can be held against, or hold a design against its rules.\n"
     "\n"
     "Each rule has its bound, its source, and how sure the bound is: those that nobody read in the document\n"
@@ -33,14 +33,14 @@ constexpr const char* kDescription =
     "against its rules and, where it has a fabrication, its parts against those of the shop; the exit code\n"
     "is 1 if a rule fails; advice that is not followed is a warning.";
 
-constexpr const char* kFooter =
+constexpr const char* kRulesFooter =
     "Examples:\n"
     "  glissade rules                          every rule of every set\n"
     "  glissade rules slide                    those of a set, or that speak of a word\n"
     "  glissade rules --quantities             what rules of your own may bound\n"
     "  glissade rules designs/toboggan_run.yaml --set \"rules={sets: [summer-toboggan]}\"   the verdicts";
 
-struct Options {
+struct RulesArguments {
   std::string what;
   Overrides overrides;
   std::string csv;  ///< for the verdicts
@@ -79,7 +79,7 @@ std::vector<RuleSet> found(const std::string& given) {
                     "glissade rules, which lists all; or the path of a design, which ends in .yaml"});
 }
 
-ExitCode list_rules(const Options& options) {
+ExitCode list_rules(const RulesArguments& options) {
   const std::vector<RuleSet> sets = found(options.what);
   if (options.json) {
     print(rules_json(sets));
@@ -107,7 +107,7 @@ struct Verdicts {
   }
 };
 
-Verdicts judged(const Design& design, const Options& options) {
+Verdicts judged(const Design& design, const RulesArguments& options) {
   const Interrupt interrupt;
   ProgressLine progress(options.verbosity);
   const RunContext context = interrupt.context(progress.callback(), options.time_budget.seconds());
@@ -118,7 +118,7 @@ Verdicts judged(const Design& design, const Options& options) {
   return verdicts;
 }
 
-ExitCode judge_design(const Options& options) {
+ExitCode judge_design(const RulesArguments& options) {
   const Design design = read_design(options.what, options.overrides.values());
   if (design.rules.in_force.empty() && !design.fabrication) {
     throw InputError({design.where("rules"), "the design has no rules to be held against", "",
@@ -138,7 +138,7 @@ ExitCode judge_design(const Options& options) {
   return verdicts.fail() ? ExitCode::faulty : ExitCode::done;
 }
 
-ExitCode run_rules(const Options& options) {
+ExitCode run_rules(const RulesArguments& options) {
   if (options.quantities) {
     print(quantities_table());
     return ExitCode::done;
@@ -150,8 +150,8 @@ ExitCode run_rules(const Options& options) {
 }  // namespace
 
 void add_rules(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("rules", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("rules", kRulesDescription)->footer(kRulesFooter);
+  const auto options = std::make_shared<RulesArguments>();
   command
       .add_option("what", options->what, "A word to look for, the name of a set, or a design file (.yaml)")
       ->type_name("WORD|DESIGN.yaml");

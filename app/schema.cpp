@@ -10,10 +10,10 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kSchemaDescription =
     "Print the schema of design files, JSON Schema draft-07, for editors that check and complete YAML.";
 
-constexpr const char* kFooter =
+constexpr const char* kSchemaFooter =
     "Examples:\n"
     "  glissade schema > glissade.schema.json   beside your designs, where those of 'glissade init' look for "
     "it\n"
@@ -24,7 +24,7 @@ constexpr const char* kFooter =
 }  // namespace
 
 void add_schema(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("schema", kDescription)->footer(kFooter);
+  CLI::App& command = *program.add_subcommand("schema", kSchemaDescription)->footer(kSchemaFooter);
   command.callback([&action] {
     action = [] {
       print(design_schema());

@@ -19,14 +19,14 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kSolveDescription =
     "Find the centerline and the ride down it; write no files but those asked for.\n"
     "\n"
     "A body that stalls or leaves the track is reported with the place, and the exit code is 3; the same "
     "for\n"
     "a track that breaks a limit of its design, and for limits that no track keeps.";
 
-constexpr const char* kFooter =
+constexpr const char* kSolveFooter =
     "Examples:\n"
     "  glissade solve designs/grain_chute.yaml\n"
     "  glissade solve designs/grain_chute.yaml --csv ride.csv           speed, load, ... by stations\n"
@@ -35,7 +35,7 @@ constexpr const char* kFooter =
     "  glissade solve --run 10 --drop 5 --friction-angle 11deg\n"
     "  glissade solve --run 10 --drop 5 --friction-coefficient 0.2 --p 127 --json";
 
-struct Options {
+struct SolveArguments {
   TrackInput input{TrackInput::Scope::one_kind};
   TimeBudget time_budget;
   Verbosity verbosity;
@@ -44,7 +44,7 @@ struct Options {
   bool json = false;
 };
 
-Track solved(const Design& design, const Options& options) {
+Track solved(const Design& design, const SolveArguments& options) {
   const Interrupt interrupt;
   ProgressLine progress(options.verbosity);
   return solve(design, interrupt.context(progress.callback(), options.time_budget.seconds()));
@@ -56,7 +56,7 @@ void require_sound(const Design& design, const Track& track) {
   if (const auto problem = search_problem(design, track)) throw ConvergenceError(*problem);
 }
 
-ExitCode solve_track(const Options& options) {
+ExitCode solve_track(const SolveArguments& options) {
   const Design design = options.input.design();
   try {
     const Track track = solved(design, options);
@@ -78,8 +78,8 @@ ExitCode solve_track(const Options& options) {
 }  // namespace
 
 void add_solve(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("solve", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("solve", kSolveDescription)->footer(kSolveFooter);
+  const auto options = std::make_shared<SolveArguments>();
   options->input.add_to(command);
   options->time_budget.add_to(command);
   command.add_option("--csv", options->csv, "Write the track and the ride by stations")->type_name("FILE");

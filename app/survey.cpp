@@ -23,7 +23,7 @@
 namespace glissade::app {
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kSurveyDescription =
     "Hold a track as it was surveyed against its design: deviation, slope angle and radius at every point,\n"
     "gaps, and the ride on the profile as built against the designed one.\n"
     "\n"
@@ -31,13 +31,13 @@ constexpr const char* kDescription =
     "exit\n"
     "code is 1 if a tolerance is broken or points are missing.";
 
-constexpr const char* kFooter =
+constexpr const char* kSurveyFooter =
     "Examples:\n"
     "  glissade survey designs/hills/garmisch_hs142.yaml designs/hills/garmisch_survey.csv --offset 120mm\n"
     "  glissade survey designs/hills/garmisch_hs142.yaml designs/hills/garmisch_survey.csv \\\n"
     "      --offset 120mm --svg survey.svg --csv deviations.csv";
 
-struct Options {
+struct SurveyArguments {
   DesignInput design;
   std::string points;
   std::string offset;
@@ -50,7 +50,7 @@ struct Options {
   bool json = false;
 };
 
-SurveyOptions options_of(const Options& options) {
+SurveyOptions options_of(const SurveyArguments& options) {
   SurveyOptions survey;
   const auto take = [](const std::string& text, Dimension dimension, const char* name, double& value) {
     if (!text.empty()) value = option_value(text, dimension, name);
@@ -129,7 +129,7 @@ std::string survey_summary(const Design& design, const Survey& survey, const Sur
   return text + labelled("Gaps", gaps) + labelled("Ride", rides_text(rides));
 }
 
-ExitCode survey(const Options& options) {
+ExitCode survey(const SurveyArguments& options) {
   const SurveyOptions wanted = options_of(options);
   const Design design = options.design.read();
   const Track track = solve(design);
@@ -149,8 +149,8 @@ ExitCode survey(const Options& options) {
 }  // namespace
 
 void add_survey(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("survey", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("survey", kSurveyDescription)->footer(kSurveyFooter);
+  const auto options = std::make_shared<SurveyArguments>();
   options->design.add_to(command);
   command.add_option("points", options->points, "CSV file of the measured points")
       ->type_name("POINTS.csv")

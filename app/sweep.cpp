@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDescription =
+constexpr const char* kSweepDescription =
     "Compute many variants of a design: one row a point, in chunks that any number of processes share.\n"
     "\n"
     "Every combination of --vary, --points and --scatter is a point. It is designed anew, or, with "
@@ -35,7 +35,7 @@ constexpr const char* kDescription =
     "twice.\n"
     "Once all is there, sweep.html beside the rows shows what it says.";
 
-constexpr const char* kFooter =
+constexpr const char* kSweepFooter =
     "Examples:\n"
     "  glissade sweep designs/grain_chute.yaml --vary body.friction_angle=10deg:25deg:151 -o sweep\n"
     "  glissade sweep --merge sweep -o sweep.csv\n"
@@ -45,7 +45,7 @@ constexpr const char* kFooter =
     "\n"
     "docs/sweeps.md tells more: the laws, the columns, GNU parallel, Slurm, several machines.";
 
-struct Options {
+struct SweepArguments {
   std::string design;
   Overrides overrides;
   std::vector<std::string> vary;
@@ -69,7 +69,7 @@ void require(bool holds, Issue issue) {
   if (!holds) throw InputError(std::move(issue));
 }
 
-study::Plan plan_of(const Options& options) {
+study::Plan plan_of(const SweepArguments& options) {
   std::vector<study::Factor> factors;
   for (const std::string& text : options.vary) factors.push_back(study::vary(text));
   if (!options.points.empty()) factors.push_back(study::read_points(options.points));
@@ -86,7 +86,7 @@ study::Plan plan_of(const Options& options) {
   return study::Plan(std::move(factors));
 }
 
-study::Study study_of(const Options& options) {
+study::Study study_of(const SweepArguments& options) {
   return {DesignSource::read(options.design),
           options.overrides.values(),
           plan_of(options),
@@ -97,7 +97,7 @@ study::Study study_of(const Options& options) {
 }
 
 /// The command that a worker runs, without the shard.
-std::vector<std::string> sweep_arguments(const Options& options, const fs::path& directory) {
+std::vector<std::string> sweep_arguments(const SweepArguments& options, const fs::path& directory) {
   std::vector<std::string> words = {"sweep", options.design};
   const auto add = [&](const std::string& name, const std::string& value) {
     words.push_back(name);
@@ -123,12 +123,12 @@ std::vector<std::string> sweep_arguments(const Options& options, const fs::path&
   return words;
 }
 
-fs::path directory_of(const Options& options) {
+fs::path directory_of(const SweepArguments& options) {
   if (!options.output.empty()) return options.output;
   return fs::path("out") / (fs::path(options.design).stem().string() + "_sweep");
 }
 
-ExitCode merge_chunks(const Options& options) {
+ExitCode merge_chunks(const SweepArguments& options) {
   require(options.design.empty(),
           {"--merge", "a design is given as well", "The directory knows what was studied.",
            "glissade sweep --merge sweep -o sweep.csv"});
@@ -149,7 +149,7 @@ void write_whole(const fs::path& path, const std::string& text) {
 }
 
 /// The batch file for Slurm beside the rows that its tasks will write.
-ExitCode write_batch(const Options& options, const study::Study& study, const fs::path& directory) {
+ExitCode write_batch(const SweepArguments& options, const study::Study& study, const fs::path& directory) {
   constexpr std::uint64_t kUsualTasks = 16;
   const std::uint64_t chunks = study::chunks_of(study.plan.count());
   const std::uint64_t tasks = options.tasks != 0 ? options.tasks : std::min(kUsualTasks, chunks);
@@ -165,7 +165,7 @@ ExitCode write_batch(const Options& options, const study::Study& study, const fs
 }
 
 /// What the rows say, on a page beside them and in a few lines.
-void show_summary(const Options& options, const fs::path& directory, const std::stop_token& stop) {
+void show_summary(const SweepArguments& options, const fs::path& directory, const std::stop_token& stop) {
   const study::Results results = study::Results::open(directory);
   const study::Summary summary = [&] {
     ProgressLine progress(options.verbosity);
@@ -176,7 +176,7 @@ void show_summary(const Options& options, const fs::path& directory, const std::
   if (!options.verbosity.quiet()) print(summary_text(summary) + "\n" + labelled("Page", page.string()));
 }
 
-ExitCode sweep_design(const Options& options) {
+ExitCode sweep_design(const SweepArguments& options) {
   if (!options.merge.empty()) return merge_chunks(options);
   require(!options.design.empty(), {"", "a design file is missing", "", "glissade sweep --help"});
   const study::Study study = study_of(options);
@@ -201,8 +201,8 @@ ExitCode sweep_design(const Options& options) {
 }  // namespace
 
 void add_sweep(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("sweep", kDescription)->footer(kFooter);
-  const auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand("sweep", kSweepDescription)->footer(kSweepFooter);
+  const auto options = std::make_shared<SweepArguments>();
   const auto several = [&](const std::string& name, std::vector<std::string>& values, const std::string& type,
                            const std::string& description) {
     command.add_option(name, values, description)->type_name(type)->take_all()->allow_extra_args(false);

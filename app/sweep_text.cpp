@@ -49,7 +49,7 @@ std::string summary_text(const study::Summary& summary) {
 namespace {
 
 /// A word as a shell takes it.
-std::string quoted(const std::string& word) {
+std::string for_shell(const std::string& word) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.,:=/+%-";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
   std::string text = "'";
@@ -69,9 +69,9 @@ std::string batch_text(const std::vector<std::string>& arguments, const std::str
       "#SBATCH --job-name=glissade-sweep\n";
   text += "#SBATCH --array=0-" + std::to_string(tasks - 1) + "\n";
   text += "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n";
-  text += "#SBATCH --output=" + quoted(directory + "/slurm-%A_%a.log") + "\n\n";
+  text += "#SBATCH --output=" + for_shell(directory + "/slurm-%A_%a.log") + "\n\n";
   text += "exec \"${GLISSADE:-glissade}\"";
-  for (const std::string& word : arguments) text += " " + quoted(word);
+  for (const std::string& word : arguments) text += " " + for_shell(word);
   text +=
       " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\" "
       "--quiet\n";

@@ -14,6 +14,8 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
+namespace brachistochrone_motion_test {
+
 using namespace glissade;
 
 namespace {
@@ -200,3 +202,5 @@ TEST_CASE("fastest track: no other kind of centerline between the same points is
     }
   }
 }
+
+}  // namespace brachistochrone_motion_test

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+namespace brachistochrone_precision_test {
+
 using namespace glissade;
 using reference::PreciseCurve;
 using reference::SolutionErrors;
@@ -170,3 +172,5 @@ TEST_CASE("fastest track: the errors reached, region by region", "[.accuracy]") 
                 worst.drop, worst.time, worst.speed, share, off_curve);
   }
 }
+
+}  // namespace brachistochrone_precision_test

@@ -10,6 +10,8 @@
 #include <numbers>
 #include <string>
 
+namespace brachistochrone_test {
+
 using namespace glissade;
 using reference::CurveCase;
 using reference::CurvePoint;
@@ -183,3 +185,5 @@ TEST_CASE("fastest track: the start is vertical, with unbounded curvature") {
     CHECK(track.direction(s).curvature == track.at(s).curvature);
   }
 }
+
+}  // namespace brachistochrone_test

@@ -15,6 +15,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace constant_speed_curve_test {
+
 using namespace glissade;
 
 namespace {
@@ -298,3 +300,5 @@ TEST_CASE("constant-speed curve: lengths and P may be scaled alike") {
     CHECK(scaled.travel_time() == Approx(std::sqrt(scale) * metre.travel_time()).epsilon(1e-13));
   }
 }
+
+}  // namespace constant_speed_curve_test

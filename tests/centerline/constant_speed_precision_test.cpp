@@ -6,6 +6,8 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+namespace constant_speed_precision_test {
+
 using namespace glissade;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE(
   UNSCOPED_INFO("largest relative error " << worst);
   CHECK(worst < 0.1 * kConstantSpeedCurveAccuracy);
 }
+
+}  // namespace constant_speed_precision_test

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+namespace fitted_profile_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 using testing::Random;
@@ -405,3 +407,5 @@ TEST_CASE("nothing is left out of exact points of a straight, upright or not") {
     CHECK(profile.rms_deviation() < 1e-14);
   }
 }
+
+}  // namespace fitted_profile_test

@@ -21,6 +21,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <nlohmann/json.hpp>
 
+namespace flying_start_test {
+
 using namespace glissade;
 
 namespace {
@@ -478,3 +480,5 @@ TEST_CASE("fastest track with an entry speed: what it cannot do is refused by na
   CHECK_THAT(message({0.0, 0.0}, 5.0), contains_text("Start and finish are the same point"));
   CHECK_THAT(message({NAN, 1.0}, 5.0), contains_text("run: "));
 }
+
+}  // namespace flying_start_test

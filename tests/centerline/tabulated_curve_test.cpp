@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+namespace tabulated_curve_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -161,3 +163,5 @@ TEST_CASE("rows that contradict themselves are refused by their number") {
             {{0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.1}, {1.5, -0.0125, -0.05, 0.1}}) ==
         "accepted");
 }
+
+}  // namespace tabulated_curve_test

@@ -14,6 +14,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace build_test {
+
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using nlohmann::json;
@@ -412,3 +414,5 @@ TEST_CASE("a build without a cross-section tells of the track alone") {
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.errors, Contains("there is no cross_section") && Contains("export: [csv]"));
 }
+
+}  // namespace build_test

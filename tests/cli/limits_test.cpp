@@ -12,6 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace limits_test {
+
 using Catch::Matchers::Contains;
 using nlohmann::json;
 
@@ -439,3 +441,5 @@ TEST_CASE("a finish without room for the section is said at once, with what woul
   CHECK_THAT(before.errors, Contains("the start lies too close to keep_outs[0]") &&
                                 Contains("a solid and headroom that reach at most"));
 }
+
+}  // namespace limits_test

@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+namespace owned_files_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -209,3 +211,5 @@ TEST_CASE("what killed builds left is removed by the next build; what is in use 
   CHECK(names_in(builds.out()) ==
         Names{".a.sha256", ".glissade-1-2-3", ".glissade-4194000-2", ".glissade-notes", "a.stl"});
 }
+
+}  // namespace owned_files_test

@@ -14,6 +14,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace solve_test {
+
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using nlohmann::json;
@@ -283,3 +285,5 @@ TEST_CASE("a stall of a body that enters with speed asks for more of it") {
   CHECK(outcome.exit_code == 3);
   CHECK_THAT(outcome.errors, Contains("or a higher entry_speed"));
 }
+
+}  // namespace solve_test

@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+namespace design_problems_test {
+
 using namespace glissade;
 using namespace glissade::test;
 using Catch::Matchers::Contains;
@@ -463,3 +465,5 @@ TEST_CASE("how parts are split is asked for in one group") {
   CHECK_THAT(problems_of(text), Contains("unknown key bed") &&
                                     Contains("Try: split: {bed: [220 mm, 220 mm, 250 mm]}, of a print"));
 }
+
+}  // namespace design_problems_test

@@ -17,6 +17,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace schema_test {
+
 using namespace glissade;
 using namespace glissade::test;
 using nlohmann::json;
@@ -137,3 +139,5 @@ TEST_CASE("what hangs on a kind is asked of that kind alone") {
   CHECK(section("kind: pipe, inner_diameter: 150 mm, thickness: 4 mm") == "");
   CHECK(section("kind: pipe, width: 150 mm, thickness: 4 mm") != "");
 }
+
+}  // namespace schema_test

@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+namespace segments_test {
+
 using namespace glissade;
 using namespace glissade::test;
 using Catch::Matchers::Contains;
@@ -215,3 +217,5 @@ TEST_CASE("random segments of every kind are drawn, end where they say, and are 
   }
   CHECK(drawn_ones > 30);
 }
+
+}  // namespace segments_test

@@ -16,6 +16,8 @@
 #include <optional>
 #include <string>
 
+namespace write_test {
+
 using namespace glissade;
 using namespace glissade::test;
 
@@ -228,3 +230,5 @@ TEST_CASE("widths along the track are written back as they were read") {
         std::string::npos);
   check_written(design);
 }
+
+}  // namespace write_test

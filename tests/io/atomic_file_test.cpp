@@ -15,6 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+namespace atomic_file_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -264,3 +266,5 @@ TEST_CASE("a program that ends takes away what is not finished") {
   REQUIRE(::waitpid(child, &status, 0) == child);
   CHECK(dir.names() == std::vector<std::string>{"finished.txt", "kept"});
 }
+
+}  // namespace atomic_file_test

@@ -10,6 +10,8 @@
 #include <limits>
 #include <string>
 
+namespace dxf_test {
+
 namespace {
 
 using namespace glissade;
@@ -163,3 +165,5 @@ TEST_CASE("a DXF file that is cut off or broken anywhere is an error with its li
   CHECK(message_of(file).find("$INSUNITS is 1") != std::string::npos);
   CHECK(message_of(directory / "none.dxf") != "read");
 }
+
+}  // namespace dxf_test

@@ -6,6 +6,8 @@
 #include "support/openscad_check.hpp"
 #include "support/shapes.hpp"
 
+namespace external_programs_test {
+
 using namespace glissade;
 using namespace glissade::shapes;
 
@@ -125,3 +127,5 @@ TEST_CASE("admesh sees the volume that Glissade measures", "[external]") {
   const double cubic_millimetres = std::strtod(output.c_str() + place + 10, nullptr);
   CHECK(cubic_millimetres * 1e-9 == Approx(measure(kRing).volume).epsilon(1e-5));
 }
+
+}  // namespace external_programs_test

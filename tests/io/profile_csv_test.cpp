@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+namespace profile_csv_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -101,3 +103,5 @@ TEST_CASE("the other coordinate beside the distance is told where every line has
   CHECK_FALSE(other("x,z,y\n0,9\n3,6,1\n", {}));           // nor one of every point
   CHECK_FALSE(other("x,z\n0,9\n3,6\n", {}));
 }
+
+}  // namespace profile_csv_test

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <string>
 
+namespace step_test {
+
 using namespace glissade;
 
 namespace {
@@ -232,3 +234,5 @@ TEST_CASE("bodies that are none are refused with what is wrong") {
   CHECK(refusal_of(testing::leaning_plate(0.0, 1.5, 0.004))
             .find("its section reaches beyond the centre of arc 1, radius") != std::string::npos);
 }
+
+}  // namespace step_test

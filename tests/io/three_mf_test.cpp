@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+namespace three_mf_test {
+
 using namespace glissade;
 
 namespace {
@@ -138,3 +140,5 @@ TEST_CASE("pieces lie on beds, apart, none over an edge; those larger than the b
     CHECK(error.issues()[0].why == "The bed is 65 mm x 120 mm x 50 mm with a gap of 4 mm.");
   }
 }
+
+}  // namespace three_mf_test

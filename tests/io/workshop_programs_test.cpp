@@ -23,6 +23,8 @@
 #include <string>
 #include <vector>
 
+namespace workshop_programs_test {
+
 namespace {
 
 using namespace glissade;
@@ -333,3 +335,5 @@ TEST_CASE("PrusaSlicer finds every piece of a printed run on its beds, whole", "
   CHECK(whole == build.prints.size());
   CHECK(run.output.find("manifold = no") == std::string::npos);
 }
+
+}  // namespace workshop_programs_test

@@ -11,6 +11,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/ellint_1.hpp>
 
+namespace closed_form_test {
+
 using namespace glissade;
 using testing::track;
 
@@ -197,3 +199,5 @@ TEST_CASE("cycloid with friction and an entry speed: the closed speed law, and a
   CHECK(0.5 * v(theta_end) + finish.friction_loss ==
         close_to(kGravity * drop + 0.5 * entry_speed * entry_speed));
 }
+
+}  // namespace closed_form_test

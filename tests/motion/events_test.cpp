@@ -12,6 +12,8 @@
 
 #include <boost/math/special_functions/ellint_1.hpp>
 
+namespace events_test {
+
 using namespace glissade;
 using testing::track;
 
@@ -252,3 +254,5 @@ TEST_CASE("Motion says which number of the body it cannot use") {
   CHECK_THROWS_WITH(Motion(ramp, body(0.1, 0.0), std::nan("")), Catch::Matchers::Contains("gravity: nan"));
   CHECK_THROWS_AS(Motion(nullptr, body(0.1, 0.0)), InputError);
 }
+
+}  // namespace events_test

@@ -18,6 +18,8 @@
 
 #include <boost/numeric/odeint.hpp>
 
+namespace laws_test {
+
 using namespace glissade;
 using testing::track;
 
@@ -519,3 +521,5 @@ TEST_CASE("laws: a body that no law can move is refused with its number") {
   CHECK_THROWS_WITH(Motion(ramp, back), Catch::Matchers::Contains("1 m after 2 m"));
   CHECK_THROWS_AS(Motion(ramp, body(0.1, 0.0, nullptr)).quantity(0, 0.5), InputError);
 }
+
+}  // namespace laws_test

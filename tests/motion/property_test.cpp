@@ -10,6 +10,8 @@
 
 #include <boost/numeric/odeint.hpp>
 
+namespace property_test {
+
 using namespace glissade;
 
 namespace {
@@ -239,3 +241,5 @@ TEST_CASE("stations asked for at once are the same as one by one") {
     time = table[i].time;
   }
 }
+
+}  // namespace property_test

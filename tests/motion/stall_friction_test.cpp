@@ -11,6 +11,8 @@
 #include <memory>
 #include <numbers>
 
+namespace stall_friction_test {
+
 using namespace glissade;
 using testing::track;
 
@@ -97,3 +99,5 @@ TEST_CASE("stall friction: just below it no body stalls, just above it every one
     CHECK_FALSE(stalls(0.5 * angle->radians()));
   }
 }
+
+}  // namespace stall_friction_test

@@ -12,6 +12,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace between_samples_test {
+
 using namespace glissade;
 
 namespace {
@@ -76,3 +78,5 @@ TEST_CASE("referee: slopes, loads and speeds that are greatest between samples a
     CHECK(reached(LimitId::speed, Bound::highest) == Approx(motion.highest_speed().speed).epsilon(1e-9));
   }
 }
+
+}  // namespace between_samples_test

@@ -14,6 +14,8 @@
 #include <thread>
 #include <vector>
 
+namespace convergence_test {
+
 using namespace glissade;
 
 namespace {
@@ -116,3 +118,5 @@ TEST_CASE("a time budget counts what the search takes itself: a busy machine end
   options.time_budget = 1e-4;
   CHECK(optimize(problem, options).report.ended_early);
 }
+
+}  // namespace convergence_test

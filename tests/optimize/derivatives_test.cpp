@@ -21,6 +21,8 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
+namespace derivatives_test {
+
 using namespace glissade;
 using namespace glissade::optimizer;
 
@@ -418,3 +420,5 @@ TEST_CASE("derivatives added to a state are those of a state that was made with 
     }
   }
 }
+
+}  // namespace derivatives_test

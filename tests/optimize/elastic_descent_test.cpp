@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 
+namespace elastic_descent_test {
+
 using namespace glissade;
 using namespace glissade::optimizer;
 
@@ -119,3 +121,5 @@ TEST_CASE("elastic steps end at a least violation where limits contradict each o
     CHECK(end.violation <= relaxed.t * 1.05);
   }
 }
+
+}  // namespace elastic_descent_test

@@ -14,6 +14,8 @@
 #include <numbers>
 #include <vector>
 
+namespace energy_left_test {
+
 using namespace glissade;
 using optimizer::least_speed_left;
 
@@ -91,3 +93,5 @@ TEST_CASE("without friction the speed at the finish is known; with it two slopes
   problem.body.drag_per_metre = 0.01;
   CHECK(!least_speed_left(problem));
 }
+
+}  // namespace energy_left_test

@@ -17,6 +17,8 @@
 #include <memory>
 #include <vector>
 
+namespace envelope_rows_test {
+
 using namespace glissade;
 using namespace glissade::optimizer;
 
@@ -210,3 +212,5 @@ TEST_CASE("rows of an envelope: the least of them is the clearance that the refe
   }
   CHECK(compared > 100);
 }
+
+}  // namespace envelope_rows_test

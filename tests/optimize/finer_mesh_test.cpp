@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+namespace finer_mesh_test {
+
 using namespace glissade;
 
 namespace {
@@ -96,3 +98,5 @@ TEST_CASE("what a finer mesh would win is told to be no less than many pieces wi
     CHECK(loss.lost <= std::max(loss.told, kNothing));
   }
 }
+
+}  // namespace finer_mesh_test

@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+namespace free_ends_test {
+
 using namespace glissade;
 using namespace glissade::optimizer;
 using testing_problems::drop_of;
@@ -293,3 +295,5 @@ TEST_CASE("an end that is free both ways needs a speed to be reached, and a leas
   problem = in_run(ObjectiveKind::least_load);
   CHECK_THROWS_WITH(optimize(problem), contains_text("a longer and longer track"));
 }
+
+}  // namespace free_ends_test

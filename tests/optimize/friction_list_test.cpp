@@ -17,6 +17,8 @@
 #include <numbers>
 #include <vector>
 
+namespace friction_list_test {
+
 using namespace glissade;
 
 namespace {
@@ -217,3 +219,5 @@ TEST_CASE(
   smooth.body.friction_changes[1].friction = Friction::from_coefficient(0.25);
   CHECK(time_of(smooth) < time_of(given));
 }
+
+}  // namespace friction_list_test

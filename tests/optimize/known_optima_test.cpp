@@ -13,6 +13,8 @@
 #include <numbers>
 #include <vector>
 
+namespace known_optima_test {
+
 using namespace glissade;
 
 namespace {
@@ -224,3 +226,5 @@ TEST_CASE("a radius that joins two given straights is the arc between them") {
   CHECK(optimum.report.travel_time >= by_hand * (1.0 - 1e-9));
   CHECK(optimum.report.travel_time == Approx(by_hand).epsilon(3e-7));
 }
+
+}  // namespace known_optima_test

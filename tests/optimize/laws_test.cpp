@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+namespace laws_test {
+
 using namespace glissade;
 
 namespace {
@@ -182,3 +184,5 @@ TEST_CASE(
     }
   }
 }
+
+}  // namespace laws_test

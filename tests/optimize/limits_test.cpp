@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace limits_test {
+
 using namespace glissade;
 using testing_problems::solved;
 
@@ -80,3 +82,5 @@ TEST_CASE("from rest, a mean slope below the friction angle is out of reach") {
   CHECK(optimum.report.status == OptimizeStatus::infeasible);
   CHECK(optimum.report.message.find("reach theorem") != std::string::npos);
 }
+
+}  // namespace limits_test

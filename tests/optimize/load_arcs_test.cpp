@@ -13,6 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace load_arcs_test {
+
 using namespace glissade;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("where a load is held a mesh three times as fine wins at most 1e-6") {
     CHECK(objective_of(problem, optimum.report) - least <= kExcess * std::fabs(least));
   }
 }
+
+}  // namespace load_arcs_test

@@ -15,6 +15,8 @@
 #include <numbers>
 #include <vector>
 
+namespace order_test {
+
 using namespace glissade;
 
 namespace {
@@ -289,3 +291,5 @@ TEST_CASE("a rate of curvature that leaves little more than arcs is no contradic
     CHECK(optimum.report.travel_time < straight);
   }
 }
+
+}  // namespace order_test

@@ -11,6 +11,8 @@
 #include <numbers>
 #include <string>
 
+namespace places_to_edge_test {
+
 using namespace glissade;
 using testing_problems::drop_of;
 using testing_problems::solved;
@@ -130,3 +132,5 @@ TEST_CASE("the least load under a bridge, kept as a limit, needs just the height
   lowest.limits.highest_normal_load = Motion(least.centerline, gentle.body, 9.81).highest_load().normal_load;
   CHECK(std::fabs(drop_of(solved(lowest)) / height - 1.0) < 1e-5);
 }
+
+}  // namespace places_to_edge_test

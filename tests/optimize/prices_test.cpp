@@ -14,6 +14,8 @@
 #include <limits>
 #include <string>
 
+namespace prices_test {
+
 using Catch::Matchers::Contains;
 using namespace glissade;
 using testing_problems::kPriceAccuracy;
@@ -240,3 +242,5 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   CHECK(tally.unclear <= tally.compared / 4);
   CHECK(tally.loose <= tally.compared / 10);
 }
+
+}  // namespace prices_test

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <optional>
 
+namespace random_limits_test {
+
 using namespace glissade;
 using testing_problems::random_limited;
 
@@ -418,3 +420,5 @@ TEST_CASE(
   CHECK(referee::judge_track(problem, early.centerline, kReferee).worst <= kKept);
   CHECK(early.report.travel_time >= optimize(problem).report.travel_time * (1.0 - 1e-6));
 }
+
+}  // namespace random_limits_test

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+namespace round_corners_test {
+
 using namespace glissade;
 using testing_problems::solved;
 
@@ -126,3 +128,5 @@ TEST_CASE("round a corner: drawn beams, more of them with more room are never sl
   }
   CHECK(passed >= 24);
 }
+
+}  // namespace round_corners_test

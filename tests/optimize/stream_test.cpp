@@ -12,6 +12,8 @@
 #include <memory>
 #include <optional>
 
+namespace stream_test {
+
 using namespace glissade;
 using testing_problems::ore;
 using testing_problems::solved;
@@ -138,3 +140,5 @@ TEST_CASE("streams: a search keeps a stream from choking, and says so where it c
   const Optimum none = optimize(problem);
   CHECK_FALSE(none.centerline);
 }
+
+}  // namespace stream_test

@@ -11,6 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace unlimited_test {
+
 using namespace glissade;
 
 namespace {
@@ -79,3 +81,5 @@ TEST_CASE(
     CHECK(found >= -kOptimizeUndershoot);
   }
 }
+
+}  // namespace unlimited_test

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <memory>
 
+namespace waypoints_test {
+
 using namespace glissade;
 
 namespace {
@@ -69,3 +71,5 @@ TEST_CASE("a given track that runs back is held to the order of its waypoints") 
   problem.limits.waypoints = {back, out};
   CHECK(worst_miss(check_limits(problem, track)) > 0.5);
 }
+
+}  // namespace waypoints_test

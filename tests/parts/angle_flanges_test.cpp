@@ -28,6 +28,8 @@
 #include <variant>
 #include <vector>
 
+namespace angle_flanges_test {
+
 namespace {
 
 using namespace glissade;
@@ -394,3 +396,5 @@ TEST_CASE("angle flanges: units of mitred tubes and troughs have room for the ri
   }
   CHECK(made == 6);
 }
+
+}  // namespace angle_flanges_test

@@ -21,6 +21,8 @@
 #include <variant>
 #include <vector>
 
+namespace bar_pieces_test {
+
 namespace {
 
 using namespace glissade;
@@ -178,3 +180,5 @@ TEST_CASE("bar pieces: random angles, pitches and bars make pieces that add up")
     CHECK(cut.volume == Approx(one.volume).epsilon(1e-12));
   }
 }
+
+}  // namespace bar_pieces_test

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+namespace bent_strips_test {
+
 namespace {
 
 using namespace glissade;
@@ -312,3 +314,5 @@ TEST_CASE(
       }).find("bend.inner_radius|inner_radius: 1 mm is less than the plate's thickness|Mild steel cracks") ==
       0);
 }
+
+}  // namespace bent_strips_test

@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+namespace bent_works_test {
+
 namespace {
 
 using namespace glissade;
@@ -269,3 +271,5 @@ TEST_CASE(
   }
   CHECK(built > 12);
 }
+
+}  // namespace bent_works_test

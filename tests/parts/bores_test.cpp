@@ -22,6 +22,8 @@
 #include <numbers>
 #include <vector>
 
+namespace bores_test {
+
 namespace {
 
 using namespace glissade;
@@ -225,3 +227,5 @@ TEST_CASE("bores: holes keep off the joints of arcs, even where arcs are as shor
       [&] { return make_plates(chute(), kChannel, {1e-6}, options, Placement(), {.friction = kFriction}); });
   CHECK(refused.find("liner") != std::string::npos);
 }
+
+}  // namespace bores_test

@@ -9,6 +9,8 @@
 
 #include <string>
 
+namespace clash_test {
+
 using namespace glissade;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("bodies that lie flush in one another clash, those that touch do not")
     CHECK(told(one.body, one.body, one.thickness, one.touching) == "");
   }
 }
+
+}  // namespace clash_test

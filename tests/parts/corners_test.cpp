@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+namespace corners_test {
+
 namespace {
 
 using namespace glissade;
@@ -206,3 +208,5 @@ TEST_CASE("plates: patterns lie level in the least rectangle round them") {
     CHECK(box.width() > box.height());
   }
 }
+
+}  // namespace corners_test

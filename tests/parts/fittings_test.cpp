@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+namespace fittings_test {
+
 namespace {
 
 using namespace glissade;
@@ -284,3 +286,5 @@ TEST_CASE("fittings: what cannot be made is refused with place, value, bound and
   slab.rim.emplace();
   CHECK(refusal(slab, {0.4, 0.0, 4e-3}).find("rim|rim: there are no walls to set it on") == 0);
 }
+
+}  // namespace fittings_test

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+namespace nest_test {
+
 using namespace glissade;
 
 namespace {
@@ -179,3 +181,5 @@ TEST_CASE("what is wrong with a sheet is told, all of it, with its bounds") {
         "split.spacing|spacing: -2 mm is negative|spacing: 10 mm\n");
   CHECK(told({3.0, 0.0, 5e-3, 10e-3}) == "split.sheet|sheet: 0 mm is not positive|sheet: [3 m, 1.5 m]\n");
 }
+
+}  // namespace nest_test

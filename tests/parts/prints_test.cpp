@@ -23,6 +23,8 @@
 #include <utility>
 #include <vector>
 
+namespace prints_test {
+
 namespace {
 
 using namespace glissade;
@@ -727,3 +729,5 @@ TEST_CASE("prints: in a section that is higher than each of its halves is wide, 
   for (const ShopPart& part : build.workshop.parts) pins = pins || part.name.find("pin") != std::string::npos;
   CHECK(pins);
 }
+
+}  // namespace prints_test

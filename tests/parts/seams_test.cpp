@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+namespace seams_test {
+
 namespace {
 
 using namespace glissade;
@@ -299,3 +301,5 @@ TEST_CASE("seams: what cannot be cut is refused with place, value, bound and a w
           return plates_of(chute(), channel, narrow);
         }).find("leave nothing of the one in the middle") != std::string::npos);
 }
+
+}  // namespace seams_test

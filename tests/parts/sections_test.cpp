@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+namespace sections_test {
+
 namespace {
 
 using namespace glissade;
@@ -333,3 +335,5 @@ TEST_CASE("sections: what geometry forbids is refused with place, value, bound a
   CHECK(refused(section::Trapezoid{widths, 0.25, Angle::from_degrees(20.0), 4e-3}, tiles)
             .find("liner|liner: tiles on a bent floor have one width") == 0);
 }
+
+}  // namespace sections_test

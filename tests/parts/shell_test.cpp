@@ -18,6 +18,8 @@
 #include <tuple>
 #include <vector>
 
+namespace shell_test {
+
 namespace {
 
 using namespace glissade;
@@ -573,3 +575,5 @@ TEST_CASE("lids: a straight one beside the frame of a hollow is refused with the
   CHECK(std::fabs(options.inspection.front().at - 3.49) < 0.2);
   CHECK(pieces(plates(hollow, options, channel), "lid") == 1);
 }
+
+}  // namespace shell_test

@@ -19,6 +19,8 @@
 #include <variant>
 #include <vector>
 
+namespace slotted_flanges_test {
+
 namespace {
 
 using namespace glissade;
@@ -309,3 +311,5 @@ TEST_CASE("flanges: a pitch too close for its bolts is refused with one that bui
   }
   CHECK(spread > 0);
 }
+
+}  // namespace slotted_flanges_test

@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+namespace strips_test {
+
 namespace {
 
 using namespace glissade;
@@ -336,3 +338,5 @@ TEST_CASE("strips: faces of staves that stand upright but for rounding are plane
   }
   CHECK(cones > 100);
 }
+
+}  // namespace strips_test

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+namespace timber_test {
+
 namespace {
 
 using namespace glissade;
@@ -381,3 +383,5 @@ TEST_CASE("timber: the table of setting out has every joint of every bearer, and
     REQUIRE(row.offsets.size() == 3);
   }
 }
+
+}  // namespace timber_test

@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+namespace timber_trough_test {
+
 namespace {
 
 using namespace glissade;
@@ -301,3 +303,5 @@ TEST_CASE("timber troughs: random sections and bends clash nowhere and keep volu
     check_rules(build);
   }
 }
+
+}  // namespace timber_trough_test

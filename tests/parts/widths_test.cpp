@@ -25,6 +25,8 @@
 #include <string>
 #include <vector>
 
+namespace widths_test {
+
 namespace {
 
 using namespace glissade;
@@ -467,3 +469,5 @@ TEST_CASE("widths: what is not made beside a width that changes is refused, and 
   opened.inspection.front().at = place > 10.0 ? 1e-3 * place : place;  // [mm] of less than a metre
   CHECK(refusal_of([&] { return plates_of(track, changing, opened); }) == "");
 }
+
+}  // namespace widths_test

@@ -14,6 +14,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace chute_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -255,3 +257,5 @@ TEST_CASE("the shipped chutes with streams arrive, and fail no rule that a progr
     }
   }
 }
+
+}  // namespace chute_test

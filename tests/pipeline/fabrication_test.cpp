@@ -22,6 +22,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace fabrication_test {
+
 namespace {
 
 using namespace glissade;
@@ -446,3 +448,5 @@ TEST_CASE("fabrication: what cannot be made is refused at its place in the file"
         std::string::npos);
   CHECK(refusal("{}").find("process") != std::string::npos);
 }
+
+}  // namespace fabrication_test

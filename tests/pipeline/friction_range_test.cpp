@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace friction_range_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -107,3 +109,5 @@ TEST_CASE("the JSON of rides agrees with the rides") {
   }
   CHECK(document["travel_time_s"] == document["rides"][1]["travel_time_s"]);
 }
+
+}  // namespace friction_range_test

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+namespace hood_parts_test {
+
 namespace {
 
 using namespace glissade;
@@ -186,3 +188,5 @@ TEST_CASE("hood parts: a hood that is left a solid, and one whose frames meet th
   none.erase(none.find("hood: {"), none.find("discharge") - none.find("hood: {"));
   CHECK_THAT(refusal(none), Contains("hood: false, of a design without a hood"));
 }
+
+}  // namespace hood_parts_test

@@ -18,6 +18,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace hood_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -268,3 +270,5 @@ TEST_CASE("a hood is written back as it was read") {
     CHECK(parse_design(design_text(design), "d.yaml").asks_the_same(design));
   }
 }
+
+}  // namespace hood_test

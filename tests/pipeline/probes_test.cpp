@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace probes_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -156,3 +158,5 @@ TEST_CASE("a probe behind where a ride ends: its place is told, and no state of 
     CHECK(states[1][key].is_null());
   }
 }
+
+}  // namespace probes_test

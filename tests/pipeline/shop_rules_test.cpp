@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+namespace shop_rules_test {
+
 namespace {
 
 using namespace glissade;
@@ -200,3 +202,5 @@ TEST_CASE("shop rules: the floor's step at a joint is measured on the plates, ro
     CHECK(places == 4 * (assembly.fabrication->joints.size() - 2));
   }
 }
+
+}  // namespace shop_rules_test

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+namespace stations_test {
+
 using namespace glissade;
 
 namespace {
@@ -99,3 +101,5 @@ TEST_CASE("stations: of a sliding point there is no column of a law") {
   const Columns columns = columns_of(solve(read_design(designs_path("grain_chute.yaml"))));
   CHECK(columns.size() == 14);
 }
+
+}  // namespace stations_test

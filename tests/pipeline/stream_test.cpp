@@ -15,6 +15,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace stream_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -354,3 +356,5 @@ TEST_CASE("rides over the friction range tell each its stream; more friction is 
           rides[i - 1]["stream"]["exit_depth_m"].get<double>());
   }
 }
+
+}  // namespace stream_test

@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 
+namespace mesh_facts_test {
+
 using namespace glissade;
 using namespace glissade::shapes;
 
@@ -273,3 +275,5 @@ TEST_CASE("a mesh that cannot be measured is refused with the place") {
         std::string::npos);
   CHECK(message_of({{{1e61, 0, 0}}, {}}).find("1e+60") != std::string::npos);
 }
+
+}  // namespace mesh_facts_test

@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+namespace sweep_test {
+
 using namespace glissade;
 using shapes::CycloidTrack;
 
@@ -850,3 +852,5 @@ TEST_CASE(
   CHECK(kept.trimmed);
   check_solid(kept, options);
 }
+
+}  // namespace sweep_test

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+namespace layering_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -430,3 +432,5 @@ TEST_CASE("no file of the project names a path of one machine") {
   }
   CHECK(found == std::vector<std::string>{});
 }
+
+}  // namespace layering_test

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+namespace licence_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -68,3 +70,5 @@ TEST_CASE("licence: the look at headers does find the GPL") {
   CHECK(is_gpl(licence_of(text_of(fs::path(CGAL_HEADERS) / "CGAL/box_intersection_d.h"))));
   CHECK_FALSE(is_gpl(licence_of(text_of(fs::path(CGAL_HEADERS) / "CGAL/intersections.h"))));
 }
+
+}  // namespace licence_test

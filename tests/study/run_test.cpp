@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+namespace run_test {
+
 using namespace glissade;
 using namespace glissade::study;
 using Catch::Matchers::Contains;
@@ -309,3 +311,5 @@ TEST_CASE("rows without the optimum's time do not find it, and have the same fig
   (void)run(study, {.directory = place.path() / "optimum"});
   CHECK(found);
 }
+
+}  // namespace run_test

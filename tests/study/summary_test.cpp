@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+namespace summary_test {
+
 using namespace glissade;
 using namespace glissade::study;
 using Catch::Matchers::Contains;
@@ -117,3 +119,5 @@ TEST_CASE("the page holds its data and nothing that a browser would fetch") {
   CHECK(page.find("src=") == std::string::npos);
   CHECK(page == summary_page(Results::open(place.path()), summarise(Results::open(place.path()))));
 }
+
+}  // namespace summary_test

@@ -20,6 +20,8 @@
 
 #include <nlohmann/json.hpp>
 
+namespace chute_tables_test {
+
 using namespace glissade;
 using nlohmann::json;
 
@@ -177,3 +179,5 @@ TEST_CASE("Chiarella, Charlton and Roberts: twenty layers of the profile of leas
     place = low;
   }
 }
+
+}  // namespace chute_tables_test

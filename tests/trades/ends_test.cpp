@@ -14,6 +14,8 @@
 #include <memory>
 #include <numbers>
 
+namespace ends_test {
+
 using namespace glissade;
 
 namespace {
@@ -162,3 +164,5 @@ TEST_CASE("landing on a belt: its own components are a turn of the stream's, wha
   CHECK(across.speed_along == Approx(0.0).margin(1e-12));
   CHECK(across.off_centre == Approx(-across.reach));
 }
+
+}  // namespace ends_test

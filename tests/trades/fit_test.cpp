@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+namespace fit_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -165,3 +167,5 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
   CHECK_THROWS_WITH(fit_speeds({readings_of(skier(0.03, 0.001), 0.0, random).front()}, skier(0.0, 0.0)),
                     Contains("1 speeds do not tell 2 parameters"));
 }
+
+}  // namespace fit_test

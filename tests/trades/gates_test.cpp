@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+namespace gates_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -305,3 +307,5 @@ TEST_CASE("suggested sizes hold the rules that they come from, for every hill") 
   CHECK(suggested_in_run(140.0).r1 == Approx(104.5).epsilon(1e-12));
   CHECK_THROWS_WITH(suggested_in_run(5.0), Contains("a hill size of 5 m is out of range"));
 }
+
+}  // namespace gates_test

@@ -16,6 +16,8 @@
 #include <memory>
 #include <numbers>
 
+namespace hood_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -230,3 +232,5 @@ TEST_CASE("a hood that does not turn its stream down is refused") {
                     Contains("straight down"));
   CHECK_THROWS_WITH(hood_arc(hood_of(-1.0, 20.0, 80.0), {4.0, Angle{}}), Contains("radius"));
 }
+
+}  // namespace hood_test

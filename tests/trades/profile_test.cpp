@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+namespace profile_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -182,3 +184,5 @@ TEST_CASE("the files of a profile appear together, or none does") {
   CHECK_FALSE(std::filesystem::exists(other / "garmisch_hs142.section.dxf"));
   CHECK_FALSE(std::filesystem::exists(other / "garmisch_hs142.section.pdf"));
 }
+
+}  // namespace profile_test

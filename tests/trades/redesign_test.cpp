@@ -14,6 +14,8 @@
 #include <numbers>
 #include <string>
 
+namespace redesign_test {
+
 using namespace glissade;
 
 namespace {
@@ -307,3 +309,5 @@ TEST_CASE("a design that is no in-run has no letters to redesign") {
   const Design design = read_design(designs_path("grain_chute.yaml"));
   CHECK_THROWS_WITH(redesign(design, {}, {}), contains_text("is no in-run by its letters"));
 }
+
+}  // namespace redesign_test

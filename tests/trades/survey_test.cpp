@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+namespace survey_test {
+
 using namespace glissade;
 using Catch::Matchers::Contains;
 
@@ -181,3 +183,5 @@ TEST_CASE("the shipped survey belongs to its hill") {
   CHECK(std::fabs(survey.places[survey.worst].deviation) > 0.003);
   CHECK(survey.gaps.empty());
 }
+
+}  // namespace survey_test
