@@ -31,7 +31,9 @@ constexpr std::size_t kFineSteps = 16;    // where the first ones meet nothing, 
 constexpr std::size_t kFinestSteps = 64;  // before the search gives up
 constexpr std::size_t kFewPieces = 3;     // for which the search itself is quick enough
 constexpr double kMostReach = 0.8;        // of a stretch, by a kept piece
-constexpr double kLeastWider = 1.05;      // bands of the search, one to the next
+constexpr double kSharp = 4.0;            // times the track's own curvature: no arc needs more
+constexpr double kSway = 8.0;         // of a straight one: half widths of the band over its length squared
+constexpr double kLeastWider = 1.05;  // bands of the search, one to the next
 constexpr double kMostWider = 1.5;
 constexpr double kWidest = 4.0;
 constexpr int kMostSearches = 4;
@@ -48,8 +50,9 @@ constexpr double kLeastShare = 0.02;  // of the greatest deviation, by which an 
 constexpr double kTangentShare = 1.155;
 
 /// A stretch with what its kept ends may reach within a band.
-Stretch reaching(const TrackSamples& samples, Stretch stretch, const Band& band) {
-  const double most = kMostReach * (samples.s[stretch.last] - samples.s[stretch.first]);
+/// @param share  of the stretch at most
+Stretch reaching(const TrackSamples& samples, Stretch stretch, const Band& band, double share) {
+  const double most = share * (samples.s[stretch.last] - samples.s[stretch.first]);
   for (auto* end : {&stretch.before, &stretch.after}) {
     const int step = end == &stretch.before ? 1 : -1;
     if (*end) (*end)->reach = std::min(most, reach_of(samples, stretch, (*end)->leg, band, step));
@@ -111,17 +114,20 @@ ChainStart even_joints(const TrackSamples& samples, const Stretch& stretch, cons
 /// Chains of fewer and fewer arcs along one stretch.
 class Fewer {
  public:
+  /// @param reach  share of the stretch that its kept ends may reach
   Fewer(const Centerline& track, const TrackSamples& samples, const Stretch& stretch, const Band& band,
-        const FewestSearch& search)
+        const FewestSearch& search, double reach)
       : track_(track),
         samples_(samples),
-        stretch_(reaching(samples, stretch, band)),
+        stretch_(reaching(samples, stretch, band, reach)),
+        reach_(reach),
         band_(band),
         tolerance_(kFitted * band.half_width()),
         least_(search.least),
         thorough_(search.thorough),
         best_(search.known != nullptr ? *search.known : ArcChain{}) {}
 
+  /// @return no vertices where no chain is found
   ArcChain run() {
     const Stretch inner = inner_part(samples_, stretch_);
     const std::size_t bound = circle_pieces(samples_, inner.first, inner.last, band_.half_width()).count();
@@ -195,7 +201,7 @@ class Fewer {
       if (known() && !worth()) return;
       const std::size_t wanted = known() ? arcs() - 1 : likely_;
       const Band band = band_.scaled(wider);
-      auto joints = search_joints(samples_, reaching(samples_, stretch_, band), band, steps);
+      auto joints = search_joints(samples_, reaching(samples_, stretch_, band, reach_), band, steps);
       if (!joints) {  // gates that stand too far apart for a narrow band
         wider *= kMostWider;
         continue;
@@ -212,7 +218,7 @@ class Fewer {
   void search() {
     const Band inside = band_.scaled(kSearched);
     for (std::size_t steps = kSteps; steps <= kFinestSteps; steps *= 2) {
-      const Stretch within = reaching(samples_, stretch_, inside);
+      const Stretch within = reaching(samples_, stretch_, inside, reach_);
       auto found = search_chain(track_, samples_, within, inside, steps);
       if (!found) continue;
       // Between gates it strays: joints that move a little are far cheaper than gates that stand closer.
@@ -222,9 +228,7 @@ class Fewer {
             fit_chain(samples_, within, moved(within, std::move(found->joints)), band_.middle(), tolerance_);
       if (best_.deviation <= band_.half_width()) return;
     }
-    throw ConvergenceError({"",
-                            "no arcs found that follow the track within " + length_text(band_.half_width()),
-                            "", "a larger tolerance"});
+    best_ = {};
   }
 
   [[nodiscard]] ChainStart moved(const Stretch& within, ChainStart joints) const {
@@ -321,6 +325,7 @@ class Fewer {
   const Centerline& track_;
   const TrackSamples& samples_;
   Stretch stretch_;
+  double reach_ = kMostReach;
   Band band_;
   double tolerance_ = 0.0;
   std::size_t least_ = 1;
@@ -329,6 +334,30 @@ class Fewer {
   std::size_t fewest_ = 1;  // arcs that a chain can have
   std::size_t likely_ = 1;  // and that it is to be expected to have
 };
+
+double sharpest_arc(const ArcChain& chain) {
+  double most = 0.0;
+  for (std::size_t i = 0; i + 1 < chain.vertices.size(); ++i) {
+    const double bulge = std::fabs(chain.vertices[i].bulge);
+    const double chord = norm(chain.vertices[i + 1].at - chain.vertices[i].at);
+    most = std::max(most, 4.0 * bulge / ((1.0 + bulge * bulge) * chord));
+  }
+  return most;
+}
+
+/// The greatest curvature that arcs along a stretch have a use for.
+double sharpest_wanted(const TrackSamples& samples, const Stretch& stretch, const Band& band) {
+  double most = 0.0;
+  for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+    const double turned = std::fabs(samples.heading[i + 1] - samples.heading[i]);
+    most = std::max(most, turned / (samples.s[i + 1] - samples.s[i]));
+  }
+  for (const auto& end : {stretch.before, stretch.after}) {
+    if (end) most = std::max(most, std::fabs(end->leg.curvature));
+  }
+  const double length = samples.s[stretch.last] - samples.s[stretch.first];
+  return kSharp * most + kSway * band.half_width() / (length * length);
+}
 
 }  // namespace
 
@@ -346,7 +375,22 @@ double reach_of(const TrackSamples& samples, const Stretch& stretch, const ArcAt
 
 ArcChain fewest_arcs(const Centerline& track, const TrackSamples& samples, const Stretch& stretch,
                      const Band& band, const FewestSearch& search) {
-  return Fewer(track, samples, stretch, band, search).run();
+  ArcChain chain = Fewer(track, samples, stretch, band, search, kMostReach).run();
+  if (chain.vertices.empty()) {
+    throw ConvergenceError({"",
+                            "no arcs found that follow the track within " + length_text(band.half_width()),
+                            "", "a larger tolerance"});
+  }
+  // Kept pieces that go on as far as the band lets them may leave a short stretch no room but for a sharp turn back.
+  const double wanted = sharpest_wanted(samples, stretch, band);
+  for (const double reach : {0.5 * kMostReach, 0.25 * kMostReach, 0.0}) {
+    if (!(sharpest_arc(chain) > wanted)) break;
+    ArcChain calmer =
+        Fewer(track, samples, stretch, band, {search.least, search.thorough, nullptr}, reach).run();
+    const bool few = !calmer.vertices.empty() && calmer.vertices.size() <= chain.vertices.size();
+    if (few && sharpest_arc(calmer) < sharpest_arc(chain)) chain = std::move(calmer);
+  }
+  return chain;
 }
 
 }  // namespace glissade::parts
