@@ -282,8 +282,8 @@ void add_bearers(const TimberJob& job, const BearerPlan& plan, Workshop& worksho
     add_splices(job, plan.joints, even, "splice", workshop);
     if (!odd.empty()) add_splices(job, plan.shifted, odd, "splice_shifted", workshop);
   } else if (joints > 0) {
-    workshop.items.push_back({"slotted-in plate, dowels", "to the engineer's drawing", joints,
-                              "at the joints of the beams"});
+    workshop.items.push_back(
+        {"slotted-in plate, dowels", "to the engineer's drawing", joints, "at the joints of the beams"});
   }
 }
 
@@ -308,7 +308,7 @@ void add_legs(const TimberJob& job, const std::vector<Leg>& legs, const BearerPl
 }
 
 /// @return how many boards brace the legs
-std::size_t add_braces(const TimberJob& job, const std::vector<Leg>& legs, const BearerPlan& plan,
+std::size_t add_boards(const TimberJob& job, const std::vector<Leg>& legs, const BearerPlan& plan,
                        Workshop& workshop) {
   std::size_t boards = 0;
   if (legs.empty()) return boards;
@@ -486,7 +486,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   }
   add_bearers(job, bearers, workshop);
   add_legs(job, legs, bearers, workshop);
-  const std::size_t boards = add_braces(job, legs, bearers, workshop);
+  const std::size_t boards = add_boards(job, legs, bearers, workshop);
   note_long_lumber(job, workshop);
   fix_frame(job, {members.size(), bearers.across.size(), legs.size(), boards}, workshop);
   workshop.setting_out = setting_out(job.track, bearers.joints, placement);

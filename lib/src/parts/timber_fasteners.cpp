@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kAtEdges = 150e-3;    // greatest distance of screws along the edges of a sheet [m]
 constexpr double kInField = 300e-3;    // the same elsewhere [m]
-constexpr double kFromEdge = 25e-3;    // of the outer screws of a row [m]
+constexpr double kFromSide = 25e-3;    // of the outer screws of a row [m]
 constexpr double kFromSeam = 10e-3;    // of screws from the end of a sheet [m]
 constexpr double kOneScrew = 50e-3;    // a narrower piece has one in place of two [m]
 constexpr double kShortOfFace = 5e-3;  // a screw ends that far before the face that it does not pass [m]
 constexpr double kTipDiameters = 6.0;  // that its tip is deep at least: EN 1995-1-1, 8.7.2
 constexpr double kEdgeDiameters =
-    3.0;                        // from an edge that carries no load, predrilled: EN 1995-1-1, table 8.2
-constexpr double kSame = 1e-9;  // [m]
+    3.0;                          // from an edge that carries no load, predrilled: EN 1995-1-1, table 8.2
+constexpr double kAsGood = 1e-9;  // [m]
 constexpr double kThinnestOfFrame = 6e-3;  // screw that holds members together [m]
 constexpr int kBraceBolt = 10;             // of boards that brace legs [mm]
 
@@ -45,9 +45,9 @@ double length_of(const Range& screws, double least, double most) {
   double longest = 0.0;
   for (const int length : screws.lengths) {
     const double metres = 1e-3 * length;
-    if (length == 0 || metres > most + kSame) break;
+    if (length == 0 || metres > most + kAsGood) break;
     longest = metres;
-    if (metres >= least - kSame) break;
+    if (metres >= least - kAsGood) break;
   }
   return longest;
 }
@@ -66,8 +66,9 @@ std::size_t screws_of_row(const Span& row, double width, double member,
                           const std::vector<CrossMember>& members) {
   std::size_t count = 0;
   for (const CrossMember& one : members) {
-    if (one.at < row.from - 0.5 * member - kSame || one.at > row.to + 0.5 * member + kSame) continue;
-    const bool at_end = one.at < row.from + 0.5 * member + kSame || one.at > row.to - 0.5 * member - kSame;
+    if (one.at < row.from - 0.5 * member - kAsGood || one.at > row.to + 0.5 * member + kAsGood) continue;
+    const bool at_end =
+        one.at < row.from + 0.5 * member + kAsGood || one.at > row.to - 0.5 * member - kAsGood;
     count += screws_across(width, at_end ? kAtEdges : kInField);
   }
   return count;
@@ -97,23 +98,23 @@ Screw screw_for(const ScrewedJoint& joint) {
   double deepest = -1e9;  // of the tip, as a share of what it should be
   for (const Range& screws : kScrews) {
     const double diameter = 1e-3 * screws.diameter;
-    if (best.diameter != 0 && kEdgeDiameters * diameter > joint.edge + kSame) break;
+    if (best.diameter != 0 && kEdgeDiameters * diameter > joint.edge + kAsGood) break;
     const double tip = kTipDiameters * diameter;
     const double length = length_of(screws, joint.through + tip, most);
     const double depth = std::min(1.0, (length - joint.through) / tip);
-    if (depth >= deepest - kSame) {
+    if (depth >= deepest - kAsGood) {
       best = {screws.diameter, length};
       deepest = depth;
     }
-    if (joint.fixed <= screws.thickest + kSame && depth >= 1.0 - kSame) break;
+    if (joint.fixed <= screws.thickest + kAsGood && depth >= 1.0 - kAsGood) break;
   }
   return best;
 }
 
 std::size_t screws_across(double width, double spacing) {
   if (width < kOneScrew) return 1;
-  const double between = std::max(0.0, width - 2.0 * kFromEdge);
-  return static_cast<std::size_t>(std::max(1.0, std::ceil(between / spacing - kSame))) + 1;
+  const double between = std::max(0.0, width - 2.0 * kFromSide);
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(between / spacing - kAsGood))) + 1;
 }
 
 void fix_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows,

@@ -60,13 +60,13 @@ double spread_of(const PrintOptions& options, PrintPose kind, double depth) {
 }
 
 /// What a tongue takes of a band beside its own height: fit and wall, below and above.
-double beside(const PrintOptions& options) {
+double beside_tongue(const PrintOptions& options) {
   return 2.0 * (options.wall + options.tongue.fit) + options.ease;
 }
 
 double head_height(const PrintOptions& options, const LevelBand& band) {
   const double height = band.high - band.low;
-  return options.tongue.height.value_or(std::min(kShareOfBand * height, height - beside(options)));
+  return options.tongue.height.value_or(std::min(kShareOfBand * height, height - beside_tongue(options)));
 }
 
 /// The greatest height of a tongue: of its head, of one that tapers of its root.
@@ -311,10 +311,10 @@ std::vector<Issue> tongue_problems(const CrossSection& section, const PrintOptio
   const double height = band->high - band->low;
   const double head = head_height(options, *band);
   const double least = 2.0 * options.wall;
-  if (head < least || head + beside(options) > height * (1.0 + 1e-12)) {
-    const double needed = std::max(head, least) + beside(options);
+  if (head < least || head + beside_tongue(options) > height * (1.0 + 1e-12)) {
+    const double needed = std::max(head, least) + beside_tongue(options);
     // That of tongues whose height is not asked for: it leaves room for a track that bends away.
-    const double usual = std::min(kShareOfBand * height, height - beside(options));
+    const double usual = std::min(kShareOfBand * height, height - beside_tongue(options));
     const double highest = std::floor(usual * 1e5) * 1e-5;
     const std::string lower =
         options.tongue.height && highest >= least ? "height: " + length_text(highest) + ", or " : "";
