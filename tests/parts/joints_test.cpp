@@ -206,3 +206,50 @@ TEST_CASE("joints: of a unit that is raised the step is found, whichever way fac
     }
   }
 }
+
+TEST_CASE("parts larger or heavier than is allowed: the sheet and the mass that are told take them") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int told = 0;
+  for (int round = 0; round < 24; ++round) {
+    const double wide = random.between(0.3, 3.0);
+    const double t = random.between(3e-3, 6e-3);
+    const section::Measures sections[] = {
+        section::Pipe{wide, t}, section::HalfPipe{wide, 0.1, t}, section::UChannel{WidthLaw(wide), 0.3, t},
+        section::Trapezoid{WidthLaw(wide), 0.3, Angle::from_degrees(20.0), t}};
+    const section::Measures& measures = sections[random.integer(0, 3)];
+    PlateOptions options;
+    options.round = RoundMake::mitred;
+    options.bend = {FacetRule::segment_angle, 0.1, {}, {}};
+    options.split.sheet = {random.between(1.5, 3.0), random.between(0.4, 1.2)};
+    options.split.allowed = random.integer(0, 1) == 0;
+    if (random.integer(0, 1) == 0) options.split.heaviest = random.between(2.0, 60.0);
+    const ClothoidSpline track(Angle::from_degrees(45.0), {{random.between(1.0, 4.0), 0.2, 0.2}});
+    CAPTURE(round, measures.index(), wide, options.split.sheet.x, options.split.sheet.y,
+            options.split.allowed);
+    const auto refused = [&] { return refusal_of([&] { return plates_of(track, measures, options); }); };
+    std::string text = refused();
+    // One after the other: of the worst part each.
+    for (int tries = 0; tries < 6 && !text.empty(); ++tries) {
+      INFO(text);
+      const std::size_t sheet = text.rfind("sheet: [");
+      const std::size_t heaviest = text.rfind("heaviest: ");
+      const auto value = [&](std::size_t at) {
+        std::size_t unit = 0;
+        const double number = std::stod(text.substr(at), &unit);
+        return text.substr(at + unit, 3) == " mm" ? 1e-3 * number : number;
+      };
+      const bool of_sheet = sheet != std::string::npos && text.find("split") == 0;
+      const bool of_mass = heaviest != std::string::npos && heaviest > text.find('|', text.find('|') + 1);
+      if (!of_sheet && !of_mass) break;
+      ++told;
+      if (of_sheet) options.split.sheet = {value(sheet + 8), value(text.find(", ", sheet) + 2)};
+      if (of_mass) options.split.heaviest = value(heaviest + 10);
+      text = refused();
+    }
+    INFO(text);
+    CHECK((text.empty() || text.find("flanges") != std::string::npos ||
+           text.find("no room for the frames") != std::string::npos));
+  }
+  CHECK(told > 8);
+}

@@ -68,7 +68,7 @@ TEST_CASE("covers wider across than the sheet are refused with what does, those 
         continue;
       }
       REQUIRE(refused.find("cover|cover: a piece takes 4.") == 0);
-      CHECK(refused.find("|No shorter piece does, and the sheet is 4 m x 1.5 m.|a larger sheet") !=
+      CHECK(refused.find("|No shorter piece does, and the sheet is 4 m x 1.5 m.|sheet: [") !=
             std::string::npos);
       options.split.sheet = {6.0, 1.5};
       CHECK(told() == "");

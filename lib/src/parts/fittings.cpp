@@ -204,7 +204,7 @@ void require_cover_fits(const ShopPart& piece, const PlateOptions& options) {
   throw InputError({"cover", "cover: a piece " + found->what,
                     (options.split.allowed ? "No shorter piece does, and " : "One piece is asked for, and ") +
                         found->bound + ".",
-                    "a larger sheet or heaviest, a narrower cross_section or rim, or no cover"});
+                    found->way_out + ", a narrower cross_section or rim, or no cover"});
 }
 
 bool TakenUp::is_free(double s, double half, const Span& within) const {

@@ -198,6 +198,22 @@ std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split,
   return calm_joints(track, count, room);
 }
 
+namespace {
+
+/// Rounded up to three digits.
+std::string mass_up(double mass) {
+  double digit = 1e-6;  // [kg]
+  while (mass >= 1e3 * digit) digit *= 10.0;
+  return rounded_text(digit * std::ceil(mass / digit), 3) + " kg";
+}
+
+/// Of a sheet, rounded up to 10 mm.
+std::string length_up(double length) {
+  return length_text(1e-2 * std::ceil(1e2 * length - 1e-6), 5);
+}
+
+}  // namespace
+
 std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
   const PlaneBox box = bounds(part.pattern->region.outline);
   const NestStock stock = split.stock();
@@ -208,11 +224,15 @@ std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
     return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of " +
                       length_text(split.margin),
                   "the sheet is " + length_text(stock.width) + " x " + length_text(stock.height),
-                  std::max({longer / stock.width, shorter / stock.height, mass})};
+                  std::max({longer / stock.width, shorter / stock.height, mass}),
+                  "sheet: [" + length_up(std::max(longer, stock.width)) + ", " +
+                      length_up(std::max(shorter, stock.height)) + "]" +
+                      (mass > 1.0 ? ", heaviest: " + mass_up(part.mass) : std::string())};
   }
   if (mass > 1.0) {
     return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
-                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg", mass};
+                  "the heaviest part may weigh " + rounded_text(*split.heaviest, 4) + " kg", mass,
+                  "heaviest: " + mass_up(part.mass)};
   }
   return std::nullopt;
 }
@@ -223,14 +243,10 @@ bool is_too_heavy(const ShopPart& part, const SplitOptions& split) {
 }
 
 void throw_too_heavy(const ShopPart& part, double heaviest, double lightest, const std::string& why) {
-  // Rounded up to three digits.
-  double digit = 1e-6;  // [kg]
-  while (lightest >= 1e3 * digit) digit *= 10.0;
-  const std::string least = rounded_text(digit * std::ceil(lightest / digit), 3) + " kg";
   throw InputError({"split.heaviest",
                     "heaviest: " + rounded_text(heaviest, 4) + " kg, and " + part.name + " weighs " +
                         rounded_text(part.mass, 4) + " kg",
-                    why, "heaviest: " + least});
+                    why, "heaviest: " + mass_up(lightest)});
 }
 
 void keep_worse(std::optional<Excess> found, const std::string& part, std::optional<Excess>& worst) {
@@ -264,7 +280,7 @@ void split_until_it_fits(const SplitOptions& split, double length,
     next = std::max(whole + 1.0, std::floor(kSafe * whole * found->times));
     if (!split.allowed) {
       throw InputError({"split", found->what, "One piece is asked for, and " + found->bound + ".",
-                        "split without allowed: false, a larger sheet, or a larger heaviest"});
+                        "split without allowed: false, or " + found->way_out});
     }
     last = found->what + "; " + found->bound;
     if (found->times < 0.98 * least) {
@@ -273,7 +289,7 @@ void split_until_it_fits(const SplitOptions& split, double length,
     } else if (whole >= 2.0 * least_at + 2.0) {
       throw InputError({"split", found->what,
                         "Shorter units do not make it smaller, and " + found->bound + ".",
-                        "a larger sheet or heaviest, or a smaller cross_section"});
+                        found->way_out + ", or a smaller cross_section"});
     }
   }
   throw InputError({"split", "no " + std::to_string(kMostUnits) + " units are small enough: " + last, "",

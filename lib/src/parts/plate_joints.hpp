@@ -17,7 +17,8 @@ inline constexpr std::size_t kMostUnits = 400;
 struct Excess {
   std::string what;
   std::string bound;
-  double times = 1.0;  ///< what may be, of a length or mass that shorter units make smaller
+  double times = 1.0;   ///< what may be, of a length or mass that shorter units make smaller
+  std::string way_out;  ///< the sheet or the mass that takes it
 };
 [[nodiscard]] std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part);
 [[nodiscard]] bool is_too_heavy(const ShopPart& part, const SplitOptions& split);
