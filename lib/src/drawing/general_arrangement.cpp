@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -299,8 +300,9 @@ namespace {
 std::vector<Sheet> stretch_sheets(const Workshop& workshop, const SheetView& whole) {
   // Seen before numbers and names were added: as the parts are.
   const PlaneBox seen = bounds(side_view(workshop)).value_or(PlaneBox{});
-  const auto sheets_with = [&](std::size_t most) {
-    const std::vector<Workshop> stretches = stretches_of(workshop, eye_beside(workshop), most);
+  const auto sheets_with = [&](double longest) {
+    const std::vector<Workshop> stretches =
+        stretches_of(workshop, eye_beside(workshop), kMostNumbers, longest);
     std::vector<Sheet> sheets;
     for (const Workshop& stretch : stretches) {
       sheets.push_back(arrangement_sheet(stretch,
@@ -312,13 +314,15 @@ std::vector<Sheet> stretch_sheets(const Workshop& workshop, const SheetView& who
     }
     return sheets;
   };
-  constexpr std::size_t kFewest = 12;  // numbers of a sheet that is cut for its scale
-  std::vector<Sheet> sheets = sheets_with(kMostNumbers);
   const auto is_larger = [&](const Sheet& sheet) { return sheet.views.front().scale > whole.scale; };
-  for (std::size_t most = kMostNumbers;
-       most > kFewest && !std::all_of(sheets.begin(), sheets.end(), is_larger); most -= 6) {
-    std::vector<Sheet> more = sheets_with(most - 6);
-    if (std::all_of(more.begin(), more.end(), is_larger)) sheets = std::move(more);
+  const auto all_larger = [&](const std::vector<Sheet>& some) {
+    return std::all_of(some.begin(), some.end(), is_larger);
+  };
+  std::vector<Sheet> sheets = sheets_with(std::numeric_limits<double>::infinity());
+  constexpr int kMostCuts = 6;
+  for (int cuts = 2; cuts <= kMostCuts && !all_larger(sheets); ++cuts) {
+    std::vector<Sheet> shorter = sheets_with(seen.width() / cuts);
+    if (all_larger(shorter)) sheets = std::move(shorter);
   }
   return sheets;
 }

@@ -27,13 +27,15 @@ std::vector<SeenPiece> pieces_in_order(const Workshop& workshop, const Eye& eye)
   return pieces;
 }
 
-/// @return where stretches with so many kinds of parts at most begin among pieces in order
-std::vector<std::size_t> stretch_starts(const std::vector<SeenPiece>& pieces, std::size_t most) {
+/// @return where stretches with so many kinds of parts at most, and no longer ones, begin among pieces in order
+std::vector<std::size_t> stretch_starts(const std::vector<SeenPiece>& pieces, std::size_t most,
+                                        double longest) {
   std::vector<std::size_t> starts;
   std::set<std::size_t> kinds;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     kinds.insert(pieces[i].part);
-    if (!starts.empty() && kinds.size() <= most) continue;
+    const bool fits = !starts.empty() && pieces[i].x - pieces[starts.back()].x <= longest;
+    if (fits && kinds.size() <= most) continue;
     starts.push_back(i);
     kinds = {pieces[i].part};
   }
@@ -49,12 +51,13 @@ Vec2 middle_of(const ShopPart& part, const Frame& place, const Eye& eye) {
   return core::kMillimetres * eye.see(place.to_space(own));
 }
 
-std::vector<Workshop> stretches_of(const Workshop& workshop, const Eye& eye, std::size_t most) {
+std::vector<Workshop> stretches_of(const Workshop& workshop, const Eye& eye, std::size_t most,
+                                   double longest) {
   const std::vector<SeenPiece> pieces = pieces_in_order(workshop, eye);
-  std::vector<std::size_t> starts = stretch_starts(pieces, most);
+  std::vector<std::size_t> starts = stretch_starts(pieces, most, longest);
   // No more stretches, as evenly full as these can be.
   for (std::size_t fewer = most - 1; fewer > 0; --fewer) {
-    std::vector<std::size_t> even = stretch_starts(pieces, fewer);
+    std::vector<std::size_t> even = stretch_starts(pieces, fewer, longest);
     if (even.size() > starts.size()) break;
     starts = std::move(even);
   }
