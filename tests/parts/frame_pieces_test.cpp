@@ -343,3 +343,24 @@ TEST_CASE("frame pieces: units too short for the frames at their ends are refuse
     }
   }
 }
+
+TEST_CASE(
+    "frame pieces: units from an upright start on have room for frames, however far their walls fold there") {
+  PlateOptions options;
+  options.split.longest = 1.5;
+  options.split.widest = 1.0;
+  options.round = RoundMake::staves;
+  options.stave_tolerance = 3e-3;
+  options.flanges.section = FlangeSection::angle;
+  options.flanges.width = 80e-3;
+  options.flanges.thickness = 8e-3;
+  const CoulombBrachistochrone track({3.368, 5.469}, Friction::from_angle(Angle::from_degrees(12.8)));
+  section::VChannel channel;
+  channel.angle = Angle::from_degrees(93.0);
+  channel.wall_height = 0.8;
+  channel.bottom_radius = 0.083;
+  channel.thickness = 5e-3;
+  const std::string told = refusal_of([&] { return plates_of(track, channel, options); });
+  INFO(told);
+  CHECK(told.find("has no room for the frames") == std::string::npos);
+}

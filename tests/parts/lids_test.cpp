@@ -127,6 +127,25 @@ TEST_CASE(
   CHECK(built > 40);
 }
 
+TEST_CASE("openings too high for a side: the height that is told, in whole millimetres, builds") {
+  const ClothoidSpline track(Angle::from_degrees(45.0), {{3.0, 0.0, 0.0}});
+  for (double wide = 0.6; wide < 1.3; wide += 0.0137) {
+    PlateOptions options;
+    options.round = RoundMake::staves;
+    options.stave_tolerance = 12e-3;
+    options.inspection = {{1.1, 0.1, 0.3, 8}};
+    const auto refused = [&] {
+      return refusal_of([&] { return plates_of(track, section::Pipe{wide, 4e-3}, options); });
+    };
+    const std::string told = refused();
+    CAPTURE(wide, told);
+    const std::size_t hint = told.rfind("|height: ");
+    REQUIRE(hint != std::string::npos);
+    options.inspection.front().height = 1e-3 * std::stod(told.substr(hint + 9));
+    CHECK(refused() == "");
+  }
+}
+
 TEST_CASE("lugs across the track stand off the legs of angles along it") {
   PlateOptions options;
   options.split.sheet = {2.5, 1.25};

@@ -7,7 +7,6 @@
 #include "parts/calm_joints.hpp"
 #include "parts/channel_strips.hpp"
 #include "parts/corners.hpp"
-#include "parts/fittings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +103,21 @@ void require_frame_room(const ArcSpline& track, const std::vector<double>& joint
                         (frame.section == FlangeSection::angle ? "narrower angle" : "thinner frame")});
 }
 
+namespace {
+
+/// Of a line at a height above a stretch of track, nothing where it folds.
+double offset_length(const ArcSpline& track, const Span& span, double height) {
+  double length = 0.0;
+  for (const TrackArc& arc : track.arcs()) {
+    const double from = std::max(span.from, arc.start);
+    const double to = std::min(span.to, arc.start + arc.length);
+    if (to > from) length += (to - from) * std::max(0.0, 1.0 - arc.curvature * height);
+  }
+  return length;
+}
+
+}  // namespace
+
 void require_units_longer(const ArcSpline& track, const std::vector<double>& joints,
                           const PlateOptions& options, double lowest, double highest) {
   const FlangeOptions& frame = options.flanges;
@@ -114,8 +128,8 @@ void require_units_longer(const ArcSpline& track, const std::vector<double>& joi
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
     const Span span{joints[i], joints[i + 1]};
     // Frames stand out of the section as far as they are wide.
-    const double room = (span.to - span.from) * std::min(least_stretch(track, span, highest + frame.width),
-                                                         least_stretch(track, span, lowest - frame.width));
+    const double room = std::min({span.to - span.from, offset_length(track, span, highest + frame.width),
+                                  offset_length(track, span, lowest - frame.width)});
     if (room < least) at = i;
     least = std::min(least, room);
   }

@@ -303,7 +303,7 @@ std::vector<Issue> opening_problems_in(const PlateSection& section, const PlateO
                       "height: " + length_text(opening.height) + " leaves too little of the " + plate + ", " +
                           length_text(wide, 3) + " wide",
                       "Its lid laps over by " + length_text(lap) + " all round.",
-                      most >= kLeastOpening     ? "height: " + length_text(most, 3)
+                      most >= kLeastOpening ? "height: " + length_text(1e-3 * std::floor(1e3 * most + 1e-6))
                       : section.departure > 0.0 ? "a larger stave_tolerance, or no inspection"
                                                 : "no inspection, or higher sides"});
   }
