@@ -116,8 +116,7 @@ TEST_CASE("trough tops: covers that find no place are refused with what does") {
   options.rim->width = 1.4;
   const std::string wide = refused();
   CHECK(wide.find("cover|cover: a piece takes ") == 0);
-  CHECK(wide.find("|No shorter piece does, and the sheet is 3 m x 1.5 m.|sheet: [") !=
-        std::string::npos);
+  CHECK(wide.find("|No shorter piece does, and the sheet is 3 m x 1.5 m.|sheet: [") != std::string::npos);
   options.split.sheet = {4.0, 1.5};
   CHECK(refused() == "");
   // Of a whole pipe.
