@@ -146,6 +146,31 @@ TEST_CASE("openings too high for a side: the height that is told, in whole milli
   }
 }
 
+TEST_CASE("openings in sides that are too close: the place that is told for the second is far enough") {
+  const ClothoidSpline track(Angle::from_degrees(45.0), {{4.0, 0.1, 0.1}});
+  const section::Trapezoid trough{WidthLaw(1.2), 0.3, Angle::from_degrees(20.0), 4e-3};
+  for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+    for (const double first : {0.5, 2.0, 3.6}) {
+      for (const double apart : {-0.3, -0.05, 0.0, 0.2}) {
+        PlateOptions options;
+        options.split.sheet = {6.0, 1.5};
+        options.floor = floor;
+        options.bend = {FacetRule::segment_angle, 0.1, {}, {}};
+        options.inspection = {{first, 0.15, 0.1, 6}, {first + apart, 0.2, 0.08, 8}};
+        const auto refused = [&] { return refusal_of([&] { return plates_of(track, trough, options); }); };
+        const std::string told = refused();
+        CAPTURE(floor, first, apart, told);
+        REQUIRE(told.find(" are too close|With room to find one arc each they take ") != std::string::npos);
+        const std::size_t hint = told.rfind("|at: ");
+        REQUIRE(hint != std::string::npos);
+        const double place = std::stod(told.substr(hint + 5));
+        options.inspection.back().at = place > 10.0 ? 1e-3 * place : place;  // [mm] of less than a metre
+        CHECK(refused().find("too close") == std::string::npos);
+      }
+    }
+  }
+}
+
 TEST_CASE("lugs across the track stand off the legs of angles along it") {
   PlateOptions options;
   options.split.sheet = {2.5, 1.25};

@@ -223,6 +223,23 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::
   return windows;
 }
 
+namespace {
+
+/// Where the second of two openings would be far enough from the first, on its side of it, or else on the other.
+std::string place_apart(double first, double second, double least, const StripJob& job) {
+  const double after = first + least;
+  const double before = first - least;
+  const auto on_track = [&](double at) { return at > 0.0 && at < job.track.length(); };
+  const bool later = on_track(after) && (second >= first || !on_track(before));
+  if (!later && !on_track(before)) return "one of them";
+  // In whole millimetres, one more than they take: along flats places are not those on the track to the last.
+  const double at =
+      later ? std::ceil(1e3 * job.on_track(after)) + 1.0 : std::floor(1e3 * job.on_track(before)) - 1.0;
+  return "at: " + length_text(1e-3 * at, 6) + ", or one of them";
+}
+
+}  // namespace
+
 void require_openings_on_track(const StripJob& job) {
   const std::vector<InspectionOptions>& all = job.options.inspection;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -239,7 +256,8 @@ void require_openings_on_track(const StripJob& job) {
       if (apart >= least) continue;
       refuse("at: openings at " + length_text(job.on_track(all[k].at), 4) + " and " +
                  length_text(job.on_track(all[i].at), 4) + " are too close",
-             "With room to find one arc each they take " + length_text(least) + ".", "one of them");
+             "With room to find one arc each they take " + length_text(least) + ".",
+             place_apart(all[k].at, all[i].at, least, job));
     }
   }
 }
