@@ -171,6 +171,30 @@ TEST_CASE("openings in sides that are too close: the place that is told for the 
   }
 }
 
+TEST_CASE("openings high above a tight valley keep off frames of their units, or are refused") {
+  const CoulombBrachistochrone track({4.38, 3.37}, Friction::from_angle(Angle::from_degrees(13.3)));
+  PlateOptions options;
+  options.round = RoundMake::staves;
+  options.split.sheet = {4.0, 2.0};
+  options.split.longest = 3.48;
+  options.flanges.section = FlangeSection::angle;
+  options.flanges.width = 80e-3;
+  options.flanges.thickness = 8e-3;
+  options.flanges.pitch = 73e-3;
+  options.flanges.as_told = true;
+  int refused = 0;
+  for (const double at : {0.9, 0.945, 1.05, 1.295, 1.6}) {
+    options.inspection = {{at, 0.12, 0.086, 5}};
+    const std::string told = refusal_of([&] {
+      return plates_of(track, section::HalfPipe{3.919, 0.0, 3e-3}, options);
+    });
+    CAPTURE(at, told);
+    CHECK((told.empty() || told.find(" lies beside a frame|") != std::string::npos));
+    refused += told.empty() ? 0 : 1;
+  }
+  CHECK(refused < 5);
+}
+
 TEST_CASE("lugs across the track stand off the legs of angles along it") {
   PlateOptions options;
   options.split.sheet = {2.5, 1.25};

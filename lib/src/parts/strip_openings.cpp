@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -180,6 +181,30 @@ SectionPlate lid_plate(const PlateSection& section, const StripWindow& window) {
   return {"lid", from, to, from + back, to + back};
 }
 
+/// Whether a lid lies before or behind both frames of its unit, at all of its heights: of a plate higher than the track's radius some of
+/// it may stand over a frame.
+bool clear_of_frames(const StripJob& job, const Span& unit, const StripWindow& window) {
+  if (job.bent() || !job.options.flanges.wanted || !job.section.convex) return true;
+  const double taken = job.options.flanges.along() + kAsideOfFrame;
+  const SectionPlate lid = lid_plate(job.section, window);
+  const auto is_clear = [&](double end, double sense, bool last) {
+    const TrackFrame frame = frame_at(job.track, end);
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const double place : {window.lid_along.from, window.lid_along.to}) {
+      const TrackFrame here = frame_at(job.track, place);
+      for (const Vec2 corner : {lid.face_from, lid.face_to, lid.back_from, lid.back_to}) {
+        const double beyond = sense * dot(here.at + corner.y * here.up - frame.at, frame.along);
+        least = std::min(least, beyond);
+        most = std::max(most, beyond);
+      }
+    }
+    // Behind the plane of a joint stands the frame of the next unit.
+    return least >= job.options.flanges.along() || most <= (last ? 0.0 : -taken);
+  };
+  return is_clear(unit.from, 1.0, unit.from <= 0.0) && is_clear(unit.to, -1.0, unit.to >= job.track.length());
+}
+
 }  // namespace
 
 std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::size_t index,
@@ -218,6 +243,13 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::
              "at: " + length_text(*at, 4) + ", or a smaller length");
     }
     windows.push_back(window_at(side, index, opening, *at, lap));
+    if (!clear_of_frames(job, unit, windows.back())) {
+      refuse(where + " lies beside a frame",
+             "Where the track bends tighter than the " + plate.name +
+                 " is high the frames of its unit reach over it.",
+             "another at, or a limit smallest_valley_radius above " +
+                 length_text(std::max(plate.face_from.y, plate.face_to.y), 3));
+    }
     windows.back().bolts = bolts_of(job, plate, windows.back(), breaks);
   }
   return windows;
