@@ -126,8 +126,11 @@ ReportCheck read_back(const std::vector<fs::path>& files) {
   // A difference would have ended the build: a faulty file is never published.
   check.verdict = Verdict::pass;
   check.detail = "read back and compared with what was meant:";
-  for (const fs::path& file : files) check.detail += " " + file.filename().string() + ",";
+  constexpr std::size_t kMostNamed = 6;
+  const std::size_t named = files.size() > kMostNamed ? kMostNamed - 1 : files.size();
+  for (std::size_t i = 0; i < named; ++i) check.detail += " " + files[i].filename().string() + ",";
   check.detail.pop_back();
+  if (files.size() > named) check.detail += " and " + std::to_string(files.size() - named) + " more";
   return check;
 }
 

@@ -57,6 +57,10 @@ describe("every shipped design", () => {
       assert.ok(doc.checks.every((check) => check.verdict !== "fail"), JSON.stringify(doc.checks));
       assert.ok(statSync(file).size < 10e6, "smaller than 10 MB");
       assert.equal(await page.title(), doc.design.name);
+      // On a phone the page is no wider than its room: names of files have no place to break.
+      await page.setViewportSize({ width: 360, height: SMALL.viewport.height });
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 360, "wider than a phone");
+      await page.setViewportSize(SMALL.viewport);
     });
   }
 });
@@ -321,6 +325,53 @@ export: [stl]
     assert.equal(await page.locator("svg.profile .line-optimum").count(), 1);
     assert.deepEqual(complaints, []);
     await page.close();
+  });
+});
+
+describe("a stream", () => {
+  let page;
+  let complaints;
+  before(async () => {
+    ({ page, complaints } = await open(plain, build(path.join(designs, "grain_chute_with_stream.yaml")).file, SMALL));
+  });
+  after(() => page.close());
+
+  const saved = async (name) => {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name, exact: true }).click()]);
+    return readFileSync(await download.path());
+  };
+
+  test("has rules that follow the switch of units", async () => {
+    const cells = () => page.locator("table.rules tbody td:not(.words)").evaluateAll((all) => all.map((cell) => cell.textContent));
+    await page.getByLabel("Units").selectOption("m, km/h");
+    assert.ok((await cells()).some((text) => text.includes("1.8\u00a0km/h")));
+    await page.getByLabel("Units").selectOption("mm, m/s");
+    const millimetres = await cells();
+    assert.deepEqual(millimetres.filter((text) => /\d\u00a0m(?![m/])/.test(text)), []);
+    assert.ok(millimetres.includes("s = 6241\u00a0mm"), millimetres.join(" | "));
+    await page.getByLabel("Units").selectOption("m, m/s");
+    assert.ok((await cells()).includes("s = 6.241\u00a0m"));
+  });
+
+  test("prints no heading without what it heads", async () => {
+    await page.emulateMedia({ media: "print" });
+    assert.equal(await page.locator("#what-if").isVisible(), false);
+    await page.emulateMedia({ media: "screen" });
+    assert.equal(await page.locator("#what-if").isVisible(), true);
+  });
+
+  test("saves drawings that say what they show, in colours that drawing programs know", async () => {
+    const profile = (await saved("Save Profile as SVG")).toString();
+    for (const text of ["wheat: profile, to scale", ">straight line<", ">this track<", ">the stream<"]) assert.ok(profile.includes(text), text);
+    assert.ok(!/color\(|color-mix|var\(|rgba\(/.test(profile));
+    await page.locator("header select").first().selectOption("high");
+    const speed = (await saved("Save Speed as SVG")).toString();
+    assert.ok(speed.includes("at high friction; dashed: low and high friction"));
+    const [, width, height] = /^<svg[^>]*? width="([\d.]+)" height="([\d.]+)"/.exec((await saved("Save Profile as SVG")).toString()).map(Number);
+    const png = await saved("Save Profile as PNG");
+    assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [2 * width, 2 * height].map(Math.floor));
+    await page.locator("header select").first().selectOption("nominal");
+    assert.deepEqual(complaints, []);
   });
 });
 

@@ -1,6 +1,6 @@
 // Figures as files: SVG, or PNG drawn from it.
 
-import { button, svgElement } from "./dom.js";
+import { button, svgElement, themeColour } from "./dom.js";
 
 const PNG_SCALE = 2;
 const STYLES = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-size", "font-family",
@@ -15,23 +15,68 @@ function save(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+const COLOURS = ["fill", "stroke"];
+
+// Colours that the page mixes are told as "color(srgb r g b / a)", which drawing programs do not know.
+function plainColour(value) {
+  const parts = /^color\(srgb ([\d.e-]+) ([\d.e-]+) ([\d.e-]+)(?: \/ ([\d.e-]+))?\)$/.exec(value);
+  const clear = /^rgba\((\d+), (\d+), (\d+), ([\d.]+)\)$/.exec(value);
+  if (!parts && !clear) return null;
+  const channels = parts ? parts.slice(1, 4).map((part) => Math.round(255 * Number(part))) : clear.slice(1, 4);
+  return { colour: `rgb(${channels.join(", ")})`, opacity: (parts ?? clear)[4] ?? "1" };
+}
+
+function setStyle(node, name, value) {
+  const plain = COLOURS.includes(name) ? plainColour(value) : null;
+  node.style.setProperty(name, plain ? plain.colour : value);
+  if (plain) node.style.setProperty(`${name}-opacity`, plain.opacity);
+}
+
+const HEADING = 46;
+const FONT = "system-ui, sans-serif";
+
+// A title over a drawing, and a sample of each kind of line and area in it with its name.
+function heading(copy, { title, legend }) {
+  const pen = document.createElement("canvas").getContext("2d");
+  pen.font = `12px ${FONT}`;
+  const text = (x, y, value, attributes) => svgElement("text", { x, y, "font-family": FONT, "font-size": 12, fill: themeColour("--ink"), ...attributes }, value);
+  const nodes = [text(16, 18 - HEADING, title, { "font-weight": 600 })];
+  let x = 16;
+  for (const [selector, name] of legend) {
+    const drawn = copy.querySelector(`[data-line="${selector}"]`);
+    if (!drawn) continue;
+    const area = drawn.tagName === "polygon";
+    const sample = area ? svgElement("rect", { x, y: 29 - HEADING, width: 22, height: 12 }) : svgElement("line", { x1: x, x2: x + 22, y1: 35 - HEADING, y2: 35 - HEADING });
+    sample.setAttribute("style", drawn.getAttribute("style"));
+    nodes.push(sample, text(x + 28, 39 - HEADING, name));
+    x += 28 + pen.measureText(name).width + 20;
+  }
+  return nodes;
+}
+
 // A copy of a drawing that stands alone: what the page's styles say is written into it, on the page's own paper.
-export function standAlone(svg) {
+// @param caption  {title, legend: [[value of data-line, name]]}, or null for a drawing without
+// @return {svg (text), width, height}
+export function standAlone(svg, caption = null) {
   const copy = svg.cloneNode(true);
   const originals = [svg, ...svg.querySelectorAll("*")];
   [copy, ...copy.querySelectorAll("*")].forEach((node, i) => {
     const style = getComputedStyle(originals[i]);
     for (const name of STYLES) {
       const value = style.getPropertyValue(name);
-      if (value) node.style.setProperty(name, value);
+      if (value) setStyle(node, name, value);
     }
     for (const name of ["class", "tabindex", "role"]) node.removeAttribute(name);
   });
   copy.querySelectorAll("[data-screen-only]").forEach((node) => node.remove());
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-  const paper = getComputedStyle(document.documentElement).getPropertyValue("--panel").trim();
-  copy.prepend(svgElement("rect", { width: "100%", height: "100%", fill: paper }));
-  return new XMLSerializer().serializeToString(copy);
+  const box = svg.viewBox.baseVal;
+  const [width, top] = [box.width, caption ? HEADING : 0];
+  const height = box.height + top;
+  if (caption) copy.append(...heading(copy, caption));
+  for (const [name, value] of Object.entries({ width, height, viewBox: `${box.x} ${box.y - top} ${width} ${height}` })) copy.setAttribute(name, value);
+  copy.prepend(svgElement("rect", { x: box.x, y: box.y - top, width, height, fill: themeColour("--panel") }));
+  return { svg: new XMLSerializer().serializeToString(copy), width, height };
 }
 
 async function picture(text, width, height) {

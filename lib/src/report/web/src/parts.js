@@ -264,10 +264,7 @@ function details(doc, part, body, units) {
     return lines.getAttribute("position").array;
   };
   const svg = part.pattern ? patternDrawing(part, units) : body ? viewsDrawing(part, edges()) : null;
-  const make = () => {
-    const { width, height } = svg.viewBox.baseVal;
-    return { svg: standAlone(svg), width, height };
-  };
+  const make = () => standAlone(svg);
   const title = part.pattern ? "Flat pattern" : "Views from above, the side and the end";
   return [
     element("h3", {}, nameOf(part)),

@@ -217,9 +217,13 @@ class Chart {
     }, svgElement("title", {}, name))));
     const legend = chart.legend ? chart.series.map(([name, , colour], i) =>
       text({ x: left + width - 4, y: top + 14 + 15 * i, "text-anchor": "end", fill: themeColour(colour) }, name)) : [];
+    // A range of friction: which one the thick line is of, and what lies beside it.
+    const banded = chart.band && this.store.get("axis") !== "time_s";
+    const friction = doc.rides.length < 2 ? null
+      : text({ x: left, y: 32, "font-size": 11 }, `at ${doc.ride.friction ?? "nominal"} friction${banded ? "; dashed: low and high friction" : ""}`);
     const svg = svgElement("svg", { xmlns: "http://www.w3.org/2000/svg", ...whole, viewBox: `0 0 ${whole.width} ${whole.height}` },
       svgElement("rect", { ...whole, fill: themeColour("--panel") }),
-      text({ x: left, y: 16, fill: ink, "font-weight": 600 }, `${doc.design.name}: ${chart.title.toLowerCase()}`),
+      text({ x: left, y: 16, fill: ink, "font-weight": 600 }, `${doc.design.name}: ${chart.title.toLowerCase()}`), friction ?? "",
       clip, ticks, svgElement("rect", { x: left, y: top, width, height, fill: "none", stroke: themeColour("--grid") }), curves, legend,
       text({ x: left + width / 2, y: top + height + 38, "text-anchor": "middle" }, across.label),
       text({ transform: `translate(14 ${top + height / 2}) rotate(-90)`, "text-anchor": "middle" }, up.label));

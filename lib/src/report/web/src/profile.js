@@ -41,6 +41,16 @@ class Profile {
     ].filter(([, line]) => line !== null);
   }
 
+  // What a drawing that leaves the page says over itself.
+  caption() {
+    const { doc } = this;
+    return {
+      title: `${doc.design.name}: profile, to scale`,
+      legend: [...this.lines().map(([name, , style]) => [style, name]), ["solid", "the solid from the side"], ["headroom", "headroom"],
+        ["keep-out", doc.envelope ? "where the solid may not go" : "where the track may not go"], ["stream", "the stream"]],
+    };
+  }
+
   wholeView() {
     let [x0, x1, z0, z1] = [Infinity, -Infinity, Infinity, -Infinity];
     for (const line of [...this.lines().map(([, one]) => one), ...(this.doc.envelope?.edges ?? []), ...this.doc.flights]) {
@@ -90,9 +100,9 @@ class Profile {
       ...below.x_m.map((x, i) => [x, below.z_m[i]]), ...above.x_m.map((x, i) => [x, above.z_m[i]]).reverse(),
     ];
     return [
-      svgElement("polygon", { class: "solid", points: corners.map(([x, z]) => `${px(x).toFixed(2)},${pz(z).toFixed(2)}`).join(" ") },
+      svgElement("polygon", { class: "solid", "data-line": "solid", points: corners.map(([x, z]) => `${px(x).toFixed(2)},${pz(z).toFixed(2)}`).join(" ") },
         svgElement("title", {}, "the solid from the side")),
-      ...edges.filter((edge) => edge.dashed).map((edge) => svgElement("path", { class: "line headroom", d: this.path(edge) },
+      ...edges.filter((edge) => edge.dashed).map((edge) => svgElement("path", { class: "line headroom", "data-line": "headroom", d: this.path(edge) },
         svgElement("title", {}, edge.name))),
     ];
   }
@@ -117,7 +127,7 @@ class Profile {
       const slope = (stations.slope_angle_deg[i] * Math.PI) / 180;
       return corner(stations.x_m[i] + depth[i] * Math.sin(slope), stations.z_m[i] + depth[i] * Math.cos(slope));
     });
-    return [svgElement("polygon", { class: "stream", points: [...floor, ...surface.reverse()].join(" ") },
+    return [svgElement("polygon", { class: "stream", "data-line": "stream", points: [...floor, ...surface.reverse()].join(" ") },
       svgElement("title", {}, "the stream, as deep as it is")), ...nodes];
   }
 
@@ -170,12 +180,12 @@ class Profile {
         class: "clearance", points: outline(area), "stroke-width": (2 * area.clearance_m * at.scale).toFixed(2),
       }, svgElement("title", {}, `${area.name}: clearance`))),
       doc.keep_outs.map((area) => svgElement(area.open ? "polyline" : "polygon", {
-        class: area.open ? "keep-out open" : "keep-out",
+        class: area.open ? "keep-out open" : "keep-out", "data-line": "keep-out",
         points: outline(area),
       }, svgElement("title", {}, area.name))),
       this.body(),
       this.stream(),
-      this.lines().map(([name, line, style]) => svgElement("path", { class: `line ${style}`, d: this.path(line) }, svgElement("title", {}, name))),
+      this.lines().map(([name, line, style]) => svgElement("path", { class: `line ${style}`, "data-line": style, d: this.path(line) }, svgElement("title", {}, name))),
       this.marker, this.bodies.straight, this.bodies.track);
     this.svg.setAttribute("viewBox", `0 0 ${at.width} ${at.height}`);
     this.svg.setAttribute("width", at.width);
@@ -359,7 +369,7 @@ export function profileSection(doc, store, units) {
       button("Zoom in", () => profile.key({ key: "+", preventDefault() {} })),
       button("Zoom out", () => profile.key({ key: "-", preventDefault() {} })),
       button("Whole track", () => profile.whole()),
-      exportButtons(doc.design.stem, "Profile", () => ({ svg: standAlone(profile.svg), width: profile.at.width, height: profile.at.height }))),
+      exportButtons(doc.design.stem, "Profile", () => standAlone(profile.svg, profile.caption()))),
     legend, element("p", { class: "hint" }, "Drag to move; the wheel zooms once the drawing is selected."),
     element("div", { class: "profile-holder" }, profile.svg));
   new ResizeObserver(() => profile.draw()).observe(node);

@@ -191,11 +191,11 @@ function probes(doc, units) {
 export const SIGNS = { pass: "\u2713", warn: "!", fail: "\u2717", "cannot be judged": "?" };
 
 // Rules that the design is held against: what each asks, what there is, and how sure its bound is.
-function rules(doc) {
-  const value = (rule, key) => (rule[key] === null ? null : `${number(rule[key], 4)}${rule.unit ? NO_BREAK + rule.unit : ""}`);
+function rules(doc, units) {
+  const value = (rule, key) => (rule[key] === null ? null : units.textOf(rule.unit, rule[key], 4));
   const bound = (rule) => [["lowest", "\u2265 "], ["highest", "\u2264 "]]
     .filter(([key]) => rule[key] !== null).map(([key, sign]) => sign + value(rule, key)).join(", ");
-  const place = (rule) => [rule.where === null ? null : `s = ${number(rule.where, 4)}${NO_BREAK}m`, rule.place || null].filter(Boolean).join("; ");
+  const place = (rule) => [rule.where === null ? null : `s = ${units.text("length", rule.where, 4)}`, rule.place || null].filter(Boolean).join("; ");
   const heads = ["Verdict", "Rule", "Value", "Bound", "Where", "Source"];
   return scrollable("Table of rules", element("table", { class: "rules" },
     element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
@@ -235,7 +235,7 @@ export function summary(doc, units) {
     doc.rides.length < 2 ? null : [heading("Range of friction"), frictions(doc, units)],
     doc.probes.length === 0 ? null : [heading("Probes"), probes(doc, units)],
     doc.cases.length === 0 ? null : [heading("Frictions and flows"), cases(doc, units)],
-    doc.rules.length === 0 ? null : [heading("Rules"), rules(doc)],
+    doc.rules.length === 0 ? null : [heading("Rules"), rules(doc, units)],
     heading("Verdicts"), tally(doc), checks(doc),
     heading("Task"), task(doc, units),
     heading("Track"), track(doc, units),

@@ -1,6 +1,6 @@
 import { button, element, scrollable, section, select } from "./dom.js";
 import { interpolate } from "./data.js";
-import { columnText, number } from "./units.js";
+import { columnText, number, quantityOf, superscripts } from "./units.js";
 
 const COLUMNS = [
   ["s", "length", "arc_length_m"],
@@ -115,11 +115,6 @@ export function stationTable(doc, store, units) {
     scrollable("Table of stations", element("table", { class: "stations" }, head, body)));
 }
 
-const superscripts = (text) => text.replaceAll("^2", "\u00b2").replaceAll("^3", "\u00b3");
-
-// Which quantity of the units a limit's unit is; what no unit system changes stands as it is.
-const QUANTITIES = { m: "length", deg: "angle", "m/s": "speed", "m/s^2": "load", "1/m": "curvature" };
-
 // Limits that have no number, only a yes.
 const WORDS = [
   [/^concave$/, "no crest", "no crest"], [/^finish$/, "met", "met"], [/^waypoints/, "passed", "passed"],
@@ -127,9 +122,7 @@ const WORDS = [
 ];
 
 function valueText({ unit }, value, units, digits) {
-  if (value === null) return "unbounded";
-  const quantity = QUANTITIES[unit];
-  return quantity ? units.text(quantity, value, digits) : `${number(value, digits)}\u00a0${superscripts(unit)}`;
+  return value === null ? "unbounded" : units.textOf(unit, value, digits);
 }
 
 function boundText(limit, units) {
@@ -158,7 +151,7 @@ function placeText(limit, units) {
 // relief wins less than tightening costs, and both are told. One that meshes do not tell closely comes with how closely.
 function priceText(limit, units) {
   if (limit.price === null) return "\u2013";
-  const quantity = QUANTITIES[limit.unit];
+  const quantity = quantityOf(limit.unit);
   const [objective] = limit.price_unit.split(" per ");
   const unit = quantity ? units.unit(quantity) : superscripts(limit.unit);
   const speed = objective === "m/s";

@@ -25,6 +25,13 @@ const SYSTEMS = {
 // What a missing value of a quantity means: a curvature without bound has no number, nor has its load.
 const MISSING = { curvature: "unbounded", load: "unbounded" };
 
+// Which quantity of the units a document's unit is.
+const QUANTITIES = { m: "length", deg: "angle", "m/s": "speed", "m/s^2": "load", "1/m": "curvature" };
+
+export const quantityOf = (unit) => QUANTITIES[unit] ?? null;
+
+export const superscripts = (text) => text.replaceAll("^2", "\u00b2").replaceAll("^3", "\u00b3");
+
 export class Units {
   constructor() {
     this.system = "m, m/s";
@@ -44,6 +51,13 @@ export class Units {
     if (quantity === "load" && Math.abs(value) < 1e-12) return 0;
     const factor = SYSTEMS[this.system][quantity][1];
     return factor === null ? value / STANDARD_GRAVITY : value * factor;
+  }
+
+  // A value in a unit of the document; what no unit system changes stands as it is.
+  textOf(unit, value, digits = 5) {
+    const quantity = quantityOf(unit);
+    if (quantity) return this.text(quantity, value, digits);
+    return unit ? `${number(value, digits)}\u00a0${superscripts(unit)}` : number(value, digits);
   }
 
   missing(quantity) {
