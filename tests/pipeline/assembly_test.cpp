@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/file_format.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/pipeline.hpp"
 
 #include "support/catch.hpp"
@@ -9,6 +10,7 @@
 #include "support/temp_dir.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <stop_token>
@@ -17,6 +19,7 @@
 #include <vector>
 
 using namespace glissade;
+using Catch::Matchers::Contains;
 using Names = std::vector<std::string>;
 
 namespace {
@@ -110,5 +113,31 @@ TEST_CASE("every format has a word and an ending of its own in a set") {
     CHECK(row.ending.starts_with('.'));
     CHECK(std::count(words.begin(), words.end(), row.word) == 0);
     words.emplace_back(row.word);
+  }
+}
+
+TEST_CASE("binary STL is too coarse for wide solids as it is for long ones, and what is told to try does") {
+  for (const auto& [width, azimuth] :
+       {std::pair{"30 m", 0.0}, std::pair{"300 m", 0.0}, std::pair{"300 m", 3.0}, std::pair{"3000 m", 1.0}}) {
+    CAPTURE(width, azimuth);
+    const TempDir place;
+    put_bytes(place / "wide.yaml",
+              "glissade: 1\ntrack: {start: {x: 0 m, y: 0 m, z: 2 m}, finish: {x: 3 m, y: " +
+                  exact_text(azimuth) + " m, z: 0 m}}\nbody: {friction_coefficient: 0.2}\n" +
+                  "centerline: {kind: fastest}\ncross_section: {kind: u-channel, width: " + width +
+                  ", wall_height: 300 mm, thickness: 5 mm}\nmesh: {tolerance: 1 mm}\nexport: [stl]\n");
+    // Fine enough that single precision cannot hold it, whatever the width.
+    const double half = 0.5 * std::stod(width);
+    const auto built_at = [&](double tolerance) {
+      const Design design =
+          read_design(place / "wide.yaml", {{"mesh.tolerance", exact_text(tolerance) + " m"}});
+      return assemble(design, solve(design));
+    };
+    for (const double share : {0.3, 1.0, 2.0}) {
+      CAPTURE(share);
+      CHECK_THROWS_WITH(built_at(share * 0x1p-23 * half), Contains("is finer than binary STL can hold"));
+    }
+    // Twice what three axes may move.
+    CHECK_NOTHROW(built_at(2.0 * std::sqrt(3.0) * 0x1p-23 * std::hypot(half + 0.01, 9.0)));
   }
 }

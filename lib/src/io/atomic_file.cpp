@@ -124,6 +124,8 @@ struct AtomicFile::State {
       const std::string name =
           ".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
       const std::filesystem::path path = file.parent_path() / name;
+      // A program that ends meanwhile knows of the file, or waits with it for good.
+      const auto hold = Unfinished::hold();
       descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
       if (descriptor >= 0 && claimed(descriptor)) {
         sibling = path;

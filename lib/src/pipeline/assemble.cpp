@@ -1,6 +1,7 @@
 // Everything of a build in memory: solids swept, rounded as each file will hold them, measured, and the files that are
 // to be made of them. Nothing here touches a disk.
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/gates_csv.hpp"
 #include "glissade/io/sheet_file.hpp"
@@ -154,6 +155,19 @@ std::optional<Vec3> offset_in_files(const Design& design, const Track& track) {
   return track.placement.start();
 }
 
+/// @return how far the section reaches to either side of the track at the most [m]
+double half_width(const CrossSection& section) {
+  // An arc may reach beyond its chords by this share of its radius.
+  constexpr double kCoarse = 0.01;
+  const CrossSection widest = section.at_widest();
+  const double beyond = kCoarse * widest.widest_radius();
+  double reach = 0.0;
+  for (const Vec2 corner : widest.outline(beyond > 0.0 ? beyond : 1.0)) {
+    reach = std::max(reach, std::fabs(corner.x));
+  }
+  return reach + beyond;
+}
+
 /// By how much the least precise of the files may move a vertex, before there is a mesh to measure it on.
 /// @throws InputError if that leaves nothing of the tolerance
 double rounding_in_files(const Design& design, const Centerline& centerline, const CrossSection& section,
@@ -164,8 +178,9 @@ double rounding_in_files(const Design& design, const Centerline& centerline, con
   });
   if (!rounds) return 0.0;
   const Vec3 start = placement.start();
-  const double farthest = std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) +
-                          centerline.length() + section.highest() - section.lowest();
+  const double farthest =
+      std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) +
+      math::hypot(centerline.length() + section.highest() - section.lowest(), half_width(section));
   // Half a step of single precision on each axis; one whole step where two vertices would become one.
   const double step = 0x1p-23 * farthest;
   const double rounding = std::sqrt(3.0) * step;

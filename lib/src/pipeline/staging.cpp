@@ -179,6 +179,8 @@ void Staging::lock_new_directory() {
   constexpr int kMostTries = 100;  // one is lost where another build takes the new directory for abandoned
   std::error_code error;
   for (int i = 0; i < kMostTries; ++i) {
+    // A program that ends meanwhile knows of the directory, or waits with it for good.
+    const auto hold = Unfinished::hold();
     directory_ = target_ / (".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(++counter));
     const bool made = fs::create_directory(directory_, error);
     if (error) break;
@@ -207,6 +209,8 @@ Staging::~Staging() {
 fs::path Staging::path_for(const std::string& name) {
   names_.push_back(name);
   const fs::path path = directory_ / "new" / name;
+  // Of a program that ends nothing is made again that has been taken away.
+  const auto hold = Unfinished::hold();
   (void)make_directories(path.parent_path());
   return path;
 }
