@@ -15,25 +15,20 @@
 namespace glissade::design_file {
 namespace {
 
-/// A closed line passes each of its extremes on the way there and back.
-double least_perimeter(const CrossSection& section) {
-  double left = 0.0;
-  double right = 0.0;
-  for (const section::Stroke& stroke : section.loops().front()) {
-    left = std::min(left, stroke.from.x);
-    right = std::max(right, stroke.from.x);
-  }
-  return 2.0 * math::hypot(right - left, section.highest() - section.lowest());
+/// A lower bound of the number of facets that a curved track needs: an edge of length h departs by h^2 kappa / 8 from an
+/// arc of curvature kappa, so a track of length S that turns evenly by phi = kappa S has S / h = sqrt(S phi / (8 e))
+/// steps, with two facets at each corner of the section. Every curved kind turns by more than 0.25, and none so
+/// unevenly that half of those steps do.
+double least_triangles(const Design& design, const CrossSection& section, double tolerance) {
+  constexpr double kLeastTurn = 0.25;
+  constexpr double kUneven = 0.5;
+  const double chord = norm(design.track.finish - design.track.start);
+  const double steps = kUneven * std::sqrt(kLeastTurn * chord / (8.0 * tolerance));
+  return 2.0 * section.vertex_count(tolerance) * std::max(steps, 1.0);
 }
 
-/// A lower bound of the number of near-isotropic facets that a curved track needs: an edge of length h
-/// departs by h^2 kappa / 8 from an arc of curvature kappa, so facets of that size number 2 S P / h^2 = phi P
-/// / (4 e) on a track that turns by phi = kappa S under a section of perimeter P. Every curved kind turns by
-/// more than 0.25.
-double least_triangles(const Design& design, const CrossSection& section) {
-  constexpr double kLeastTurn = 0.25;
-  return kLeastTurn * least_perimeter(section) / (4.0 * design.mesh.tolerance);
-}
+// Ten times what a solved curve is exact to: a mesh that is held to less measures the curve's own rounding.
+constexpr double kFinestShare = 1e-11;
 
 void check_mesh_size(const Design& design, Collected& findings) {
   constexpr double kBytesPerTriangle = 60.0;  // facet, half of a vertex, and what checking them takes
@@ -41,10 +36,20 @@ void check_mesh_size(const Design& design, Collected& findings) {
   if (!curved) return;
   const std::optional<CrossSection> section = sound_cross_section(design);
   if (!section) return;
-  const double triangles = least_triangles(design, *section);
+  const double chord = norm(design.track.finish - design.track.start);
+  if (design.mesh.tolerance < kFinestShare * chord) {
+    report(findings, {"mesh.tolerance", "centerline"},
+           {"", "tolerance: " + length_text(design.mesh.tolerance) + " is finer than the curve is known",
+            "Its points are exact to some 1e-12 of the way from start to finish, " + length_text(chord) + ".",
+            "a tolerance above " + length_text(kFinestShare * chord, 2) + "; 0.5 mm suits most workshops"});
+    return;
+  }
+  const double triangles = least_triangles(design, *section, design.mesh.tolerance);
   constexpr auto kMost = static_cast<double>(kMostTriangles);
   if (!(triangles > kMost)) return;
-  const double smallest = design.mesh.tolerance * triangles / kMost;
+  constexpr double kCoarser = 1.05;
+  double smallest = design.mesh.tolerance;
+  while (least_triangles(design, *section, smallest) > kMost) smallest *= kCoarser;
   report(findings, {"mesh.tolerance", "cross_section", "centerline"},
          {"",
           "tolerance: " + rounded_text(design.mesh.tolerance * 1e3, 4) + " mm needs more than " +
