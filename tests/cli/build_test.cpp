@@ -288,7 +288,7 @@ TEST_CASE("bad designs: the message tells what is wrong, the exit code of what k
       {"tolerance_tiny",
        chute_with("mesh:", "mesh: {tolerance: 0.00000001 mm}"),
        2,
-       {"tolerance_tiny.yaml:9:", "triangles", "GB"}},
+       {"tolerance_tiny.yaml:9:", "finer than the curve is known", "a tolerance above"}},
       {"no_section", chute_with("cross_section:", ""), 2, {"there is no cross_section"}},
   };
   for (const Bad& bad : cases) {
