@@ -96,7 +96,8 @@ TEST_CASE("mirrored, of another size and elsewhere clearances of a whole solid h
 
 TEST_CASE(
     "no lift-off, no rounding next to a crest, no jump beside knots or at a straight end, no entry speed, no "
-    "detour for speed and none that is slower than the straight line makes a search end elsewhere") {
+    "detour for speed, none that is slower than the straight line and no place of a bend makes a search end "
+    "elsewhere") {
   struct Known {
     int seed;
     int index;
@@ -108,6 +109,7 @@ TEST_CASE(
                          {7, 269, "wider exit_slope_angle.lowest"}, {8, 387, "wider lead_out"}};
   if (testing::thorough()) {
     all.push_back({3, 298, "without exit_slope_angle.highest"});
+    all.push_back({7, 199, "wider entry_slope_angle.lowest"});
     all.push_back({8, 352, "without lead_out"});
     all.push_back({8, 352, "without entry_slope_angle.lowest"});
     all.push_back({8, 352, "wider entry_slope_angle.highest"});

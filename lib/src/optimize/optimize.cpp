@@ -156,6 +156,7 @@ class Course {
                          : searcher_.from_scattered(way, *std::move(best_));
     if (!best_->stopped && (by_footholds || !is_optimum()))
       best_ = searcher_.on_other_meshes(way, *std::move(best_), by_footholds);
+    if (!best_->stopped) best_ = searcher_.with_shifted_bends(way, *std::move(best_));
     stopped_ = best_->stopped;
   }
 

@@ -18,8 +18,6 @@ namespace {
 
 // Pieces of the coarse levels before the finest.
 constexpr std::size_t kCoarsePieces = 12;  // taste
-constexpr std::size_t kMiddlePieces = 16;  // taste: meshes grow by some 4/3
-constexpr std::size_t kFinerPieces = 24;   // taste
 constexpr std::size_t kMovedLevels = 4;    // budget
 // More of them while each wins as much of a share.
 constexpr std::size_t kMoreLevels = 8;  // budget
@@ -32,9 +30,6 @@ constexpr double kElsewhere = 1e-5;  // accuracy: ten times that of a time
 constexpr double kWithoutEffect = 1e-8;  // accuracy: a hundredth of that of a time
 // Pieces of the mesh on which a track is looked for that keeps the limits at all.
 constexpr std::size_t kRescuePieces = 20;  // taste
-constexpr double kCoarseTolerance = 1e-3;  // taste
-// A coarse track that breaks its limits by less is carried on to a finer mesh.
-constexpr double kNearlyFeasible = 1e-3;  // taste
 // The lowest load is kept this far above its bound, in g: a body that weighs nothing at all has left the
 // track.
 constexpr double kContactMargin = 1e-6;  // accuracy: ten times that of a limit
@@ -123,26 +118,8 @@ Vector with_crest_knots(const Vector& knots) {
   return result;
 }
 
-/// Where a limit begins to hold.
-Vector breaks_of(const ScaledProblem& problem, double core_length) {
-  if (!(problem.lowest_speed_from > problem.lead_in)) return {};
-  const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
-  return sigma < 1.0 ? Vector{sigma} : Vector{};
-}
-
 double entry_share(const ScaledProblem& problem, double core_length) {
   return (problem.lead_in + 0.5 * problem.entry_speed2) / core_length;
-}
-
-double core_length_of(const Found& found) {
-  return found.track->core_length(found.z);
-}
-
-/// The mesh of a track found, for the same unknowns: laid by its length, unless changes of friction hold it in place.
-Mesh mesh_again(const Found& found) {
-  Mesh mesh = found.track->mesh();
-  if (!found.track->has_fixed_pieces()) mesh.core_length = core_length_of(found);
-  return mesh;
 }
 
 /// A track that follows such a limit breaks it a little in every piece, between any places where it is
@@ -340,164 +317,6 @@ Candidate Searcher::ended_on(const Candidate& known, Found found) {
   return candidate;
 }
 
-namespace {
-
-/// An optimum before what is none, of two the better one.
-bool is_ahead(const Candidate& a, const Candidate& b, double tolerance) {
-  const bool is_optimum = a.found->residual <= tolerance;
-  if (is_optimum != (b.found->residual <= tolerance)) return is_optimum;
-  return a.found->objective < b.found->objective;
-}
-
-}  // namespace
-
-Candidate Searcher::from_scattered(const Passages& passages, Candidate best) {
-  constexpr std::size_t kMostEnded = 3;                           // budget
-  const std::shared_ptr<const ScaledProblem> rough = best.rough;  // which the tracks below refer to
-  std::vector<Found> tracks;
-  for (const GuessCurve& start : scattered_starts(*rough)) {
-    if (control_.stop()) break;
-    begin_margins(*rough);
-    aim_at(kCoarseTolerance, 5);
-    Found found = coarsely(*rough, start, kMiddlePieces);
-    const bool may_win = found.feasible(kNearlyFeasible) && found.objective < best.found->objective;
-    if (may_win) tracks.push_back(std::move(found));
-  }
-  std::stable_sort(tracks.begin(), tracks.end(),
-                   [](const Found& a, const Found& b) { return a.objective < b.objective; });
-  if (tracks.size() > kMostEnded) tracks.resize(kMostEnded);
-  for (Found& track : tracks) {
-    if (best.stopped) break;
-    Candidate end = begun(passages);
-    const Found found = laid_anew(*end.problem, on_finer_meshes(*end.problem, *end.rough, std::move(track)));
-    settle(end, found);
-    if (!end.kept && !end.stopped) mend_any(end, found.track->mesh(), found.z);
-    const bool stopped = end.stopped;
-    if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
-    best.stopped = stopped;
-  }
-  return best;
-}
-
-namespace {
-
-/// Limits that keep a body from being fast.
-std::vector<std::size_t> caps_on_speed(const ScaledProblem& problem) {
-  std::vector<std::size_t> caps;
-  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
-    const LimitSpec& limit = problem.limits[i];
-    const bool is_speed = limit.measure == Measure::exit_run_speed || limit.measure == Measure::speed ||
-                          limit.measure == Measure::exit_speed;
-    if (is_speed && limit.side > 0) caps.push_back(i);
-  }
-  return caps;
-}
-
-/// @param share  by which the caps are higher
-std::shared_ptr<const ScaledProblem> with_looser(const std::shared_ptr<const ScaledProblem>& problem,
-                                                 const std::vector<std::size_t>& caps, double share) {
-  if (share == 0.0) return problem;
-  auto looser = std::make_shared<ScaledProblem>(*problem);
-  for (const std::size_t cap : caps) looser->limits[cap].bound *= 1.0 + share;
-  return looser;
-}
-
-}  // namespace
-
-Candidate Searcher::from_loose_caps(const Passages& passages, Candidate best) {
-  const std::vector<std::size_t> caps = caps_on_speed(*best.rough);
-  if (caps.empty() || best.stopped) return best;
-  begin_margins(*best.rough);
-  std::optional<Tightened> track = tightened(best.rough, caps);
-  if (!track) return best;
-  Candidate end = begun(passages);
-  settle(end,
-         laid_anew(*end.problem, on_finer_meshes(*end.problem, *track->problem, std::move(track->found))));
-  const bool stopped = end.stopped;
-  if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
-  best.stopped = stopped;
-  return best;
-}
-
-std::optional<Searcher::Tightened> Searcher::tightened(const std::shared_ptr<const ScaledProblem>& rough,
-                                                       const std::vector<std::size_t>& caps) {
-  constexpr double kSteps = 20.0;      // measured: with 12 one of five such problems ends in a worse valley
-  constexpr double kMostShare = 1.0;   // taste: caps of twice their bound hardly ever bind
-  constexpr int kMostHalvings = 8;     // budget
-  constexpr double kMostSlower = 0.4;  // taste: slower by such a share after one step a track has got lost
-  double root = 1.0;
-  double step = 1.0 / kSteps;
-  Tightened track{with_looser(rough, caps, kMostShare), {}};
-  std::optional<Found> begun = coarse(*track.problem, starts(*rough).front()).found;
-  if (!begun) return std::nullopt;
-  track.found = std::move(*begun);
-  for (int halvings = 0; root > 0.0;) {
-    if (control_.stop()) return std::nullopt;
-    // Shorter and shorter steps: bends come up all at once, where the caps are nearly met.
-    const double next_root = std::max(0.0, root - step);
-    Tightened next{with_looser(rough, caps, kMostShare * next_root * next_root), {}};
-    aim_at(kCoarseTolerance, 8);
-    const Mesh mesh =
-        mesh_with(*next.problem, refined_knots(*track.found.track, track.found.z, {}, kFinerPieces),
-                  core_length_of(track.found));
-    const Vector beginning = fit(curve_of(*track.found.track, track.found.z), Transcription(mesh));
-    next.found = minimise(*next.problem, mesh, beginning, margins_, control_, &track.found);
-    const double slower = next.found.objective - track.found.objective;
-    if (next.found.feasible(kNearlyFeasible) && slower <= kMostSlower * std::fabs(track.found.objective)) {
-      track = std::move(next);
-      root = next_root;
-    } else if (++halvings > kMostHalvings) {
-      return std::nullopt;
-    } else {
-      step *= 0.5;
-    }
-  }
-  return track;
-}
-
-Candidate Searcher::on_other_meshes(const Passages& passages, Candidate best, bool for_better) {
-  constexpr std::size_t kPieces[] = {24, 32, 40, 60};  // taste
-  constexpr std::size_t kMostForBetter = 40;           // budget
-  constexpr std::size_t kMostKnots = 70;               // budget
-  constexpr int kMostEvaluations = 3000;               // budget: as many as a hard search takes
-  constexpr double kPays = 1e-4;                       // taste: of the objective
-  const auto is_known = [&] { return best.found->residual <= options_.tolerance; };
-  const int before = control_.evaluations;
-  // The track's own mesh, without the places at which limits were held beside it, is another one, too.
-  if (!is_known() && best.found->track->mesh().knots.size() <= kMostKnots) {
-    Mesh mesh = mesh_again(*best.found);
-    mesh.extra_breaks = breaks_of(*best.problem, core_length_of(*best.found));
-    (void)ends_better(passages, mesh, best.found->z, best);
-  }
-  for (const std::size_t pieces : kPieces) {
-    if (best.stopped || control_.stop() || control_.evaluations - before > kMostEvaluations) break;
-    const bool was_known = is_known();
-    if (was_known && (!for_better || pieces > kMostForBetter)) break;
-    const Found& from = *best.found;
-    const double known = from.objective;
-    const std::vector<Switch> switches = switches_of(*best.problem, from);
-    const Mesh mesh =
-        mesh_with(*best.problem, refined_knots(*from.track, from.z, switches, pieces), core_length_of(from));
-    if (mesh.knots.size() > kMostKnots) continue;
-    const bool better =
-        ends_better(passages, mesh, fit(curve_of(*from.track, from.z), Transcription(mesh)), best);
-    const double won = better ? known - best.found->objective : 0.0;
-    if (was_known && won < kPays * std::fabs(known)) break;
-  }
-  return best;
-}
-
-bool Searcher::ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best) {
-  Candidate end = begun(passages);
-  aim_at(kAimed * options_.tolerance, 12);
-  Found next = laid_anew(*end.problem, on_mesh(*end.problem, mesh, z, *best.found));
-  if (next.feasible(kNearlyFeasible)) settle(end, std::move(next));
-  best.stopped = end.stopped;
-  if (!end.kept || !is_ahead(end, best, options_.tolerance)) return false;
-  best = std::move(end);
-  return true;
-}
-
 Candidate Searcher::mended(const Passages& passages, const Mesh& mesh, const Vector& z) {
   Candidate candidate = begun(passages);
   mend_any(candidate, mesh, z);
@@ -556,6 +375,18 @@ bool Searcher::is_unlimited() const {
   return problem_.limits == limits && problem_.finish.kind == FinishKind::point &&
          problem_.body.entry_speed == 0.0 && problem_.objective.kind == ObjectiveKind::travel_time &&
          is_sliding_point(problem_.body);
+}
+
+Vector Searcher::breaks_of(const ScaledProblem& problem, double core_length) {
+  if (!(problem.lowest_speed_from > problem.lead_in)) return {};
+  const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
+  return sigma < 1.0 ? Vector{sigma} : Vector{};
+}
+
+Mesh Searcher::mesh_again(const Found& found) {
+  Mesh mesh = found.track->mesh();
+  if (!found.track->has_fixed_pieces()) mesh.core_length = core_length_of(found);
+  return mesh;
 }
 
 Mesh Searcher::mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const {

@@ -61,6 +61,9 @@ class Searcher {
   /// Where tracks have to wind: the better one of what `best` is and of what the fastest track leads to while caps on the speed,
   /// far from it first, are drawn tight. Neighbouring problems take neighbouring ways.
   [[nodiscard]] Candidate from_loose_caps(const Passages& passages, Candidate best);
+  /// Where tracks wind at a cap on the speed: the same with bends elsewhere between the stretches that lie at the cap, as long
+  /// as that pays.
+  [[nodiscard]] Candidate with_shifted_bends(const Passages& passages, Candidate best);
   /// The search once more from where it ended, on meshes of other sizes laid for that track, until an optimum is found.
   /// @param for_better  goes on from there as long as that pays
   [[nodiscard]] Candidate on_other_meshes(const Passages& passages, Candidate best, bool for_better);
@@ -68,11 +71,23 @@ class Searcher {
   [[nodiscard]] Candidate mended(const Passages& passages, const Mesh& mesh, const Vector& z);
 
  private:
+  // Pieces of levels before the finest.
+  static constexpr std::size_t kMiddlePieces = 16;  // taste: meshes grow by some 4/3
+  static constexpr std::size_t kFinerPieces = 24;   // taste
+  static constexpr double kCoarseTolerance = 1e-3;  // taste
+  /// A coarse track that breaks its limits by less is carried on to a finer mesh.
+  static constexpr double kNearlyFeasible = 1e-3;  // taste
+
   [[nodiscard]] Candidate begun(const Passages& passages);
   /// Limits that nothing has tightened yet.
   void begin_margins(const ScaledProblem& problem);
   /// Only what every track obeys: the mesh can then be laid by the exact solution.
   [[nodiscard]] bool is_unlimited() const;
+  [[nodiscard]] static double core_length_of(const Found& found) { return found.track->core_length(found.z); }
+  /// Where a limit begins to hold.
+  [[nodiscard]] static Vector breaks_of(const ScaledProblem& problem, double core_length);
+  /// The mesh of a track found, for the same unknowns: laid by its length, unless changes of friction hold it in place.
+  [[nodiscard]] static Mesh mesh_again(const Found& found);
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const;
   [[nodiscard]] std::optional<Found> from_exact(const ScaledProblem& problem, const GuessCurve& start);
   struct Rough {
@@ -90,6 +105,8 @@ class Searcher {
   /// From the fastest track over caps far from it to that of the caps themselves. @return none where the way ends before
   [[nodiscard]] std::optional<Tightened> tightened(const std::shared_ptr<const ScaledProblem>& rough,
                                                    const std::vector<std::size_t>& caps);
+  /// The best of the tracks with a bend elsewhere, and so on from there. @return none where none is better
+  [[nodiscard]] std::optional<Found> bends_shifted(const ScaledProblem& problem, const Found& known);
   /// @return whether a search on a mesh ended in a better track than the best one, which it is then
   bool ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best);
   /// From every start, where the first one's track is doubted: the best of them, then others until one is an optimum.
