@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+namespace shifted_bends_test {
+
 using namespace glissade::optimizer;
 
 namespace {
@@ -94,3 +96,5 @@ TEST_CASE("shifted there and back a bend stands where it stood") {
     CHECK_THAT(curve.slope_angle(at), Catch::Matchers::WithinAbs(known.slope_angle(at), 4e-3));
   }
 }
+
+}  // namespace shifted_bends_test

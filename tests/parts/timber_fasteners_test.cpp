@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+namespace timber_fasteners_test {
+
 namespace {
 
 using namespace glissade;
@@ -151,3 +153,5 @@ TEST_CASE("timber troughs: every strip is screwed to every template below it") {
         3 * (templates - 2) + 4 * 2 + 2 * (2 * (templates - 3) + 3 * 4));
   CHECK(count_of(build, "angle bracket", "templates on bearers") > 0);
 }
+
+}  // namespace timber_fasteners_test
