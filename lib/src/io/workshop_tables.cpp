@@ -132,9 +132,9 @@ std::string cut_list_csv(const Workshop& workshop) {
     csv.row() << part.number << part.name << part.material << mm(part.thickness) << part.quantity();
     const Bar bar = bar_of(part);
     add_sizes(part, bar, csv);
-    csv << part.mass << part.mass * static_cast<double>(part.quantity()) << mm(part.centre_of_gravity.x)
-        << mm(part.centre_of_gravity.y) << mm(part.centre_of_gravity.z) << (part.bought_in ? "yes" : "no")
-        << bar.section;
+    csv << clean(part.mass) << clean(part.mass * static_cast<double>(part.quantity()))
+        << mm(part.centre_of_gravity.x) << mm(part.centre_of_gravity.y) << mm(part.centre_of_gravity.z)
+        << (part.bought_in ? "yes" : "no") << bar.section;
   }
   return csv.text();
 }
@@ -181,8 +181,8 @@ std::string setting_out_csv(const Workshop& workshop) {
   for (const std::string& name : workshop.offset_names) header += "," + quoted(name);
   Csv csv(header);
   for (const SettingOutPoint& point : workshop.setting_out) {
-    csv.row() << point.what << mm(point.arc_length) << mm(point.x) << mm(point.z) << point.site.x
-              << point.site.y << point.site.z << degrees(point.slope_angle)
+    csv.row() << point.what << mm(point.arc_length) << mm(point.x) << mm(point.z) << clean(point.site.x)
+              << clean(point.site.y) << clean(point.site.z) << degrees(point.slope_angle)
               << clean(100.0 * math::tan(point.slope_angle.radians())) << mm(point.radius)
               << mm(point.ordinate);
     for (const double offset : point.offsets) csv << mm(offset);
