@@ -73,6 +73,7 @@ TEST_CASE("a value of another dimension is refused by its name") {
         "width: 17 mm is a length, not an angle\n"
         "      It takes an angle with its unit: deg or rad.\n"
         "      Try: 17 deg");
+  CHECK_THAT(refusal("30 %", Dimension::length), Catch::Matchers::Contains("30 % is a share, not a length"));
   CHECK_THAT(refusal("3 deg", Dimension::number), Catch::Matchers::Contains("an angle, not a plain number"));
   CHECK_THAT(
       refusal("4 furlong", Dimension::length),

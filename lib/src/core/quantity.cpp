@@ -207,8 +207,9 @@ Issue not_a_number(std::string_view name, std::string_view text, Dimension dimen
 Issue wrong_unit(std::string_view name, std::string_view text, std::string_view number,
                  std::string_view unit_text, Dimension dimension) {
   if (const Unit* unit = find_unit(unit_text)) {
-    return {"",
-            named(name, text) + " is " + with_article(unit->dimension) + ", not " + with_article(dimension),
+    const bool is_share = unit->dimension == Dimension::number;
+    const std::string what = is_share ? "a share" : with_article(unit->dimension);
+    return {"", named(name, text) + " is " + what + ", not " + with_article(dimension),
             units_that_fit(dimension), example(number, dimension)};
   }
   Issue issue{"", named(name, text) + " has the unknown unit " + shown(unit_text), units_that_fit(dimension),
