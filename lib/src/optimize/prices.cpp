@@ -53,17 +53,22 @@ Vector multipliers_of(const ScaledProblem& problem, const Found& found) {
   return multipliers;
 }
 
-/// Whether prices on two meshes are the same, but for those that do not count.
-bool same_prices(const Vector& a, const Vector& b) {
+/// Which prices on two meshes are not the same, but for those that do not count.
+std::vector<bool> other_prices(const Vector& a, const Vector& b) {
   constexpr double kSame = 0.01;    // accuracy: half that of a price
   constexpr double kCounts = 1e-3;  // of the greatest one; taste
-  if (a.size() != b.size()) return false;
   double greatest = 0.0;
   for (const double multiplier : a) greatest = std::max(greatest, multiplier);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (std::fabs(a[i] - b[i]) > kSame * std::max(a[i], kCounts * greatest)) return false;
-  }
-  return true;
+  std::vector<bool> others(a.size(), false);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    others[i] = std::fabs(a[i] - b[i]) > kSame * std::max(a[i], kCounts * greatest);
+  return others;
+}
+
+bool same_prices(const Vector& a, const Vector& b) {
+  if (a.size() != b.size()) return false;
+  const std::vector<bool> others = other_prices(a, b);
+  return std::none_of(others.begin(), others.end(), [](bool other) { return other; });
 }
 
 /// From close to an optimum to it. @return none where it does not arrive there
@@ -132,6 +137,11 @@ class Sequence {
     return terms_.size() > 1 && same_prices(terms_.back(), terms_[terms_.size() - 2]);
   }
 
+  /// Those that were not the same on the last two meshes.
+  [[nodiscard]] std::vector<bool> changing() const {
+    return other_prices(terms_.back(), terms_[terms_.size() - 2]);
+  }
+
   /// One that changes less and less the same way is continued.
   /// Source: A. C. Aitken, Proceedings of the Royal Society of Edinburgh 46 (1927) 289-305.
   /// @param error  by how much it is, or by how much it changed last
@@ -191,7 +201,13 @@ Priced priced(const ScaledProblem& problem, Found found, const Vector& ahead, co
   sequence.add(multipliers_of(problem, found));
   for (int round = 0; !same && round < kRounds; ++round) {
     if (found.track->mesh().knots.size() > kMostPieces) break;
-    auto next = on_finer_mesh(problem, found, with_all_halved(*found.track, found.z), options, control);
+    // Where those bind whose prices still change: halving other pieces, too, hardly changes a digit. But a limit on the
+    // rate of curvature ties all pieces together.
+    const MeshTrack finer =
+        round == 0 && is_smooth(problem)
+            ? with_all_halved(*found.track, found.z)
+            : with_halved_near(found, round == 0 ? other_prices(begun, ahead) : sequence.changing());
+    auto next = on_finer_mesh(problem, found, finer, options, control);
     if (!next) break;
     before = std::exchange(found, std::move(*next));
     if (found.objective < finest.objective) {

@@ -75,6 +75,28 @@ MeshTrack with_all_halved(const Transcription& track, const Vector& z) {
   return with_halved_pieces(track, z, worth_a_knot(track.mesh()));
 }
 
+MeshTrack with_halved_near(const Found& found, const std::vector<bool>& limits) {
+  constexpr std::size_t kBeside = 2;  // taste
+  const Transcription& track = *found.track;
+  const Vector& knots = track.mesh().knots;
+  const std::vector<bool> long_enough = worth_a_knot(track.mesh());
+  for (std::size_t i = 0; i < found.equality.size(); ++i) {
+    const std::size_t* const limit = found.rows->limit_of_equality(i);
+    if (limit != nullptr && limits[*limit]) return with_halved_pieces(track, found.z, long_enough);
+  }
+  const State state = found.rows->state(found.z, false);
+  std::vector<bool> halved(long_enough.size(), false);
+  for (std::size_t k = 0; k < found.active.size(); ++k) {
+    if (!limits[found.active[k].limit] || !(found.inequality[k] > 0.0)) continue;
+    const double sigma = track.sigma_at(found.z, found.rows->place(state, found.active[k]));
+    const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
+    const auto piece = static_cast<std::size_t>(above - knots.begin()) - 1;
+    const std::size_t last = std::min(piece + kBeside, halved.size() - 1);
+    for (std::size_t i = piece - std::min(piece, kBeside); i <= last; ++i) halved[i] = long_enough[i];
+  }
+  return with_halved_pieces(track, found.z, halved);
+}
+
 MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z) {
   MeshTrack result{track.mesh(), z};
   const auto last_width = [&] { return 1.0 - result.mesh.knots[result.mesh.knots.size() - 2]; };

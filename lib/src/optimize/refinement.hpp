@@ -20,6 +20,11 @@ struct MeshTrack {
 /// The same with a knot more in every piece that does not stand for a jump.
 [[nodiscard]] MeshTrack with_all_halved(const Transcription& track, const Vector& z);
 
+/// The same with a knot more in those of them that lie within or next to where some limits bind; everywhere
+/// where one of these is of one value.
+/// @param limits  one entry a limit of the problem
+[[nodiscard]] MeshTrack with_halved_near(const Found& found, const std::vector<bool>& limits);
+
 /// The same with pieces ever shorter towards the finish, each half as long as the one before.
 [[nodiscard]] MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z);
 

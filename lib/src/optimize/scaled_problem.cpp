@@ -604,6 +604,11 @@ void require_passable_in_order(const Problem& problem) {
   if (!issues.empty()) throw InputError(std::move(issues));
 }
 
+bool is_smooth(const ScaledProblem& problem) {
+  return std::any_of(problem.limits.begin(), problem.limits.end(),
+                     [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
+}
+
 Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
   Mesh mesh;
   mesh.changes = problem.changes;

@@ -99,6 +99,9 @@ using Passages = std::vector<Passage>;
 /// @param core_length  about the length of the core [chords]
 [[nodiscard]] Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length);
 
+/// Whether the rate of curvature is limited: then nothing jumps.
+[[nodiscard]] bool is_smooth(const ScaledProblem& problem);
+
 /// @throws InputError as require_valid() of a Problem, or if the lowest normal load is lifted, which no search can
 ///         model
 void require_searchable(const Problem& problem);

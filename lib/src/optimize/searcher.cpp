@@ -84,12 +84,6 @@ bool is_travel_time(const ScaledProblem& problem) {
   return problem.speed_weight == 0.0 && problem.drop_weight == 0.0 && problem.length_weight == 0.0;
 }
 
-/// Whether the rate of curvature is limited: then nothing jumps.
-bool is_smooth(const ScaledProblem& problem) {
-  return std::any_of(problem.limits.begin(), problem.limits.end(),
-                     [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
-}
-
 /// Whether the fastest track would turn down at once from where a limit on the entry holds it: a body at rest
 /// loses nothing by that, the tighter the crest the better, and no crest is the tightest. How tight it may be is
 /// then up to the mesh, which has to be the same there for every such problem.
