@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace shifted_bends_test {
@@ -20,8 +21,13 @@ constexpr Span kBefore{0.2, 0.4};
 constexpr Span kBehind{0.6, 0.9};
 
 /// Straight but for a wave between 0.4 and 0.6, which turns back what it turns.
-Found wave() {
+/// @param fine  with knots between those that are unknowns, at which the wave is rounder
+Found wave(bool fine = false) {
   Mesh mesh;
+  if (fine) {
+    mesh.fine = {0.425, 0.475, 0.525, 0.575};
+    mesh.fine_turns = {-0.2, 0.3, -0.3, 0.2};
+  }
   mesh.knots = {0.0, 0.1, 0.2, 0.3, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 0.9, 1.0};
   mesh.core_length = kLength;
   Found found;
@@ -54,7 +60,9 @@ End end_of(const GuessCurve& curve) {
 }  // namespace
 
 TEST_CASE("a bend goes into the stretch behind it or before it, and the track leads to the same place") {
-  const Found found = wave();
+  const bool fine = GENERATE(false, true);
+  CAPTURE(fine);
+  const Found found = wave(fine);
   const GuessCurve known = glissade::optimizer::curve_of(*found.track, found.z);
   const End end = end_of(known);
   for (const double share : {0.5, 0.1, 0.025, -0.025, -0.1, -0.5}) {
@@ -75,6 +83,39 @@ TEST_CASE("a bend goes into the stretch behind it or before it, and the track le
     const End there = end_of(curve);
     CHECK_THAT(there.x, Catch::Matchers::WithinAbs(end.x, 1e-3));
     CHECK_THAT(there.y, Catch::Matchers::WithinAbs(end.y, 1e-3));
+  }
+}
+
+TEST_CASE("what follows a load between the knots of a bend goes along with it") {
+  const Found found = wave(true);
+  const Transcription& track = *found.track;
+  for (const double share : {0.5, -0.5}) {
+    const double by = share > 0.0 ? share * (kBehind.to - kBehind.from) : share * (kBefore.to - kBefore.from);
+    const MeshTrack shifted = with_shifted_bend(found, kBefore, kBehind, share);
+    CAPTURE(share, by);
+    REQUIRE(shifted.mesh.fine.size() == track.mesh().fine.size());
+    const Transcription there(shifted.mesh);
+    for (std::size_t i = 0; i < shifted.mesh.fine.size(); ++i) {
+      CHECK_THAT(shifted.mesh.fine[i], Catch::Matchers::WithinAbs(track.mesh().fine[i] + by, 1e-12));
+      CHECK_THAT(there.fine_turn(shifted.z, i),
+                 Catch::Matchers::WithinAbs(track.fine_turn(found.z, i), 1e-9));
+    }
+  }
+}
+
+TEST_CASE("a bend between stretches that begin or end the track changes places with them, too") {
+  const Found found = wave();
+  for (const auto& [before, behind, share] :
+       {std::tuple{Span{0.0, 0.4}, Span{0.6, 1.0}, 0.5}, std::tuple{Span{0.0, 0.4}, Span{0.6, 1.0}, -0.5},
+        std::tuple{Span{0.0, 0.4}, Span{0.6, 1.0}, 1.0}, std::tuple{Span{0.0, 0.4}, Span{0.6, 1.0}, -1.0},
+        std::tuple{Span{0.3, 0.6}, Span{1.0, 1.0}, -0.4}, std::tuple{Span{0.0, 0.0}, Span{0.6, 0.9}, 0.4}}) {
+    CAPTURE(before.from, behind.to, share);
+    const MeshTrack shifted = with_shifted_bend(found, before, behind, share);
+    REQUIRE(shifted.z.size() == shifted.mesh.knots.size() + 2);
+    CHECK(shifted.mesh.knots.front() == 0.0);
+    CHECK(shifted.mesh.knots.back() == 1.0);
+    for (std::size_t i = 1; i < shifted.mesh.knots.size(); ++i)
+      CHECK(shifted.mesh.knots[i] > shifted.mesh.knots[i - 1]);
   }
 }
 

@@ -149,19 +149,26 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
   constexpr double kPays = 1e-6;                   // accuracy: that of a time
   Found best = known;
   begin_margins(problem);
+  std::vector<Vector> tried;  // the same beginnings come back where stretches are short
   const auto wins = [&](std::size_t bend, double share) {
     const std::vector<Span> stretches = stretches_at_cap(problem, best);
     if (bend + 1 >= stretches.size() || control_.stop()) return false;
     const MeshTrack begun_with = with_shifted_bend(best, stretches[bend], stretches[bend + 1], share);
+    if (std::find(tried.begin(), tried.end(), begun_with.mesh.knots) != tried.end()) return false;
+    tried.push_back(begun_with.mesh.knots);
     Mesh mesh = mesh_of(problem, begun_with.mesh.knots, begun_with.mesh.core_length);
     if (mesh.knots.size() != begun_with.mesh.knots.size()) return false;  // friction changes elsewhere, too
     mesh.extra_breaks = breaks_of(problem, mesh.core_length);
+    mesh.fine = begun_with.mesh.fine;
+    mesh.fine_turns = begun_with.mesh.fine_turns;
     aim_at(kAimed * options_.tolerance, 3);
     Found next = minimise(problem, mesh, begun_with.z, margins_, control_);
     if (is_optimum(next)) next = followed(problem, std::move(next));
     const bool does = is_optimum(next) && best.objective - next.objective > kPays * std::fabs(best.objective);
-    if (does) best = std::move(next);
-    return does;
+    if (!does) return false;
+    best = std::move(next);
+    tried.clear();
+    return true;
   };
   bool won = false;
   for (std::size_t bend = 0; bend + 1 < stretches_at_cap(problem, best).size(); ++bend) {

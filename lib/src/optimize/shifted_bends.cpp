@@ -11,35 +11,50 @@ namespace {
 class Assembly {
  public:
   explicit Assembly(const Found& found)
-      : knots_(found.track->mesh().knots), layout_(found.track->layout()), z_(found.z) {
-    result_.mesh = found.track->mesh();
+      : track_(*found.track), knots_(track_.mesh().knots), layout_(track_.layout()), z_(found.z) {
+    result_.mesh = track_.mesh();
     result_.mesh.knots.clear();
-    // What follows loads between the knots is found again.
     result_.mesh.fine.clear();
     result_.mesh.fine_turns.clear();
-    if (!found.track->has_fixed_pieces()) result_.mesh.core_length = found.track->core_length(z_);
+    if (!track_.has_fixed_pieces()) result_.mesh.core_length = track_.core_length(z_);
     result_.z.push_back(z_[layout_.angle()]);
   }
 
-  /// Where it begins and ends in the track itself there is a knot already.
   void append(Span part) {
     constexpr double kBeside = 0.2 * kPair;  // taste: curvature may jump where parts meet
     if (!(part.to - part.from > 2.0 * kBeside)) return;
     const double by = at_ - part.from;
-    const bool begins = part.from == 0.0;
-    const bool ends = part.to == 1.0;
-    if (!begins) add(at_ + kBeside, turn_at(part.from + kBeside));
+    const double first = at_ == 0.0 ? part.from : part.from + kBeside;
+    add(first + by, turn_at(first));
+    const double from = part.from == 0.0 ? 0.0 : first + kBeside;
+    const double to = part.to == 1.0 ? 1.0 : part.to - kBeside;
     for (std::size_t i = 0; i < knots_.size(); ++i) {
-      const bool within =
-          (begins || knots_[i] > part.from + 2.0 * kBeside) && (ends || knots_[i] < part.to - kBeside);
-      if (within) add(ends && i + 1 == knots_.size() ? 1.0 : knots_[i] + by, z_[layout_.turn(i)]);
+      if (knots_[i] > from && knots_[i] < to) add(knots_[i] + by, z_[layout_.turn(i)]);
+    }
+    // What follows loads between the knots goes along.
+    for (const double sigma : track_.mesh().fine) {
+      if (sigma > from && sigma < to) fine_.emplace_back(sigma + by, turn_at(sigma));
     }
     at_ += part.to - part.from;
-    if (!ends) add(at_, turn_at(part.to));
+    add(at_, turn_at(part.to));
   }
 
   [[nodiscard]] MeshTrack whole() && {
+    constexpr double kSame = 1e-9;  // rounding
+    Vector& knots = result_.mesh.knots;
+    knots.back() = 1.0;  // but for what is too short to be a part
     result_.z.push_back(z_[layout_.length()]);
+    const Layout layout{knots.size()};
+    for (const auto& [sigma, turn] : fine_) {
+      const double at = count_pieces(knots, sigma);
+      const auto piece = std::min(static_cast<std::size_t>(at), knots.size() - 2);
+      const double share = at - static_cast<double>(piece);
+      if (share < kSame || share > 1.0 - kSame) continue;  // a knot now
+      const double along =
+          (1.0 - share) * result_.z[layout.turn(piece)] + share * result_.z[layout.turn(piece + 1)];
+      result_.mesh.fine.push_back(sigma);
+      result_.mesh.fine_turns.push_back(turn - along);
+    }
     return std::move(result_);
   }
 
@@ -48,17 +63,20 @@ class Assembly {
     const double at = count_pieces(knots_, sigma);
     const auto piece = std::min(static_cast<std::size_t>(at), knots_.size() - 2);
     const double share = at - static_cast<double>(piece);
-    return (1.0 - share) * z_[layout_.turn(piece)] + share * z_[layout_.turn(piece + 1)];
+    return (1.0 - share) * z_[layout_.turn(piece)] + share * z_[layout_.turn(piece + 1)] +
+           track_.own_turn(sigma);
   }
   void add(double knot, double turn) {
     result_.mesh.knots.push_back(knot);
     result_.z.push_back(turn);
   }
 
+  const Transcription& track_;
   const Vector& knots_;
   const Layout& layout_;
   const Vector& z_;
   MeshTrack result_;
+  std::vector<std::pair<double, double>> fine_;  ///< places and turning rates
   double at_ = 0.0;
 };
 
