@@ -77,6 +77,28 @@ TEST_CASE("mirrored, of another size and elsewhere a problem has the same answer
   }
 }
 
+// Hundreds of descents one after the other: a last digit that differs in one of them leads to another track.
+TEST_CASE("a track that winds is the same wherever the problem lies and whatever its size") {
+  struct Known {
+    int seed;
+    int index;
+  };
+  std::vector<Known> all{{8, 26}};
+  if (testing::thorough()) all.insert(all.end(), {{7, 92}, {8, 245}, {8, 400}});
+  for (const Known& known : all) {
+    std::size_t draw = 0;
+    const Problem problem =
+        testing_problems::problem_to_vary(static_cast<std::uint64_t>(known.seed), known.index, draw);
+    const Optimum optimum = optimize(problem);
+    CAPTURE(known.seed, known.index, optimum.report.brief());
+    REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+    for (const testing_problems::Variation& variation : testing_problems::same_again(problem)) {
+      if (variation.name() == "moved 5,000 km" || testing::thorough())
+        CHECK(compare(variation, optimum.report) == OptimizeStatus::optimal);
+    }
+  }
+}
+
 TEST_CASE("mirrored, of another size and elsewhere clearances of a whole solid have the same answer") {
   testing::Random random = testing::seeded_random(20250304);
   INFO("GLISSADE_SEED=" << random.seed());
@@ -109,7 +131,9 @@ TEST_CASE(
                          {7, 269, "wider exit_slope_angle.lowest"}, {8, 387, "wider lead_out"}};
   if (testing::thorough()) {
     all.push_back({3, 298, "without exit_slope_angle.highest"});
-    all.push_back({7, 199, "wider entry_slope_angle.lowest"});
+    all.push_back({7, 92, "without entry_slope_angle.lowest"});
+    all.push_back({7, 92, "wider arc_length.highest"});
+    all.push_back({8, 26, "without lead_in"});
     all.push_back({8, 352, "without lead_out"});
     all.push_back({8, 352, "without entry_slope_angle.lowest"});
     all.push_back({8, 352, "wider entry_slope_angle.highest"});

@@ -234,7 +234,7 @@ Candidate Searcher::search(const Passages& passages) {
 
 void Searcher::take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,
                          std::vector<Found>& others) {
-  const ScaledProblem& problem = *candidate.problem;
+  const ScaledProblem& problem = *candidate.rough;
   std::vector<Found> tracks{std::move(first)};
   const auto is_same = [](const Found& a, const Found& b) {
     constexpr double kSame = 1e-6;  // accuracy: that of a time
@@ -249,8 +249,7 @@ void Searcher::take_best(Candidate& candidate, Found first, const std::vector<Gu
     if (!known) tracks.push_back(*std::move(found));
   }
   // Which is the best one coarse meshes don't tell: some of them have hardly begun to be fast.
-  for (Found& track : tracks)
-    track = laid_anew(problem, on_finer_meshes(problem, *candidate.rough, std::move(track)));
+  for (Found& track : tracks) track = laid_anew(problem, on_finer_meshes(problem, problem, std::move(track)));
   std::stable_sort(tracks.begin(), tracks.end(), [](const Found& a, const Found& b) {
     const bool keeps = a.feasible(kNearlyFeasible);
     return keeps != b.feasible(kNearlyFeasible) ? keeps : a.objective < b.objective;
@@ -285,10 +284,10 @@ Candidate Searcher::search_from(const Passages& passages, const Mesh& mesh, cons
 
 Searcher::Stage Searcher::carried_on(const Passages& passages, const Mesh& mesh, const Vector& z) {
   Stage stage{begun(passages), {}, mesh, z};
-  const ScaledProblem& problem = *stage.candidate.problem;
+  const ScaledProblem& problem = *stage.candidate.rough;
   aim_at(kCoarseTolerance, 12);
-  Found found = minimise(*stage.candidate.rough, mesh, z, margins_, control_);
-  stage.found = laid_anew(problem, on_finer_meshes(problem, *stage.candidate.rough, std::move(found)));
+  Found found = minimise(problem, mesh, z, margins_, control_);
+  stage.found = laid_anew(problem, on_finer_meshes(problem, problem, std::move(found)));
   return stage;
 }
 
@@ -321,6 +320,7 @@ void Searcher::mend_any(Candidate& candidate, const Mesh& mesh, const Vector& z)
   const ScaledProblem& problem = *candidate.problem;
   const bool any = std::exchange(control_.any_track, true);
   begin_margins(problem);
+  candidate.rough_found.reset();
   finer_mesh_wins_.reset();
   moves_promise_ = 0.0;
   multipliers_ahead_.clear();
@@ -434,12 +434,12 @@ void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
     mend(candidate, std::move(found));
     return;
   }
-  const ScaledProblem& problem = *candidate.problem;
-  settle(candidate, laid_anew(problem, on_finer_meshes(problem, *candidate.rough, std::move(found))));
+  const ScaledProblem& problem = *candidate.rough;
+  settle(candidate, laid_anew(problem, on_finer_meshes(problem, problem, std::move(found))));
 }
 
 void Searcher::settle(Candidate& candidate, Found found) {
-  const ScaledProblem& problem = *candidate.problem;
+  const ScaledProblem& problem = *candidate.rough;
   finer_mesh_wins_.reset();
   moves_promise_ = 0.0;
   multipliers_ahead_.clear();
@@ -454,7 +454,8 @@ void Searcher::settle(Candidate& candidate, Found found) {
   }
   const auto mend_on = [&](Candidate& end_of, Found end) {
     if (!end.stopped) end = laid_anew(problem, std::move(end));
-    mend(end_of, std::move(end));
+    end_of.rough_found = end;
+    mend(end_of, exactly(*end_of.problem, std::move(end)));
   };
   if (!moved) {
     mend_on(candidate, std::move(found));
@@ -475,6 +476,23 @@ void Searcher::settle(Candidate& candidate, Found found) {
   const bool takes = is_good && (!candidate.kept || other.found->objective < candidate.found->objective);
   if (takes) candidate = std::move(other);
   candidate.stopped = stopped;
+}
+
+Found Searcher::exactly(const ScaledProblem& problem, Found found) {
+  if (!problem.changes.empty()) return found;  // as exact as can be
+  const std::function<bool()> stop = control_.stop;
+  const bool stopped = found.stopped;
+  // However near the end of the time: a step or two.
+  if (stopped) control_.stop = [] { return false; };
+  aim_at(kAimed * options_.tolerance, stopped ? 0 : 3);
+  control_.is_close = true;
+  Found next = minimise(problem, mesh_again(found), found.z, margins_, control_, &found);
+  control_.is_close = false;
+  control_.stop = stop;
+  const bool arrives = is_optimum(next);
+  if (!arrives && is_optimum(found)) next = on_mesh(problem, mesh_again(found), found.z, found);
+  next.stopped = stopped || control_.stop();
+  return next;
 }
 
 Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,

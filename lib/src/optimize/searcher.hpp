@@ -21,6 +21,9 @@ struct Candidate {
   std::shared_ptr<ScaledProblem> problem;
   std::shared_ptr<ScaledProblem> rough;  ///< what the search began with, as of roughly_scaled()
   std::optional<Found> found;            ///< none where no start came close to keeping the limits
+  /// That of the rough problem which led to it, before the referee saw it: what goes on from there goes the same way wherever
+  /// the problem lies, and whatever its unit.
+  std::optional<Found> rough_found;
   CenterlinePtr track;
   referee::Judgement judgement;
   bool kept = false;  ///< the referee finds every limit kept
@@ -123,6 +126,8 @@ class Searcher {
   /// pays.
   /// @param rough  of the meshes before those of all pieces
   [[nodiscard]] Found on_finer_meshes(const ScaledProblem& problem, const ScaledProblem& rough, Found found);
+  /// From an optimum of the rough problem to that of the problem itself.
+  [[nodiscard]] Found exactly(const ScaledProblem& problem, Found found);
   /// The search on a mesh laid for a track, once more by way of any track that keeps the limits if it gets lost.
   [[nodiscard]] Found on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
                               const Found& known);

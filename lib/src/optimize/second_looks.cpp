@@ -20,6 +20,11 @@ bool is_ahead(const Candidate& a, const Candidate& b, double tolerance) {
   return a.found->objective < b.found->objective;
 }
 
+/// What the search goes on from.
+const Found& begun_with(const Candidate& best) {
+  return best.rough_found ? *best.rough_found : *best.found;
+}
+
 }  // namespace
 
 Candidate Searcher::from_scattered(const Passages& passages, Candidate best) {
@@ -40,7 +45,7 @@ Candidate Searcher::from_scattered(const Passages& passages, Candidate best) {
   for (Found& track : tracks) {
     if (best.stopped) break;
     Candidate end = begun(passages);
-    const Found found = laid_anew(*end.problem, on_finer_meshes(*end.problem, *end.rough, std::move(track)));
+    const Found found = laid_anew(*end.rough, on_finer_meshes(*end.rough, *end.rough, std::move(track)));
     settle(end, found);
     if (!end.kept && !end.stopped) mend_any(end, found.track->mesh(), found.z);
     const bool stopped = end.stopped;
@@ -82,8 +87,7 @@ Candidate Searcher::from_loose_caps(const Passages& passages, Candidate best) {
   std::optional<Tightened> track = tightened(best.rough, caps);
   if (!track) return best;
   Candidate end = begun(passages);
-  settle(end,
-         laid_anew(*end.problem, on_finer_meshes(*end.problem, *track->problem, std::move(track->found))));
+  settle(end, laid_anew(*end.rough, on_finer_meshes(*end.rough, *track->problem, std::move(track->found))));
   const bool stopped = end.stopped;
   if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
   best.stopped = stopped;
@@ -131,10 +135,10 @@ Candidate Searcher::with_shifted_bends(const Passages& passages, Candidate best)
   constexpr double kPays = 1e-5;  // accuracy: ten times that of a time
   for (int round = 0; round < kMostRounds && best.kept && !best.stopped; ++round) {
     const double before = best.found->objective;
-    const std::optional<Found> found = bends_shifted(*best.problem, *best.found);
+    const std::optional<Found> found = bends_shifted(*best.rough, begun_with(best));
     if (!found) break;
     Candidate end = begun(passages);
-    settle(end, laid_anew(*end.problem, *found));
+    settle(end, laid_anew(*end.rough, *found));
     const bool stopped = end.stopped;
     if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
     best.stopped = stopped;
@@ -194,19 +198,20 @@ Candidate Searcher::on_other_meshes(const Passages& passages, Candidate best, bo
   const int before = control_.evaluations;
   // The track's own mesh, without the places at which limits were held beside it, is another one, too.
   if (!is_known() && best.found->track->mesh().knots.size() <= kMostKnots) {
-    Mesh mesh = mesh_again(*best.found);
-    mesh.extra_breaks = breaks_of(*best.problem, core_length_of(*best.found));
-    (void)ends_better(passages, mesh, best.found->z, best);
+    const Found& from = begun_with(best);
+    Mesh mesh = mesh_again(from);
+    mesh.extra_breaks = breaks_of(*best.rough, core_length_of(from));
+    (void)ends_better(passages, mesh, Vector(from.z), best);
   }
   for (const std::size_t pieces : kPieces) {
     if (best.stopped || control_.stop() || control_.evaluations - before > kMostEvaluations) break;
     const bool was_known = is_known();
     if (was_known && (!for_better || pieces > kMostForBetter)) break;
-    const Found& from = *best.found;
-    const double known = from.objective;
-    const std::vector<Switch> switches = switches_of(*best.problem, from);
+    const Found& from = begun_with(best);
+    const double known = best.found->objective;
+    const std::vector<Switch> switches = switches_of(*best.rough, from);
     const Mesh mesh =
-        mesh_with(*best.problem, refined_knots(*from.track, from.z, switches, pieces), core_length_of(from));
+        mesh_with(*best.rough, refined_knots(*from.track, from.z, switches, pieces), core_length_of(from));
     if (mesh.knots.size() > kMostKnots) continue;
     const bool better =
         ends_better(passages, mesh, fit(curve_of(*from.track, from.z), Transcription(mesh)), best);
@@ -219,7 +224,7 @@ Candidate Searcher::on_other_meshes(const Passages& passages, Candidate best, bo
 bool Searcher::ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best) {
   Candidate end = begun(passages);
   aim_at(kAimed * options_.tolerance, 12);
-  Found next = laid_anew(*end.problem, on_mesh(*end.problem, mesh, z, *best.found));
+  Found next = laid_anew(*end.rough, on_mesh(*end.rough, mesh, z, begun_with(best)));
   if (next.feasible(kNearlyFeasible)) settle(end, std::move(next));
   best.stopped = end.stopped;
   if (!end.kept || !is_ahead(end, best, options_.tolerance)) return false;
