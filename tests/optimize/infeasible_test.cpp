@@ -114,12 +114,12 @@ TEST_CASE(
     "an independent search finds no track where limits are said to contradict each other, and what they "
     "would take "
     "does") {
-  testing::Random random = testing::seeded_random();
+  testing::Random random = testing_problems::seeded_for_limited();
   INFO("GLISSADE_SEED=" << random.seed());
   // Its own numbers: the problems are those of the other test of random limits.
   testing::Random steps(random.seed());
   int infeasible = 0;
-  for (int i = problems_of(100); i > 0; --i) {
+  for (int i = problems_of(40); i > 0; --i) {
     const Problem problem = random_limited(random);
     const Optimum optimum = optimize(problem);
     if (optimum.centerline) continue;

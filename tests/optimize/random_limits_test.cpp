@@ -181,7 +181,7 @@ void hold(const Problem& problem, int neighbours, testing::Random& random, Tally
 }  // namespace
 
 TEST_CASE("random limited problems: every limit is kept, and no admissible neighbour is faster") {
-  testing::Random random = testing::seeded_random();
+  testing::Random random = testing_problems::seeded_for_limited();
   INFO("GLISSADE_SEED=" << random.seed());
   constexpr int kNeighbours = 12;
   Tally tally;
@@ -215,7 +215,7 @@ Problem with_changing_friction(Problem problem, testing::Random& random) {
 }
 
 TEST_CASE("random limited problems where friction changes: no admissible neighbour is faster") {
-  testing::Random random = testing::seeded_random();
+  testing::Random random = testing_problems::seeded_for_limited();
   INFO("GLISSADE_SEED=" << random.seed());
   // Most of them lift off where the track found flies over rougher ground.
   constexpr int kNeighbours = 80;
