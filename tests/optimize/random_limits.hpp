@@ -122,7 +122,7 @@ inline int problem_count() {
 /// What random limited problems are drawn with. The first one of those that continuous integration draws winds at a cap on
 /// the speed, which takes half a minute.
 inline testing::Random seeded_for_limited() {
-  constexpr std::uint64_t kShort = 2;
+  constexpr std::uint64_t kShort = 1;
   return testing::thorough() ? testing::seeded_random() : testing::seeded_random(kShort);
 }
 

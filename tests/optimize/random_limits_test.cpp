@@ -215,7 +215,7 @@ Problem with_changing_friction(Problem problem, testing::Random& random) {
 }
 
 TEST_CASE("random limited problems where friction changes: no admissible neighbour is faster") {
-  testing::Random random = testing_problems::seeded_for_limited();
+  testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   // Most of them lift off where the track found flies over rougher ground.
   constexpr int kNeighbours = 80;

@@ -546,11 +546,27 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   return out;
 }
 
+namespace {
+
+/// Whether limits leave hardly any track but the straight line: which one that is the last digits tell.
+bool is_all_but_straight(const ScaledProblem& problem) {
+  constexpr double kHair = 1e-6;  // accuracy: a hundred times what rounding to 1e-8 takes
+  if (problem.finish != FinishKind::point) return false;
+  const double mean_slope = math::atan2(problem.drop, problem.run);
+  const double chord = math::hypot(problem.run, problem.drop);
+  return std::any_of(problem.limits.begin(), problem.limits.end(), [&](const LimitSpec& limit) {
+    if (limit.measure == Measure::slope_angle) return std::fabs(limit.bound - mean_slope) < kHair;
+    return limit.measure == Measure::arc_length && limit.side >= 0 && std::fabs(limit.bound - chord) < kHair;
+  });
+}
+
+}  // namespace
+
 ScaledProblem roughly_scaled(const Problem& problem, const Passages& passages) {
   constexpr int kBits = 26;  // accuracy: 1e-8, of a limit's own
   ScaledProblem out = scaled(problem, passages);
   // Meshes are laid by the places where friction changes, to the last digit.
-  if (out.changes.empty()) round_off(Rounding(kBits), out);
+  if (out.changes.empty() && !is_all_but_straight(out)) round_off(Rounding(kBits), out);
   return out;
 }
 

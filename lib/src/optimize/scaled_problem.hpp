@@ -89,9 +89,9 @@ using Passages = std::vector<Passage>;
 
 /// @param passages  above or below, one for each keep-out
 [[nodiscard]] ScaledProblem scaled(const Problem& problem, const Passages& passages);
-/// The same with places and bounds to about 1e-8: what a search may begin with. The same problem far from its origin is
-/// the same here, nearly always, and which valley a search ends in is decided by its beginning. Where friction changes
-/// along the track it is scaled() itself.
+/// The same with places and bounds to about 1e-8: what a search is on up to its last steps. The same problem far from its origin is
+/// the same here, nearly always, and so is the valley that a search ends in. Where friction changes along the track, or limits
+/// leave hardly any track but the straight line, it is scaled() itself.
 [[nodiscard]] ScaledProblem roughly_scaled(const Problem& problem, const Passages& passages);
 
 /// Knots are added where friction changes.
