@@ -150,13 +150,12 @@ class Course {
   /// @param by_footholds  whether the starts led nowhere
   void look_again(bool by_footholds) {
     const auto is_optimum = [&] { return best_->found->residual <= options_.tolerance; };
-    const Passages& way = ways_[way_];
     if (!kept() || stopped_ || (!by_footholds && is_optimum())) return;
-    best_ = by_footholds ? searcher_.from_loose_caps(way, *std::move(best_))
-                         : searcher_.from_scattered(way, *std::move(best_));
+    best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
+                         : searcher_.from_scattered(*std::move(best_));
     if (!best_->stopped && (by_footholds || !is_optimum()))
-      best_ = searcher_.on_other_meshes(way, *std::move(best_), by_footholds);
-    if (!best_->stopped) best_ = searcher_.with_shifted_bends(way, *std::move(best_));
+      best_ = searcher_.on_other_meshes(*std::move(best_), by_footholds);
+    if (!best_->stopped) best_ = searcher_.with_shifted_bends(*std::move(best_));
     stopped_ = best_->stopped;
   }
 

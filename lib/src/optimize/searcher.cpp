@@ -354,6 +354,14 @@ Candidate Searcher::begun(const Passages& passages) {
   return candidate;
 }
 
+Candidate Searcher::begun_again(const Candidate& known) {
+  Candidate candidate;
+  candidate.problem = known.problem;
+  candidate.rough = known.rough;
+  begin_margins(*candidate.problem);
+  return candidate;
+}
+
 double least_margin(const LimitSpec& limit) {
   return limit.measure == Measure::normal_load && limit.side < 0 ? kContactMargin : 0.0;
 }

@@ -60,16 +60,16 @@ class Searcher {
   /// Another optimum of a candidate's own problem and margins, to its end.
   [[nodiscard]] Candidate ended_on(const Candidate& known, Found found);
   /// Where the search's own starts led to no optimum: the best of what `best` is and of what curves of no kind lead to.
-  [[nodiscard]] Candidate from_scattered(const Passages& passages, Candidate best);
+  [[nodiscard]] Candidate from_scattered(Candidate best);
   /// Where tracks have to wind: the better one of what `best` is and of what the fastest track leads to while caps on the speed,
   /// far from it first, are drawn tight. Neighbouring problems take neighbouring ways.
-  [[nodiscard]] Candidate from_loose_caps(const Passages& passages, Candidate best);
+  [[nodiscard]] Candidate from_loose_caps(Candidate best);
   /// Where tracks wind at a cap on the speed: the same with bends elsewhere between the stretches that lie at the cap, as long
   /// as that pays.
-  [[nodiscard]] Candidate with_shifted_bends(const Passages& passages, Candidate best);
+  [[nodiscard]] Candidate with_shifted_bends(Candidate best);
   /// The search once more from where it ended, on meshes of other sizes laid for that track, until an optimum is found.
   /// @param for_better  goes on from there as long as that pays
-  [[nodiscard]] Candidate on_other_meshes(const Passages& passages, Candidate best, bool for_better);
+  [[nodiscard]] Candidate on_other_meshes(Candidate best, bool for_better);
   /// A track that keeps the limits on its mesh, mended so that it keeps them everywhere, however slow it is.
   [[nodiscard]] Candidate mended(const Passages& passages, const Mesh& mesh, const Vector& z);
 
@@ -82,6 +82,8 @@ class Searcher {
   static constexpr double kNearlyFeasible = 1e-3;  // taste
 
   [[nodiscard]] Candidate begun(const Passages& passages);
+  /// On the very problems of another one, which tracks found for it refer to.
+  [[nodiscard]] Candidate begun_again(const Candidate& known);
   /// Limits that nothing has tightened yet.
   void begin_margins(const ScaledProblem& problem);
   /// Only what every track obeys: the mesh can then be laid by the exact solution.
@@ -111,7 +113,7 @@ class Searcher {
   /// The best of the tracks with a bend elsewhere, and so on from there. @return none where none is better
   [[nodiscard]] std::optional<Found> bends_shifted(const ScaledProblem& problem, const Found& known);
   /// @return whether a search on a mesh ended in a better track than the best one, which it is then
-  bool ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best);
+  bool ends_better(const Mesh& mesh, const Vector& z, Candidate& best);
   /// From every start, where the first one's track is doubted: the best of them, then others until one is an optimum.
   void take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,
                  std::vector<Found>& others);

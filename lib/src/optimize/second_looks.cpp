@@ -27,7 +27,7 @@ const Found& begun_with(const Candidate& best) {
 
 }  // namespace
 
-Candidate Searcher::from_scattered(const Passages& passages, Candidate best) {
+Candidate Searcher::from_scattered(Candidate best) {
   constexpr std::size_t kMostEnded = 3;                           // budget
   const std::shared_ptr<const ScaledProblem> rough = best.rough;  // which the tracks below refer to
   std::vector<Found> tracks;
@@ -44,7 +44,7 @@ Candidate Searcher::from_scattered(const Passages& passages, Candidate best) {
   if (tracks.size() > kMostEnded) tracks.resize(kMostEnded);
   for (Found& track : tracks) {
     if (best.stopped) break;
-    Candidate end = begun(passages);
+    Candidate end = begun_again(best);
     const Found found = laid_anew(*end.rough, on_finer_meshes(*end.rough, *end.rough, std::move(track)));
     settle(end, found);
     if (!end.kept && !end.stopped) mend_any(end, found.track->mesh(), found.z);
@@ -80,13 +80,13 @@ std::shared_ptr<const ScaledProblem> with_looser(const std::shared_ptr<const Sca
 
 }  // namespace
 
-Candidate Searcher::from_loose_caps(const Passages& passages, Candidate best) {
+Candidate Searcher::from_loose_caps(Candidate best) {
   const std::vector<std::size_t> caps = caps_on_speed(*best.rough);
   if (caps.empty() || best.stopped) return best;
   begin_margins(*best.rough);
   std::optional<Tightened> track = tightened(best.rough, caps);
   if (!track) return best;
-  Candidate end = begun(passages);
+  Candidate end = begun_again(best);
   settle(end, laid_anew(*end.rough, on_finer_meshes(*end.rough, *track->problem, std::move(track->found))));
   const bool stopped = end.stopped;
   if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
@@ -130,14 +130,14 @@ std::optional<Searcher::Tightened> Searcher::tightened(const std::shared_ptr<con
   return track;
 }
 
-Candidate Searcher::with_shifted_bends(const Passages& passages, Candidate best) {
+Candidate Searcher::with_shifted_bends(Candidate best) {
   constexpr int kMostRounds = 3;  // budget
   constexpr double kPays = 1e-5;  // accuracy: ten times that of a time
   for (int round = 0; round < kMostRounds && best.kept && !best.stopped; ++round) {
     const double before = best.found->objective;
     const std::optional<Found> found = bends_shifted(*best.rough, begun_with(best));
     if (!found) break;
-    Candidate end = begun(passages);
+    Candidate end = begun_again(best);
     settle(end, laid_anew(*end.rough, *found));
     const bool stopped = end.stopped;
     if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
@@ -188,7 +188,7 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
   return won ? std::optional(std::move(best)) : std::nullopt;
 }
 
-Candidate Searcher::on_other_meshes(const Passages& passages, Candidate best, bool for_better) {
+Candidate Searcher::on_other_meshes(Candidate best, bool for_better) {
   constexpr std::size_t kPieces[] = {24, 32, 40, 60};  // taste
   constexpr std::size_t kMostForBetter = 40;           // budget
   constexpr std::size_t kMostKnots = 70;               // budget
@@ -201,7 +201,7 @@ Candidate Searcher::on_other_meshes(const Passages& passages, Candidate best, bo
     const Found& from = begun_with(best);
     Mesh mesh = mesh_again(from);
     mesh.extra_breaks = breaks_of(*best.rough, core_length_of(from));
-    (void)ends_better(passages, mesh, Vector(from.z), best);
+    (void)ends_better(mesh, Vector(from.z), best);
   }
   for (const std::size_t pieces : kPieces) {
     if (best.stopped || control_.stop() || control_.evaluations - before > kMostEvaluations) break;
@@ -213,16 +213,15 @@ Candidate Searcher::on_other_meshes(const Passages& passages, Candidate best, bo
     const Mesh mesh =
         mesh_with(*best.rough, refined_knots(*from.track, from.z, switches, pieces), core_length_of(from));
     if (mesh.knots.size() > kMostKnots) continue;
-    const bool better =
-        ends_better(passages, mesh, fit(curve_of(*from.track, from.z), Transcription(mesh)), best);
+    const bool better = ends_better(mesh, fit(curve_of(*from.track, from.z), Transcription(mesh)), best);
     const double won = better ? known - best.found->objective : 0.0;
     if (was_known && won < kPays * std::fabs(known)) break;
   }
   return best;
 }
 
-bool Searcher::ends_better(const Passages& passages, const Mesh& mesh, const Vector& z, Candidate& best) {
-  Candidate end = begun(passages);
+bool Searcher::ends_better(const Mesh& mesh, const Vector& z, Candidate& best) {
+  Candidate end = begun_again(best);
   aim_at(kAimed * options_.tolerance, 12);
   Found next = laid_anew(*end.rough, on_mesh(*end.rough, mesh, z, begun_with(best)));
   if (next.feasible(kNearlyFeasible)) settle(end, std::move(next));
