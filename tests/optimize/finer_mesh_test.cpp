@@ -88,6 +88,39 @@ TEST_CASE("where pieces halved for prices win more than a time's accuracy, their
   }
 }
 
+TEST_CASE(
+    "from rest a slope that is held costs nothing: the body turns down at once, as tightly as it takes") {
+  // Where nothing else holds it, the fastest track without limits is what such tracks tend to.
+  constexpr double kLost = 1e-6;
+  testing::Random random(11);
+  const int count = testing::thorough() ? 24 : 8;
+  for (int i = 0; i < count; ++i) {
+    const double mu = random.between(0.0, 0.5);
+    const double ratio = std::max(1.3 * mu, random.between(0.4, 2.0));
+    const double run = (i % 2 == 0 ? 1.0 : -1.0) * random.between(1.0, 30.0);
+    Problem problem;
+    problem.endpoints = {run, ratio * std::fabs(run)};
+    problem.body.friction = Friction::from_coefficient(mu);
+    problem.limits.entry_slope_angle = Range::fixed(std::atan(ratio) + random.between(0.0, 0.4));
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(i, mu, ratio, run, report.brief());
+    REQUIRE(report.status == OptimizeStatus::optimal);
+    const double lost = report.travel_time / report.unlimited_travel_time.value() - 1.0;
+    CAPTURE(lost);
+    CHECK(lost < kLost);
+    CHECK(lost < 1.5 * report.finer_mesh_wins.value_or(0.0));
+  }
+}
+
+TEST_CASE("where such a start has more limits three times as many pieces win little, and it is told") {
+  for (const Drawn& drawn : std::vector<Drawn>{{1, 5}, {2, 74}, {3, 31}, {20250217, 32}}) {
+    CAPTURE(drawn.seed, drawn.index);
+    const Loss loss = loss_of(problem_of(drawn));
+    CAPTURE(loss.lost, loss.told);
+    CHECK(loss.lost <= 1e-6);
+  }
+}
+
 TEST_CASE("what a finer mesh would win is told to be no less than many pieces win") {
   constexpr double kNothing = 1e-6;
   std::vector<Drawn> all{{20250217, 97}, {20250217, 118}, {20250217, 144}};

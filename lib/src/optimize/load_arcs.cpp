@@ -21,7 +21,7 @@ constexpr std::size_t kMostFine = 16;  // budget
 constexpr std::size_t kLifting = 8;    // taste
 // Below this squared speed, as a share of that of free fall through a chord, a body is at rest: the curvature of
 // constant load has no bound there.
-constexpr double kAtRest = 1e-9;  // taste
+constexpr double kAtRest = 1e-12;  // taste
 
 /// One piece along which a load limit is held.
 struct HeldPiece {

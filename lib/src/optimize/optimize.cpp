@@ -120,6 +120,11 @@ class Course {
     return converged && best_->found->objective < known;
   }
 
+  /// Where a body at rest turns down at once: the same track, ever tighter there.
+  void sharpen_crest() {
+    if (!stopped_) best_ = searcher_.with_sharper_crest(*std::move(best_));
+  }
+
   /// From several, of which the best one counts. On their way there they tell which can be that.
   void from(const std::vector<Foothold>& footholds) {
     if (control_.any_track) {
@@ -275,7 +280,8 @@ std::optional<double> left_to_win(const Candidate& best, const PricedLimits& pri
   const double size = std::fabs(found.objective);
   double halving = (std::max(0.0, found.objective - priced.least) + priced.rest) / size;
   if (!on_finest) halving = std::max(halving, kAgain * *best.finer_mesh_wins);
-  return halving + lost_to_margins(*best.problem, found) / size + kOfRoom * best.moves_promise;
+  return halving + lost_to_margins(*best.problem, found) / size + kOfRoom * best.moves_promise +
+         best.sharper_crest_wins;
 }
 
 /// Tells of the best track that keeps every limit.
@@ -288,8 +294,11 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   }
   report.active = std::move(priced.limits);
   const bool onto_finest = priced.better && course.onto(std::move(*priced.better)) && priced.is_finest;
+  const Found blunt = *course.best().found;
+  course.sharpen_crest();
   const Candidate& best = course.best();
   const Found& found = *best.found;
+  if (best.sharper_crest_wins > 0.0) carry_over(*best.problem, blunt, found, report.active);
   report.travel_time = best.judgement.travel_time;
   report.exit_speed = best.judgement.exit_speed;
   report.checks = best.judgement.checks;

@@ -244,6 +244,11 @@ double objective_unit(const ScaledProblem& problem) {
   return problem.time_weight > 0.0 ? problem.time : length_or_speed;
 }
 
+/// Of a limit's multiplier.
+double price_unit(const ScaledProblem& problem, const LimitSpec& limit) {
+  return limit.per_si / limit.scale * objective_unit(problem);
+}
+
 /// Straight ends that cost something.
 void add_leads(const ScaledProblem& problem, const Found& found, double objective,
                std::vector<ActiveLimit>& limits) {
@@ -276,7 +281,7 @@ std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Foun
     for (const Span& span : bindings[i]) {
       active.where.push_back({span.from * problem.chord, span.to * problem.chord});
     }
-    const double unit = limit.per_si / limit.scale * objective_unit(problem);
+    const double unit = price_unit(problem, limit);
     active.price = multiplier * unit;
     active.price_error = error[i] * unit;  // of all its sides; a share at last
     // A limit with two sides under one name, as that on the rate of curvature, gives way on both.
@@ -398,6 +403,23 @@ PricedLimits priced_limits(const ScaledProblem& problem, const Found& found, con
   result.better = std::move(finest);
   result.is_finest = true;
   return result;
+}
+
+void carry_over(const ScaledProblem& problem, const Found& from, const Found& to,
+                std::vector<ActiveLimit>& limits) {
+  const Vector before = multipliers_of(problem, from);
+  const Vector behind = multipliers_of(problem, to);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto active = std::find_if(limits.begin(), limits.end(), [&](const ActiveLimit& limit) {
+      return limit.limit == problem.limits[i].name;
+    });
+    if (active == limits.end()) continue;
+    const double change = (behind[i] - before[i]) * price_unit(problem, problem.limits[i]);
+    active->price = std::max(0.0, active->price + change);
+    if (active->tightening_price)
+      active->tightening_price = std::max(active->price, *active->tightening_price + change);
+  }
+  limits = told(std::move(limits));
 }
 
 }  // namespace glissade::optimizer

@@ -37,4 +37,8 @@ struct PricedLimits {
                                          const Vector& ahead, const OptimizeOptions& options,
                                          SearchControl& control);
 
+/// Prices at one optimum, from those at another close to it, on the same problem: changed by as much as the multipliers.
+void carry_over(const ScaledProblem& problem, const Found& from, const Found& to,
+                std::vector<ActiveLimit>& limits);
+
 }  // namespace glissade::optimizer

@@ -108,6 +108,51 @@ MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& 
   return result;
 }
 
+MeshTrack with_shorter_beginning(const Transcription& track, const Vector& z) {
+  constexpr double kPart = 0.25;  // taste: that of the knots behind it
+  const Mesh& mesh = track.mesh();
+  const Layout& layout = track.layout();
+  std::size_t last = 1;  // of the crest's knots
+  while (last + 2 < mesh.knots.size() && z[layout.turn(last + 1)] < 0.0) ++last;
+  MeshTrack result{mesh, {z[layout.angle()]}};
+  result.mesh.knots.clear();
+  result.mesh.fine.clear();
+  result.mesh.fine_turns.clear();
+  result.mesh.extra_breaks.clear();
+  for (std::size_t i = 0; i <= last; ++i) {
+    result.mesh.knots.push_back(kPart * mesh.knots[i]);
+    result.z.push_back(z[layout.turn(i)] / kPart);
+  }
+  for (std::size_t k = 0; k < mesh.fine.size() && mesh.fine[k] < mesh.knots[last]; ++k) {
+    result.mesh.fine.push_back(kPart * mesh.fine[k]);
+    result.mesh.fine_turns.push_back(mesh.fine_turns[k] / kPart);
+  }
+  const double crest = result.mesh.knots.back();
+  for (std::size_t i = 0; i < mesh.knots.size(); ++i) {
+    if (!(mesh.knots[i] > 1.5 * crest)) continue;
+    result.mesh.knots.push_back(mesh.knots[i]);
+    result.z.push_back(z[layout.turn(i)]);
+  }
+  const double next = result.mesh.knots[last + 1];
+  for (const double place : mesh.extra_breaks) {
+    if (place < mesh.knots[last]) result.mesh.extra_breaks.push_back(kPart * place);
+    if (place > crest) result.mesh.extra_breaks.push_back(place);
+  }
+  for (std::size_t k = 0; k < mesh.fine.size(); ++k) {
+    if (!(mesh.fine[k] > next)) continue;
+    result.mesh.fine.push_back(mesh.fine[k]);
+    result.mesh.fine_turns.push_back(mesh.fine_turns[k]);
+  }
+  // Where the tighter crest meets the track that was there, it is not known yet where the body comes to press again.
+  const Vector& knots = result.mesh.knots;
+  for (std::size_t i = last; i < last + 2 && i + 1 < knots.size(); ++i) {
+    for (const double share : {0.25, 0.5, 0.75})
+      result.mesh.extra_breaks.push_back(knots[i] + share * (knots[i + 1] - knots[i]));
+  }
+  result.z.push_back(z[layout.length()]);
+  return result;
+}
+
 Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchControl& control) {
   const std::vector<bool> halved = worth_a_knot(found.track->mesh());
   const MeshTrack finer = with_halved_pieces(*found.track, found.z, halved);

@@ -28,6 +28,10 @@ struct MeshTrack {
 /// The same with pieces ever shorter towards the finish, each half as long as the one before.
 [[nodiscard]] MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z);
 
+/// The same with a first piece a quarter as long, the crest there as much tighter: what falls off a place of rest looks the
+/// same on every scale.
+[[nodiscard]] MeshTrack with_shorter_beginning(const Transcription& track, const Vector& z);
+
 /// What is left to win by a finer mesh: the step of the quadratic program on the mesh whose every piece is
 /// halved, which knows the rows that hold between the stations of the coarser one.
 struct Remainder {

@@ -154,6 +154,8 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
 /// Places at which limits are held beside the stations, of the core's length.
 class HeldPlaces {
  public:
+  explicit HeldPlaces(Vector places) : places_(std::move(places)) {}
+
   /// A place close to one that is held already takes its part: limits are touched there now.
   void add(double sigma, const Vector& knots) {
     constexpr double kClose = 0.02;  // taste
@@ -507,7 +509,8 @@ Found Searcher::on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Ve
                         const Found& known) {
   if (control_.any_track) return kept_on(problem, mesh, beginning);
   Found next = minimise(problem, mesh, beginning, margins_, control_, &known);
-  if (next.stopped || next.feasible(kNearlyFeasible) || !known.feasible(kNearlyFeasible)) return next;
+  const bool is_lost = !next.feasible(kNearlyFeasible) && known.feasible(kNearlyFeasible);
+  if (next.stopped || !is_lost || control_.is_close) return next;
   std::optional<Found> other = rescued(problem, mesh, beginning);
   return other ? std::move(*other) : next;
 }
@@ -694,12 +697,12 @@ MeshTrack Searcher::relaid(const ScaledProblem& problem, const Found& found) con
   return again;
 }
 
-void Searcher::mend(Candidate& candidate, Found found) {
+void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
   const ScaledProblem& problem = *candidate.problem;
   const std::function<bool()> stop = control_.stop;
   candidate.stopped = candidate.stopped || found.stopped;
   tell("referee", 0.9);
-  HeldPlaces held;
+  HeldPlaces held(places);
   int rides_to_end = 0;  // of those that end early the rest is not known
   for (int round = 0; round < kTighteningRounds; ++round) {
     const CenterlinePtr track = track_of(problem, found);
@@ -753,6 +756,51 @@ void Searcher::mend(Candidate& candidate, Found found) {
     found.stopped = found.stopped || stopped;
   }
   candidate.stopped = candidate.stopped || found.stopped;
+}
+
+Candidate Searcher::with_sharper_crest(Candidate best) {
+  constexpr int kMostRounds = 8;    // budget
+  constexpr double kPays = 5e-7;    // accuracy: half that of a time
+  constexpr double kNearly = 1e-3;  // accuracy: half its square is half that of a time
+  constexpr double kMuch = 2e-6;    // taste: worth a descent that takes its time
+  const ScaledProblem& problem = *best.problem;
+  if (!starts_with_crest(problem) || !best.kept || best.stopped || !is_optimum(*best.found)) return best;
+  // One that the last digits keep from being an optimum may lead to one that is.
+  Candidate last = best;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Found known = *last.found;
+    const MeshTrack sharper = with_shorter_beginning(*known.track, known.z);
+    const auto next_from = [&](bool is_close) {
+      margins_ = known.rows->margins();
+      aim_at(kAimed * options_.tolerance, 0);
+      control_.is_close = is_close;
+      Found next = minimise(problem, sharper.mesh, sharper.z, margins_, control_, &known);
+      const bool goes_on = !next.stopped && next.residual <= kNearly && next.objective < known.objective;
+      last.kept = false;
+      last.found.reset();
+      if (goes_on) mend(last, next, sharper.mesh.extra_breaks);
+      control_.is_close = false;
+      return goes_on ? (known.objective - next.objective) / std::fabs(known.objective) : 0.0;
+    };
+    const auto is_sharper = [&](double residual) {
+      return last.kept && !last.stopped && last.found->residual <= residual &&
+             last.found->objective < known.objective;
+    };
+    double won = next_from(true);
+    if (!is_sharper(kNearly) || (!is_sharper(options_.tolerance) && won > kMuch))
+      won = std::max(won, next_from(false));
+    // Each quarter wins half of what is left.
+    if (is_sharper(options_.tolerance)) {
+      last.finer_mesh_wins = best.finer_mesh_wins;
+      last.moves_promise = best.moves_promise;
+      best = last;
+      best.sharper_crest_wins = won;
+    } else {
+      best.sharper_crest_wins = std::max(best.sharper_crest_wins, 2.0 * won);
+    }
+    if (!is_sharper(kNearly) || won < kPays) break;
+  }
+  return best;
 }
 
 std::optional<Found> Searcher::following_closely(const ScaledProblem& problem, const Found& found,

@@ -30,7 +30,8 @@ struct Candidate {
   bool stopped = false;
   std::optional<double> finer_mesh_wins;  ///< pieces halved once would win, as a share of the objective
   double moves_promise = 0.0;             ///< MovedKnots::promised, as a share of the objective
-  Vector multipliers_ahead;  ///< of each limit on a finer mesh, as in Outlook; none if not looked at
+  double sharper_crest_wins = 0.0;  ///< where a body at rest turns down at once, as a share of the objective
+  Vector multipliers_ahead;         ///< of each limit on a finer mesh, as in Outlook; none if not looked at
 };
 
 /// By which a limit is tightened before anything asks for it, in scales.
@@ -70,6 +71,8 @@ class Searcher {
   /// The search once more from where it ended, on meshes of other sizes laid for that track, until an optimum is found.
   /// @param for_better  goes on from there as long as that pays
   [[nodiscard]] Candidate on_other_meshes(Candidate best, bool for_better);
+  /// Where a body at rest turns down at once: the same with bends ever tighter there, until that wins nothing.
+  [[nodiscard]] Candidate with_sharper_crest(Candidate best);
   /// A track that keeps the limits on its mesh, mended so that it keeps them everywhere, however slow it is.
   [[nodiscard]] Candidate mended(const Passages& passages, const Mesh& mesh, const Vector& z);
 
@@ -153,7 +156,8 @@ class Searcher {
   /// A track that keeps the limits on a mesh, however slow it is.
   [[nodiscard]] Found kept_on(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning);
   /// Lets the referee judge and mends what it finds, round by round.
-  void mend(Candidate& candidate, Found found);
+  /// @param places  at which limits are held beside the stations from the beginning, of the core's length
+  void mend(Candidate& candidate, Found found, const Vector& places = {});
   /// A curvature that follows the load more closely where a body lifts off.
   /// @return nothing where that takes no further knots, or no optimum is found with them
   [[nodiscard]] std::optional<Found> following_closely(const ScaledProblem& problem, const Found& found,
