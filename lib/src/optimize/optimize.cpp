@@ -155,6 +155,7 @@ class Course {
   /// @param by_footholds  whether the starts led nowhere
   void look_again(bool by_footholds) {
     const auto is_optimum = [&] { return best_->found->residual <= options_.tolerance; };
+    look_at_promising();
     if (!kept() || stopped_ || (!by_footholds && is_optimum())) return;
     best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
                          : searcher_.from_scattered(*std::move(best_));
@@ -204,8 +205,25 @@ class Course {
     };
   }
 
+  /// A better track than the best one that came to no end there.
+  void look_at_promising() {
+    constexpr double kMuch = 1e-4;  // taste: for less of the objective it is not worth the way
+    if (!kept() || stopped_ || !promising_) return;
+    const double known = best_->found->objective;
+    if (!(known - promising_->promising->objective > kMuch * std::fabs(known))) return;
+    Candidate end = searcher_.from_promising(*promising_);
+    stopped_ = stopped_ || end.stopped;
+    if (end.kept && end.found->residual <= options_.tolerance) take(promising_way_, std::move(end));
+  }
+
   void take(std::size_t way, Candidate candidate) {
     stopped_ = stopped_ || candidate.stopped;
+    const bool promises = candidate.promising &&
+                          (!promising_ || candidate.promising->objective < promising_->promising->objective);
+    if (promises) {
+      promising_ = candidate;
+      promising_way_ = way;
+    }
     if (!is_better(candidate, best_)) return;
     best_ = std::move(candidate);
     way_ = way;
@@ -218,7 +236,9 @@ class Course {
   Searcher searcher_;
   std::vector<Passages> ways_ = all_passages(problem_.limits);
   std::optional<Candidate> best_;
-  std::size_t way_ = 0;  ///< of the best one
+  std::size_t way_ = 0;                 ///< of the best one
+  std::optional<Candidate> promising_;  ///< with the best track that came to no end
+  std::size_t promising_way_ = 0;
   bool stopped_ = false;
 };
 

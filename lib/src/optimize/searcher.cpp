@@ -476,7 +476,7 @@ void Searcher::settle(Candidate& candidate, Found found) {
   Candidate other;
   other.problem = candidate.problem;
   other.rough = candidate.rough;
-  mend_on(other, followed(problem, *std::move(moved)));
+  mend_on(other, followed(problem, *moved));
   const bool is_good = other.kept && is_optimum(*other.found);
   if (!is_good || !(other.found->objective < found.objective)) {
     begin_margins(problem);
@@ -485,6 +485,7 @@ void Searcher::settle(Candidate& candidate, Found found) {
   const bool stopped = candidate.stopped || other.stopped;
   const bool takes = is_good && (!candidate.kept || other.found->objective < candidate.found->objective);
   if (takes) candidate = std::move(other);
+  if (!is_good) candidate.promising = std::move(moved);
   candidate.stopped = stopped;
 }
 

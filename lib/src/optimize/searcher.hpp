@@ -24,6 +24,8 @@ struct Candidate {
   /// That of the rough problem which led to it, before the referee saw it: what goes on from there goes the same way wherever
   /// the problem lies, and whatever its unit.
   std::optional<Found> rough_found;
+  /// A better optimum of the rough problem with which no track came to its end: another mesh may bring it there.
+  std::optional<Found> promising;
   CenterlinePtr track;
   referee::Judgement judgement;
   bool kept = false;  ///< the referee finds every limit kept
@@ -71,6 +73,8 @@ class Searcher {
   /// The search once more from where it ended, on meshes of other sizes laid for that track, until an optimum is found.
   /// @param for_better  goes on from there as long as that pays
   [[nodiscard]] Candidate on_other_meshes(Candidate best, bool for_better);
+  /// What a candidate's promising track leads to on other meshes.
+  [[nodiscard]] Candidate from_promising(const Candidate& known);
   /// Where a body at rest turns down at once: the same with bends ever tighter there, until that wins nothing.
   [[nodiscard]] Candidate with_sharper_crest(Candidate best);
   /// A track that keeps the limits on its mesh, mended so that it keeps them everywhere, however slow it is.

@@ -220,6 +220,13 @@ Candidate Searcher::on_other_meshes(Candidate best, bool for_better) {
   return best;
 }
 
+Candidate Searcher::from_promising(const Candidate& known) {
+  Candidate candidate = begun_again(known);
+  candidate.found = known.promising;
+  candidate.found->residual = HUGE_VAL;  // as yet
+  return on_other_meshes(std::move(candidate), false);
+}
+
 bool Searcher::ends_better(const Mesh& mesh, const Vector& z, Candidate& best) {
   Candidate end = begun_again(best);
   aim_at(kAimed * options_.tolerance, 12);
