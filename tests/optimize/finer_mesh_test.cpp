@@ -124,7 +124,7 @@ TEST_CASE("where such a start has more limits three times as many pieces win lit
 TEST_CASE("what a finer mesh would win is told to be no less than many pieces win") {
   constexpr double kNothing = 1e-6;
   std::vector<Drawn> all{{20250217, 97}, {20250217, 118}, {20250217, 144}};
-  if (testing::thorough()) all.insert(all.end(), {{2, 1}, {2, 149}});
+  if (testing::thorough()) all.push_back({2, 1});
   for (const Drawn& drawn : all) {
     CAPTURE(drawn.seed, drawn.index);
     const Loss loss = loss_of(problem_of(drawn));

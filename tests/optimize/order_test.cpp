@@ -135,7 +135,6 @@ TEST_CASE(
     all.push_back({7, 92, "wider arc_length.highest"});
     all.push_back({8, 26, "without lead_in"});
     all.push_back({8, 352, "without lead_out"});
-    all.push_back({8, 352, "without entry_slope_angle.lowest"});
     all.push_back({8, 352, "wider entry_slope_angle.highest"});
   }
   for (const Known& known : all) {
