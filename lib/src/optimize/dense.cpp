@@ -300,20 +300,23 @@ double norm(const Vector& a) {
 ShiftedCholesky::ShiftedCholesky(const Matrix& symmetric, const Vector& diagonal, double largest) {
   constexpr double kFirstShift = 1e-6;  // taste
   constexpr double kShiftGrowth = 8.0;  // taste
-  while (shift_ <= largest && !factor(symmetric, diagonal)) {
+  const std::size_t n = diagonal.size();
+  Matrix upper = Matrix::unset(n, n);
+  while (shift_ <= largest && !factor(symmetric, diagonal, upper)) {
     shift_ = shift_ == 0.0 ? kFirstShift : shift_ * kShiftGrowth;
   }
 }
 
-bool ShiftedCholesky::factor(const Matrix& symmetric, const Vector& diagonal) {
+bool ShiftedCholesky::factor(const Matrix& symmetric, const Vector& diagonal, Matrix& upper) {
   // A pivot that lost this much against its diagonal is rounding, not curvature.
   constexpr double kSmallestPivot = 1e-11;
   const std::size_t n = diagonal.size();
   // Row by row of the upper factor: of those above a row only sums are taken, many at once.
-  Matrix upper(n, n);
   inverse_.assign(n, 1.0);
   Vector shares;
   std::vector<const double*> above;
+  shares.reserve(n);
+  above.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     double* const row = upper.row(i);
     std::copy(symmetric.row(i) + i, symmetric.row(i) + n, row + i);
@@ -331,7 +334,7 @@ bool ShiftedCholesky::factor(const Matrix& symmetric, const Vector& diagonal) {
     row[i] = root;
     for (std::size_t j = i + 1; j < n; ++j) row[j] *= inverse_[i];
   }
-  lower_ = Matrix(n, n);
+  lower_ = Matrix::unset(n, n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) lower_(i, j) = upper(j, i);
   }
@@ -341,8 +344,9 @@ bool ShiftedCholesky::factor(const Matrix& symmetric, const Vector& diagonal) {
 ShiftedCholesky ShiftedCholesky::with_one_more(double curvature) const {
   const std::size_t n = lower_.columns();
   ShiftedCholesky larger;
-  larger.lower_ = Matrix(n + 1, n + 1);
-  for (std::size_t i = 0; i < n; ++i) std::copy_n(lower_.row(i), n, larger.lower_.row(i));
+  larger.lower_ = Matrix::unset(n + 1, n + 1);
+  for (std::size_t i = 0; i < n; ++i) std::copy_n(lower_.row(i), i + 1, larger.lower_.row(i));
+  std::fill_n(larger.lower_.row(n), n, 0.0);
   larger.lower_(n, n) = std::sqrt(curvature);
   larger.inverse_ = inverse_;
   larger.inverse_.push_back(1.0 / larger.lower_(n, n));

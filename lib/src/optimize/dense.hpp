@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -24,6 +25,15 @@ class MatrixRoom {
     Allocator(const Allocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor): as the standard has it
     [[nodiscard]] T* allocate(std::size_t count) { return static_cast<T*>(take(count * sizeof(T))); }
     void deallocate(T* room, std::size_t count) noexcept { give_back(room, count * sizeof(T)); }
+    /// What has no value is left as it is.
+    template <typename U, typename... Values>
+    void construct(U* at, Values&&... values) {
+      if constexpr (sizeof...(Values) == 0) {
+        ::new (static_cast<void*>(at)) U;
+      } else {
+        ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
+      }
+    }
     friend bool operator==(const Allocator&, const Allocator&) { return true; }
   };
 };
@@ -33,6 +43,13 @@ class Matrix {
  public:
   Matrix() = default;
   Matrix(std::size_t rows, std::size_t columns) : columns_(columns), data_(rows * columns, 0.0) {}
+  /// One whose entries are all written before they are read.
+  [[nodiscard]] static Matrix unset(std::size_t rows, std::size_t columns) {
+    Matrix matrix;
+    matrix.columns_ = columns;
+    matrix.data_.resize(rows * columns);
+    return matrix;
+  }
 
   [[nodiscard]] std::size_t rows() const { return columns_ == 0 ? 0 : data_.size() / columns_; }
   [[nodiscard]] std::size_t columns() const { return columns_; }
@@ -91,7 +108,7 @@ class ShiftedCholesky {
   void forward(Matrix& rows) const;
 
  private:
-  [[nodiscard]] bool factor(const Matrix& symmetric, const Vector& diagonal);
+  [[nodiscard]] bool factor(const Matrix& symmetric, const Vector& diagonal, Matrix& upper);
   Matrix lower_;
   Vector inverse_;  ///< of the diagonal
   double shift_ = 0.0;

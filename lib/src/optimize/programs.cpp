@@ -19,7 +19,7 @@ void add_squares(Matrix& hessian, double factor, const Matrix& rows) {
 }  // namespace
 
 Matrix jacobian_of(const Rows& rows, const State& state, const std::vector<Row>& set, std::size_t n) {
-  Matrix jacobian(set.size(), n);
+  Matrix jacobian = Matrix::unset(set.size(), n);
   for (std::size_t i = 0; i < set.size(); ++i) rows.gradient(state, set[i], jacobian.row(i));
   return jacobian;
 }

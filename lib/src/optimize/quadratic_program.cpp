@@ -38,9 +38,9 @@ class ActiveBasis {
     const double whole = norm(split.rest);
     split.rest_norm = whole;
     const std::vector<const double*> basis = columns();
+    Vector along(size());
     // Twice is enough, and once where little is taken away.
     for (int pass = 0; pass < 2 && size() > 0; ++pass) {
-      Vector along(size());
       dots(basis, split.rest.data(), n, along.data());
       for (std::size_t j = 0; j < size(); ++j) {
         split.along[j] += along[j];
@@ -161,7 +161,7 @@ class DualMethod {
     extents_.reserve(program_.inequality.rows());
     for (std::size_t i = 0; i < program_.inequality.rows(); ++i)
       extents_.push_back(extent_of(program_.inequality.row(i), gradient_.size()));
-    Matrix rows(likely.size(), gradient_.size());
+    Matrix rows = Matrix::unset(likely.size(), gradient_.size());
     for (std::size_t k = 0; k < likely.size(); ++k)
       std::copy_n(program_.inequality.row(likely[k]), gradient_.size(), rows.row(k));
     metric_.forward(rows);
@@ -263,17 +263,18 @@ class DualMethod {
   /// Rows outside the active ones that a step breaks.
   /// @param among  where to look
   [[nodiscard]] std::vector<std::size_t> broken(const std::vector<std::size_t>& among, std::size_t& worst,
-                                                double& value) const {
-    const Vector d = step();
+                                                double& value) {
+    step_ = y_;
+    metric_.backward(step_.data());
     std::vector<std::size_t> rows;
-    Vector along(among.size());
-    dots(program_.inequality, among, extents_, d.data(), along.data());
+    Vector& along = along_;
+    along.resize(among.size());
+    dots(program_.inequality, among, extents_, step_.data(), along.data());
     value = program_.tolerance;
     for (std::size_t k = 0; k < among.size(); ++k) {
       const std::size_t i = among[k];
-      if (is_active_[i]) continue;
       const double there = along[k] + (*inequality_value_)[i];
-      if (!(there > program_.tolerance)) continue;
+      if (!(there > program_.tolerance) || is_active_[i]) continue;  // most are kept
       rows.push_back(i);
       if (there <= value) continue;
       value = there;
@@ -356,6 +357,8 @@ class DualMethod {
   std::vector<bool> is_active_;
   std::vector<Extent> extents_;  ///< of the inequality rows
   Vector y_;
+  Vector step_;   ///< room for it, and
+  Vector along_;  ///< for what rows have along it
   int changes_ = 0;
 };
 

@@ -752,9 +752,13 @@ void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
     mesh.extra_breaks.insert(mesh.extra_breaks.end(), held.places().begin(), held.places().end());
     aim_at(kAimed * options_.tolerance, found.stopped ? kGraceEffort : 3);
     const bool stopped = found.stopped;
-    found = laid_anew(problem, on_mesh(problem, mesh, found.z, found));
+    Found next = laid_anew(problem, on_mesh(problem, mesh, found.z, found));
     control_.stop = stop;
-    found.stopped = found.stopped || stopped;
+    next.stopped = next.stopped || stopped;
+    // Where only short ways are gone, and none was, none will be.
+    const bool stays = control_.is_close && !found.stopped && !is_optimum(next) && next.z == found.z;
+    found = std::move(next);
+    if (stays) break;
   }
   candidate.stopped = candidate.stopped || found.stopped;
 }

@@ -19,8 +19,10 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   out.sin.resize(count);
   out.cos.resize(count);
   out.curvature.resize(count);
-  out.x.assign(count, 0.0);
-  out.y.assign(count, 0.0);
+  out.x.resize(count);
+  out.y.resize(count);
+  out.x.front() = 0.0;
+  out.y.front() = 0.0;
   const Vector angles = section_angles(z);
   for (std::size_t i = 0; i < count; ++i) {
     out.zeta[i] = angle_at(z, angles, i);
