@@ -133,17 +133,23 @@ std::optional<Searcher::Tightened> Searcher::tightened(const std::shared_ptr<con
 Candidate Searcher::with_shifted_bends(Candidate best) {
   constexpr int kMostRounds = 3;  // budget
   constexpr double kPays = 1e-5;  // accuracy: ten times that of a time
-  for (int round = 0; round < kMostRounds && best.kept && !best.stopped; ++round) {
-    const double before = best.found->objective;
-    const std::optional<Found> found = bends_shifted(*best.rough, begun_with(best));
-    if (!found) break;
-    Candidate end = begun_again(best);
-    settle(end, laid_anew(*end.rough, *found));
-    const bool stopped = end.stopped;
-    if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
-    best.stopped = stopped;
-    if (before - best.found->objective < kPays * std::fabs(before)) break;
+  if (!best.kept || best.stopped) return best;
+  // What makes a track a little better waits until its bends lie where they belong.
+  std::optional<Found> shifted;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Found& from = shifted ? *shifted : begun_with(best);
+    const double before = from.objective;
+    std::optional<Found> next = bends_shifted(*best.rough, from);
+    if (!next) break;
+    shifted = std::move(next);
+    if (before - shifted->objective < kPays * std::fabs(before)) break;
   }
+  if (!shifted) return best;
+  Candidate end = begun_again(best);
+  settle(end, laid_anew(*end.rough, std::move(*shifted)));
+  const bool stopped = end.stopped;
+  if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
+  best.stopped = stopped;
   return best;
 }
 
