@@ -173,7 +173,6 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
     mesh.fine_turns = begun_with.mesh.fine_turns;
     aim_at(kAimed * options_.tolerance, 3);
     Found next = minimise(problem, mesh, begun_with.z, margins_, control_);
-    if (is_optimum(next)) next = followed(problem, std::move(next));
     const bool does = is_optimum(next) && best.objective - next.objective > kPays * std::fabs(best.objective);
     if (!does) return false;
     best = std::move(next);
@@ -188,6 +187,8 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
         while (steps < kMostSteps && wins(bend, way)) ++steps;
         if (steps > 0) break;
       }
+      // What follows loads went along; here and there it may lie better now.
+      if (steps > 0) best = followed(problem, std::move(best));
       won = won || steps > 0;
     }
   }
