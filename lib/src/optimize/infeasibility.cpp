@@ -543,7 +543,7 @@ class Footing {
       : search_(problem, passages, leads, control) {
     found_ = search_.from(&starts) || (!control.stop() && search_.closely()) ||
              search_.from(&constant_speed_starts);
-    if (!found_ && bends && !control.stop()) wind(leads, control);
+    if (bends && !control.stop() && (!found_ || !control.any_track)) wind(leads, control);
   }
 
   [[nodiscard]] bool found() const { return found_ || search_.found(); }
