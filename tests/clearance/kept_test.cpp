@@ -10,6 +10,7 @@
 #include "support/mesh_clearance.hpp"
 #include "support/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -60,6 +61,19 @@ void check_mesh(const testing::SideView& facets, const Limits& limits, double sl
   }
 }
 
+/// What slides, as thin as a hair, at many places: nothing of the solid cuts it.
+testing::SideView sliding(const Centerline& track, double headroom) {
+  constexpr int kPlaces = 1500;
+  testing::SideView facets;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const CenterlinePoint at = track.at(std::min(track.length(), track.length() * i / kPlaces));
+    const Vec2 foot{at.x, at.drop};
+    const Vec2 normal{std::sin(at.slope_angle), -std::cos(at.slope_angle)};
+    facets.push_back({foot, foot + headroom * normal, foot + 0.5 * headroom * normal});
+  }
+  return facets;
+}
+
 }  // namespace
 
 TEST_CASE("clearances: whatever is called kept, the mesh of the solid keeps") {
@@ -71,6 +85,7 @@ TEST_CASE("clearances: whatever is called kept, the mesh of the solid keeps") {
   int infeasible = 0;
   int none = 0;
   int relaxed = 0;
+  int leaning = 0;
   for (int i = 0; i < problem_count(); ++i) {
     const RandomCase made = random_case(random);
     INFO("case " << i << ": " << made.words);
@@ -97,6 +112,12 @@ TEST_CASE("clearances: whatever is called kept, the mesh of the solid keeps") {
       if (easier.centerline) CHECK(easier.report.travel_time <= optimum.report.travel_time * (1.0 + 1e-5));
       ++relaxed;
     }
+    const double headroom = made.problem.limits.envelope.headroom;
+    if (headroom > 0.0) {
+      const double size = norm(Vec2{made.problem.endpoints.run, made.problem.endpoints.drop});
+      check_mesh(sliding(*optimum.centerline, headroom), made.problem.limits, 1e-6 * size);
+      ++leaning;
+    }
     SweepOptions options;
     options.tolerance = kTolerance;
     options.shape_triangles = 500;
@@ -118,5 +139,6 @@ TEST_CASE("clearances: whatever is called kept, the mesh of the solid keeps") {
   CHECK(built > problem_count() / 3);
   CHECK(bound > problem_count() / 4);
   CHECK(relaxed > problem_count() / 10);
+  CHECK(leaning > problem_count() / 10);
   CHECK(none <= problem_count() / 20);
 }

@@ -15,6 +15,7 @@
 #include "support/mesh_clearance.hpp"
 #include "support/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <sstream>
@@ -179,6 +180,49 @@ TEST_CASE(
   CHECK(apart > kSolids);
   CHECK(met > kSolids / 2);
   CHECK(wrong_side > kSolids / 10);
+}
+
+TEST_CASE("strip: what slides leans through the end planes, the solid does not") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr int kTracks = 60;
+  constexpr int kPlaces = 4000;
+  int beyond = 0;
+  for (int i = 0; i < kTracks; ++i) {
+    std::ostringstream words;
+    words.precision(17);
+    const CenterlinePtr track = random_track(random, words);
+    INFO("track " << i << ": " << words.str());
+    const Envelope walls{random.between(0.0, 0.2), random.between(0.0, 0.8), 0.0};
+    Envelope whole = walls;
+    whole.headroom = random.between(0.1, 2.5);
+    for (int k = 0; k < kObstacles; ++k) {
+      const Region area = Region::area(random_outline(random, *track), Pass::either);
+      const double solid = closest(*track, walls, area).value;
+      double sliding = INFINITY;
+      for (int place = 0; place <= kPlaces; ++place) {
+        const CenterlinePoint at = track->at(std::min(track->length(), track->length() * place / kPlaces));
+        const Vec2 foot{at.x, at.drop};
+        const Vec2 ends[] = {
+            foot, foot + whole.headroom * Vec2{std::sin(at.slope_angle), -std::cos(at.slope_angle)}};
+        sliding = std::min(sliding, area.nearest(ends).value);
+      }
+      const double expected = std::min(solid, sliding);
+      const Approach found = closest(*track, whole, area);
+      CAPTURE(k, solid, sliding, found.value, found.arc_length, found.place.height);
+      // Between two places what slides is hardly nearer; depths are another matter.
+      const double between = (1.0 + whole.headroom) * 8.0 / kPlaces;
+      if (expected > 0.0) {
+        CHECK(found.value <= expected + 1e-8);
+        CHECK(found.value >= expected - between);
+        if (sliding < solid - 1e-3) ++beyond;
+        if (found.place.height > walls.above + 1e-6) CHECK(found.place.part == EnvelopePart::headroom);
+      } else {
+        CHECK(found.value < between);
+      }
+    }
+  }
+  CHECK(beyond > kTracks);
 }
 
 TEST_CASE("strip: a beam is met by the walls of a straight channel, not by its floor") {

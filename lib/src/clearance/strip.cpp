@@ -104,9 +104,12 @@ Strip::Rib Strip::rib(const CenterlinePoint& point) const {
 }
 
 void Strip::cut(Rib& rib) const {
-  const auto meet = [&rib](double ahead, double approach, bool& at_top, bool& at_bottom) {
+  const auto meet = [&](double ahead, double approach, bool& at_top, bool& at_bottom) {
     if (approach > 0.0 && ahead < rib.high * approach) {
-      rib.high = std::max(0.0, ahead / approach);
+      // What slides passes through an end plane as it leans.
+      const double high = std::max(envelope_.headroom, ahead / approach);
+      if (!(high < rib.high)) return;
+      rib.high = std::max(0.0, high);
       at_top = true;
     } else if (approach < 0.0 && ahead < rib.low * approach) {
       rib.low = std::min(0.0, ahead / approach);
@@ -125,10 +128,11 @@ void Strip::cut(Rib& rib) const {
 
 EnvelopePart Strip::part_of(const Rib& rib, double height) const {
   const double same = kSameHeight * (envelope_.below + envelope_.top());
-  if (height >= envelope_.top() - same) {
-    if (envelope_.headroom > envelope_.above) return EnvelopePart::headroom;
+  // What slides is no part of the solid: above the walls, and where an end plane cuts those lower than it reaches.
+  const bool leans = rib.high <= envelope_.headroom && height >= rib.high - same;
+  if (envelope_.headroom > 0.0 && (leans || height > envelope_.above + same)) return EnvelopePart::headroom;
+  if (height >= envelope_.top() - same)
     return envelope_.above > 0.0 ? EnvelopePart::rim : EnvelopePart::floor;
-  }
   if (height <= -envelope_.below + same) {
     return envelope_.below > 0.0 ? EnvelopePart::underside : EnvelopePart::floor;
   }
@@ -191,8 +195,14 @@ double Strip::lower_bound(const Rib& a, const Rib& b, const Region& region) cons
   if (b.s > finish_zone_) {
     shape = clipped(shape, finish_.point + straying * finish_.tangent, -1.0 * finish_.tangent);
   }
-  if (shape.empty()) return core::kInfinity;
-  return region.nearest(shape).value - straying;
+  double least = shape.empty() ? core::kInfinity : region.nearest(shape).value;
+  const double headroom = envelope_.headroom;
+  if (headroom > 0.0 && (a.s < start_zone_ || b.s > finish_zone_)) {
+    const std::vector<Vec2> uncut =
+        hull({a.point, a.point + headroom * a.normal, b.point, b.point + headroom * b.normal});
+    least = std::min(least, region.nearest(uncut).value);
+  }
+  return least - straying;
 }
 
 // Halves a cell as long as it may hold something closer. An envelope that reaches into the region at one place, be it by

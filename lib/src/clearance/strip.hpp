@@ -21,7 +21,7 @@ struct Approach {
 /// The envelope of a centerline as a region of the plane, and its distance from what must be kept clear.
 ///
 /// Shape: the union of the normals of all stations, each from the underside to the top, cut where it passes
-///   behind an end plane. Where normals meet beyond a centre of curvature, nothing needs cutting: a point that
+///   behind an end plane; what slides is not cut. Where normals meet beyond a centre of curvature, nothing needs cutting: a point that
 ///   several normals pass lies in the solid all the same (docs/solid.md).
 /// Method: between two stations a level at height n strays from the chord of its ends by no more than
 ///   sqrt(L^2 - l^2)/2, L its arc length and l that chord, nor by more than L/4 times the angle that it turns.

@@ -72,6 +72,8 @@ EnvelopeRows::Cut EnvelopeRows::cut(const State& state, std::size_t base, Vec2 p
     if (!(approach * cut.height > 0.0 && ahead < cut.height * approach)) continue;
     cut = {true, !finish, std::max(ahead, 0.0) / approach};
   }
+  // What slides leans through the planes.
+  if (cut.is_cut && height > 0.0 && cut.height <= problem_.headroom) return {false, false, problem_.headroom};
   return cut;
 }
 

@@ -476,7 +476,7 @@ class Rounding {
 /// their digits.
 void round_off(const Rounding& rounding, ScaledProblem& out) {
   for (double* place : {&out.run, &out.drop, &out.lead_in, &out.lead_out, &out.lowest_speed_from,
-                        &out.envelope_low, &out.envelope_high}) {
+                        &out.envelope_low, &out.envelope_high, &out.headroom}) {
     rounding.place(*place);
   }
   for (Obstacle& obstacle : out.obstacles) {
@@ -541,6 +541,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
 
   out.envelope_low = -limits.envelope.below / out.chord;
   out.envelope_high = limits.envelope.top() / out.chord;
+  out.headroom = limits.envelope.headroom / out.chord;
   add_limits(problem, passages, out);
   round_off(Rounding(kBits), out);
   return out;

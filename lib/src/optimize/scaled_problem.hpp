@@ -81,6 +81,7 @@ struct ScaledProblem {
   std::vector<Obstacle> obstacles;
   double envelope_low = 0.0;   ///< heights that clearances are measured from: of the underside, <= 0
   double envelope_high = 0.0;  ///< and of the top, >= 0
+  double headroom = 0.0;       ///< up to here no end plane cuts it
   std::vector<Vec2> waypoints;
 };
 

@@ -63,12 +63,13 @@ std::vector<EnvelopeEdge> envelope_edges(const Centerline& centerline, const Env
   // Half a line's width where the track is a thousand wide.
   const double tolerance = 5e-4 * centerline.length();
   std::vector<EnvelopeEdge> edges;
-  const auto add = [&](const char* name, double height, bool dashed) {
-    edges.push_back({name, level_line(centerline, height, tolerance), dashed});
+  const auto add = [&](const char* name, double height) {
+    edges.push_back({name, level_line(centerline, height, tolerance), false});
   };
-  if (envelope.below > 0.0) add("underside", -envelope.below, false);
-  if (envelope.above > 0.0) add("top of the solid", envelope.above, false);
-  if (envelope.headroom > envelope.above) add("headroom", envelope.headroom, true);
+  if (envelope.below > 0.0) add("underside", -envelope.below);
+  if (envelope.above > 0.0) add("top of the solid", envelope.above);
+  if (envelope.headroom > envelope.above)
+    edges.push_back({"headroom", offset_line(centerline, envelope.headroom, tolerance), true});
   return edges;
 }
 

@@ -9,22 +9,37 @@ namespace glissade {
 
 using namespace solid;
 
-std::vector<Vec2> level_line(const Centerline& centerline, double height, double tolerance) {
+namespace {
+
+LevelCurves curves_of(const Centerline& centerline, double height, double tolerance) {
   // Trims are placed this much more closely than the line follows the curve.
   constexpr double kTrimShare = 0.1;
   constexpr double kFewestSteps = 64.0;
   const double below = std::max(0.0, -height);
   const double above = std::max(0.0, height);
   const StationLimits limits{tolerance, below, above, centerline.length() / kFewestSteps};
-  const LevelCurves curves(centerline, StationPlan(centerline, limits).stations(), below, above,
-                           kTrimShare * tolerance);
+  return LevelCurves(centerline, StationPlan(centerline, limits).stations(), below, above,
+                     kTrimShare * tolerance);
+}
+
+std::vector<Vec2> uncut(const LevelCurves& curves, double height) {
   std::vector<Vec2> line;
-  if (curves.trims(height).obstacle) {
-    for (const Station& station : curves.stations()) line.push_back(offset(station, height));
-    return line;
-  }
+  for (const Station& station : curves.stations()) line.push_back(offset(station, height));
+  return line;
+}
+
+}  // namespace
+
+std::vector<Vec2> level_line(const Centerline& centerline, double height, double tolerance) {
+  const LevelCurves curves = curves_of(centerline, height, tolerance);
+  if (curves.trims(height).obstacle) return uncut(curves, height);
+  std::vector<Vec2> line;
   for (const LevelNode& node : curves.level(height, {}).nodes) line.push_back(node.point);
   return line;
+}
+
+std::vector<Vec2> offset_line(const Centerline& centerline, double height, double tolerance) {
+  return uncut(curves_of(centerline, height, tolerance), height);
 }
 
 }  // namespace glissade

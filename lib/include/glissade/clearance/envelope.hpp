@@ -11,7 +11,8 @@ namespace glissade {
 /// clearances are measured from. All 0: from the centerline itself.
 ///
 /// Shape: every point of the vertical plane whose height above the floor lies within -below and top(), between
-///   the two planes square to the track at its ends (docs/solid.md): the side view of the swept solid.
+///   the two planes square to the track at its ends (docs/solid.md): the side view of the swept solid. What slides
+///   leans through those planes where the track ends in a curve: up to the headroom they cut nothing off.
 struct Envelope {
   double below = 0.0;     ///< depth of the underside below the floor [m]; >= 0
   double above = 0.0;     ///< height of walls or curbs above the floor [m]; >= 0
@@ -28,7 +29,7 @@ enum class EnvelopePart {
   floor,      ///< the centerline: nothing of the envelope lies beyond it there
   underside,  ///< the lower edge
   rim,        ///< the upper edge, where walls or curbs end
-  headroom,   ///< the upper edge, where what slides is higher than the walls
+  headroom,   ///< what slides, where it is higher than the walls or leans through an end plane
   side,       ///< between the edges: the obstacle reaches into the envelope
   start_face,
   finish_face

@@ -17,4 +17,7 @@ namespace glissade {
 ///         curve uncut
 [[nodiscard]] std::vector<Vec2> level_line(const Centerline& centerline, double height, double tolerance);
 
+/// The same curve uncut: through the end planes, and folded over beyond a centre of curvature.
+[[nodiscard]] std::vector<Vec2> offset_line(const Centerline& centerline, double height, double tolerance);
+
 }  // namespace glissade
