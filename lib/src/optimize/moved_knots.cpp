@@ -42,6 +42,23 @@ bool bends_at(const Found& found, const Group& group) {
   return std::fabs(rate(k) - rate(k - 1)) * room > kBend * greatest;
 }
 
+/// Of knots close together those around the jump that they hold, where it is plain which piece that is.
+Group around_jump(const Found& found, const Group& close) {
+  constexpr double kMost = 0.6;  // taste: of all that curvature changes among them
+  const Layout& layout = found.track->layout();
+  double whole = 0.0;
+  double most = 0.0;
+  std::size_t piece = close.first;
+  for (std::size_t i = close.first; i < close.last; ++i) {
+    const double change = std::fabs(found.z[layout.turn(i + 1)] - found.z[layout.turn(i)]);
+    whole += change;
+    if (change <= most) continue;
+    most = change;
+    piece = i;
+  }
+  return most > kMost * whole ? Group{piece, piece + 1} : close;
+}
+
 /// Those that may move: not the ends, nor what stands at a change of friction.
 std::vector<Group> groups_of(const Found& found) {
   const Mesh& mesh = found.track->mesh();
@@ -52,6 +69,7 @@ std::vector<Group> groups_of(const Found& found) {
     while (group.last + 1 < count && mesh.knots[group.last + 1] - mesh.knots[group.last] < 2.0 * kPair)
       ++group.last;
     k = group.last + 1;
+    if (group.last > group.first + 1) group = around_jump(found, group);
     if (group.first == 0 || group.last + 1 == count || lies_at_change(mesh, group)) continue;
     if (bends_at(found, group)) groups.push_back(group);
   }

@@ -1,5 +1,7 @@
 #include "optimize/refinement.hpp"
 
+#include "optimize/switches.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -106,6 +108,33 @@ MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& 
     result = with_halved_pieces(Transcription(result.mesh), result.z, halved);
   }
   return result;
+}
+
+std::optional<MeshTrack> with_narrow_jumps(const Transcription& track, const Vector& z) {
+  constexpr double kNarrow = 0.2 * kPair;  // taste: a place is still met
+  constexpr double kJump = 3.0;            // taste: as much as curvature changes in the pieces beside it
+  MeshTrack result{track.mesh(), z};
+  Vector& knots = result.mesh.knots;
+  const std::vector<ChangeKnots>& changes = result.mesh.change_knots;
+  const auto change_in = [&](std::size_t piece) {
+    return std::fabs(z[track.layout().turn(piece + 1)] - z[track.layout().turn(piece)]);
+  };
+  bool any = false;
+  for (std::size_t i = 1; i + 2 < knots.size(); ++i) {
+    const double width = knots[i + 1] - knots[i];
+    const bool may = width > 2.0 * kNarrow && width < 1.5 * kPair;
+    const bool stands_for_jump =
+        may && change_in(i) > kJump * std::max(change_in(i - 1), change_in(i + 1));
+    const bool at_change = std::any_of(changes.begin(), changes.end(), [&](const ChangeKnots& change) {
+      return knots[i] <= change.to && knots[i + 1] >= change.from;
+    });
+    if (!stands_for_jump || at_change) continue;
+    const double middle = 0.5 * (knots[i] + knots[i + 1]);
+    knots[i] = middle - 0.5 * kNarrow;
+    knots[i + 1] = middle + 0.5 * kNarrow;
+    any = true;
+  }
+  return any ? std::optional(std::move(result)) : std::nullopt;
 }
 
 MeshTrack with_shorter_beginning(const Transcription& track, const Vector& z) {

@@ -2,6 +2,7 @@
 
 #include "optimize/search.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -28,6 +29,9 @@ struct MeshTrack {
 /// The same with pieces ever shorter towards the finish, each half as long as the one before.
 [[nodiscard]] MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z);
 
+/// The same with the knots around each jump of the curvature closer together: what the ramp between them costs falls faster than
+/// the square of its width. @return none where there are none
+[[nodiscard]] std::optional<MeshTrack> with_narrow_jumps(const Transcription& track, const Vector& z);
 /// The same with a first piece a quarter as long, the crest there as much tighter: what falls off a place of rest looks the
 /// same on every scale.
 [[nodiscard]] MeshTrack with_shorter_beginning(const Transcription& track, const Vector& z);

@@ -458,6 +458,7 @@ void Searcher::settle(Candidate& candidate, Found found) {
   if (!found.stopped) found = halved(problem, std::move(found));
   std::optional<Found> moved;
   if (is_optimum(found) && !is_smooth(problem)) {
+    found = with_short_ramps(problem, std::move(found));
     MovedKnots moves = with_moved_knots(problem, found, options_.tolerance, control_);
     moved = std::move(moves.found);
     moves_promise_ = moves.promised / std::fabs(found.objective);
@@ -637,6 +638,16 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
     if (!smooth && idle > kMostIdle) break;
   }
   return found;
+}
+
+Found Searcher::with_short_ramps(const ScaledProblem& problem, Found found) {
+  const std::optional<MeshTrack> narrow = with_narrow_jumps(*found.track, found.z);
+  if (!narrow) return found;
+  aim_at(kAimed * options_.tolerance, 0);
+  control_.is_close = true;
+  Found next = minimise(problem, narrow->mesh, narrow->z, margins_, control_, &found);
+  control_.is_close = false;
+  return is_optimum(next) && next.objective < found.objective ? next : found;
 }
 
 Found Searcher::laid_anew(const ScaledProblem& problem, Found found) {

@@ -145,6 +145,8 @@ class Searcher {
   /// Where exit speed counts a last bend over a crest, where the track carries less, may win it: too short a bend for the
   /// usual pieces to tell.
   [[nodiscard]] Found bent_at_finish(const ScaledProblem& problem, Found found);
+  /// The same with shorter ramps for jumps of the curvature, where that is better.
+  [[nodiscard]] Found with_short_ramps(const ScaledProblem& problem, Found found);
   /// Pieces are halved where a finer mesh has much left to win.
   [[nodiscard]] Found halved(const ScaledProblem& problem, Found found);
 
