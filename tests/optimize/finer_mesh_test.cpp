@@ -1,5 +1,7 @@
 // The same problem on three times as many pieces: what the usual number of them loses, and what a report tells of that.
 
+#include "glissade/core/units.hpp"
+
 #include "optimize/random_limits.hpp"
 #include "support/catch.hpp"
 #include "support/thorough.hpp"
@@ -7,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace finer_mesh_test {
@@ -85,6 +88,47 @@ TEST_CASE("where pieces halved for prices win more than a time's accuracy, their
   for (const Drawn& drawn : all) {
     CAPTURE(drawn.seed, drawn.index);
     CHECK(loss_of(problem_of(drawn)).lost < kLost);
+  }
+}
+
+TEST_CASE("a bound moved by little moves the time by its price, wherever among the pieces curvature jumps") {
+  // Flung over a crest at no load onto the steepest slope allowed: curvature jumps in the first hundredth of the track.
+  struct Between {
+    Endpoints endpoints;
+    double friction, lowest, highest;  // slopes [deg]
+    double highest_load;               // [g], none: 0
+  };
+  constexpr double kLost = 1e-6;
+  constexpr double kStep = 0.005;  // [deg]
+  for (const Between& drawn : {Between{{8.0, 5.6598}, 0.2287, 19.8908496, 40.8390621, 0.0},
+                               Between{{20.0, 18.9672}, 0.1533, 24.0174946, 59.9986317, 1.56874535}}) {
+    Problem problem;
+    problem.endpoints = drawn.endpoints;
+    problem.body.friction = Friction::from_coefficient(drawn.friction);
+    problem.body.entry_speed = 2.0;
+    problem.limits.slope_angle.highest = Angle::from_degrees(drawn.highest).radians();
+    if (drawn.highest_load > 0.0) problem.limits.highest_normal_load = drawn.highest_load * kStandardGravity;
+    std::optional<OptimizeReport> before;
+    for (int i = -3; i <= 3; ++i) {
+      problem.limits.slope_angle.lowest = Angle::from_degrees(drawn.lowest + kStep * i).radians();
+      const OptimizeReport report = optimize(problem).report;
+      CAPTURE(drawn.lowest, i, report.brief());
+      REQUIRE(report.status == OptimizeStatus::optimal);
+      if (before) {
+        const auto price_of = [](const OptimizeReport& told) {
+          const auto active = std::find_if(told.active.begin(), told.active.end(), [](const ActiveLimit& limit) {
+            return limit.limit.key() == "slope_angle.lowest";
+          });
+          return active == told.active.end() ? 0.0 : active->price;
+        };
+        const double price = 0.5 * (price_of(report) + price_of(*before));
+        CHECK(price > 0.0);
+        const double off = report.travel_time - before->travel_time - price * Angle::from_degrees(kStep).radians();
+        CHECK(std::fabs(off) < kLost * report.travel_time);
+      }
+      before = report;
+    }
+    CHECK(loss_of(problem).lost < kLost);
   }
 }
 
