@@ -28,7 +28,9 @@ constexpr const char* kRideDescription =
     "The track is found once, at the design's own friction, as 'glissade solve' finds it. Each friction "
     "given\n"
     "here then rides that same track: time, speeds, loads, how far it is from a stall, and the limits held\n"
-    "against that friction alone. A ride that ends early or breaks a limit is a result: the exit code is 0.";
+    "against that friction alone. Where friction changes along the track the one given is that of the start,\n"
+    "and the others change by the same angle. A ride that ends early or breaks a limit is a result: the exit\n"
+    "code is 0.";
 
 constexpr const char* kRideFooter =
     "Examples:\n"
@@ -65,12 +67,12 @@ std::vector<Friction> frictions_of(const RideArguments& options) {
 }
 
 std::string limits_at(const Track& ride) {
-  if (!ride.motion.arrived()) return "-";
   std::string broken;
   for (const LimitCheck& check : ride.limit_checks) {
     if (!check.kept()) broken += (broken.empty() ? "" : ", ") + check.limit.key();
   }
-  return broken.empty() ? "limits kept" : "breaks " + broken;
+  if (!broken.empty()) return "breaks " + broken;
+  return ride.motion.arrived() ? "limits kept" : "-";
 }
 
 std::string rides_summary(const Design& design, const Track& track, const std::vector<Track>& rides) {

@@ -328,6 +328,36 @@ TEST_CASE("fastest track with an entry speed: from ever less speed the track fro
   CHECK(slow.flight_end_slope_angle.radians() == Approx(std::numbers::pi / 2.0).margin(1e-4));
 }
 
+TEST_CASE("fastest track with an entry speed: drawn from end to end however slow it begins, however steep it is") {
+  struct Drawn {
+    Endpoints endpoints;
+    double friction;
+  };
+  for (const Drawn& drawn : {Drawn{{10.0, 0.8}, 0.0}, Drawn{{10.0, 0.0}, 0.0}, Drawn{{10.0, -1e-7}, 0.0},
+                             Drawn{{1.0, 50.0}, 0.0}, Drawn{{1.0, 100.0}, 0.3}, Drawn{{10.0, 8.0}, 0.1}}) {
+    for (const double speed : {2e-2, 1e-2, 1e-3, 1e-6, 1e-9}) {
+      if (0.5 * speed * speed + kDefaultGravity * drawn.endpoints.drop <= 0.0) continue;
+      CAPTURE(drawn.endpoints.run, drawn.endpoints.drop, drawn.friction, speed);
+      const Friction friction = Friction::from_coefficient(drawn.friction);
+      const auto track =
+          std::make_shared<const FlyingStartBrachistochrone>(drawn.endpoints, friction, speed, kDefaultGravity);
+      const FlyingStartSolution& solution = track->solution();
+      const CenterlinePoint begin = track->at(0.0);
+      const CenterlinePoint end = track->at(track->length());
+      CHECK(begin.slope_angle == Approx(solution.entry_slope_angle.radians()).margin(1e-12));
+      CHECK(end.slope_angle == Approx(solution.exit_slope_angle.radians()).margin(1e-9));
+      CHECK(end.x == Approx(drawn.endpoints.run).margin(1e-9 * track->length()));
+      CHECK(end.drop == Approx(drawn.endpoints.drop).margin(1e-9 * track->length()));
+      Body body;
+      body.friction = friction;
+      body.entry_speed = speed;
+      const Motion ride(track, body, kDefaultGravity);
+      REQUIRE(ride.arrived());
+      CHECK(ride.travel_time() == Approx(solution.travel_time).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("fastest track with an entry speed: without friction a cycloid without a flight") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

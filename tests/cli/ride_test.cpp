@@ -42,6 +42,29 @@ TEST_CASE("ride keeps the track and changes the friction alone") {
              Contains("breaks ") && Contains("speed.highest"));
 }
 
+TEST_CASE("ride shifts all of a friction that changes along the track by the same angle") {
+  const std::string file = shipped("toboggan_run_with_mats");
+  const Outcome outcome = glissade_run({"ride", file, "--friction-angle", "5deg,7deg,12deg", "--json"});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  const json track = json::parse(outcome.output);
+  double before = 0.0;
+  for (const json& ride : track["at_frictions"]) {
+    // More friction all along is slower; past the stall margin the body does not arrive.
+    const bool stalls = ride["stall_margin_deg"].get<double>() < 0.0;
+    CHECK((ride["status"] == "stalled") == stalls);
+    if (stalls) continue;
+    CHECK(ride["travel_time_s"].get<double>() > before);
+    before = ride["travel_time_s"].get<double>();
+  }
+  CHECK(before > 0.0);
+  // At the design's own friction it is the design's own ride.
+  const double own = track["friction_angle_deg"].get<double>();
+  const Outcome same = glissade_run({"ride", file, "--friction-angle", std::to_string(own) + "deg", "--json"});
+  CHECK(json::parse(same.output)["at_frictions"][0]["travel_time_s"].get<double>() ==
+        Approx(track["travel_time_s"].get<double>()).epsilon(1e-5));
+}
+
 TEST_CASE("ride asks for a friction, and names the option that is wrong") {
   const Outcome none = glissade_run({"ride", shipped("grain_chute")});
   CHECK(none.exit_code == 2);

@@ -36,6 +36,40 @@ TEST_CASE("slope limits that leave one shape give the straight ramp") {
   CHECK(solved(problem).report.travel_time == Approx(ramp).epsilon(1e-3));
 }
 
+TEST_CASE("straight ends that leave hardly anything between them are kept, and no slower than the straight line") {
+  const double chord = std::hypot(3.0, 2.0);
+  const double slope = std::atan2(2.0, 3.0);
+  const double straight = std::sqrt(2.0 * chord / (9.81 * (std::sin(slope) - 0.2 * std::cos(slope))));
+  for (const bool at_start : {false, true}) {
+    double before = 0.0;
+    for (const double share : {0.90, 0.94, 0.96, 0.97, 0.98, 0.99, 0.999}) {
+      Problem problem = slide(3.0, 2.0, 0.2);
+      problem.limits.smallest_valley_radius = 30.0;
+      problem.limits.smallest_crest_radius = 30.0;
+      (at_start ? problem.limits.lead_in : problem.limits.lead_out) = share * chord;
+      const OptimizeReport report = solved(problem).report;
+      CAPTURE(at_start, share, report.brief());
+      CHECK(report.travel_time <= straight * (1.0 + 1e-6));
+      // The longer a straight end, the slower.
+      CHECK(report.travel_time >= before * (1.0 - 1e-6));
+      before = report.travel_time;
+    }
+  }
+}
+
+TEST_CASE("a rate of curvature next to none is kept: arcs of one radius are") {
+  Problem problem = slide(3.0, 2.0, 0.2);
+  problem.limits.highest_curvature_rate = 1e-6;
+  const double arc = solved(problem).report.travel_time;
+  for (const double rate : {1e-9, 1e-10, 1e-12, 1e-20}) {
+    problem.limits.highest_curvature_rate = rate;
+    const Optimum optimum = optimize(problem);
+    CAPTURE(rate, optimum.report.brief());
+    REQUIRE(optimum.centerline);
+    CHECK(optimum.report.travel_time == Approx(arc).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("a limit that does not bind changes nothing and costs nothing") {
   Problem problem = slide(10.0, 5.0, 0.2);
   const double free_time = solved(problem).report.travel_time;

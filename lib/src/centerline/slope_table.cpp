@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -17,19 +16,7 @@ class SlopeTable::Builder {
  public:
   Builder(SlopeTable& table, const std::function<double(double)>& radius) : table_(table), radius_(radius) {}
 
-  void append(double from, double to, int depth) {
-    const double middle = 0.5 * (from + to);
-    const double whole = arc_length(from, to);
-    const double halves = arc_length(from, middle) + arc_length(middle, to);
-    constexpr int kDeepest = 50;
-    // Halving divides the error of 15-point quadrature by 2^30.
-    constexpr double kHalvesAgree = 1e-9;
-    const bool exact = std::fabs(whole - halves) <= kHalvesAgree * halves;
-    if (depth < kDeepest && !(exact && append_piece(from, to, halves))) {
-      append(from, middle, depth + 1);
-      append(middle, to, depth + 1);
-    }
-  }
+  void append(double from, double to) { append(from, to, 0, {}); }
 
  private:
   [[nodiscard]] double radius_at(double turned) const {
@@ -42,25 +29,65 @@ class SlopeTable::Builder {
         [this](double turned) { return radius_at(turned); }, from, to);
   }
 
-  /// @return the angle turned `distance` beyond `from`, a small part of the turn up to `to`
+  /// What a piece misses: of its length, and of the last terms of its series.
+  struct Miss {
+    double arc = HUGE_VAL;
+    double tail = HUGE_VAL;
+  };
+
+  /// Whether a miss is none, or rounding, which halving leaves as it is: beside a vertical slope the radius is known to fewer
+  /// digits.
+  [[nodiscard]] static bool is_fine(double miss, double of_parent, double exact, double noise) {
+    constexpr double kNoShrink = 0.5;
+    return miss <= exact || (miss <= noise && miss > kNoShrink * of_parent);
+  }
+
+  void append(double from, double to, int depth, const Miss& of_parent) {
+    constexpr int kDeepest = 50;
+    // Halving divides the error of 15-point quadrature by 2^30.
+    constexpr double kHalvesAgree = 1e-9;
+    constexpr double kArcNoise = 1e-5;
+    // Angles, cosines and sines alike are held to the rounding of an angle.
+    constexpr double kNegligible = 2e-16;
+    constexpr double kTailNoise = 1e-12;
+    const double middle = 0.5 * (from + to);
+    const double halves = arc_length(from, middle) + arc_length(middle, to);
+    Miss miss;
+    miss.arc = std::fabs(arc_length(from, to) - halves) / halves;
+    const bool deepest = depth >= kDeepest;
+    if (deepest || is_fine(miss.arc, of_parent.arc, kHalvesAgree, kArcNoise)) {
+      const Piece piece = piece_between(from, to, halves, miss.tail);
+      if (deepest || is_fine(miss.tail, of_parent.tail, kNegligible, kTailNoise)) return append(piece);
+    }
+    append(from, middle, depth + 1, miss);
+    append(middle, to, depth + 1, miss);
+  }
+
+  /// @return the angle turned `distance` beyond `from`, a part of the turn up to `to`
   [[nodiscard]] double turned_after(double from, double to, double distance) const {
-    constexpr int kMostSteps = 8;
+    constexpr int kMostSteps = 100;
     constexpr double kQuadraticallyConverged = 1e-8;  // its square is below rounding
+    double low = from;
+    double high = to;
     double turned = std::clamp(from + distance / radius_at(from), from, to);
     for (int step = 0; step < kMostSteps; ++step) {
-      const double change = (distance - arc_length(from, turned)) / radius_at(turned);
-      turned = std::clamp(turned + change, from, to);
-      if (std::fabs(change) <= kQuadraticallyConverged * (turned - from)) break;
+      const double left = distance - arc_length(from, turned);
+      (left > 0.0 ? low : high) = turned;
+      const double change = left / radius_at(turned);
+      const double next = std::clamp(turned + change, from, to);
+      const bool settled = std::fabs(next - turned) <= kQuadraticallyConverged * (next - from);
+      // Beside a cusp the radius changes so fast that Newton's steps lead from one end to the other.
+      turned = settled || (next > low && next < high) ? next : 0.5 * (low + high);
+      if (settled) break;
     }
     return turned;
   }
 
-  /// @return false, and nothing appended, where a series does not converge to rounding
-  bool append_piece(double from, double to, double length) {
+  /// @param tail  of its series, the greatest
+  [[nodiscard]] Piece piece_between(double from, double to, double length, double& tail) const {
     Piece piece;
     piece.begin = table_.length_;
     piece.end = table_.length_ + length;
-    if (!(piece.begin < piece.end)) return true;
     Series turned{};
     Series cosine{};
     Series sine{};
@@ -78,16 +105,20 @@ class SlopeTable::Builder {
     piece.turned = chebyshev_series(turned);
     const Series run_rate = chebyshev_series(cosine);
     const Series drop_rate = chebyshev_series(sine);
-    if (!resolved(piece.turned) || !resolved(run_rate) || !resolved(drop_rate)) return false;
+    tail = std::max({tail_of(piece.turned), tail_of(run_rate), tail_of(drop_rate)});
     piece.x = integral(run_rate, length);
     piece.drop = integral(drop_rate, length);
+    return piece;
+  }
+
+  void append(Piece piece) {
+    if (!(piece.begin < piece.end)) return;  // shorter than rounding
     piece.first_x = end_x_;
     piece.first_drop = end_drop_;
     end_x_ += chebyshev_value(piece.x, 1.0);
     end_drop_ += chebyshev_value(piece.drop, 1.0);
     table_.length_ = piece.end;
     table_.pieces_.push_back(piece);
-    return true;
   }
 
   [[nodiscard]] static Series integral(const Series& rate, double length) {
@@ -96,10 +127,8 @@ class SlopeTable::Builder {
     return sum;
   }
 
-  /// Angles, cosines and sines alike are held to the rounding of an angle.
-  [[nodiscard]] static bool resolved(const Series& series) {
-    constexpr double kNegligible = 2e-16;
-    return std::max(std::fabs(series[kTerms - 1]), std::fabs(series[kTerms - 2])) <= kNegligible;
+  [[nodiscard]] static double tail_of(const Series& series) {
+    return std::max(std::fabs(series[kTerms - 1]), std::fabs(series[kTerms - 2]));
   }
 
   SlopeTable& table_;
@@ -110,7 +139,7 @@ class SlopeTable::Builder {
 
 SlopeTable::SlopeTable(double begin, double turn, const std::function<double(double)>& radius)
     : begin_(begin), sign_(turn < 0.0 ? -1.0 : 1.0) {
-  Builder(*this, radius).append(0.0, std::fabs(turn), 0);
+  Builder(*this, radius).append(0.0, std::fabs(turn));
 }
 
 double SlopeTable::Piece::position(double s) const {

@@ -40,7 +40,7 @@ constexpr int kDeepest = 200;
 // How near to a finish at which a body arrives only after endless time its ride is still told: 2^-26 of the
 // panel.
 constexpr int kDeepestCreep = 26;
-constexpr std::size_t kMostPanels = 50'000;
+constexpr std::size_t kMostPanels = 10'000;  // hundreds do; beyond it a ride is one that rounding decides
 
 enum class Sign { positive, negative_somewhere, unknown };
 

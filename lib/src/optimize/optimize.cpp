@@ -2,6 +2,7 @@
 
 #include "glissade/optimize/optimize.hpp"
 
+#include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
 
@@ -100,6 +101,29 @@ class Course {
            on_smoother_ground(problem_, ways_[way], known, options_, control_, progress_)) {
         if (other.found->objective < enough) take(way, std::move(other));
       }
+    }
+  }
+
+  /// Where the straight line keeps every limit no answer is slower: the search from there, or that line itself.
+  void from_straight_line() {
+    constexpr std::size_t kPieces = 24;  // taste
+    constexpr double kSlower = 1e-6;     // accuracy: that of a time
+    if (stopped_ || problem_.finish.kind != FinishKind::point || has_straight_line_behind(kSlower)) return;
+    const CenterlinePtr line = std::make_shared<StraightLine>(problem_.endpoints);
+    const referee::Judgement judgement =
+        referee::judge_track(problem_, line, referee::kRefereeSamples);
+    if (!judgement.arrived || judgement.worst > options_.limit_tolerance) return;
+    const auto is_behind = [&] {
+      return !kept() || (is_fastest() && best_->judgement.travel_time > (1.0 + kSlower) * judgement.travel_time);
+    };
+    for (std::size_t way = 0; way < ways_.size() && is_behind() && !stopped_; ++way) {
+      const ScaledProblem problem = scaled(problem_, ways_[way]);
+      const std::optional<GuessCurve> curve = straight_line(problem);
+      if (!curve) return;
+      const Mesh mesh = mesh_of(problem, graded_knots(*curve, kPieces, 1.0), curve->length);
+      const Foothold foothold{way, mesh, fit(*curve, Transcription(mesh))};
+      from(foothold);
+      if (is_behind() && !stopped_) take(way, searcher_.mended(ways_[way], foothold.mesh, foothold.z));
     }
   }
 
@@ -203,6 +227,16 @@ class Course {
       from(footholds);
       return kept() || stopped_;
     };
+  }
+
+  [[nodiscard]] bool is_fastest() const { return problem_.objective.kind == ObjectiveKind::travel_time; }
+  /// Whether it is plain that the straight line is no better.
+  /// @param share  of a time
+  [[nodiscard]] bool has_straight_line_behind(double share) const {
+    if (!kept()) return false;
+    if (!is_fastest()) return true;
+    const bool simple = best_->rough->drag == 0.0;
+    return simple && best_->found->objective <= (1.0 + share) * straight_time(*best_->rough);
   }
 
   /// A better track than the best one that came to no end there.
@@ -383,6 +417,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   if (!course.kept() && !course.stopped())
     conflict = course.explained(resolve_with(options, control), certain);
   course.look_again(by_footholds);
+  course.from_straight_line();
   report.ended_early = course.stopped();
   if (!course.kept()) {
     tell_none(std::move(conflict), certain, course.stopped(), report);

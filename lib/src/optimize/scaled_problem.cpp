@@ -153,11 +153,12 @@ class LimitList {
     if (entry.id != LimitId::highest_curvature_rate) return;
     // The rate is limited both ways.
     const double rate = value * out_.chord * out_.chord;
-    out_.limits.back().scale = rate;
+    const double scale = std::max(rate, kLeastRateScale);
+    out_.limits.back().scale = scale;
     LimitSpec& other = add(name, value);
     other.side = -1;
     other.bound = -rate;
-    other.scale = rate;
+    other.scale = scale;
   }
 
   void add_match(const BeltMatch& match) {
@@ -374,11 +375,10 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
     out.limits.back().scale = out.limits.back().bound;
   }
   // No track is shorter than a chord; none that is worth building is many times longer.
-  constexpr double kShortest = 0.9;       // theory: below 1
-  constexpr double kLongest = 20.0;       // taste
-  constexpr double kShortestCore = 0.05;  // taste
+  constexpr double kShortest = 0.9;  // theory: below 1
+  constexpr double kLongest = 20.0;  // taste
   list.add_built_in(LimitId::not_shorter_than_chord, Measure::arc_length,
-                    std::max(kShortest, out.lead_in + out.lead_out + kShortestCore));
+                    std::max(kShortest, out.lead_in + out.lead_out + 2.0 * kShortestCore));
   list.add_built_in(LimitId::not_many_chords_long, Measure::arc_length, kLongest);
   // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
   constexpr double kCreep = 1e-6;  // taste

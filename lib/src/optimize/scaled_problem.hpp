@@ -54,6 +54,9 @@ struct Obstacle {
   }
 };
 
+/// Of the chord: no track has less between its straight ends.
+inline constexpr double kShortestCore = 1e-4;  // taste
+
 /// The problem without dimension: lengths in chords, speeds in sqrt(gravity chord), gravity 1.
 struct ScaledProblem {
   double chord = 1.0;  ///< [m]

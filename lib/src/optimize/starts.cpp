@@ -116,6 +116,19 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
   return curves;
 }
 
+std::optional<GuessCurve> straight_line(const ScaledProblem& problem) {
+  const double length = math::hypot(problem.run, problem.drop);
+  const double between = length - problem.lead_in - problem.lead_out;
+  if (!(between > 2.0 * kShortestCore)) return std::nullopt;
+  const double angle = math::atan2(problem.drop, problem.run);
+  constexpr std::size_t kSteps = 64;  // taste
+  GuessCurve curve;
+  for (std::size_t i = 0; i <= kSteps; ++i) curve.sigma.push_back(static_cast<double>(i) / kSteps);
+  curve.zeta.assign(kSteps + 1, angle);
+  curve.length = between;
+  return curve;
+}
+
 std::optional<FlyingStart> flying_start(const ScaledProblem& problem) {
   constexpr int kSteps = 128;     // taste
   constexpr double kSlow = 1.01;  // taste: of the speed that just arrives

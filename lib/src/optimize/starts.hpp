@@ -8,6 +8,9 @@
 
 namespace glissade::optimizer {
 
+/// The straight line itself, between its straight ends. @return none where these leave nothing between them
+[[nodiscard]] std::optional<GuessCurve> straight_line(const ScaledProblem& problem);
+
 /// Curves to begin the search with, the most promising first; none comes from the user. Lengths are those of
 /// the core, without the straight ends.
 [[nodiscard]] std::vector<GuessCurve> starts(const ScaledProblem& problem);

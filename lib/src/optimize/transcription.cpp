@@ -5,6 +5,7 @@
 #include "glissade/core/math.hpp"
 
 #include "optimize/quadrature.hpp"
+#include "optimize/scaled_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -405,12 +406,11 @@ double Transcription::curvature(const Vector& z, std::size_t index) const {
 
 bool Transcription::is_track(const Vector& z) const {
   constexpr double kSteepest = 3.0;    // theory: below pi
-  constexpr double kShortest = 0.01;   // taste: below any track
   constexpr double kLongest = 100.0;   // taste: above any track
   constexpr double kTightest = 0.999;  // curvature times height; theory: at 1 the body does not fit in
   const double length = z[layout_.length()];
   const double core = core_length(z);
-  if (!(core > kShortest && core < kLongest && length > 0.0)) return false;
+  if (!(core > kShortestCore && core < kLongest && length > 0.0)) return false;
   // Of the straight behind the core no part is turned round.
   for (const Panel& panel : panels_) {
     if (!(panel.scale(length) > 0.0)) return false;

@@ -6,6 +6,7 @@
 #include "glissade/motion/stall_friction.hpp"
 #include "glissade/pipeline/solve.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace glissade {
@@ -21,7 +22,24 @@ std::vector<LevelRide> Track::rides() const {
   return rides;
 }
 
+namespace {
+
+constexpr Angle kSteepest = Angle::from_degrees(89.9);
+
+/// By as much as another friction changes from `before` to `behind`, in angle.
+Friction shifted(Friction friction, Friction before, Friction behind) {
+  if (friction == before) return behind;
+  const double angle = friction.angle().radians() + behind.angle().radians() - before.angle().radians();
+  return Friction::from_angle(Angle::from_radians(std::clamp(angle, 0.0, kSteepest.radians())));
+}
+
+}  // namespace
+
 Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction) {
+  // Where friction changes along the track all of it shifts by the same angle, as for the stall margin.
+  const Friction before = design.body.friction;
+  for (FrictionFrom& change : design.body.friction_changes)
+    change.friction = shifted(change.friction, before, friction);
   design.body.friction = friction;
   design.body.low_friction.reset();
   design.body.high_friction.reset();

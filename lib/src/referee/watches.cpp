@@ -246,6 +246,7 @@ double Watches::scale_of(const LimitName& limit, double bound) const {
     case Dimension::acceleration:
       return std::max(problem_.gravity, std::fabs(bound));
     case Dimension::per_area:
+      return std::max(bound, kLeastRateScale / (chord_ * chord_));
     case Dimension::power_per_area:
       return bound;
     default:

@@ -93,7 +93,8 @@ struct LinerLoss {
 [[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline, const RunContext& context = {});
 
 /// A track that stays as it is, ridden at another friction: nothing is searched or chosen anew. Its limits are
-/// held against that friction alone.
+/// held against that friction alone. Where friction changes along the track it is that of the start, and the others change by the
+/// same angle (up to 89.9 deg), as for stall_friction_angle().
 /// @param design      where the track and the rest of the body come from
 /// @param centerline  a track of that design
 [[nodiscard]] Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction);

@@ -14,6 +14,10 @@ namespace glissade {
 /// Greatest violation of a limit that still counts as kept, in the scale of the limit.
 inline constexpr double kLimitAccuracy = 1e-6;
 
+/// A limit on the rate of curvature is measured against itself, but no finer than against this over the square of the chord: what
+/// lies below is rounding.
+inline constexpr double kLeastRateScale = 1e-6;
+
 /// How well the referee finds one limit kept.
 struct LimitCheck {
   LimitName limit;
