@@ -28,8 +28,10 @@ constexpr const char* kRideDescription =
     "The track is found once, at the design's own friction, as 'glissade solve' finds it. Each friction "
     "given\n"
     "here then rides that same track: time, speeds, loads, how far it is from a stall, and the limits held\n"
-    "against that friction alone. Where friction changes along the track the one given is that of the start,\n"
-    "and the others change by the same angle. A ride that ends early or breaks a limit is a result: the exit\n"
+    "against that friction alone. Where friction changes along the track the one given is that of the "
+    "start,\n"
+    "and the others change by the same angle. A ride that ends early or breaks a limit is a result: the "
+    "exit\n"
     "code is 0.";
 
 constexpr const char* kRideFooter =

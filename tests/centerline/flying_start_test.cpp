@@ -328,7 +328,8 @@ TEST_CASE("fastest track with an entry speed: from ever less speed the track fro
   CHECK(slow.flight_end_slope_angle.radians() == Approx(std::numbers::pi / 2.0).margin(1e-4));
 }
 
-TEST_CASE("fastest track with an entry speed: drawn from end to end however slow it begins, however steep it is") {
+TEST_CASE(
+    "fastest track with an entry speed: drawn from end to end however slow it begins, however steep it is") {
   struct Drawn {
     Endpoints endpoints;
     double friction;
@@ -339,8 +340,8 @@ TEST_CASE("fastest track with an entry speed: drawn from end to end however slow
       if (0.5 * speed * speed + kDefaultGravity * drawn.endpoints.drop <= 0.0) continue;
       CAPTURE(drawn.endpoints.run, drawn.endpoints.drop, drawn.friction, speed);
       const Friction friction = Friction::from_coefficient(drawn.friction);
-      const auto track =
-          std::make_shared<const FlyingStartBrachistochrone>(drawn.endpoints, friction, speed, kDefaultGravity);
+      const auto track = std::make_shared<const FlyingStartBrachistochrone>(drawn.endpoints, friction, speed,
+                                                                            kDefaultGravity);
       const FlyingStartSolution& solution = track->solution();
       const CenterlinePoint begin = track->at(0.0);
       const CenterlinePoint end = track->at(track->length());

@@ -60,7 +60,8 @@ TEST_CASE("ride shifts all of a friction that changes along the track by the sam
   CHECK(before > 0.0);
   // At the design's own friction it is the design's own ride.
   const double own = track["friction_angle_deg"].get<double>();
-  const Outcome same = glissade_run({"ride", file, "--friction-angle", std::to_string(own) + "deg", "--json"});
+  const Outcome same =
+      glissade_run({"ride", file, "--friction-angle", std::to_string(own) + "deg", "--json"});
   CHECK(json::parse(same.output)["at_frictions"][0]["travel_time_s"].get<double>() ==
         Approx(track["travel_time_s"].get<double>()).epsilon(1e-5));
 }

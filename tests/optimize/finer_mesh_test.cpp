@@ -116,14 +116,15 @@ TEST_CASE("a bound moved by little moves the time by its price, wherever among t
       REQUIRE(report.status == OptimizeStatus::optimal);
       if (before) {
         const auto price_of = [](const OptimizeReport& told) {
-          const auto active = std::find_if(told.active.begin(), told.active.end(), [](const ActiveLimit& limit) {
-            return limit.limit.key() == "slope_angle.lowest";
-          });
+          const auto active = std::find_if(
+              told.active.begin(), told.active.end(),
+              [](const ActiveLimit& limit) { return limit.limit.key() == "slope_angle.lowest"; });
           return active == told.active.end() ? 0.0 : active->price;
         };
         const double price = 0.5 * (price_of(report) + price_of(*before));
         CHECK(price > 0.0);
-        const double off = report.travel_time - before->travel_time - price * Angle::from_degrees(kStep).radians();
+        const double off =
+            report.travel_time - before->travel_time - price * Angle::from_degrees(kStep).radians();
         CHECK(std::fabs(off) < kLost * report.travel_time);
       }
       before = report;

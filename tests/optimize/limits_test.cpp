@@ -36,7 +36,8 @@ TEST_CASE("slope limits that leave one shape give the straight ramp") {
   CHECK(solved(problem).report.travel_time == Approx(ramp).epsilon(1e-3));
 }
 
-TEST_CASE("straight ends that leave hardly anything between them are kept, and no slower than the straight line") {
+TEST_CASE(
+    "straight ends that leave hardly anything between them are kept, and no slower than the straight line") {
   const double chord = std::hypot(3.0, 2.0);
   const double slope = std::atan2(2.0, 3.0);
   const double straight = std::sqrt(2.0 * chord / (9.81 * (std::sin(slope) - 0.2 * std::cos(slope))));

@@ -110,11 +110,11 @@ class Course {
     constexpr double kSlower = 1e-6;     // accuracy: that of a time
     if (stopped_ || problem_.finish.kind != FinishKind::point || has_straight_line_behind(kSlower)) return;
     const CenterlinePtr line = std::make_shared<StraightLine>(problem_.endpoints);
-    const referee::Judgement judgement =
-        referee::judge_track(problem_, line, referee::kRefereeSamples);
+    const referee::Judgement judgement = referee::judge_track(problem_, line, referee::kRefereeSamples);
     if (!judgement.arrived || judgement.worst > options_.limit_tolerance) return;
     const auto is_behind = [&] {
-      return !kept() || (is_fastest() && best_->judgement.travel_time > (1.0 + kSlower) * judgement.travel_time);
+      return !kept() ||
+             (is_fastest() && best_->judgement.travel_time > (1.0 + kSlower) * judgement.travel_time);
     };
     for (std::size_t way = 0; way < ways_.size() && is_behind() && !stopped_; ++way) {
       const ScaledProblem problem = scaled(problem_, ways_[way]);

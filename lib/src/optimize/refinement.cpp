@@ -123,8 +123,7 @@ std::optional<MeshTrack> with_narrow_jumps(const Transcription& track, const Vec
   for (std::size_t i = 1; i + 2 < knots.size(); ++i) {
     const double width = knots[i + 1] - knots[i];
     const bool may = width > 2.0 * kNarrow && width < 2.0 * kPair;
-    const bool stands_for_jump =
-        may && change_in(i) > kJump * std::max(change_in(i - 1), change_in(i + 1));
+    const bool stands_for_jump = may && change_in(i) > kJump * std::max(change_in(i - 1), change_in(i + 1));
     const bool at_change = std::any_of(changes.begin(), changes.end(), [&](const ChangeKnots& change) {
       return knots[i] <= change.to && knots[i + 1] >= change.from;
     });
