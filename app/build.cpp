@@ -63,7 +63,17 @@ Build built(const Design& design, const BuildArguments& options, RunContext cont
 ExitCode build_once(const BuildArguments& options) {
   const Design design = read_design(options.design, options.overrides.values());
   const Interrupt interrupt;
-  const Build made = built(design, options, interrupt.context({}));
+  const Build made = [&] {
+    try {
+      return built(design, options, interrupt.context({}));
+    } catch (const LimitsConflict& conflict) {
+      if (options.json) print(conflict_json(design, conflict.report()));
+      throw;
+    } catch (const NoTrackFound& none) {
+      if (options.json) print(conflict_json(design, none.report()));
+      throw;
+    }
+  }();
   if (options.json) {
     print(build_json(design, made));
   } else if (!options.verbosity.quiet()) {

@@ -415,4 +415,21 @@ TEST_CASE("a build without a cross-section tells of the track alone") {
   CHECK_THAT(refused.errors, Contains("there is no cross_section") && Contains("export: [csv]"));
 }
 
+TEST_CASE("build --json of a design without a track tells what solve --json tells") {
+  const std::vector<std::string> impossible = {"--set", "limits.arc_length.highest=5m", "--json"};
+  const auto told_by = [&](const std::string& command) {
+    std::vector<std::string> arguments{command, shipped("grain_chute_with_limits")};
+    arguments.insert(arguments.end(), impossible.begin(), impossible.end());
+    const TempDir place;
+    RunLimits limits;
+    limits.directory = place.path();
+    const Outcome outcome = glissade_run(arguments, limits);
+    CHECK(outcome.exit_code != 0);
+    json told = json::parse(outcome.output);
+    if (told["search"].is_object()) told["search"].erase("seconds");
+    return told;
+  };
+  CHECK(told_by("build") == told_by("solve"));
+}
+
 }  // namespace build_test

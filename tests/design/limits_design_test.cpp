@@ -277,7 +277,9 @@ TEST_CASE("single limits are refused out of their bounds, with a wrong unit, or 
 
 TEST_CASE("a start, finish or waypoint that breaks a clearance is told") {
   CHECK_THAT(problems_of_limits("stay_above: [{line: [[0 m, 1 m], [6 m, 1 m]], clearance: 200 mm}]"),
-             Contains("the finish lies 100 mm on the wrong side of stay_above[0]"));
+             Contains("the finish lies 100 mm within the clearance of stay_above[0], 200 mm"));
+  CHECK_THAT(problems_of_limits("stay_above: [{line: [[0 m, 2 m], [6 m, 2 m]], clearance: 200 mm}]"),
+             Contains("the finish lies 900 mm on the wrong side of stay_above[0]"));
   CHECK_THAT(problems_of_limits("half_planes: [{line: [[0 m, 6 m], [1 m, 6 m]], stay: below}]"),
              Contains("the start lies 200 mm on the wrong side of half_planes[0]"));
   CHECK_THAT(problems_of_limits(

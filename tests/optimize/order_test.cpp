@@ -131,7 +131,6 @@ TEST_CASE(
                          {7, 269, "wider exit_slope_angle.lowest"}, {8, 387, "wider lead_out"}};
   if (testing::thorough()) {
     all.push_back({3, 298, "without exit_slope_angle.highest"});
-    all.push_back({7, 92, "without entry_slope_angle.lowest"});
     all.push_back({7, 92, "wider arc_length.highest"});
     all.push_back({8, 26, "without lead_in"});
     all.push_back({8, 352, "without lead_out"});

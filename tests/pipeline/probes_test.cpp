@@ -35,6 +35,25 @@ std::string refusal(const std::string& probes) {
 
 }  // namespace
 
+TEST_CASE("probes at the x of either end are on the track, wherever rounding puts its ends") {
+  for (const char* kind : {"fastest", "cycloid", "constant-speed"}) {
+    for (int i = 0; i < 20; ++i) {
+      const std::string finish = std::to_string(4.0 + 0.173 * i);
+      const Design design =
+          parse_design("glissade: 1\ntrack: {start: {x: 0.7 m, z: 5.3 m}, finish: {x: " + finish +
+                           " m, z: 2.1 m}}\nbody: {friction_coefficient: 0.2}\ncenterline: {kind: " + kind +
+                           "}\nprobes: [{x: 0.7 m}, {x: " + finish + " m}]\n",
+                       "d.yaml");
+      const Track track = solve(design);
+      CAPTURE(kind, finish);
+      const std::vector<ProbeReading> probes = probe_readings(design, track);
+      REQUIRE(probes.size() == 2);
+      CHECK(probes[0].point.arc_length == 0.0);
+      CHECK(probes[1].point.arc_length == Approx(track.centerline->length()).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("probes on a straight ramp: the closed form of its motion, at every friction") {
   const Design design = parse_design(
       kStraight + "probes: [{from_start: 2 m}, {from_finish: 1 m, name: sill}, {x: 4 m}]\n", "d.yaml");

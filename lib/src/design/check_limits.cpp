@@ -259,16 +259,21 @@ void report_breach(const NamedPoint& point, const std::string& key, const std::s
           "another position of one of the two"});
 }
 
+/// @param beyond  how far it lies beyond the clearance's bound
+std::string breach_text(double beyond, double clearance, const std::string& what) {
+  if (beyond > clearance) return "lies " + length_text(beyond - clearance) + " on the wrong side of " + what;
+  return "lies " + length_text(beyond) + " within the clearance of " + what + ", " + length_text(clearance);
+}
+
 void check_fixed_point(const Limits& limits, const NamedPoint& point, Collected& findings) {
   constexpr double kRounding = 1e-9;
   for (std::size_t index = 0; index < limits.half_planes.size(); ++index) {
     const HalfPlane& plane = limits.half_planes[index];
     const double beyond = dot(point.point - plane.point, plane.forbidden) + plane.clearance;
     if (beyond <= kRounding) continue;
-    report_breach(
-        point, "half_planes." + std::to_string(index),
-        "lies " + length_text(beyond) + " on the wrong side of half_planes[" + std::to_string(index) + "]",
-        findings);
+    report_breach(point, "half_planes." + std::to_string(index),
+                  breach_text(beyond, plane.clearance, "half_planes[" + std::to_string(index) + "]"),
+                  findings);
   }
   for (std::size_t index = 0; index < limits.keep_outs.size(); ++index) {
     if (limits.keep_outs[index].outline.size() < 3) continue;
@@ -281,10 +286,9 @@ void check_fixed_point(const Limits& limits, const NamedPoint& point, Collected&
       const auto height = height_at(profiles[index].line, point.point.x);
       const double beyond = height ? sign * (*height - point.point.y) + profiles[index].clearance : 0.0;
       if (beyond <= kRounding) continue;
-      report_breach(
-          point, key + "." + std::to_string(index),
-          "lies " + length_text(beyond) + " on the wrong side of " + key + "[" + std::to_string(index) + "]",
-          findings);
+      report_breach(point, key + "." + std::to_string(index),
+                    breach_text(beyond, profiles[index].clearance, key + "[" + std::to_string(index) + "]"),
+                    findings);
     }
   };
   check_profiles(limits.stay_above, "stay_above", 1.0);

@@ -2,6 +2,7 @@
 
 #include "glissade/optimize/optimize.hpp"
 
+#include "glissade/centerline/fastest_track.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
@@ -360,6 +361,34 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   report.finer_mesh_wins = left_to_win(best, priced, onto_finest);
 }
 
+/// The unlimited optimum instead, where the search stayed behind it although it keeps every limit: next to the reach limit its
+/// flattest stretch asks for more pieces than a mesh has.
+void take_unlimited(const Problem& problem, const OptimizeOptions& options, Optimum& optimum) {
+  constexpr double kBehind = 1e-6;  // accuracy: that of a time
+  OptimizeReport& report = optimum.report;
+  const std::optional<double> least = report.unlimited_travel_time;
+  const bool is_fastest =
+      problem.objective.kind == ObjectiveKind::travel_time && !problem.objective.worst_case;
+  if (!least || !is_fastest || report.travel_time <= (1.0 + kBehind) * *least) return;
+  const bool bound = std::any_of(report.active.begin(), report.active.end(), [](const ActiveLimit& active) {
+    return active.limit.id != LimitId::lowest_normal_load && active.limit.id != LimitId::arrival;
+  });
+  if (bound) return;
+  const FastestTrack fastest =
+      fastest_track(problem.endpoints, problem.body.friction, problem.body.entry_speed, problem.gravity);
+  const referee::Judgement judgement =
+      referee::judge_track(problem, fastest.centerline, referee::kRefereeSamples);
+  if (!judgement.arrived || judgement.worst > options.limit_tolerance) return;
+  if (!(judgement.travel_time < report.travel_time)) return;
+  optimum.centerline = fastest.centerline;
+  report.active.clear();
+  report.travel_time = judgement.travel_time;
+  report.exit_speed = judgement.exit_speed;
+  report.checks = judgement.checks;
+  report.first_order_residual = 0.0;
+  report.finer_mesh_wins = 0.0;
+}
+
 /// Tells why there is no track.
 void tell_none(Conflict conflict, bool certain, bool stopped, OptimizeReport& report) {
   report.status = certain ? OptimizeStatus::infeasible : OptimizeStatus::no_track_found;
@@ -425,6 +454,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   }
   tell_track(course, options, control, report);
   optimum.centerline = course.best().track;
+  take_unlimited(problem, options, optimum);
   const bool converged = report.first_order_residual <= options.tolerance && !course.stopped();
   report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
   report.message = ended_text(problem.objective, report.status, course.stopped(), patience.out_of_time());

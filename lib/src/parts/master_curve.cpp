@@ -60,7 +60,8 @@ std::optional<double> constant_curvature(const Centerline& track, double from, d
   return sagitta <= kSameLine * track.length() ? 0.0 : middle;
 }
 
-/// Stretches of constant curvature, neighbours with the same one joined; none that is no longer than what arcs may miss.
+/// Stretches of constant curvature, neighbours with the same one joined; none that is no longer than what arcs may miss, and
+/// no arc that a line could stand for anyway.
 std::vector<Kept> kept_pieces(const Centerline& track, double tolerance) {
   std::vector<Kept> kept;
   const std::vector<double> breaks = track.breaks();
@@ -76,7 +77,12 @@ std::vector<Kept> kept_pieces(const Centerline& track, double tolerance) {
       kept.push_back({breaks[i], breaks[i + 1], *curvature});
     }
   }
-  std::erase_if(kept, [&](const Kept& piece) { return piece.to - piece.from <= tolerance; });
+  constexpr double kNoArc = 0.01;  // of the tolerance, by which it rises
+  std::erase_if(kept, [&](const Kept& piece) {
+    const double length = piece.to - piece.from;
+    const double rise = 0.125 * std::fabs(piece.curvature) * length * length;
+    return length <= tolerance || (piece.curvature != 0.0 && rise <= kNoArc * tolerance);
+  });
   return kept;
 }
 
@@ -312,6 +318,30 @@ MasterCurve fitted(Fit& fit, const std::vector<Kept>& kept) {
       {"", "arcs depart from the track by " + length_text(master.max_deviation, 3), "", ""});
 }
 
+/// Pieces that leave more to what lies between them, at either end a share of their length.
+std::vector<Kept> with_room(std::vector<Kept> kept, const TrackSamples& samples, double share) {
+  for (Kept& piece : kept) {
+    const double room = share * (piece.to - piece.from);
+    if (piece.from > 0.0) piece.from = samples.s[index_at(samples, piece.from + room)];
+    if (piece.to < samples.s.back()) piece.to = samples.s[index_at(samples, piece.to - room)];
+  }
+  std::erase_if(kept, [](const Kept& piece) { return !(piece.to > piece.from); });
+  return kept;
+}
+
+/// Where next to no way leads from one piece to the next - a line that crosses the circle behind it by a rounding - no arcs join
+/// them as they are.
+MasterCurve fitted_with_room(Fit& fit, const std::vector<Kept>& kept) {
+  for (const double share : {0.0, 0.02, 0.1}) {
+    try {
+      return fitted(fit, share == 0.0 ? kept : with_room(kept, fit.samples, share));
+    } catch (const ConvergenceError&) {
+      // The next one has more.
+    }
+  }
+  return fitted(fit, with_room(kept, fit.samples, 0.2));
+}
+
 }  // namespace
 
 MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options) {
@@ -319,7 +349,7 @@ MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options)
   const TrackSamples samples = close_samples(track, band_of(options.side, options.tolerance).half_width());
   const std::vector<Kept> kept = kept_pieces(track, options.tolerance);
   Fit fit{track, samples, options, false, {}, {}};
-  MasterCurve best = fitted(fit, kept);
+  MasterCurve best = fitted_with_room(fit, kept);
   const auto take = [&best](MasterCurve other) {
     const bool better = as_expected(other) == as_expected(best) ? other.arcs < best.arcs : as_expected(other);
     if (better) best = std::move(other);
@@ -327,13 +357,13 @@ MasterCurve fit_arcs(const Centerline& track, const MasterCurveOptions& options)
   if (options.found) {
     // A search that just touches a limit on the radius leaves short arcs, each of which costs several more.
     const std::vector<Kept> seen = without_arcs(kept, kFlat * options.tolerance);
-    if (seen.size() < kept.size()) take(fitted(fit, seen));
+    if (seen.size() < kept.size()) take(fitted_with_room(fit, seen));
   }
   if (as_expected(best)) return best;
   fit.thorough = true;
-  take(fitted(fit, kept));
+  take(fitted_with_room(fit, kept));
   const std::vector<Kept> lines = without_arcs(kept, std::numeric_limits<double>::infinity());
-  if (options.found && !as_expected(best) && lines.size() < kept.size()) take(fitted(fit, lines));
+  if (options.found && !as_expected(best) && lines.size() < kept.size()) take(fitted_with_room(fit, lines));
   return best;
 }
 

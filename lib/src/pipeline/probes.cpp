@@ -4,6 +4,7 @@
 
 #include "pipeline/probes.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace glissade {
@@ -26,19 +27,23 @@ std::string name_of(const ProbeDesign& probe) {
 std::optional<double> arc_length_of(const Design& design, const Track& found, const ProbeDesign& probe) {
   const Centerline& track = *found.centerline;
   const double length = track.length();
+  // Both ends are on it, however they are rounded.
+  constexpr double kRounding = 1e-9;
+  const double beyond = kRounding * length;
   switch (probe.origin) {
     case ProbeOrigin::start:
-      return probe.at <= length ? std::optional(probe.at) : std::nullopt;
+      return probe.at <= length + beyond ? std::optional(std::min(probe.at, length)) : std::nullopt;
     case ProbeOrigin::finish:
-      return probe.at <= length ? std::optional(length - probe.at) : std::nullopt;
+      return probe.at <= length + beyond ? std::optional(std::max(length - probe.at, 0.0)) : std::nullopt;
     case ProbeOrigin::x:
       break;
   }
   TrackDesign placed = design.track;
   placed.start = found.placement.start();
   const double run = in_track_plane(placed, {probe.at, placed.start.z}).x;
-  if (run < 0.0 || run > track.endpoints().run) return {};
-  return track.arc_length_at_run(run);
+  const double whole = track.endpoints().run;
+  if (run < -beyond || run > whole + beyond) return {};
+  return track.arc_length_at_run(std::clamp(run, 0.0, whole));
 }
 
 }  // namespace
