@@ -370,6 +370,8 @@ void take_unlimited(const Problem& problem, const OptimizeOptions& options, Opti
   const bool is_fastest =
       problem.objective.kind == ObjectiveKind::travel_time && !problem.objective.worst_case;
   if (!least || !is_fastest || report.travel_time <= (1.0 + kBehind) * *least) return;
+  // Who asks for few pieces gets what they give.
+  if (options.pieces < OptimizeOptions{}.pieces) return;
   const bool bound = std::any_of(report.active.begin(), report.active.end(), [](const ActiveLimit& active) {
     return active.limit.id != LimitId::lowest_normal_load && active.limit.id != LimitId::arrival;
   });
