@@ -58,6 +58,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("where contact alone holds a track back it is no slower than the fastest of all that keeps it") {
+  // Next to the reach limit, where that one is all but straight for most of its way.
+  struct Near {
+    double run, drop, friction, speed;
+  };
+  for (const Near& drawn :
+       {Near{10.0, 4.8175, 0.48172, 0.06625}, Near{10.0, 6.0, 0.2, 5.0}, Near{10.0, 3.01, 0.3, 0.5}}) {
+    Problem problem = slide(drawn.run, drawn.drop, drawn.friction);
+    problem.body.entry_speed = drawn.speed;
+    const OptimizeReport report = solved(problem).report;
+    CAPTURE(drawn.drop, drawn.friction, drawn.speed, report.brief());
+    REQUIRE(report.unlimited_travel_time);
+    CHECK(report.travel_time == Approx(*report.unlimited_travel_time).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("a rate of curvature next to none is kept: arcs of one radius are") {
   Problem problem = slide(3.0, 2.0, 0.2);
   problem.limits.highest_curvature_rate = 1e-6;
