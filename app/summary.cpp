@@ -150,7 +150,10 @@ std::string load_lines(const Motion& motion) {
 std::string radius_text(const Track& track) {
   if (std::isinf(track.min_radius)) return "none: the track is straight";
   if (track.min_radius == 0.0) return "0: the track starts vertical, its curvature grows without bound there";
-  return length_text(track.min_radius);
+  const auto* const profile = dynamic_cast<const FittedProfile*>(track.centerline.get());
+  if (profile == nullptr || !profile->largest_curvature()) return length_text(track.min_radius);
+  return length_text(track.min_radius) + "; the points allow " +
+         radius_range_text(*profile->largest_curvature());
 }
 
 std::string solid_lines(const Design& design, const Build& build) {

@@ -7,6 +7,7 @@
 #include "support/random.hpp"
 #include "support/thorough.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -148,6 +149,121 @@ TEST_CASE("a millimetre of noise at a hundred points hides neither radius nor lo
       CHECK(highest_load(profile) == Approx(highest_load(*known.truth)).epsilon(0.01));
     }
   }
+}
+
+namespace {
+
+/// The points as a file of so many decimals has them.
+std::vector<Vec2> rounded(std::vector<Vec2> points, int decimals) {
+  const double places = std::pow(10.0, decimals);
+  for (Vec2& point : points)
+    point = {std::round(point.x * places) / places, std::round(point.y * places) / places};
+  return points;
+}
+
+/// A random track of straights, arcs and clothoids as they are drawn, a few hundred points of which would show all.
+KnownProfile drawn_profile(Random& random) {
+  const double size = std::exp(random.between(std::log(10.0), std::log(100.0)));
+  const double radius = size * random.between(0.3, 1.2);
+  const double bend = radius * random.between(0.14, 0.44);
+  const double curvature = 1.0 / radius;
+  const ClothoidSegment before{size * random.between(0.2, 0.6), 0.0, 0.0};
+  const ClothoidSegment behind{size * random.between(0.2, 0.5), 0.0, 0.0};
+  std::vector<ClothoidSegment> segments;
+  switch (random.integer(0, 4)) {
+    case 0:
+      segments = {before, {bend, curvature, curvature}, behind};
+      break;
+    case 1:
+      segments = {before, {bend, curvature, curvature}};
+      break;
+    case 2:
+      segments = {before, {1.3 * bend, 0.0, curvature}, behind};
+      break;
+    case 3:
+      segments = {before,
+                  {0.5 * bend, 0.0, curvature},
+                  {0.5 * bend, curvature, curvature},
+                  {0.4 * bend, curvature, 0.0},
+                  behind};
+      break;
+    default:
+      segments = {before,
+                  {bend, curvature, curvature},
+                  behind,
+                  {0.5 * bend, -0.8 * curvature, -0.8 * curvature},
+                  behind};
+  }
+  return testing::known_profile("drawn", random.between(20.0, 50.0), segments);
+}
+
+double largest_curvature_of(const ClothoidSpline& curve) {
+  double most = 0.0;
+  for (const ClothoidSegment& segment : curve.segments())
+    most = std::max({most, std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)});
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("points rounded to decimals give radius and load back: what rounding leaves is no shape") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int draws = testing::thorough() ? 60 : 12;
+  for (int draw = 0; draw < draws; ++draw) {
+    const KnownProfile known = drawn_profile(random);
+    const int count = std::vector{103, 263, 700, 2000}[static_cast<std::size_t>(random.integer(0, 3))];
+    const int decimals = random.integer(4, 6);
+    INFO("draw " << draw << ", " << count << " points of " << decimals << " decimals on " << known.length
+                 << " m, " << known.truth->segments().size() << " segments");
+    const FittedProfile profile(rounded(points_of(known, count, 0.0, random), decimals));
+    const double truth = largest_curvature_of(*known.truth);
+    CHECK(largest_curvature_of(profile.curve()) == Approx(truth).epsilon(0.02));
+    CHECK(highest_load(profile) == Approx(highest_load(*known.truth)).epsilon(0.01));
+    CHECK(profile.rms_deviation() < 0.4 * std::pow(10.0, -decimals));
+    CHECK_FALSE(profile.leaves_pattern());
+  }
+}
+
+TEST_CASE("round numbers that are exact are no rounding") {
+  // Whole metres of x, and of z what a parabola of two decimals has there.
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 60; ++i) points.push_back({static_cast<double>(i), 1.2 * i - 0.01 * i * i});
+  const FittedProfile profile(points);
+  CHECK(profile.max_deviation() < 5e-6);
+  CHECK(largest_curvature_of(profile.curve()) == Approx(0.02).epsilon(1e-3));
+}
+
+TEST_CASE("what noise leaves open of the smallest radius is told: the true one is hardly ever outside") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int draws = testing::thorough() ? 160 : 40;
+  int off = 0;
+  int untold = 0;
+  int outside = 0;
+  int narrow = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    const KnownProfile known = drawn_profile(random);
+    const int count = random.integer(50, 400);
+    const FittedProfile profile(points_of(known, count, 1e-3, random));
+    const double truth = largest_curvature_of(*known.truth);
+    const double found = largest_curvature_of(profile.curve());
+    const auto& range = profile.largest_curvature();
+    if (!range) continue;
+    CHECK(range->least <= found * (1.0 + 1e-6));
+    CHECK(range->greatest >= found * (1.0 - 1e-6));
+    const bool inside = range->least <= 1.01 * truth && range->greatest >= 0.99 * truth;
+    outside += inside ? 0 : 1;
+    narrow += profile.leaves_radius_open() ? 0 : 1;
+    if (std::fabs(found / truth - 1.0) <= 0.1) continue;
+    ++off;
+    untold += profile.leaves_radius_open() ? 0 : 1;
+  }
+  INFO(off << " of " << draws << " off by more than 10 %, " << untold << " of them untold, " << outside
+           << " outside, " << narrow << " narrow");
+  CHECK(20 * outside <= draws);
+  CHECK(50 * untold <= draws);
+  CHECK(2 * narrow >= draws);  // and the warning is no habit
 }
 
 TEST_CASE("stations of a spline of clothoids, its joints among them, give that very spline") {

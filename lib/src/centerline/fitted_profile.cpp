@@ -87,6 +87,11 @@ const ProfileFit& checked(const ProfileFit& fit) {
 
 }  // namespace
 
+std::string radius_range_text(const CurvatureRange& range) {
+  const std::string least = length_text(1.0 / range.greatest, 3);
+  return range.least > 0.0 ? least + " to " + length_text(1.0 / range.least, 3) : least + " or more";
+}
+
 std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
   const auto fault = [&](std::size_t index, std::string what, std::string why, std::string hint) {
     return ProfileFault{index, {point_text(points, index), std::move(what), std::move(why), std::move(hint)}};
@@ -125,22 +130,27 @@ std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
 
 FittedProfile::FittedProfile(std::vector<Vec2> points, const ProfileFit& fit)
     : FittedProfile(fitted(in_track_frame(std::move(points)), checked(fit))) {
+  // What rounding leaves goes on in steps along a straight: a pattern, but none of bends.
+  constexpr double kRounded = 0.5;
   constexpr double kNextToNothing = 1e-5;
-  leaves_pattern_ =
-      !fit.max_deviation && rms_deviation_ > kNextToNothing * rms_bulge_ && shows_pattern(deviations_);
+  const double nothing = std::max(kNextToNothing * rms_bulge_, kRounded * last_place_);
+  leaves_pattern_ = !fit.max_deviation && rms_deviation_ > nothing && shows_pattern(deviations_);
 }
 
 FittedProfile::Fitted FittedProfile::fitted(std::vector<Vec2> points, const ProfileFit& fit) {
   FittedCurve found = fit_clothoid_spline(points, fit);
   for (Vec2& point : points) point = point - found.start;
-  return {std::move(points), std::move(found.curve), found.between};
+  return {std::move(points), std::move(found.curve), found.between, found.last_place,
+          found.largest_curvature};
 }
 
 FittedProfile::FittedProfile(Fitted fitted)
     : points_(std::move(fitted.points)),
       curve_(std::move(fitted.curve)),
       deviations_(deviations_from(curve_, points_)),
-      between_points_(fitted.between) {
+      between_points_(fitted.between),
+      last_place_(fitted.last_place),
+      largest_curvature_(fitted.largest_curvature) {
   double sum = 0.0;
   for (std::size_t i = 0; i < deviations_.size(); ++i) {
     const double deviation = deviations_[i].deviation;
@@ -163,6 +173,15 @@ bool FittedProfile::leaves_gaps() const noexcept {
   constexpr double kOfBulge = 0.01;
   constexpr double kOfLength = 1e-4;
   return between_points_ > std::max(kOfBulge * rms_bulge_, kOfLength * length());
+}
+
+bool FittedProfile::leaves_radius_open() const {
+  if (!largest_curvature_) return false;
+  double own = 0.0;
+  for (const ClothoidSegment& segment : curve_.segments())
+    own = std::max({own, std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)});
+  return largest_curvature_->greatest > own / (1.0 - kOpenRadius) ||
+         largest_curvature_->least < own / (1.0 + kOpenRadius);
 }
 
 }  // namespace glissade

@@ -32,10 +32,17 @@ constexpr int kMostTrials = 40;
 // So many points, means of neighbours, decide what the pieces are; all of them, how long and how curved.
 constexpr std::size_t kMostDeciding = 300;
 
+// What a number costs by Akaike's criterion: what points leave open is asked of descriptions that they would hardly ask for.
+constexpr double kAkaike = 2.0;
+
 // What a jump of curvature at a clothoid or another bend costs, in numbers, beside the number itself.
 constexpr double kPriceOfJump = 1.0;
 // And any bend: drawings have straights, arcs, clothoids and cubic parabolas.
 constexpr double kPriceOfBend = 2.0;
+
+// And a piece that spans less than so many points: noise makes such.
+constexpr double kFewPoints = 3.0;
+constexpr double kPriceOfHardlySeen = 1.0;
 
 enum class Change { tie, simpler, merge };
 
@@ -338,6 +345,68 @@ void add_plain_transitions(const PiecewiseProfile& profile, std::vector<Piecewis
   }
 }
 
+/// What lies between two straights as drawings have it: an arc, one with clothoids before and behind it or on one side,
+/// two clothoids, two arcs. Noise, or points that are few for the bend, hide that from a cut.
+void add_drawn_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfile>& ways) {
+  /// Pieces by their shares of the length, and the curvature where they begin and end as shares of the highest.
+  struct Part {
+    double share;
+    double entry;
+    double exit;
+  };
+  static const std::vector<std::vector<Part>> kDrawn = {
+      {{1.0, 1.0, 1.0}},
+      {{0.3, 0.0, 1.0}, {0.4, 1.0, 1.0}, {0.3, 1.0, 0.0}},
+      {{0.45, 0.0, 1.0}, {0.1, 1.0, 1.0}, {0.45, 1.0, 0.0}},
+      {{0.5, 0.0, 1.0}, {0.5, 1.0, 1.0}},
+      {{0.5, 1.0, 1.0}, {0.5, 1.0, 0.0}},
+      {{0.5, 0.0, 1.0}, {0.5, 1.0, 0.0}},
+      {{0.5, 0.5, 0.5}, {0.5, 1.0, 1.0}},
+      {{0.5, 1.0, 1.0}, {0.5, 0.5, 0.5}},
+  };
+  const std::vector<ProfilePiece>& pieces = profile.pieces;
+  const auto is_straight = [&](std::size_t k) { return pieces[k].shape == PieceShape::straight; };
+  const auto fits = [&](const std::vector<Part>& parts, std::size_t from) {
+    return std::equal(parts.begin(), parts.end(), pieces.begin() + static_cast<std::ptrdiff_t>(from),
+                      [](const Part& part, const ProfilePiece& piece) {
+                        return part.entry == part.exit ? piece.shape == PieceShape::arc
+                                                       : piece.shape == PieceShape::clothoid && piece.tied;
+                      });
+  };
+  for (std::size_t from = 0; from < pieces.size(); ++from) {
+    if (is_straight(from) || (from > 0 && !is_straight(from - 1))) continue;
+    std::size_t to = from + 1;
+    double length = pieces[from].length;
+    while (to < pieces.size() && !is_straight(to)) length += pieces[to++].length;
+    const double turn = turn_of(pieces, from, to);
+    for (const std::vector<Part>& parts : kDrawn) {
+      if (parts.size() == to - from && fits(parts, from)) continue;
+      const bool runs_in = parts.front().entry == 0.0;
+      const bool runs_out = parts.back().exit == 0.0;
+      if ((runs_in && from == 0) || (runs_out && to == pieces.size())) continue;
+      double area = 0.0;
+      for (const Part& part : parts) area += part.share * 0.5 * (part.entry + part.exit);
+      const double highest = turn / (length * area);
+      std::vector<ProfilePiece> drawn;
+      for (const Part& part : parts) {
+        ProfilePiece piece;
+        piece.shape = part.entry == part.exit ? PieceShape::arc : PieceShape::clothoid;
+        piece.length = part.share * length;
+        piece.entry_curvature = part.entry * highest;
+        piece.exit_curvature = part.exit * highest;
+        piece.tied = drawn.empty() ? part.entry == 0.0 : drawn.back().exit_curvature == piece.entry_curvature;
+        drawn.push_back(piece);
+      }
+      PiecewiseProfile next = replaced(profile, from, to, drawn.back());
+      next.pieces.insert(next.pieces.begin() + static_cast<std::ptrdiff_t>(from), drawn.begin(),
+                         drawn.end() - 1);
+      const std::size_t behind = from + drawn.size();
+      if (behind < next.pieces.size()) next.pieces[behind].tied = runs_out;
+      ways.push_back(std::move(next));
+    }
+  }
+}
+
 /// The profile without one of the pieces between two points: noise makes such, no point shows what they are.
 void add_without_slivers(const PiecewiseProfile& profile, double spacing,
                          std::vector<PiecewiseProfile>& ways) {
@@ -365,13 +434,23 @@ double freedom_of(const PieceFit& fit) {
   return static_cast<double>(fit.freedom() + fit.profile().pieces.size() - 1);
 }
 
-/// What the kinds of pieces cost beside their numbers, in numbers.
-double prices_of_kinds(const PieceFit& fit) {
+/// Number of pieces that span less than so many points.
+std::size_t hardly_seen(const PiecewiseProfile& profile, std::size_t points, double few_points) {
+  const double few = few_points * profile.length() / static_cast<double>(points);
+  const auto count = std::count_if(profile.pieces.begin(), profile.pieces.end(),
+                                   [&](const ProfilePiece& piece) { return piece.length < few; });
+  return static_cast<std::size_t>(count);
+}
+
+/// What the kinds of pieces cost beside their numbers, in numbers; those that few points see among them.
+/// @param points  number of them
+double prices_of_kinds(const PieceFit& fit, std::size_t points) {
   const std::vector<ProfilePiece>& pieces = fit.profile().pieces;
   const auto bends = std::count_if(pieces.begin(), pieces.end(),
                                    [](const ProfilePiece& piece) { return piece.shape == PieceShape::bend; });
   return kPriceOfJump * static_cast<double>(jumps_of(fit.profile())) +
-         kPriceOfBend * static_cast<double>(bends);
+         kPriceOfBend * static_cast<double>(bends) +
+         kPriceOfHardlySeen * static_cast<double>(hardly_seen(fit.profile(), points, kFewPoints));
 }
 
 class Describer {
@@ -420,28 +499,11 @@ class Describer {
     constexpr std::size_t kMostPieces = 16;
     constexpr int kMostReshapes = 8;
     for (int i = 0; i < kMostReshapes && fit_.profile().pieces.size() <= kMostPieces; ++i) {
-      std::vector<PiecewiseProfile> ways;
-      add_moved_ties(fit_.profile(), ways);
-      add_cubic_bends(fit_.profile(), ways);
-      add_plain_transitions(fit_.profile(), ways);
-      add_without_slivers(fit_.profile(), fit_.profile().length() / static_cast<double>(points_.size()),
-                          ways);
-      // A neighbour that hardly turns may be the straight that noise hides.
-      for (const PiecewiseProfile& straighter : with_straights(fit_.profile())) {
-        add_cubic_bends(straighter, ways);
-        add_plain_transitions(straighter, ways);
-      }
-      for (const PiecewiseProfile& ended : with_straight_ends(fit_.profile())) {
-        ways.push_back(ended);
-        add_cubic_bends(ended, ways);
-        add_plain_transitions(ended, ways);
-      }
       std::optional<PieceFit> best;
       double least = score(fit_);
-      for (PiecewiseProfile& way : ways) {
+      for (PiecewiseProfile& way : other_ways()) {
         PieceFit next(points_, places_, std::move(way));
-        next.relax(kPiecesSettled * variance_, kMostRounds);
-        if (score(next) >= least) continue;
+        if (!relax_below(least, next, number_price_)) continue;
         least = score(next);
         best = std::move(next);
       }
@@ -452,10 +514,77 @@ class Describer {
 
   [[nodiscard]] const PiecewiseProfile& profile() const { return fit_.profile(); }
 
+  /// The largest curvatures of all that describes the points about as well.
+  [[nodiscard]] std::optional<CurvatureRange> largest_curvature() const {
+    constexpr double kAsWell = 6.0;  // odds of one to twenty
+    constexpr double kUnseen = 2.0;  // points: what fewer see is bounded by nothing
+    const auto akaike = [&](const PieceFit& fit) { return score(fit, kAkaike); };
+    const double bound = akaike(fit_) + kAsWell;
+    std::optional<CurvatureRange> range;
+    const auto widen = [&](const PieceFit& fit) {
+      const double room = bound - akaike(fit);
+      const auto sharpest = fit.sharpest();
+      if (!sharpest || !(room > 0.0)) return;
+      const double more = std::sqrt(room * variance_) * sharpest->deviation;
+      const CurvatureRange here{std::max(0.0, sharpest->curvature - more), sharpest->curvature + more};
+      range =
+          range ? CurvatureRange{std::min(range->least, here.least), std::max(range->greatest, here.greatest)}
+                : here;
+    };
+    widen(fit_);
+    for (PiecewiseProfile& way : other_ways()) {
+      PieceFit next(points_, places_, std::move(way));
+      if (relax_below(bound, next, kAkaike) && hardly_seen(next.profile(), points_.size(), kUnseen) == 0)
+        widen(next);
+    }
+    return range;
+  }
+
  private:
+  /// Relaxes to the end, or as long as it looks as if the score came below a bound. @return whether it does
+  [[nodiscard]] bool relax_below(double bound, PieceFit& fit, double number_price) const {
+    // Steps in this number that do not take a good part of what is missing will not get there.
+    constexpr int kStepsAtOnce = 5;
+    constexpr double kGoodPart = 0.1;
+    double before = std::numeric_limits<double>::infinity();
+    for (int steps = 0; steps < kMostRounds; steps += kStepsAtOnce) {
+      fit.relax(kPiecesSettled * variance_, kStepsAtOnce);
+      const double now = score(fit, number_price);
+      if (!(before - now > kGoodPart * (now - bound))) return now < bound;
+      if (before - now <= kPiecesSettled) break;
+      before = now;
+    }
+    return score(fit, number_price) < bound;
+  }
+
+  /// The profile with other shapes in some places.
+  [[nodiscard]] std::vector<PiecewiseProfile> other_ways() const {
+    std::vector<PiecewiseProfile> ways;
+    add_moved_ties(fit_.profile(), ways);
+    add_cubic_bends(fit_.profile(), ways);
+    add_plain_transitions(fit_.profile(), ways);
+    add_without_slivers(fit_.profile(), fit_.profile().length() / static_cast<double>(points_.size()), ways);
+    // A neighbour that hardly turns may be the straight that noise hides.
+    for (const PiecewiseProfile& straighter : with_straights(fit_.profile())) {
+      add_cubic_bends(straighter, ways);
+      add_plain_transitions(straighter, ways);
+      add_drawn_bends(straighter, ways);
+    }
+    for (const PiecewiseProfile& ended : with_straight_ends(fit_.profile())) {
+      ways.push_back(ended);
+      add_cubic_bends(ended, ways);
+      add_plain_transitions(ended, ways);
+      add_drawn_bends(ended, ways);
+    }
+    add_drawn_bends(fit_.profile(), ways);
+    return ways;
+  }
+
   /// Of the Bayesian information criterion, in variances.
-  [[nodiscard]] double score(const PieceFit& fit) const {
-    return fit.square_sum() / variance_ + (freedom_of(fit) + prices_of_kinds(fit)) * number_price_;
+  [[nodiscard]] double score(const PieceFit& fit) const { return score(fit, number_price_); }
+  [[nodiscard]] double score(const PieceFit& fit, double number_price) const {
+    return fit.square_sum() / variance_ +
+           (freedom_of(fit) + prices_of_kinds(fit, points_.size())) * number_price;
   }
 
   /// From the last place of the profile to the first, so that the steps leave each other's indices alone.
@@ -546,9 +675,25 @@ std::vector<Vec2> from(Vec2 start, std::vector<Vec2> points) {
 
 class Descriptions {
  public:
-  explicit Descriptions(const std::vector<Vec2>& points) : points_(points) {}
+  /// @param noise  mean square of what is known to be noise [m^2]
+  Descriptions(const std::vector<Vec2>& points, double noise) : points_(points), noise_(noise) {}
 
   [[nodiscard]] const std::optional<PieceFit>& best() const { return best_; }
+  /// Whether few pieces, none of them short, leave nothing but the noise that is known.
+  [[nodiscard]] bool as_good_as_noise() const {
+    constexpr std::size_t kFew = 8;
+    constexpr double kSeen = 8.0;  // points that a piece has at least
+    // Of this many standard deviations of a mean of squares, as rounding has them.
+    constexpr double kChance = 3.0;
+    constexpr double kOfRounding = 0.8;
+    if (!best_ || best_->profile().pieces.size() > kFew) return false;
+    const auto count = static_cast<double>(points_.size());
+    const double least = kSeen * best_->profile().length() / count;
+    const std::vector<ProfilePiece>& pieces = best_->profile().pieces;
+    const bool seen = std::all_of(pieces.begin(), pieces.end(),
+                                  [&](const ProfilePiece& piece) { return piece.length > least; });
+    return seen && best_->square_sum() <= noise_ * (count + kChance * std::sqrt(kOfRounding * count));
+  }
 
   /// Tries one description, of means of neighbours beside a reference.
   void add(const ClothoidSpline& reference, const PlacedPoints& placed, double scatter) {
@@ -568,43 +713,68 @@ class Descriptions {
  private:
   /// The Bayesian information criterion.
   [[nodiscard]] double score(const PieceFit& fit) const {
-    constexpr double kRounding = 1e-30;
+    // The series of a cubic bend, of thousands of numbers, leave some 1e-12 of the length.
+    constexpr double kRounding = 1e-22;
     const auto count = static_cast<double>(points_.size());
     const double length = fit.profile().length();
-    const double mean_square = std::max(fit.square_sum() / count, kRounding * length * length);
-    return count * math::log(mean_square) + (freedom_of(fit) + prices_of_kinds(fit)) * math::log(count);
+    const double noise = noise_ * (1.0 - std::min(1.0, freedom_of(fit) / count));
+    const double mean_square = std::max({fit.square_sum() / count, noise, kRounding * length * length});
+    return count * math::log(mean_square) +
+           (freedom_of(fit) + prices_of_kinds(fit, points_.size())) * math::log(count);
   }
 
   const std::vector<Vec2>& points_;
+  double noise_ = 0.0;
   std::optional<PieceFit> best_;
 };
 
 }  // namespace
 
 std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
-                                              const ClothoidSpline& reference) {
+                                              const ClothoidSpline& reference,
+                                              const std::optional<LastPlaces>& places) {
   const auto count = static_cast<double>(points.size());
   const double share = std::sqrt(std::min(1.0, static_cast<double>(kMostDeciding) / count));
   const PlacedPoints placed = placed_beside(reference, points);
-  const double scatter = share * scatter_of(reference, placed);
-  Descriptions descriptions(points);
+  const double noise = places ? noise_of_rounding(points, *places) : 0.0;
+  const double scatter = share * std::max(std::sqrt(noise), scatter_of(reference, placed));
+  Descriptions descriptions(points, noise);
   double tried = std::numeric_limits<double>::infinity();
   for (const double least : kLeastScatters) {
     const double here = std::max(scatter, least * reference.length());
-    if (here < tried) descriptions.add(reference, placed, here);
+    if (here < tried && !descriptions.as_good_as_noise()) descriptions.add(reference, placed, here);
     tried = here;
   }
+  if (places && !descriptions.as_good_as_noise()) {
+    // What rounding leaves along a straight goes on in steps, which look like shape: as chance has it they do not.
+    const PlacedPoints moved = placed_beside(reference, dithered(points, *places));
+    descriptions.add(reference, moved,
+                     share * std::max(std::sqrt(2.0 * noise), scatter_of(reference, moved)));
+  }
   if (!descriptions.best()) return {};
-  const bool scattered = scatter >= kLeastScatters.front() * reference.length();
-  if (!scattered) {
+  const bool scattered = places || scatter >= kLeastScatters.front() * reference.length();
+  // Beside a curve that rings the means of neighbours lie off where curvature breaks.
+  const bool means = points.size() > kMostDeciding && !descriptions.as_good_as_noise();
+  if (!scattered || means) {
     const PiecewiseProfile rough = descriptions.best()->profile();
     const ClothoidSpline nearer = rough.spline();
     const PlacedPoints again = placed_beside(nearer, from(rough.start(points.front()), points));
-    descriptions.add(nearer, again,
-                     std::max(share * scatter_of(nearer, again), kLeastScatterAtLast * nearer.length()));
+    const double seen = share * std::max(std::sqrt(noise), scatter_of(nearer, again));
+    descriptions.add(nearer, again, std::max(seen, kLeastScatterAtLast * nearer.length()));
   }
   const PieceFit& fit = *descriptions.best();
-  return Description{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit)};
+  Description found{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit), {}};
+  if (scattered) {
+    const ClothoidSpline near = fit.profile().spline();
+    const PlacedPoints last = placed_beside(near, from(fit.profile().start(points.front()), points));
+    const PlacedPoints deciding = means_of_neighbours(last, kMostDeciding);
+    const double seen = share * std::max(std::sqrt(noise), scatter_of(near, last));
+    PiecewiseProfile profile = fit.profile();
+    profile.offset = 0.0;
+    found.largest_curvature =
+        Describer(beside(near, deciding), deciding.places, profile, seen).largest_curvature();
+  }
+  return found;
 }
 
 }  // namespace glissade::centerline

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/vec.hpp"
 
 #include "profile_pieces.hpp"
+#include "rounded_points.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -17,12 +19,15 @@ struct Description {
   double mean_square = 0.0;  // of the points' distances [m^2]
   bool scattered = false;    // the points show noise
   double freedom = 0.0;      // numbers that the points had to yield; the places of breaks count twice
+  std::optional<CurvatureRange> largest_curvature;  // where they show noise
 };
 
 /// @param points     in order, none repeated
 /// @param reference  a smooth curve near them, from the first one on
+/// @param places     to which they were rounded, where it shows
 /// @return none where few pieces do not do: the points' curvature changes everywhere
 [[nodiscard]] std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
-                                                            const ClothoidSpline& reference);
+                                                            const ClothoidSpline& reference,
+                                                            const std::optional<LastPlaces>& places);
 
 }  // namespace glissade::centerline

@@ -8,6 +8,7 @@
 #include "profile_description.hpp"
 #include "profile_interpolant.hpp"
 #include "profile_model.hpp"
+#include "rounded_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,12 +58,17 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points, std::size_t most) {
 struct Relaxed {
   Shape shape;
   Cost cost;
+  double smoothing = 0.0;
 };
 
 class Fitter {
  public:
-  explicit Fitter(const std::vector<Vec2>& points)
-      : points_(&points), model_(thinned(points, kMostFitted)), shape_(model_.first_shape()) {}
+  /// @param noise  mean square of what is known to be noise [m^2]
+  explicit Fitter(const std::vector<Vec2>& points, double noise = 0.0)
+      : points_(&points),
+        model_(thinned(points, kMostFitted)),
+        shape_(model_.first_shape()),
+        noise_(noise * static_cast<double>(model_.point_count()) / static_cast<double>(points.size())) {}
 
   [[nodiscard]] ClothoidSpline within_deviation(double max_deviation) {
     return model_.spline(within(max_deviation));
@@ -71,6 +77,8 @@ class Fitter {
   /// @return what the validated curve costs, or of one that follows all points the best by the Bayesian criterion on
   ///         the way there; none where points are too few
   [[nodiscard]] const std::optional<Cost>& best_cost() const { return best_cost_; }
+  /// @return of the validated curve, where its noise can be told
+  [[nodiscard]] std::optional<CurvatureRange> largest_curvature();
 
  private:
   void relax(double smoothing);
@@ -86,6 +94,8 @@ class Fitter {
   const std::vector<Vec2>* points_;
   ProfileModel model_;
   Shape shape_;
+  double noise_ = 0.0;  // of the points of the model
+  std::optional<double> validated_smoothing_;
   std::optional<Cost> best_cost_;
 };
 
@@ -153,7 +163,31 @@ std::optional<Cost> Fitter::cost(double smoothing) {
     all.matrix.solve_backward(image);
     freedom += image[column];
   }
-  return Cost{data.mean_square, freedom};
+  const double unit = shape_.length * shape_.length;
+  return Cost{data.mean_square, freedom, noise_ / unit};
+}
+
+/// Two standard deviations of the posterior that the smoothing stands for (Wahba, J. R. Stat. Soc. B 45 (1983) 133).
+std::optional<CurvatureRange> Fitter::largest_curvature() {
+  constexpr double kDeviations = 2.0;
+  if (!validated_smoothing_) return {};
+  Linearized all = model_.linearized(shape_);
+  model_.add_roughness(shape_, *validated_smoothing_, all);
+  stiffen(all.matrix);
+  if (!all.matrix.factorize()) return {};
+  const auto points = static_cast<double>(model_.point_count());
+  const double variance =
+      best_cost_->beside_noise(model_.point_count()) / std::max(points - best_cost_->freedom, 1.0);
+  const auto sharpest = std::max_element(shape_.bend.begin(), shape_.bend.end(),
+                                         [](double a, double b) { return std::fabs(a) < std::fabs(b); });
+  std::vector<double> unit(all.matrix.size(), 0.0);
+  unit[kFirstBend + static_cast<std::size_t>(sharpest - shape_.bend.begin())] = 1.0;
+  all.matrix.solve_forward(unit);
+  double spread = 0.0;
+  for (const double part : unit) spread += part * part;
+  const double most = std::fabs(*sharpest) / shape_.length;
+  const double more = kDeviations * std::sqrt(variance * spread) / shape_.length;
+  return CurvatureRange{std::max(0.0, most - more), most + more};
 }
 
 /// The shape of the best score over all of the range: a score with more than one valley is the rule where a
@@ -174,7 +208,7 @@ Shape Fitter::validated() {
     keep_best_cost(*here);
     const double score = here->validation_score(points);
     if (score < best_score) {
-      best = {shape_, *here};
+      best = {shape_, *here, smoothing};
       best_score = score;
       follow = true;
     } else if (std::isfinite(score) || !follow) {
@@ -183,6 +217,8 @@ Shape Fitter::validated() {
   }
   if (best && !follow) {
     best_cost_ = best->cost;
+    shape_ = best->shape;
+    validated_smoothing_ = best->smoothing;
     return best->shape;
   }
   if (smoothing < kLeastSmoothing) return shape_;
@@ -286,15 +322,18 @@ double mean_square_deviation(const ClothoidSpline& curve, const std::vector<Vec2
 
 /// Whether few pieces describe the points better than the smooth curve does.
 bool describes_better(const Description& pieces, const std::vector<Vec2>& points,
-                      const ClothoidSpline& smooth, std::optional<Cost> smooth_cost) {
+                      const ClothoidSpline& smooth, std::optional<Cost> smooth_cost, double noise) {
   // Points that pieces meet so closely show no other shape.
   constexpr double kExact = 1e-9;
   const double unit = smooth.length() * smooth.length();
-  const Cost cost{pieces.mean_square / unit, pieces.freedom};
+  const Cost cost{pieces.mean_square / unit, pieces.freedom, noise / unit};
   if (cost.mean_square <= kExact * kExact) return true;
   if (!smooth_cost || !std::isfinite(cost.validation_score(points.size()))) return false;
   // Of very many points the smooth curve saw means only.
-  if (points.size() > kMostFitted) smooth_cost->mean_square = mean_square_deviation(smooth, points) / unit;
+  if (points.size() > kMostFitted) {
+    smooth_cost->mean_square = mean_square_deviation(smooth, points) / unit;
+    smooth_cost->noise = noise / unit;
+  }
   // Where points show no scatter, what is left of them is the description's own fault, and the smooth curve could
   // still come nearer: few pieces must then be clearly better.
   constexpr double kClearly = 10.0;
@@ -322,7 +361,7 @@ double missed_between(const ClothoidSpline& curve) {
 
 FittedCurve smooth_curve(ClothoidSpline curve, Vec2 start) {
   const double between = missed_between(curve);
-  return {std::move(curve), start, between};
+  return {std::move(curve), start, between, 0.0, {}};
 }
 
 /// A curve found, and whether few pieces describe it.
@@ -331,20 +370,26 @@ struct Found {
   bool described = false;
 };
 
-Found smooth_or_described(const std::vector<Vec2>& points) {
-  Fitter fitter(points);
+Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<LastPlaces>& places) {
+  const double noise = places ? noise_of_rounding(points, *places) : 0.0;
+  Fitter fitter(points, noise);
   ClothoidSpline smooth = fitter.validated_spline();
   if (points.size() >= kFewestToValidate) {
-    const auto description = describe_in_pieces(points, smooth);
-    if (description && describes_better(*description, points, smooth, fitter.best_cost())) {
-      return {{description->profile.spline(), description->profile.start(points.front())}, true};
+    const auto description = describe_in_pieces(points, smooth, places);
+    if (description && describes_better(*description, points, smooth, fitter.best_cost(), noise)) {
+      return {{description->profile.spline(), description->profile.start(points.front()), 0.0, 0.0,
+               description->largest_curvature},
+              true};
     }
   }
-  return {smooth_curve(std::move(smooth), points.front())};
+  FittedCurve fitted = smooth_curve(std::move(smooth), points.front());
+  fitted.largest_curvature = fitter.largest_curvature();
+  return {std::move(fitted)};
 }
 
 /// Whether a curve through the points holds what the curve found leaves out, or leaves less open between them.
-bool follows_better(const FollowedProfile& followed, const Found& found, const std::vector<Vec2>& points) {
+bool follows_better(const FollowedProfile& followed, const Found& found, const std::vector<Vec2>& points,
+                    const std::optional<LastPlaces>& places) {
   constexpr double kPlainly = 3.0;  // more than the points' own noise
   // Pieces that come so near are what was built.
   constexpr double kBuilt = 1e-5;
@@ -355,13 +400,15 @@ bool follows_better(const FollowedProfile& followed, const Found& found, const s
   for (Vec2& point : seen) point = point - found.fitted.start;
   const double missed = std::sqrt(mean_square_deviation(found.fitted.curve, seen)) / length;
   const auto count = static_cast<double>(std::min(points.size(), kMostFollowed));
-  const double noise = std::sqrt(followed.cost.mean_square) / (1.0 - followed.cost.freedom / count);
+  double noise = std::sqrt(followed.cost.mean_square) / (1.0 - followed.cost.freedom / count);
+  if (places) noise = std::max(noise, std::sqrt(noise_of_rounding(points, *places)) / length);
   // Few pieces, as near as this, tell more than many.
   constexpr double kFewPieces = 3e-8;
   const double open = found.fitted.between;
-  if (followed.recovered) return found.described ? missed > kFewPieces : open > kLittleOpen * length;
+  if (followed.recovered && !places)
+    return found.described ? missed > kFewPieces : open > kLittleOpen * length;
   const bool leaves_less_open = followed.between < open && open > kLittleOpen * length;
-  if (!found.described && followed.exact && leaves_less_open) return true;
+  if (!found.described && followed.exact && !places && leaves_less_open) return true;
   return points.size() >= kFewestToValidate &&
          missed > std::max(kPlainly * noise, found.described ? kBuilt : kMet);
 }
@@ -373,11 +420,13 @@ FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFi
     Fitter fitter(points);
     return smooth_curve(fitter.within_deviation(*fit.max_deviation), points.front());
   }
-  Found found = smooth_or_described(points);
+  const std::optional<LastPlaces> places = last_places(points);
+  Found found = smooth_or_described(points, places);
+  if (places) found.fitted.last_place = std::max(places->x, places->y);
   if (points.size() < kFewestFollowed) return std::move(found.fitted);
   auto followed = follow_points(thinned(points, kMostFollowed));
-  if (!followed || !follows_better(*followed, found, points)) return std::move(found.fitted);
-  return {std::move(followed->curve), followed->start, followed->between};
+  if (!followed || !follows_better(*followed, found, points, places)) return std::move(found.fitted);
+  return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, {}};
 }
 
 std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve, const std::vector<Vec2>& points) {

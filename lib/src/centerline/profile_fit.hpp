@@ -4,6 +4,7 @@
 #include "glissade/centerline/fitted_profile.hpp"
 #include "glissade/core/vec.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace glissade::centerline {
@@ -11,8 +12,10 @@ namespace glissade::centerline {
 /// A curve beside points.
 struct FittedCurve {
   ClothoidSpline curve;
-  Vec2 start;            // where it begins, in the frame of the points
-  double between = 0.0;  // FittedProfile::between_points()
+  Vec2 start;               // where it begins, in the frame of the points
+  double between = 0.0;     // FittedProfile::between_points()
+  double last_place = 0.0;  // to which the points were rounded; 0 where they do not show it
+  std::optional<CurvatureRange> largest_curvature;
 };
 
 /// Fits a clothoid spline to points in order along it: few pieces with breaks of curvature between them where

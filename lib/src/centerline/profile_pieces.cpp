@@ -320,6 +320,9 @@ PieceFit::Panel PieceFit::along(const ProfilePiece& piece, const Laid& laid, dou
   const auto next = std::upper_bound(laid.panels.begin() + 1, laid.panels.end(), distance,
                                      [](double value, const Panel& panel) { return value < panel.from; });
   const Panel& panel = *std::prev(next);
+  if (piece.shape == PieceShape::straight) {
+    return {distance, laid.slope, distance * tangent_of(laid.slope), {}};
+  }
   const double half = 0.5 * (distance - panel.from);
   Panel sum{distance, slope_after(laid.slope, piece, distance), panel.position, panel.turned};
   const std::size_t ways_count = 3 + piece.swellings;
@@ -530,9 +533,8 @@ void PieceFit::relax(double least_gain, int most_steps) {
   }
 }
 
-/// Growth of the sum of squares if a linear combination of the unknowns, now `value`, were made zero.
-std::optional<double> PieceFit::price(const std::vector<std::pair<std::size_t, double>>& terms,
-                                      double value) const {
+/// Variance of a linear combination of the unknowns, as they are scaled, where that of the points is 1.
+std::optional<double> PieceFit::variance_of(const Terms& terms) const {
   if (!factor_) {
     SymmetricMatrix matrix = linearized().matrix;
     for (std::size_t i = 0; i < unknowns_; ++i) matrix.at(i, i) += 1e-12 * matrix.at(i, i) + 1e-300;
@@ -551,7 +553,37 @@ std::optional<double> PieceFit::price(const std::vector<std::pair<std::size_t, d
   double variance = 0.0;
   for (const double part : combination) variance += part * part;
   if (!(variance > 0.0)) return {};
-  return value * scale_ * (value * scale_) / variance;
+  return variance;
+}
+
+/// Growth of the sum of squares if a linear combination of the unknowns, now `value`, were made zero.
+std::optional<double> PieceFit::price(const Terms& terms, double value) const {
+  const auto variance = variance_of(terms);
+  if (!variance) return {};
+  return value * scale_ * (value * scale_) / *variance;
+}
+
+std::optional<Sharpest> PieceFit::sharpest() const {
+  Sharpest found;
+  Terms terms;
+  for (std::size_t k = 0; k < profile_.pieces.size(); ++k) {
+    const ProfilePiece& piece = profile_.pieces[k];
+    const Columns& columns = columns_[k];
+    const int places = piece.shape == PieceShape::bend ? 4 : 1;
+    for (int i = 0; i <= places; ++i) {
+      const double u = static_cast<double>(i) / places;
+      const double curvature = std::fabs(piece.curvature(u));
+      if (!(curvature > found.curvature)) continue;
+      found.curvature = curvature;
+      terms = {{columns.entry_curvature, 1.0 - u}, {columns.exit_curvature, u}};
+      for (std::size_t j = 0; j < piece.swellings; ++j)
+        terms.emplace_back(columns.first_swelling + j, swelling(j, u));
+    }
+  }
+  const auto variance = variance_of(terms);
+  if (!variance) return {};
+  found.deviation = std::sqrt(*variance) / scale_;
+  return found;
 }
 
 std::optional<double> PieceFit::price_of_tie(std::size_t joint) const {

@@ -71,6 +71,12 @@ struct PiecewiseProfile {
   [[nodiscard]] Vec2 start(Vec2 first_point) const;
 };
 
+/// Where a profile bends most.
+struct Sharpest {
+  double curvature = 0.0;  // its magnitude [1/m]
+  double deviation = 0.0;  // its standard deviation, over that of the points [1/m^2]
+};
+
 /// Points in order and profiles of few pieces beside them: moves lengths and curvatures of the pieces, and so the
 /// breaks between them, to where the squared distances sum up to the least.
 class PieceFit {
@@ -96,8 +102,12 @@ class PieceFit {
   /// The same if pieces[joint] and the one before became one: two of linear curvature that are tied, or two of
   /// constant curvature.
   [[nodiscard]] std::optional<double> price_of_merger(std::size_t joint) const;
+  /// @return none for a straight, and where the points leave the pieces undetermined
+  [[nodiscard]] std::optional<Sharpest> sharpest() const;
 
  private:
+  /// Unknowns and their weights.
+  using Terms = std::vector<std::pair<std::size_t, double>>;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   /// Which unknown holds a number; kNone where it is zero for good.
   struct Columns {
@@ -137,8 +147,8 @@ class PieceFit {
                 std::vector<double>& row) const;
   [[nodiscard]] System linearized() const;
   [[nodiscard]] PiecewiseProfile moved(const std::vector<double>& move) const;
-  [[nodiscard]] std::optional<double> price(const std::vector<std::pair<std::size_t, double>>& terms,
-                                            double value) const;
+  [[nodiscard]] std::optional<double> variance_of(const Terms& terms) const;
+  [[nodiscard]] std::optional<double> price(const Terms& terms, double value) const;
 
   std::vector<Vec2> points_;
   std::vector<double> places_;

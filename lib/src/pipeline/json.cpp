@@ -36,11 +36,16 @@ Json task_document(const Design& design, const Endpoints& endpoints) {
 }
 
 Json profile_json(const FittedProfile& profile) {
-  return {{"points", profile.points().size()},
-          {"max_deviation_m", profile.max_deviation()},
-          {"max_deviation_at_point", profile.farthest_point() + 1},
-          {"rms_deviation_m", profile.rms_deviation()},
-          {"between_points_m", profile.between_points()}};
+  Json json = {{"points", profile.points().size()},
+               {"max_deviation_m", profile.max_deviation()},
+               {"max_deviation_at_point", profile.farthest_point() + 1},
+               {"rms_deviation_m", profile.rms_deviation()},
+               {"between_points_m", profile.between_points()}};
+  json["min_radius_within_m"] = nullptr;
+  if (const auto& range = profile.largest_curvature()) {
+    json["min_radius_within_m"] = {1.0 / range->greatest, 1.0 / range->least};
+  }
+  return json;
 }
 
 Json constant_speed_json(const ConstantSpeedCurve& curve) {

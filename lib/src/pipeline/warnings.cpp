@@ -76,6 +76,20 @@ std::optional<Issue> passed_over(const Design& design, const Track& track) {
                "Scatter has no such pattern: the points show bends that are not in the curve.", hint};
 }
 
+/// Points whose scatter, or whose number, leaves open how sharply they bend.
+std::optional<Issue> radius_open(const Design& design, const Track& track) {
+  const auto* const profile = dynamic_cast<const FittedProfile*>(track.centerline.get());
+  if (profile == nullptr || !profile->leaves_radius_open()) return {};
+  const CurvatureRange range = *profile->largest_curvature();
+  return Issue{design.where("centerline"),
+               "the points leave the smallest radius open: the curve has " + length_text(track.min_radius) +
+                   ", and " + radius_range_text(range) + " would describe them about as well",
+               "They scatter by " + length_text(profile->rms_deviation(), 2) +
+                   " in the root of the mean square; speeds and loads are those of the curve.",
+               "more points where the profile bends most, or more exact ones; the kind segments where its "
+               "drawing is known"};
+}
+
 /// What the library says of the stream's material, and what nobody measured of it.
 void add_material_warnings(const Design& design, std::vector<Issue>& found) {
   if (!design.stream || !design.stream->material) return;
@@ -142,6 +156,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   add_places_beyond(design, track, found);
   if (auto issue = kink(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
+  if (auto issue = radius_open(design, track)) found.push_back(*std::move(issue));
   add_material_warnings(design, found);
   if (auto issue = belt_too_fast(design)) found.push_back(*std::move(issue));
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));

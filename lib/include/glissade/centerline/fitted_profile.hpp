@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace glissade {
@@ -26,6 +27,18 @@ struct PointDeviation {
   double deviation =
       0.0;  ///< distance from there to the point, positive where the point lies below the curve [m]
 };
+
+/// What points leave open of the largest curvature of their profile [1/m], its magnitude.
+struct CurvatureRange {
+  double least = 0.0;
+  double greatest = 0.0;
+};
+
+/// @return the radii as "16.1 m to 35 m" or, where a straight is among them, "16.1 m or more"
+[[nodiscard]] std::string radius_range_text(const CurvatureRange& range);
+
+/// A smallest radius is open where points allow another that is off by more than this share.
+inline constexpr double kOpenRadius = 0.05;
 
 /// Why points are no profile, and which of them shows it.
 struct ProfileFault {
@@ -106,6 +119,15 @@ class FittedProfile final : public Centerline {
   ///         max_deviation was asked for, which leaves such a pattern by design, nor of deviations that are next to
   ///         nothing.
   [[nodiscard]] bool leaves_pattern() const noexcept { return leaves_pattern_; }
+  /// @return the largest curvatures of curves that describe the points as well as curve() does, as far as a profile
+  ///         likelihood or a Bayesian score within 6 of the best one goes: of the pieces, wherever they end, and of other
+  ///         pieces in their place; of the smooth curve, two standard deviations of Wahba's posterior. The curve's own
+  ///         lies between. None where the points show no noise, where too few of them tell, or with a max_deviation.
+  [[nodiscard]] const std::optional<CurvatureRange>& largest_curvature() const noexcept {
+    return largest_curvature_;
+  }
+  /// @return true where largest_curvature() reaches more than kOpenRadius beyond the curve's own
+  [[nodiscard]] bool leaves_radius_open() const;
   /// @return the fitted curve
   [[nodiscard]] const ClothoidSpline& curve() const noexcept { return curve_; }
 
@@ -115,6 +137,8 @@ class FittedProfile final : public Centerline {
     std::vector<Vec2> points;
     ClothoidSpline curve;
     double between = 0.0;
+    double last_place = 0.0;  // to which the points were rounded, where it shows
+    std::optional<CurvatureRange> largest_curvature;
   };
   [[nodiscard]] static Fitted fitted(std::vector<Vec2> points, const ProfileFit& fit);
   explicit FittedProfile(Fitted fitted);
@@ -126,6 +150,8 @@ class FittedProfile final : public Centerline {
   double rms_deviation_ = 0.0;
   double rms_bulge_ = 0.0;
   double between_points_ = 0.0;
+  double last_place_ = 0.0;
+  std::optional<CurvatureRange> largest_curvature_;
   bool leaves_pattern_ = false;
 };
 
