@@ -151,7 +151,10 @@ std::string radius_text(const Track& track) {
   if (std::isinf(track.min_radius)) return "none: the track is straight";
   if (track.min_radius == 0.0) return "0: the track starts vertical, its curvature grows without bound there";
   const auto* const profile = dynamic_cast<const FittedProfile*>(track.centerline.get());
-  if (profile == nullptr || !profile->largest_curvature()) return length_text(track.min_radius);
+  constexpr double kOpen = 1.01;
+  const bool open = profile != nullptr && profile->largest_curvature() &&
+                    profile->largest_curvature()->greatest > kOpen * profile->largest_curvature()->least;
+  if (!open) return length_text(track.min_radius);
   return length_text(track.min_radius) + "; the points allow " +
          radius_range_text(*profile->largest_curvature());
 }

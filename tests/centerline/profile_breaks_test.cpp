@@ -209,7 +209,7 @@ double largest_curvature_of(const ClothoidSpline& curve) {
 TEST_CASE("points rounded to decimals give radius and load back: what rounding leaves is no shape") {
   Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int draws = testing::thorough() ? 60 : 12;
+  const int draws = testing::thorough() ? 60 : 6;
   for (int draw = 0; draw < draws; ++draw) {
     const KnownProfile known = drawn_profile(random);
     const int count = std::vector{103, 263, 700, 2000}[static_cast<std::size_t>(random.integer(0, 3))];
@@ -237,7 +237,7 @@ TEST_CASE("round numbers that are exact are no rounding") {
 TEST_CASE("what noise leaves open of the smallest radius is told: the true one is hardly ever outside") {
   Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int draws = testing::thorough() ? 160 : 40;
+  const int draws = testing::thorough() ? 160 : 30;
   int off = 0;
   int untold = 0;
   int outside = 0;

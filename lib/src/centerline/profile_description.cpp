@@ -673,6 +673,16 @@ std::vector<Vec2> from(Vec2 start, std::vector<Vec2> points) {
   return points;
 }
 
+/// Whether a piece goes round and round between points: no track does, and no spline holds it.
+bool winds(const PiecewiseProfile& profile) {
+  constexpr double kMostTurn = 100.0;  // [rad]
+  return std::any_of(profile.pieces.begin(), profile.pieces.end(), [](const ProfilePiece& piece) {
+    double most = std::max(std::fabs(piece.entry_curvature), std::fabs(piece.exit_curvature));
+    for (std::size_t i = 0; i < piece.swellings; ++i) most += std::fabs(piece.swelling[i]);
+    return !(piece.length * most <= kMostTurn);
+  });
+}
+
 class Descriptions {
  public:
   /// @param noise  mean square of what is known to be noise [m^2]
@@ -692,7 +702,9 @@ class Descriptions {
     const std::vector<ProfilePiece>& pieces = best_->profile().pieces;
     const bool seen = std::all_of(pieces.begin(), pieces.end(),
                                   [&](const ProfilePiece& piece) { return piece.length > least; });
-    return seen && best_->square_sum() <= noise_ * (count + kChance * std::sqrt(kOfRounding * count));
+    const double length = best_->profile().length();
+    const double floor = std::max(noise_, kRounding * length * length);
+    return seen && best_->square_sum() <= floor * (count + kChance * std::sqrt(kOfRounding * count));
   }
 
   /// Tries one description, of means of neighbours beside a reference.
@@ -706,15 +718,16 @@ class Descriptions {
     describer.simplify_all();
     PieceFit fit(points_, placed.places, describer.profile());
     fit.relax(0.0, kMostRounds);
-    if (best_ && score(fit) >= score(*best_)) return;
+    if (winds(fit.profile()) || (best_ && score(fit) >= score(*best_))) return;
     best_ = std::move(fit);
+    ++changes_;
   }
+  /// How often a better one was found.
+  [[nodiscard]] std::size_t changes() const { return changes_; }
 
  private:
   /// The Bayesian information criterion.
   [[nodiscard]] double score(const PieceFit& fit) const {
-    // The series of a cubic bend, of thousands of numbers, leave some 1e-12 of the length.
-    constexpr double kRounding = 1e-22;
     const auto count = static_cast<double>(points_.size());
     const double length = fit.profile().length();
     const double noise = noise_ * (1.0 - std::min(1.0, freedom_of(fit) / count));
@@ -723,9 +736,13 @@ class Descriptions {
            (freedom_of(fit) + prices_of_kinds(fit, points_.size())) * math::log(count);
   }
 
+  // The series of a cubic bend leave some 1e-12 of the length: below the square of 1e-11 nothing is better.
+  static constexpr double kRounding = 1e-22;
+
   const std::vector<Vec2>& points_;
   double noise_ = 0.0;
   std::optional<PieceFit> best_;
+  std::size_t changes_ = 0;
 };
 
 }  // namespace
@@ -738,12 +755,25 @@ std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
   const PlacedPoints placed = placed_beside(reference, points);
   const double noise = places ? noise_of_rounding(points, *places) : 0.0;
   const double scatter = share * std::max(std::sqrt(noise), scatter_of(reference, placed));
+  const double coarse = kLeastScatters.front() * reference.length();
+  const bool scattered = places || scatter >= coarse;
   Descriptions descriptions(points, noise);
-  double tried = std::numeric_limits<double>::infinity();
-  for (const double least : kLeastScatters) {
-    const double here = std::max(scatter, least * reference.length());
-    if (here < tried && !descriptions.as_good_as_noise()) descriptions.add(reference, placed, here);
-    tried = here;
+  // Beside a curve that rings the means of neighbours lie off where curvature breaks, and beside a smooth one small jumps
+  // do not show.
+  const auto add_beside_best = [&] {
+    const bool told = scattered && points.size() <= kMostDeciding;
+    if (!descriptions.best() || told || descriptions.as_good_as_noise()) return;
+    const PiecewiseProfile rough = descriptions.best()->profile();
+    const ClothoidSpline nearer = rough.spline();
+    const PlacedPoints again = placed_beside(nearer, from(rough.start(points.front()), points));
+    const double seen = share * std::max(std::sqrt(noise), scatter_of(nearer, again));
+    descriptions.add(nearer, again, std::max(seen, kLeastScatterAtLast * nearer.length()));
+  };
+  descriptions.add(reference, placed, std::max(scatter, coarse));
+  add_beside_best();
+  const std::size_t seen_best = descriptions.changes();
+  if (scatter < coarse && !descriptions.as_good_as_noise()) {
+    descriptions.add(reference, placed, std::max(scatter, kLeastScatters.back() * reference.length()));
   }
   if (places && !descriptions.as_good_as_noise()) {
     // What rounding leaves along a straight goes on in steps, which look like shape: as chance has it they do not.
@@ -751,17 +781,8 @@ std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
     descriptions.add(reference, moved,
                      share * std::max(std::sqrt(2.0 * noise), scatter_of(reference, moved)));
   }
+  if (descriptions.changes() != seen_best) add_beside_best();
   if (!descriptions.best()) return {};
-  const bool scattered = places || scatter >= kLeastScatters.front() * reference.length();
-  // Beside a curve that rings the means of neighbours lie off where curvature breaks.
-  const bool means = points.size() > kMostDeciding && !descriptions.as_good_as_noise();
-  if (!scattered || means) {
-    const PiecewiseProfile rough = descriptions.best()->profile();
-    const ClothoidSpline nearer = rough.spline();
-    const PlacedPoints again = placed_beside(nearer, from(rough.start(points.front()), points));
-    const double seen = share * std::max(std::sqrt(noise), scatter_of(nearer, again));
-    descriptions.add(nearer, again, std::max(seen, kLeastScatterAtLast * nearer.length()));
-  }
   const PieceFit& fit = *descriptions.best();
   Description found{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit), {}};
   if (scattered) {
