@@ -49,15 +49,30 @@ struct RideArguments {
   bool json = false;
 };
 
+/// What stands between the commas, nothing between two of them included: that is a value missing.
+std::vector<std::string> items_of(const std::vector<std::string>& lists) {
+  std::vector<std::string> items;
+  for (const std::string& list : lists) {
+    std::size_t from = 0;
+    while (true) {
+      const std::size_t comma = std::min(list.find(',', from), list.size());
+      items.push_back(list.substr(from, comma - from));
+      if (comma == list.size()) break;
+      from = comma + 1;
+    }
+  }
+  return items;
+}
+
 std::vector<Friction> frictions_of(const RideArguments& options) {
   std::vector<Friction> frictions;
-  for (const std::string& text : options.angles) {
+  for (const std::string& text : items_of(options.angles)) {
     frictions.push_back(at_option("--friction-angle", [&] {
       return Friction::from_angle(
           Angle::from_radians(option_value(text, Dimension::angle, "--friction-angle")));
     }));
   }
-  for (const std::string& text : options.coefficients) {
+  for (const std::string& text : items_of(options.coefficients)) {
     frictions.push_back(at_option("--friction-coefficient", [&] {
       return Friction::from_coefficient(option_value(text, Dimension::number, "--friction-coefficient"));
     }));
@@ -118,13 +133,11 @@ void add_ride(CLI::App& program, Action& action) {
       .add_option("--friction-angle", options->angles,
                   "Friction angles with their unit, separated by commas: 14deg,16deg")
       ->type_name("ANGLES")
-      ->delimiter(',')
       ->allow_extra_args(false);
   command
       .add_option("--friction-coefficient", options->coefficients,
                   "The same as their tangents, separated by commas: 0.25,0.3")
       ->type_name("NUMBERS")
-      ->delimiter(',')
       ->allow_extra_args(false);
   options->overrides.add_to(command);
   options->time_budget.add_to(command);

@@ -70,6 +70,8 @@ TEST_CASE("ride asks for a friction, and names the option that is wrong") {
   const Outcome none = glissade_run({"ride", shipped("grain_chute")});
   CHECK(none.exit_code == 2);
   CHECK_THAT(none.errors, Contains("no friction is given") && Contains("--friction-angle 14deg"));
+  CHECK_THAT(glissade_run({"ride", shipped("grain_chute"), "--friction-angle", "14deg,,15deg"}).errors,
+             Contains("--friction-angle: an empty text is not a number"));
   CHECK_THAT(glissade_run({"ride", shipped("grain_chute"), "--friction-angle", "14"}).errors,
              Contains("--friction-angle: 14 has no unit"));
   CHECK_THAT(glissade_run({"ride", shipped("grain_chute"), "--friction-coefficient", "-1"}).errors,

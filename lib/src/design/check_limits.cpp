@@ -164,10 +164,9 @@ void check_line(const std::vector<Vec2>& line, const std::string& key, Collected
   }
   for (std::size_t index = 1; index < line.size(); ++index) {
     if (line[index].x > line[index - 1].x) continue;
+    const auto [before, here] = texts_apart(line[index - 1].x, line[index].x, &length_text);
     report(findings, {path(key) + ".line." + std::to_string(index), path(key) + ".line"},
-           {"",
-            "line[" + std::to_string(index) + "]: x does not grow from " + length_text(line[index - 1].x) +
-                " to " + length_text(line[index].x),
+           {"", "line[" + std::to_string(index) + "]: x does not grow from " + before + " to " + here,
             "A line runs from left to right and has one height at each x.",
             "keep_outs for a shape that overhangs"});
     return;

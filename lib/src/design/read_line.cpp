@@ -62,9 +62,10 @@ std::optional<Issue> line_fault(const std::string& file, const ProfilePoints& po
   if (auto oblique = oblique_fault(file, points, options)) return oblique;
   for (std::size_t i = 1; i < points.points.size(); ++i) {
     if (points.points[i].x > points.points[i - 1].x) continue;
+    const auto [before, here] = texts_apart(points.points[i - 1].x, points.points[i].x, &length_text);
     return Issue{"",
                  "file: " + file + ":" + std::to_string(points.lines[i]) + ": x does not grow from " +
-                     length_text(points.points[i - 1].x) + " to " + length_text(points.points[i].x),
+                     before + " to " + here,
                  "A line runs from left to right and has one height at each x.",
                  "keep_outs for a shape that overhangs"};
   }
