@@ -210,8 +210,10 @@ void add_cubic_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfi
         if (auto cubic = cubic_piece(length, turn, false)) {
           PiecewiseProfile next = replaced(profile, from, to, *cubic);
           if (from + 1 < next.pieces.size() && next.pieces[from + 1].tied) {
-            next.pieces[from + 1].tied = !next.pieces[from + 1].constant();
-            next.pieces[from + 1].entry_curvature = cubic->exit_curvature;
+            // What is constant has its own curvature: a jump from the cubic's.
+            ProfilePiece& behind = next.pieces[from + 1];
+            behind.tied = !behind.constant();
+            if (behind.tied) behind.entry_curvature = cubic->exit_curvature;
           }
           ways.push_back(std::move(next));
         }
@@ -407,6 +409,24 @@ void add_drawn_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfi
   }
 }
 
+/// The profile with one of its pieces bending more freely.
+void add_freer_pieces(const PiecewiseProfile& profile, std::vector<PiecewiseProfile>& ways) {
+  for (std::size_t k = 0; k < profile.pieces.size(); ++k) {
+    PiecewiseProfile next = profile;
+    ProfilePiece& piece = next.pieces[k];
+    if (piece.shape == PieceShape::arc) {
+      piece.shape = PieceShape::clothoid;
+    } else if (piece.shape == PieceShape::clothoid || piece.shape == PieceShape::bend) {
+      if (piece.swellings == kMostSwellings) continue;
+      piece.shape = PieceShape::bend;
+      piece.swelling[piece.swellings++] = 0.0;
+    } else {
+      continue;
+    }
+    ways.push_back(std::move(next));
+  }
+}
+
 /// The profile without one of the pieces between two points: noise makes such, no point shows what they are.
 void add_without_slivers(const PiecewiseProfile& profile, double spacing,
                          std::vector<PiecewiseProfile>& ways) {
@@ -532,7 +552,9 @@ class Describer {
                 : here;
     };
     widen(fit_);
-    for (PiecewiseProfile& way : other_ways()) {
+    std::vector<PiecewiseProfile> ways = other_ways();
+    add_freer_pieces(fit_.profile(), ways);
+    for (PiecewiseProfile& way : ways) {
       PieceFit next(points_, places_, std::move(way));
       if (relax_below(bound, next, kAkaike) && hardly_seen(next.profile(), points_.size(), kUnseen) == 0)
         widen(next);

@@ -68,7 +68,8 @@ class Fitter {
       : points_(&points),
         model_(thinned(points, kMostFitted)),
         shape_(model_.first_shape()),
-        noise_(noise * static_cast<double>(model_.point_count()) / static_cast<double>(points.size())) {}
+        noise_(noise * static_cast<double>(model_.point_count()) / static_cast<double>(points.size())),
+        exact_(are_exact(points)) {}
 
   [[nodiscard]] ClothoidSpline within_deviation(double max_deviation) {
     return model_.spline(within(max_deviation));
@@ -95,7 +96,9 @@ class Fitter {
   ProfileModel model_;
   Shape shape_;
   double noise_ = 0.0;  // of the points of the model
-  std::optional<double> validated_smoothing_;
+  bool exact_ = false;  // the points show no noise
+  std::vector<Relaxed> followed_;
+  bool validated_ = false;  // the curve is that of the best score
   std::optional<Cost> best_cost_;
 };
 
@@ -167,27 +170,36 @@ std::optional<Cost> Fitter::cost(double smoothing) {
   return Cost{data.mean_square, freedom, noise_ / unit};
 }
 
-/// Two standard deviations of the posterior that the smoothing stands for (Wahba, J. R. Stat. Soc. B 45 (1983) 133).
+/// Two standard deviations of the posterior that the smoothing stands for (Wahba, J. R. Stat. Soc. B 45 (1983) 133), for
+/// every smoothing that cross-validation finds about as good.
 std::optional<CurvatureRange> Fitter::largest_curvature() {
   constexpr double kDeviations = 2.0;
-  if (!validated_smoothing_) return {};
-  Linearized all = model_.linearized(shape_);
-  model_.add_roughness(shape_, *validated_smoothing_, all);
-  stiffen(all.matrix);
-  if (!all.matrix.factorize()) return {};
-  const auto points = static_cast<double>(model_.point_count());
-  const double variance =
-      best_cost_->beside_noise(model_.point_count()) / std::max(points - best_cost_->freedom, 1.0);
-  const auto sharpest = std::max_element(shape_.bend.begin(), shape_.bend.end(),
-                                         [](double a, double b) { return std::fabs(a) < std::fabs(b); });
-  std::vector<double> unit(all.matrix.size(), 0.0);
-  unit[kFirstBend + static_cast<std::size_t>(sharpest - shape_.bend.begin())] = 1.0;
-  all.matrix.solve_forward(unit);
-  double spread = 0.0;
-  for (const double part : unit) spread += part * part;
-  const double most = std::fabs(*sharpest) / shape_.length;
-  const double more = kDeviations * std::sqrt(variance * spread) / shape_.length;
-  return CurvatureRange{std::max(0.0, most - more), most + more};
+  if (!validated_) return {};
+  const std::size_t points = model_.point_count();
+  const auto count = static_cast<double>(points);
+  const double as_good = best_cost_->validation_score(points) * (1.0 + kDeviations * std::sqrt(2.0 / count));
+  std::optional<CurvatureRange> range;
+  for (const Relaxed& relaxed : followed_) {
+    if (!(relaxed.cost.validation_score(points) <= as_good)) continue;
+    Linearized all = model_.linearized(relaxed.shape);
+    model_.add_roughness(relaxed.shape, relaxed.smoothing, all);
+    stiffen(all.matrix);
+    if (!all.matrix.factorize()) continue;
+    const double variance = relaxed.cost.beside_noise(points) / std::max(count - relaxed.cost.freedom, 1.0);
+    const std::vector<double>& bend = relaxed.shape.bend;
+    const auto sharpest = std::max_element(bend.begin(), bend.end(),
+                                           [](double a, double b) { return std::fabs(a) < std::fabs(b); });
+    std::vector<double> unit(all.matrix.size(), 0.0);
+    unit[kFirstBend + static_cast<std::size_t>(sharpest - bend.begin())] = 1.0;
+    all.matrix.solve_forward(unit);
+    double spread = 0.0;
+    for (const double part : unit) spread += part * part;
+    const double most = std::fabs(*sharpest) / relaxed.shape.length;
+    const double more = kDeviations * std::sqrt(variance * spread) / relaxed.shape.length;
+    const CurvatureRange here{std::max(0.0, most - more), most + more};
+    range = range ? CurvatureRange{std::min(range->least, here.least), std::max(range->greatest, here.greatest)} : here;
+  }
+  return range;
 }
 
 /// The shape of the best score over all of the range: a score with more than one valley is the rule where a
@@ -206,6 +218,7 @@ Shape Fitter::validated() {
     const std::optional<Cost> here = points < kFewestToValidate ? std::nullopt : cost(smoothing);
     if (!here || !here->tells(points)) break;
     keep_best_cost(*here);
+    followed_.push_back({shape_, *here, smoothing});
     const double score = here->validation_score(points);
     if (score < best_score) {
       best = {shape_, *here, smoothing};
@@ -218,22 +231,30 @@ Shape Fitter::validated() {
   if (best && !follow) {
     best_cost_ = best->cost;
     shape_ = best->shape;
-    validated_smoothing_ = best->smoothing;
+    validated_ = true;
     return best->shape;
   }
   if (smoothing < kLeastSmoothing) return shape_;
   return model_.can_interpolate() ? interpolating(smoothing) : nearest(smoothing);
 }
 
-/// The shape through all points, by less and less smoothing from the one that was relaxed for `smoothing`.
+/// The shape through all points, by less and less smoothing from the one that was relaxed for `smoothing`; where they are
+/// noisy, the one on the way there that follows them best.
 Shape Fitter::interpolating(double smoothing) {
+  const std::size_t points = model_.point_count();
   while (true) {
     const std::optional<Cost> here = best_cost_ ? cost(smoothing) : std::nullopt;
-    if (here && here->tells(model_.point_count())) keep_best_cost(*here);
+    if (here && here->tells(points)) keep_best_cost(*here);
+    if (here) followed_.push_back({shape_, *here, smoothing});
     smoothing *= kSmoothingStep;
-    if (smoothing < kLeastSmoothing) return shape_;
+    if (smoothing < kLeastSmoothing) break;
     relax(smoothing);
   }
+  if (followed_.empty()) return shape_;
+  std::vector<Cost> costs;
+  costs.reserve(followed_.size());
+  for (const Relaxed& relaxed : followed_) costs.push_back(relaxed.cost);
+  return followed_[followed_best(costs, points, exact_)].shape;
 }
 
 /// The same where there are more points than the curve can follow: with less smoothing than what the points ask for
@@ -335,9 +356,10 @@ bool describes_better(const Description& pieces, const std::vector<Vec2>& points
     smooth_cost->noise = noise / unit;
   }
   // Where points show no scatter, what is left of them is the description's own fault, and the smooth curve could
-  // still come nearer: few pieces must then be clearly better.
+  // still come nearer; where that is too free to be judged, so it could: few pieces must then be clearly better.
   constexpr double kClearly = 10.0;
-  const double margin = pieces.scattered ? 0.0 : math::log(kClearly);
+  const bool judged = std::isfinite(smooth_cost->validation_score(points.size()));
+  const double margin = pieces.scattered && judged ? 0.0 : math::log(kClearly);
   return cost.bayesian_score(points.size()) + margin < smooth_cost->bayesian_score(points.size());
 }
 
@@ -424,7 +446,7 @@ FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFi
   Found found = smooth_or_described(points, places);
   if (places) found.fitted.last_place = std::max(places->x, places->y);
   if (points.size() < kFewestFollowed) return std::move(found.fitted);
-  auto followed = follow_points(thinned(points, kMostFollowed));
+  auto followed = follow_points(thinned(points, kMostFollowed), are_exact(points));
   if (!followed || !follows_better(*followed, found, points, places)) return std::move(found.fitted);
   return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, {}};
 }

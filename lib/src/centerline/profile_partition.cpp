@@ -221,6 +221,35 @@ ProfilePiece piece_of(const Stretch& stretch, const Polynomial& polynomial, doub
   return piece;
 }
 
+/// Straights do not meet at an angle: where few points lie between two they are an arc, and where none do there is one.
+void round_corners(PiecewiseProfile& profile, const std::vector<Stretch>& stretches,
+                   const std::vector<Polynomial>& polynomials, double spacing) {
+  constexpr std::size_t kFew = 3;
+  const auto is_straight = [&](std::size_t k) { return stretches[k].numbers == 2; };
+  std::vector<ProfilePiece> rounded;
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    ProfilePiece piece = profile.pieces[k];
+    const bool between = k > 0 && k + 1 < stretches.size() && is_straight(k - 1) && is_straight(k + 1);
+    const bool few = stretches[k].to - stretches[k].from <= kFew;
+    if (is_straight(k) && between && few) {
+      const double turn = polynomials[k + 1].coefficients[1] - polynomials[k - 1].coefficients[1];
+      piece.shape = PieceShape::arc;
+      piece.entry_curvature = piece.exit_curvature = turn / piece.length;
+    } else if (is_straight(k) && !rounded.empty() && rounded.back().shape == PieceShape::straight) {
+      ProfilePiece arc;
+      arc.shape = PieceShape::arc;
+      arc.length = std::min({spacing, 0.5 * piece.length, 0.5 * rounded.back().length});
+      arc.entry_curvature = arc.exit_curvature =
+          (polynomials[k].coefficients[1] - polynomials[k - 1].coefficients[1]) / arc.length;
+      rounded.back().length -= 0.5 * arc.length;
+      piece.length -= 0.5 * arc.length;
+      rounded.push_back(arc);
+    }
+    rounded.push_back(piece);
+  }
+  profile.pieces = std::move(rounded);
+}
+
 }  // namespace
 
 double scatter_of(const ClothoidSpline& reference, const PlacedPoints& placed) {
@@ -251,21 +280,23 @@ std::optional<PiecewiseProfile> partition(const ClothoidSpline& reference, const
   const std::vector<Stretch> stretches = cheapest_cut(points, scatter);
   if (stretches.size() > kMostProfilePieces) return {};
   PiecewiseProfile profile;
+  std::vector<Polynomial> polynomials;
+  polynomials.reserve(stretches.size());
+  for (const Stretch& stretch : stretches) polynomials.push_back(polynomial_of(points, stretch));
+  const double spacing = reference.length() / static_cast<double>(points.s.size());
   double from = 0.0;
-  Polynomial here = polynomial_of(points, stretches.front());
-  profile.entry = reference.entry_slope_angle().radians() - here.slope(0.0);
+  profile.entry = reference.entry_slope_angle().radians() - polynomials.front().slope(0.0);
   for (std::size_t k = 0; k < stretches.size(); ++k) {
     double to = reference.length();
-    Polynomial next = here;
     if (k + 1 < stretches.size()) {
-      next = polynomial_of(points, stretches[k + 1]);
-      to = joint_between(here, next, points.s[stretches[k].to - 1], points.s[stretches[k].to]);
+      to = joint_between(polynomials[k], polynomials[k + 1], points.s[stretches[k].to - 1],
+                         points.s[stretches[k].to]);
     }
-    to = std::max(to, from + 1e-3 * reference.length() / static_cast<double>(points.s.size()));
-    profile.pieces.push_back(piece_of(stretches[k], here, from, to));
+    to = std::max(to, from + 1e-3 * spacing);
+    profile.pieces.push_back(piece_of(stretches[k], polynomials[k], from, to));
     from = to;
-    here = next;
   }
+  round_corners(profile, stretches, polynomials, spacing);
   return profile;
 }
 
