@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <optional>
-#include <vector>
 
 namespace glissade::centerline {
 
@@ -57,42 +55,15 @@ struct Cost {
     const double taken = (stiffer.beside_noise(points) - left) / more;
     return taken * (static_cast<double>(points) - freedom) > kMoreThanNoise * left;
   }
-  /// Craven and Wahba's own score, unpriced: what a point is missed by that the curve was not shown. None where rounding
-  /// hides how little the curve leaves.
-  [[nodiscard]] std::optional<double> left_out_score(std::size_t points) const {
-    constexpr double kLeastLeft = 0.01;
-    const auto equations = static_cast<double>(points);
-    if (equations - freedom < kLeastLeft) return std::nullopt;
-    const double share = 1.0 - freedom / equations;
-    return beside_noise(points) / (share * share);
-  }
-
-  /// Schwarz's Bayesian information criterion, over the number of points. What is left is measured as cross-validation
-  /// does, by what so much freedom leaves of noise: of few points else the freest description would seem the best.
+  /// Schwarz's Bayesian information criterion, over the number of points. What is left is taken as of the points' noise
+  /// less the share that as much freedom follows: of few points else the freest description would seem the best.
   [[nodiscard]] double bayesian_score(std::size_t points) const {
-    constexpr double kLeastShare = 0.02;
+    constexpr double kLeastShare = 0.05;
     const auto equations = static_cast<double>(points);
     const double share = std::max(1.0 - freedom / equations, kLeastShare);
-    return math::log(std::max(beside_noise(points), kRoundingShare * kRoundingShare) / (share * share)) +
+    return math::log(std::max(beside_noise(points), kRoundingShare * kRoundingShare) / share) +
            freedom * math::log(equations) / equations;
   }
 };
-
-/// Which of some descriptions, from stiff to free, follows points that show more than the score can judge.
-/// @return the stiffest of those that miss about as little as any of points that they were not shown; the last one where
-///         that is the best, or where the points are exact
-[[nodiscard]] inline std::size_t followed_best(const std::vector<Cost>& costs, std::size_t points, bool exact) {
-  constexpr double kAboutAsLittle = 1.3;
-  const std::size_t last = costs.size() - 1;
-  if (exact) return last;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Cost& cost : costs) least = std::min(least, cost.left_out_score(points).value_or(least));
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    const auto score = costs[i].left_out_score(points);
-    if (!score) return last;
-    if (*score <= kAboutAsLittle * least) return i;
-  }
-  return last;
-}
 
 }  // namespace glissade::centerline

@@ -68,8 +68,7 @@ class Fitter {
       : points_(&points),
         model_(thinned(points, kMostFitted)),
         shape_(model_.first_shape()),
-        noise_(noise * static_cast<double>(model_.point_count()) / static_cast<double>(points.size())),
-        exact_(are_exact(points)) {}
+        noise_(noise * static_cast<double>(model_.point_count()) / static_cast<double>(points.size())) {}
 
   [[nodiscard]] ClothoidSpline within_deviation(double max_deviation) {
     return model_.spline(within(max_deviation));
@@ -95,10 +94,10 @@ class Fitter {
   const std::vector<Vec2>* points_;
   ProfileModel model_;
   Shape shape_;
-  double noise_ = 0.0;  // of the points of the model
-  bool exact_ = false;  // the points show no noise
-  std::vector<Relaxed> followed_;
+  double noise_ = 0.0;      // of the points of the model
   bool validated_ = false;  // the curve is that of the best score
+  std::vector<Relaxed> judged_;
+  std::optional<CurvatureRange> stiffer_;  // of a curve that would leave some of the points to noise
   std::optional<Cost> best_cost_;
 };
 
@@ -171,15 +170,15 @@ std::optional<Cost> Fitter::cost(double smoothing) {
 }
 
 /// Two standard deviations of the posterior that the smoothing stands for (Wahba, J. R. Stat. Soc. B 45 (1983) 133), for
-/// every smoothing that cross-validation finds about as good.
+/// every smoothing that cross-validation finds about as good. Where it found none the best, what it would have chosen.
 std::optional<CurvatureRange> Fitter::largest_curvature() {
   constexpr double kDeviations = 2.0;
-  if (!validated_) return {};
+  if (!validated_) return stiffer_;
   const std::size_t points = model_.point_count();
   const auto count = static_cast<double>(points);
   const double as_good = best_cost_->validation_score(points) * (1.0 + kDeviations * std::sqrt(2.0 / count));
   std::optional<CurvatureRange> range;
-  for (const Relaxed& relaxed : followed_) {
+  for (const Relaxed& relaxed : judged_) {
     if (!(relaxed.cost.validation_score(points) <= as_good)) continue;
     Linearized all = model_.linearized(relaxed.shape);
     model_.add_roughness(relaxed.shape, relaxed.smoothing, all);
@@ -197,7 +196,9 @@ std::optional<CurvatureRange> Fitter::largest_curvature() {
     const double most = std::fabs(*sharpest) / relaxed.shape.length;
     const double more = kDeviations * std::sqrt(variance * spread) / relaxed.shape.length;
     const CurvatureRange here{std::max(0.0, most - more), most + more};
-    range = range ? CurvatureRange{std::min(range->least, here.least), std::max(range->greatest, here.greatest)} : here;
+    range = range
+                ? CurvatureRange{std::min(range->least, here.least), std::max(range->greatest, here.greatest)}
+                : here;
   }
   return range;
 }
@@ -218,7 +219,7 @@ Shape Fitter::validated() {
     const std::optional<Cost> here = points < kFewestToValidate ? std::nullopt : cost(smoothing);
     if (!here || !here->tells(points)) break;
     keep_best_cost(*here);
-    followed_.push_back({shape_, *here, smoothing});
+    judged_.push_back({shape_, *here, smoothing});
     const double score = here->validation_score(points);
     if (score < best_score) {
       best = {shape_, *here, smoothing};
@@ -234,27 +235,25 @@ Shape Fitter::validated() {
     validated_ = true;
     return best->shape;
   }
+  if (best) {
+    const std::vector<double>& bend = best->shape.bend;
+    double most = 0.0;
+    for (const double here : bend) most = std::max(most, std::fabs(here) / best->shape.length);
+    stiffer_ = CurvatureRange{most, most};
+  }
   if (smoothing < kLeastSmoothing) return shape_;
   return model_.can_interpolate() ? interpolating(smoothing) : nearest(smoothing);
 }
 
-/// The shape through all points, by less and less smoothing from the one that was relaxed for `smoothing`; where they are
-/// noisy, the one on the way there that follows them best.
+/// The shape through all points, by less and less smoothing from the one that was relaxed for `smoothing`.
 Shape Fitter::interpolating(double smoothing) {
-  const std::size_t points = model_.point_count();
   while (true) {
     const std::optional<Cost> here = best_cost_ ? cost(smoothing) : std::nullopt;
-    if (here && here->tells(points)) keep_best_cost(*here);
-    if (here) followed_.push_back({shape_, *here, smoothing});
+    if (here && here->tells(model_.point_count())) keep_best_cost(*here);
     smoothing *= kSmoothingStep;
-    if (smoothing < kLeastSmoothing) break;
+    if (smoothing < kLeastSmoothing) return shape_;
     relax(smoothing);
   }
-  if (followed_.empty()) return shape_;
-  std::vector<Cost> costs;
-  costs.reserve(followed_.size());
-  for (const Relaxed& relaxed : followed_) costs.push_back(relaxed.cost);
-  return followed_[followed_best(costs, points, exact_)].shape;
 }
 
 /// The same where there are more points than the curve can follow: with less smoothing than what the points ask for
@@ -356,10 +355,9 @@ bool describes_better(const Description& pieces, const std::vector<Vec2>& points
     smooth_cost->noise = noise / unit;
   }
   // Where points show no scatter, what is left of them is the description's own fault, and the smooth curve could
-  // still come nearer; where that is too free to be judged, so it could: few pieces must then be clearly better.
+  // still come nearer: few pieces must then be clearly better.
   constexpr double kClearly = 10.0;
-  const bool judged = std::isfinite(smooth_cost->validation_score(points.size()));
-  const double margin = pieces.scattered && judged ? 0.0 : math::log(kClearly);
+  const double margin = pieces.scattered ? 0.0 : math::log(kClearly);
   return cost.bayesian_score(points.size()) + margin < smooth_cost->bayesian_score(points.size());
 }
 
@@ -386,6 +384,15 @@ FittedCurve smooth_curve(ClothoidSpline curve, Vec2 start) {
   return {std::move(curve), start, between, 0.0, {}};
 }
 
+/// The range with the curve's own largest curvature in it.
+std::optional<CurvatureRange> widened(std::optional<CurvatureRange> range, const ClothoidSpline& curve) {
+  if (!range) return range;
+  double own = 0.0;
+  for (const ClothoidSegment& segment : curve.segments())
+    own = std::max({own, std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)});
+  return CurvatureRange{std::min(range->least, own), std::max(range->greatest, own)};
+}
+
 /// A curve found, and whether few pieces describe it.
 struct Found {
   FittedCurve fitted;
@@ -399,13 +406,13 @@ Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<L
   if (points.size() >= kFewestToValidate) {
     const auto description = describe_in_pieces(points, smooth, places);
     if (description && describes_better(*description, points, smooth, fitter.best_cost(), noise)) {
-      return {{description->profile.spline(), description->profile.start(points.front()), 0.0, 0.0,
-               description->largest_curvature},
-              true};
+      ClothoidSpline curve = description->profile.spline();
+      const auto range = widened(description->largest_curvature, curve);
+      return {{std::move(curve), description->profile.start(points.front()), 0.0, 0.0, range}, true};
     }
   }
   FittedCurve fitted = smooth_curve(std::move(smooth), points.front());
-  fitted.largest_curvature = fitter.largest_curvature();
+  fitted.largest_curvature = widened(fitter.largest_curvature(), fitted.curve);
   return {std::move(fitted)};
 }
 
@@ -446,9 +453,11 @@ FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFi
   Found found = smooth_or_described(points, places);
   if (places) found.fitted.last_place = std::max(places->x, places->y);
   if (points.size() < kFewestFollowed) return std::move(found.fitted);
-  auto followed = follow_points(thinned(points, kMostFollowed), are_exact(points));
+  auto followed = follow_points(thinned(points, kMostFollowed));
   if (!followed || !follows_better(*followed, found, points, places)) return std::move(found.fitted);
-  return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, {}};
+  const auto range =
+      followed->recovered ? std::nullopt : widened(found.fitted.largest_curvature, followed->curve);
+  return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, range};
 }
 
 std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve, const std::vector<Vec2>& points) {

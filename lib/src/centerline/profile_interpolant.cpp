@@ -71,9 +71,9 @@ double left_open(const std::vector<double>& parameters, const std::vector<Vec2>&
 }
 
 std::optional<Parametrized> over(std::optional<std::vector<double>> parameters,
-                                 const std::vector<Vec2>& points, bool exact) {
+                                 const std::vector<Vec2>& points) {
   if (!parameters) return {};
-  auto smooth = smoothed(*parameters, points, exact);
+  auto smooth = smoothed(*parameters, points);
   if (!smooth) return {};
   const double between = left_open(*parameters, smooth->points);
   if (!std::isfinite(between)) return {};
@@ -111,12 +111,12 @@ double apart(const Parametrized& one, const Parametrized& other) {
   return most;
 }
 
-std::optional<Parametrized> parametrized(const std::vector<Vec2>& points, bool exact) {
+std::optional<Parametrized> parametrized(const std::vector<Vec2>& points) {
   std::vector<double> runs;
   runs.reserve(points.size());
   for (const Vec2& point : points) runs.push_back(point.x);
-  auto best = over(normalized(std::move(runs)), points, exact);
-  auto rough = over(normalized(rough_arc_lengths(points)), points, exact);
+  auto best = over(normalized(std::move(runs)), points);
+  auto rough = over(normalized(rough_arc_lengths(points)), points);
   if (!rough) return best;
   auto even = by_arc_length(*std::move(rough));
   if (!even) return best;
@@ -313,8 +313,8 @@ std::optional<ClothoidSpline> clothoids_through(const Nodes& nodes) {
 
 }  // namespace
 
-std::optional<FollowedProfile> follow_points(const std::vector<Vec2>& points, bool exact) {
-  auto found = parametrized(points, exact);
+std::optional<FollowedProfile> follow_points(const std::vector<Vec2>& points) {
+  auto found = parametrized(points);
   if (!found) return {};
   std::vector<Vec2> through = std::move(found->smooth.points);
   const Vec2 start = through.front();

@@ -24,8 +24,7 @@ struct FollowedProfile {
 /// between them, and puts clothoids in its place. However many waves: nothing is searched that could end in another
 /// valley. Where the points are stations of a spline of clothoids, that is what comes back.
 /// @param points  in order, at least 8
-/// @param exact   they are known to have no noise
 /// @return none where points are too uneven for it
-[[nodiscard]] std::optional<FollowedProfile> follow_points(const std::vector<Vec2>& points, bool exact);
+[[nodiscard]] std::optional<FollowedProfile> follow_points(const std::vector<Vec2>& points);
 
 }  // namespace glissade::centerline

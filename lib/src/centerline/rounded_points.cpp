@@ -10,7 +10,6 @@ namespace glissade::centerline {
 namespace {
 
 constexpr std::size_t kFewest = 20;
-constexpr std::size_t kWindow = 9;
 
 /// The coarsest decimal place that all of the numbers keep; 0 where none does.
 double last_place(const std::vector<Vec2>& points, double Vec2::*coordinate) {
@@ -26,11 +25,13 @@ double last_place(const std::vector<Vec2>& points, double Vec2::*coordinate) {
   return 0.0;
 }
 
-/// How far points are from a polynomial of seventh degree over their chord: the divided difference of eighth order, over
-/// the root of its weights' squares.
+/// What a polynomial of third degree leaves of the middle one of five neighbours: with binomial weights of sixth
+/// order, of seven.
 double left_by_neighbours(const std::vector<Vec2>& points, std::size_t first) {
+  constexpr std::size_t kWindow = 9;
   const Vec2 chord = points[first + kWindow - 1] - points[first];
   const double length = norm(chord);
+  // Newton's divided differences over the chord: the one of highest order, over the root of its weights' squares.
   std::array<double, kWindow> along{};
   std::array<double, kWindow> weight{};
   for (std::size_t i = 0; i < kWindow; ++i)
@@ -51,6 +52,7 @@ double left_by_neighbours(const std::vector<Vec2>& points, std::size_t first) {
 
 /// Whether a good part of the points scatter as rounding to this place makes them.
 bool scatter_by(double place, const std::vector<Vec2>& points) {
+  constexpr std::size_t kWindow = 9;
   constexpr double kLeast = 0.1;
   constexpr double kMost = 3.0;
   constexpr double kPart = 0.25;
@@ -107,17 +109,6 @@ double noise_of_rounding(const std::vector<Vec2>& points, const LastPlaces& plac
   }
   const auto chords = static_cast<double>(points.size() - 1);
   return (places.x * places.x * by_x + places.y * places.y * by_y) / (12.0 * chords);
-}
-
-bool are_exact(const std::vector<Vec2>& points) {
-  constexpr double kExact = 1e-9;
-  if (points.size() < kFewest) return false;
-  std::vector<double> left;
-  for (std::size_t first = 0; first + kWindow <= points.size(); ++first)
-    left.push_back(left_by_neighbours(points, first));
-  const auto quartile = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 4);
-  std::nth_element(left.begin(), quartile, left.end());
-  return *quartile <= kExact * norm(points.back() - points.front());
 }
 
 }  // namespace glissade::centerline

@@ -25,8 +25,4 @@ struct LastPlaces {
 /// @return mean square of what rounding leaves across the points' line [m^2]
 [[nodiscard]] double noise_of_rounding(const std::vector<Vec2>& points, const LastPlaces& places);
 
-/// @return whether a quarter of the points, at least, lie on smooth curves through their neighbours to 1e-9 of their
-///         reach: no measurement does
-[[nodiscard]] bool are_exact(const std::vector<Vec2>& points);
-
 }  // namespace glissade::centerline

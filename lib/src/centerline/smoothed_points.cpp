@@ -127,37 +127,28 @@ std::optional<SmoothedPoints> smoothed_by(const BandMatrix& rough, double smooth
 }  // namespace
 
 std::optional<SmoothedPoints> smoothed(const std::vector<double>& parameters,
-                                       const std::vector<Vec2>& points, bool exact) {
+                                       const std::vector<Vec2>& points) {
   const BandMatrix rough = roughness(parameters);
   const std::size_t count = points.size();
   if (count < kFewestToValidate) return SmoothedPoints{points, {0.0, static_cast<double>(count)}, true};
-  std::vector<SmoothedPoints> all;
-  std::optional<std::size_t> best;
+  std::optional<SmoothedPoints> best;
+  std::optional<Cost> freest;
   bool follow = true;
-  bool tells = true;
   for (double smoothing = kMostSmoothing; smoothing >= kLeastSmoothing; smoothing *= kSmoothingStep) {
     auto here = smoothed_by(rough, smoothing, points);
     if (!here) continue;
-    all.push_back(*std::move(here));
-    const Cost& cost = all.back().cost;
-    tells = tells && cost.tells(count);
-    if (!tells) continue;
-    const double score = cost.validation_score(count);
-    if (!best || score < all[*best].cost.validation_score(count)) {
-      best = all.size() - 1;
+    if (!here->cost.tells(count)) break;
+    freest = here->cost;
+    const double score = here->cost.validation_score(count);
+    if (!best || score < best->cost.validation_score(count)) {
+      best = std::move(here);
       follow = true;
     } else if (std::isfinite(score) || !follow) {
-      follow = cost.finds_more_than_noise(all[*best].cost, count);
+      follow = here->cost.finds_more_than_noise(best->cost, count);
     }
   }
-  if (!best) return {};
-  if (!follow) return all[*best];
-  std::vector<Cost> costs;
-  costs.reserve(all.size());
-  for (const SmoothedPoints& one : all) costs.push_back(one.cost);
-  const std::size_t followed = followed_best(costs, count, exact);
-  if (followed + 1 < all.size()) return all[followed];
-  return SmoothedPoints{points, all[followed].cost, true};
+  if (best && follow) return SmoothedPoints{points, *freest, true};
+  return best;
 }
 
 }  // namespace glissade::centerline

@@ -20,9 +20,8 @@ struct SmoothedPoints {
 /// cross-validation asks.
 /// @param parameters  strictly increasing, from 0 to 1
 /// @param points      one for each; fewer than kFewestToValidate stay as they are
-/// @param exact       they are known to have no noise
 /// @return none where rounding stands in the way
 [[nodiscard]] std::optional<SmoothedPoints> smoothed(const std::vector<double>& parameters,
-                                                     const std::vector<Vec2>& points, bool exact);
+                                                     const std::vector<Vec2>& points);
 
 }  // namespace glissade::centerline

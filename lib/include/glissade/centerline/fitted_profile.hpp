@@ -122,7 +122,8 @@ class FittedProfile final : public Centerline {
   /// @return the largest curvatures of curves that describe the points as well as curve() does, as far as a profile
   ///         likelihood or a Bayesian score within 6 of the best one goes: of the pieces, wherever they end, and of other
   ///         pieces in their place; of the smooth curve, two standard deviations of Wahba's posterior. The curve's own
-  ///         lies between. None where the points show no noise, where too few of them tell, or with a max_deviation.
+  ///         lies between. Of a curve through points that cross-validation would have left to noise, its own and the one of that
+  ///         other curve. None where the points show no noise, where too few of them tell, or with a max_deviation.
   [[nodiscard]] const std::optional<CurvatureRange>& largest_curvature() const noexcept {
     return largest_curvature_;
   }
