@@ -50,6 +50,17 @@ bool plane_parts(Vec3 direction, const std::array<Vec3, 3>& a, const std::array<
   return b_low - a_high > error || a_low - b_high > error;
 }
 
+/// Directions of lines that may part two sectors of one plane with a common apex, each between two rays: such
+/// a line leads through both gaps, so that it lies between two rays that face each other in the gaps, where
+/// the rays of one gap count turned round.
+std::array<Vec3, 6> lines_between(Vec3 a1, Vec3 a2, Vec3 b1, Vec3 b2) {
+  return {a1 + b1, a1 + b2, a2 + b1, a2 + b2, a1 - a2, b1 - b2};
+}
+
+Vec3 unit(Vec3 a) {
+  return (1.0 / std::sqrt(dot(a, a))) * a;
+}
+
 struct LimitReached {};
 
 class PairTester {
@@ -129,8 +140,19 @@ class PairTester {
     const Vec3 b1 = at(b[1]) - origin;
     const Vec3 b2 = at(b[2]) - origin;
     const double largest = std::max({manhattan(a1), manhattan(a2), manhattan(b1), manhattan(b2)});
-    const Vec3 between = bisector(a1, a2) - bisector(b1, b2);
+    const Vec3 between = (unit(a1) + unit(a2)) - (unit(b1) + unit(b2));
     if (origin_plane_parts(between, a1, a2, b1, b2, largest)) return false;
+    // Facets of one plane to the last digits, as floors and walls have them, are beyond every filter of a
+    // predicate; planes square to theirs part them all the same.
+    for (const Vec3 normal : {cross(a1, a2), cross(b1, b2)}) {
+      for (const Vec3 line : lines_between(unit(a1), unit(a2), unit(b1), unit(b2))) {
+        const Vec3 across = cross(normal, line);
+        if (origin_plane_parts(across, a1, a2, b1, b2, largest) ||
+            origin_plane_parts(across, b1, b2, a1, a2, largest)) {
+          return false;
+        }
+      }
+    }
 
     const std::array<Point, 3> mine{point(a[0]), point(a[1]), point(a[2])};
     const std::array<Point, 3> other{point(b[0]), point(b[1]), point(b[2])};
@@ -150,10 +172,19 @@ class PairTester {
     const double largest = std::max({manhattan(mine[1]), manhattan(mine[2]), manhattan(other[0]),
                                      manhattan(other[1]), manhattan(other[2])});
     const Vec3 apart = (other[0] + other[1] + other[2]) - (mine[1] + mine[2]);
-    if (plane_parts(apart, mine, other, largest) ||
-        plane_parts(cross(mine[1], mine[2]), mine, other, largest) ||
-        plane_parts(cross(other[1] - other[0], other[2] - other[0]), mine, other, largest)) {
+    const Vec3 my_normal = cross(mine[1], mine[2]);
+    const Vec3 other_normal = cross(other[1] - other[0], other[2] - other[0]);
+    if (plane_parts(apart, mine, other, largest) || plane_parts(my_normal, mine, other, largest) ||
+        plane_parts(other_normal, mine, other, largest)) {
       return false;
+    }
+    // Two triangles of one plane that do not meet lie on two sides of an edge of one of them.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t next = (i + 1) % 3;
+      if (plane_parts(cross(my_normal, mine[next] - mine[i]), mine, other, largest) ||
+          plane_parts(cross(other_normal, other[next] - other[i]), mine, other, largest)) {
+        return false;
+      }
     }
     return CGAL::do_intersect(Kernel::Triangle_3(point(a[0]), point(a[1]), point(a[2])),
                               Kernel::Triangle_3(point(b[0]), point(b[1]), point(b[2])));
@@ -163,10 +194,6 @@ class PairTester {
   static bool lies_beside(const std::array<Point, 3>& triangle, const std::array<Point, 3>& plane) {
     const CGAL::Orientation side = CGAL::orientation(plane[0], plane[1], plane[2], triangle[1]);
     return side != CGAL::COPLANAR && side == CGAL::orientation(plane[0], plane[1], plane[2], triangle[2]);
-  }
-
-  static Vec3 bisector(Vec3 a, Vec3 b) {
-    return (1.0 / std::sqrt(dot(a, a))) * a + (1.0 / std::sqrt(dot(b, b))) * b;
   }
 
   [[nodiscard]] Vec3 at(std::uint32_t vertex) const { return positions_[vertex]; }
