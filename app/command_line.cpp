@@ -85,6 +85,7 @@ ExitCode run(int argc, const char* const* argv) {
     throw InputError(usage_issue(program, error.what()));
   }
   require_values(program);
+  keep_what_is_read(program);
   if (!action)
     throw InputError(usage_issue(program, argc > 1 ? "no command is given" : "nothing is asked for"));
   return action();

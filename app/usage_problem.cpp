@@ -1,12 +1,15 @@
 #include "app/usage_problem.hpp"
 
+#include "glissade/core/error.hpp"
 #include "glissade/core/nearest_word.hpp"
 #include "glissade/core/odd_characters.hpp"
 #include "glissade/core/words.hpp"
+#include "glissade/design/design_source.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -90,6 +93,15 @@ std::string name_of(const CLI::Option& option) {
   return option.get_lnames().empty() ? "-" + option.get_snames().front() : "--" + option.get_lnames().front();
 }
 
+/// The option whose name begins what the parser says.
+const CLI::Option* option_that_begins(const CLI::App& command, const std::string& text) {
+  const std::string name = text.substr(0, text.find_first_of(": "));
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_name() == name) return option;
+  }
+  return nullptr;
+}
+
 void require_values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const bool names_file = type == "FILE" || type == "DIR" || type == "MESH" || type.starts_with("DESIGN");
@@ -113,6 +125,46 @@ void require_values_of(const CLI::Option& option) {
   }
 }
 
+/// Whether an option names a file that the command writes whole.
+bool writes_file(const CLI::Option& option) {
+  return !option.get_positional() && option.get_type_name() == "FILE";
+}
+
+std::vector<Override> overrides_of(const CLI::App& command) {
+  std::vector<Override> overrides;
+  const CLI::Option* const option = command.get_option_no_throw("--set");
+  if (option == nullptr) return overrides;
+  for (const std::string& text : option->results()) {
+    const std::size_t sign = text.find('=');
+    if (sign != std::string::npos) overrides.push_back({text.substr(0, sign), text.substr(sign + 1)});
+  }
+  return overrides;
+}
+
+/// Whether what stands at `path` is a file that the command reads: an argument, or what a design names.
+bool is_read(const CLI::App& command, const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional()) continue;
+    for (const std::string& argument : option->results()) {
+      if (!std::filesystem::is_regular_file(argument, ignored)) continue;
+      if (std::filesystem::equivalent(argument, path, ignored)) return true;
+      if (!option->get_type_name().ends_with("DESIGN.yaml") && !option->get_type_name().starts_with("DESIGN"))
+        continue;
+      try {
+        for (const std::filesystem::path& file :
+             DesignSource::read(argument).data_files(overrides_of(command))) {
+          if (std::filesystem::equivalent(file, path, ignored)) return true;
+        }
+      } catch (const Error&) {
+        continue;  // the command says what is wrong with it
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Issue unknown_command(const CLI::App& program, const std::string& word) {
@@ -123,12 +175,16 @@ Issue unknown_command(const CLI::App& program, const std::string& word) {
 }
 
 Issue usage_issue(const CLI::App& program, const std::string& parser_text) {
-  const std::vector<std::string> rest = program.remaining(true);
-  const auto option = std::find_if(rest.begin(), rest.end(), &is_option);
+  std::vector<std::string> rest = program.remaining(true);
+  // What stands behind it is no option.
+  const auto end_of_options = std::find(rest.begin(), rest.end(), "--");
+  const auto found = std::find_if(rest.begin(), end_of_options, &is_option);
+  const std::optional<std::string> option = found == end_of_options ? std::nullopt : std::optional(*found);
+  if (end_of_options != rest.end()) rest.erase(end_of_options);
   const bool has_command = &given(program) != &program;
   const bool command_first = !has_command && !rest.empty() && !is_option(rest.front());
   if (command_first) return unknown_command(program, rest.front());
-  if (option != rest.end()) return unknown_option(program, *option);
+  if (option) return unknown_option(program, *option);
   const std::string help = full_name(program) + " --help";
   if (!rest.empty()) {
     return {"",
@@ -137,11 +193,40 @@ Issue usage_issue(const CLI::App& program, const std::string& parser_text) {
   }
   std::string what = parser_text;
   while (!what.empty() && (what.back() == '\n' || what.back() == ' ')) what.pop_back();
+  if (const CLI::Option* const named = option_that_begins(given(program), what)) {
+    const std::string name = name_of(*named);
+    const std::string type = named->get_type_name();
+    if (what.find(": At Most ") != std::string::npos)
+      return {name, "it is given more than once", "It takes one " + type + ".", "one of them"};
+    if (what.ends_with(" missing")) return {name, "no value is given", "It takes " + type + ".", help};
+    if (what.ends_with(" is required")) return {"", name + " is required", "", help};
+  }
   return {"", std::move(what), "", help};
 }
 
 void require_values(const CLI::App& program) {
   for (const CLI::Option* option : given(program).get_options()) require_values_of(*option);
+}
+
+void keep_what_is_read(const CLI::App& program) {
+  const std::vector<const CLI::Option*> options = given(program).get_options();
+  for (auto one = options.begin(); one != options.end(); ++one) {
+    if (!writes_file(**one)) continue;
+    for (const std::string& path : (*one)->results()) {
+      if (is_read(given(program), path)) {
+        throw InputError({name_of(**one), with_visible_characters(path) + " is read by this command, too",
+                          "What it holds would be lost.", "another name"});
+      }
+      const auto same = [&](const CLI::Option* other) {
+        return writes_file(*other) && !other->results().empty() && other->results().front() == path;
+      };
+      const auto other = std::find_if(options.begin(), one, same);
+      if (other == one) continue;
+      throw InputError({name_of(**one),
+                        with_visible_characters(path) + " is what " + name_of(**other) + " writes",
+                        "One of the two would be lost.", "another name"});
+    }
+  }
 }
 
 }  // namespace glissade::app

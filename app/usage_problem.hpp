@@ -23,4 +23,9 @@ namespace glissade::app {
 /// @throws InputError with the option
 void require_values(const CLI::App& program);
 
+/// Looks that no file is written over one that the command reads, its design's profiles among them, or over
+/// another that it writes.
+/// @throws InputError with the option
+void keep_what_is_read(const CLI::App& program);
+
 }  // namespace glissade::app

@@ -286,4 +286,14 @@ TEST_CASE("a stall of a body that enters with speed asks for more of it") {
   CHECK_THAT(outcome.errors, Contains("or a higher entry_speed"));
 }
 
+TEST_CASE("a stall before the finish is told in digits that tell the two apart, or as one at the finish") {
+  // Friction within a ten-millionth of the mean slope: the curve is not known well enough to arrive.
+  const Outcome outcome =
+      glissade_run({"solve", "--run", "9", "--drop", "6", "--friction-coefficient", "0.6666666"});
+  INFO(outcome.errors);
+  CHECK_THAT(outcome.errors, !Contains("10.82 m, before the finish at 10.82 m"));
+  if (outcome.exit_code == 3)
+    CHECK_THAT(outcome.errors, Contains("stalls all but at the finish, at 10.82 m"));
+}
+
 }  // namespace solve_test

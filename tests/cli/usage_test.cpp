@@ -38,7 +38,7 @@ TEST_CASE("an unknown option is named, with the help of that command") {
 TEST_CASE("build without a design says what is missing") {
   const Outcome outcome = glissade_run({"build"});
   CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.errors, Contains("design") && Contains("Try: glissade build --help"));
+  CHECK_THAT(outcome.errors, Contains("DESIGN.yaml is required") && Contains("Try: glissade build --help"));
 }
 
 TEST_CASE("wrong options of solve are answered with what to give instead") {
@@ -107,6 +107,12 @@ TEST_CASE("a slip in a command or an option is answered with the one that was me
       {{"build", "a.yaml", "--csv", "b"}, "It belongs to "},
       {{"solve", "a.yaml", "b.yaml"}, "glissade solve does not know what to do with b.yaml"},
       {{"swim"}, "Try: glissade --help"},
+      {{"build", "a.yaml", "-o", "a", "-o", "b"},
+       "--output: it is given more than once\n      It takes one DIR."},
+      {{"build", "a.yaml", "--output"}, "--output: no value is given\n      It takes DIR."},
+      {{"build"}, "DESIGN.yaml is required"},
+      {{"build", "--"}, "DESIGN.yaml is required"},
+      {{"solve", "--", "a.yaml", "-q"}, "glissade solve does not know what to do with -q"},
   };
   CHECK(glissade_run({"solve", "--", "-dash.yaml"}).exit_code == 5);
   for (const Slip& slip : cases) {
@@ -161,4 +167,34 @@ TEST_CASE("a file never takes the place of a closed standard error") {
   std::ifstream file(place / "c.csv");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   CHECK_THAT(text, !Contains("finding") && !Contains("glissade:"));
+}
+
+TEST_CASE("what a command reads is not written over, nor one result by another") {
+  const TempDir place;
+  const std::string design = (place / "wall.yaml").string();
+  const std::string profile = (place / "profile.csv").string();
+  REQUIRE(glissade_run({"init", "points", "-o", design}).exit_code == 0);
+  const std::string points = bytes_of(profile);
+  const std::string words = bytes_of(design);
+  const std::string around = (place / "." / "profile.csv").string();
+  const std::vector<std::vector<std::string>> cases = {
+      {"solve", design, "--csv", profile},          {"solve", design, "--csv", around},
+      {"solve", design, "--frozen", design},        {"solve", "--csv", design, "--", design},
+      {"compare", design, "--csv", profile},        {"survey", design, profile, "--csv", profile},
+      {"survey", design, profile, "--svg", profile}};
+  for (const auto& arguments : cases) {
+    const Outcome outcome = glissade_run(arguments);
+    INFO(outcome.errors);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors,
+               Contains(" is read by this command, too\n      What it holds would be lost.\n"));
+    CHECK(bytes_of(profile) == points);
+    CHECK(bytes_of(design) == words);
+  }
+  const std::string result = (place / "result").string();
+  CHECK_THAT(glissade_run({"solve", design, "--csv", result, "--frozen", result}).errors,
+             Contains("--frozen: " + result + " is what --csv writes"));
+  // A result may replace an older one.
+  CHECK(glissade_run({"solve", design, "--csv", result}).exit_code == 0);
+  CHECK(glissade_run({"solve", design, "--csv", result}).exit_code == 0);
 }

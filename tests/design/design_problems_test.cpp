@@ -176,7 +176,12 @@ TEST_CASE("sizes are positive") {
              Contains("entry_speed: -1 m/s is out of range"));
   CHECK_THAT(problems_with("17 deg", "17 deg\n  drag: -1 1/m"), Contains("drag: -1 1/m is negative"));
   CHECK_THAT(problems_with("17 deg", "17 deg\ngravity: 0 m/s^2"),
-             Contains("gravity: 0 m/s^2 is out of range"));
+             Contains("gravity: 0 m/s^2 is out of range") && !Contains("mean slope"));
+  CHECK_THAT(problems_with("x: 5.4 m", "x: 1e300 m"),
+             Contains("x: 1e+300 m is too far from the origin") && !Contains("tolerance"));
+  CHECK_THAT(
+      problems_with("17 deg", "17 deg\nlimits: {match_belt: {speed: 2 m/s, within: 200 %}}"),
+      Contains("within: 200 % is out of range\n      A share of the belt's speed: above 0, at most 100 %."));
 }
 
 TEST_CASE("a plate wider than the channel is refused") {

@@ -95,6 +95,21 @@ TEST_CASE("a byte order mark and line ends of two bytes are no problem") {
   CHECK(parse_design(text, "d.yaml").where("body.friction_angle") == "d.yaml:7:19");
 }
 
+TEST_CASE("a design in another encoding is told so") {
+  std::string wide = "\xff\xfe";
+  for (const char letter : kSoundDesign) wide += {letter, '\0'};
+  const std::string bare = wide.substr(2);
+  for (const std::string& text : {wide, bare}) {
+    CHECK_THAT(problems_of(text), Contains("Try: to save it in UTF-8: it seems to be in UTF-16"));
+  }
+  CHECK_THAT(problems_with("name: Chute", "name: M\xfchle"),
+             StartsWith("d.yaml:2:8: not a text file") &&
+                 Contains("Try: to save it in UTF-8, if it is a design: a letter in another encoding"));
+  CHECK_THAT(problems_of("\x7f"
+                         "ELF\x02"),
+             Contains("Try: the name of a design file (.yaml)"));
+}
+
 TEST_CASE("columns count characters, not bytes") {
   CHECK_THAT(problems_with("name: Chute", "n\u00e4me: Chute"),
              StartsWith("d.yaml:2:1: unknown key n\u00e4me"));

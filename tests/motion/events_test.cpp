@@ -244,6 +244,14 @@ TEST_CASE("highest load just before curvature drops counts, although at() tells 
   CHECK(highest.time == close_to(after.time));
 }
 
+TEST_CASE("a drag that rules the ride altogether is named where its steps are too many") {
+  const auto ramp = std::make_shared<const StraightLine>(Endpoints{10.0, 6.0});
+  CHECK(Motion(ramp, body(0.2, 0.0, 10.0)).arrived());
+  CHECK_THROWS_WITH(Motion(ramp, body(0.2, 0.0, 5000.0)),
+                    Catch::Matchers::Contains("A drag of 5000 1/m takes a body's speed within 0.2 mm") &&
+                        Catch::Matchers::Contains("Try: the unit of drag"));
+}
+
 TEST_CASE("Motion says which number of the body it cannot use") {
   const auto ramp = std::make_shared<const StraightLine>(Endpoints{1.0, 1.0});
   CHECK_THROWS_WITH(Motion(ramp, body(0.1, -1.0)), Catch::Matchers::Contains("entry_speed: -1 m/s"));

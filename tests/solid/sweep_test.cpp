@@ -637,6 +637,10 @@ TEST_CASE("sweep: facets that follow a curve meet at no more than the largest ki
   options.largest_kink = Angle();
   CHECK_THAT(message_of([&] { return sweep(track, CrossSection::slab(0.4, 0.02), Placement(), options); }),
              contains_text("largest_kink: 0 deg is not an angle") && contains_text("Try: 0.25 deg"));
+  options.largest_kink = Angle::from_degrees(0.001);
+  CHECK_THAT(message_of([&] { return sweep(track, CrossSection::pipe(1.0, 0.001), Placement(), options); }),
+             contains_text("largest_kink: 0.001 deg needs ") &&
+                 contains_text("Try: a larger largest_kink than 0.001 deg"));
 }
 
 TEST_CASE("sweep: ends when it is asked to") {

@@ -95,7 +95,7 @@ std::optional<Finding> find_unreachable(const Design& design) {
   const BodyDesign& body = design.body;
   const double run = run_of(track);
   const double drop = drop_of(track);
-  if (design.feed) return {};
+  if (design.feed || !(design.gravity > 0.0)) return {};
   const Friction friction = least_friction(body);
   const double mu = friction.coefficient();
   if (finish_is_unbounded(track) || is_drawn(design.centerline.kind)) return {};

@@ -206,8 +206,11 @@ void check_match(const Design& design, Collected& findings) {
   const BeltMatch& match = *design.limits->match_belt;
   check_between(match.speed, 0.0, kFastest, true, "limits.match_belt.speed", Dimension::speed,
                 "A belt runs: above 0, at most 100 m/s.", "2.5 m/s", findings);
-  check_between(match.within, 0.0, 1.0, true, "limits.match_belt.within", Dimension::number,
-                "A share of the belt's speed: above 0, at most 100 %.", "10 %", findings);
+  if (!(match.within > 0.0 && match.within <= 1.0)) {
+    report(findings, {"limits.match_belt.within"},
+           {"", "within: " + rounded_text(100.0 * match.within, 4) + " % is out of range",
+            "A share of the belt's speed: above 0, at most 100 %.", "10 %"});
+  }
   const double cosine = math::cos(match.direction.radians());
   if (!(cosine > 0.0)) {
     report(findings, {"limits.match_belt.direction"},

@@ -83,6 +83,7 @@ void check_mesh(const Design& design, Collected& findings) {
     return;
   }
   const double distance = norm(design.track.finish - design.track.start);
+  if (distance > kLongestTrack) return;  // that is wrong itself
   if (distance > 0.0 && tolerance > distance) {
     constexpr double kFine = 1e-3;  // of the track: its shape is there, and the mesh small
     const auto [given, whole] = texts_apart(tolerance, distance, &length_text);

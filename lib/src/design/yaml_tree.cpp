@@ -250,6 +250,17 @@ class TreeBuilder : public YAML::EventHandler {
   int nodes_ = 0;
 };
 
+/// What to try with a file that is no text in UTF-8 where that begins to show.
+std::string hint_for_encoding(std::string_view text, std::size_t offset) {
+  const std::string_view start = text.substr(0, 2);
+  const bool utf_16 = start == "\xff\xfe" || start == "\xfe\xff" || (offset < 2 && text[offset] == '\0');
+  if (utf_16) return "to save it in UTF-8: it seems to be in UTF-16";
+  const auto is_letter = [](char c) { return static_cast<unsigned char>(c) >= 0xa0; };
+  const bool after_text = offset > 0 && is_letter(text[offset]);
+  if (after_text) return "to save it in UTF-8, if it is a design: a letter in another encoding stands here";
+  return "the name of a design file (.yaml)";
+}
+
 void refuse_what_is_not_text(std::string_view text, const Lines& lines) {
   for (std::size_t offset = 0; offset < text.size();) {
     const std::size_t length = utf8_length(text, offset);
@@ -257,7 +268,7 @@ void refuse_what_is_not_text(std::string_view text, const Lines& lines) {
       throw SyntaxProblem(
           lines.at_offset(offset),
           {"", "not a text file: byte " + std::to_string(offset) + " belongs to no UTF-8 text",
-           "A design file is YAML in UTF-8.", "the name of a design file (.yaml)"});
+           "A design file is YAML in UTF-8.", hint_for_encoding(text, offset)});
     }
     offset += length;
   }

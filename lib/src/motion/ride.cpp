@@ -473,6 +473,15 @@ void Integrator::close(double s, double v) {
 
 Panel Integrator::integrated(const Stretch& stretch, double v) {
   if (panels_left_ == 0) {
+    const double k = equation().k;
+    constexpr double kBraked =
+        1e3;  // of the drag times the length: beyond, the speed follows the slope at once
+    if (k * equation().centerline->length() > kBraked) {
+      throw ConvergenceError({"", "the ride comes no further than " + length_text(stretch.begin),
+                              "A drag of " + rounded_text(k, 4) + " 1/m takes a body's speed within " +
+                                  length_text(1.0 / k) + ": too many steps lead down the track.",
+                              "the unit of drag; what slides has 0.0001 to 0.1 1/m"});
+    }
     throw ConvergenceError(
         {"", "the ride comes no further than " + length_text(stretch.begin),
          "The centerline is not smooth between its breaks, so that no panel is fine enough.",

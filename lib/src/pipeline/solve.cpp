@@ -421,10 +421,14 @@ std::optional<Issue> problem_of_ride(const Design& design, const Track& track, c
   const double length = track.centerline->length();
   const std::string when = ride.level == FrictionLevel::nominal ? "" : at_friction_text(ride) + ", ";
   if (const auto& stall = motion.stall()) {
-    const std::string place = stall->arc_length == 0.0
-                                  ? "the body does not start to slide"
-                                  : "the body stalls after " + length_text(stall->arc_length);
-    return Issue{design.where("centerline"), when + place + ", before the finish at " + length_text(length),
+    const auto [stalls_after, whole] = texts_apart(stall->arc_length, length, &length_text);
+    const bool all_but_there = stalls_after == whole;  // nearer than digits tell
+    const std::string place = all_but_there
+                                  ? "the body stalls all but at the finish, at " + length_text(length)
+                                  : (stall->arc_length == 0.0 ? "the body does not start to slide"
+                                                              : "the body stalls after " + stalls_after) +
+                                        ", before the finish at " + whole;
+    return Issue{design.where("centerline"), when + place,
                  "The slope angle there is " +
                      angle_text(Angle::from_radians(track.centerline->slope_angle(stall->arc_length))) +
                      ", " + angle_text(stall->missing_slope) + " less than " +

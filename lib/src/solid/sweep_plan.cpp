@@ -115,14 +115,16 @@ Fineness Planner::fineness(double tolerance) const {
 void Planner::require_room(double triangles) const {
   if (triangles <= limit()) return;
   const double bytes = triangles * (kBytesPerTriangle + 0.5 * kBytesPerVertex);
-  Issue issue;
-  issue.what = "tolerance: " + length_text(options_.tolerance) + " needs " + count_text(triangles) +
-               " triangles, " + size_text(bytes) + " of memory";
-  issue.why = "A mesh may have at most " + count_text(limit()) + " triangles.";
   const double fitting = fitting_tolerance();
+  const bool kink_asks = options_.largest_kink && !(fitting > 0.0);
+  Issue issue;
+  issue.what = (kink_asks ? "largest_kink: " + angle_text(*options_.largest_kink)
+                          : "tolerance: " + length_text(options_.tolerance)) +
+               " needs " + count_text(triangles) + " triangles, " + size_text(bytes) + " of memory";
+  issue.why = "A mesh may have at most " + count_text(limit()) + " triangles.";
   if (fitting > 0.0) {
     issue.hint = "a tolerance of " + length_text(fitting) + " or coarser";
-  } else if (options_.largest_kink) {
+  } else if (kink_asks) {
     issue.hint = "a larger largest_kink than " + angle_text(*options_.largest_kink);
   } else {
     issue.hint = "a higher limit: no tolerance makes this section and track fit";
