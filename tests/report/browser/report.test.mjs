@@ -280,6 +280,25 @@ describe("solid", () => {
   });
 });
 
+describe("a range of friction", () => {
+  test("a ride at another friction is held against the nominal one, not against an optimum of another friction", async () => {
+    const { file, json } = build(path.join(designs, "grain_chute_with_limits.yaml"));
+    const { page, complaints } = await open(plain, file, SMALL);
+    const told = () => page.locator("#summary dl.tiles").textContent();
+    assert.match(await told(), /the exact optimum without limits/);
+    for (const level of ["low", "high"]) {
+      await page.locator("header select").first().selectOption(level);
+      const text = await told();
+      assert.ok(text.includes(`at ${level} friction`), text);
+      assert.ok(text.includes(`% ${level === "low" ? "faster" : "slower"} than at nominal friction`), text);
+      assert.ok(!text.includes("optimum") && !text.includes("straight line"), text);
+    }
+    assert.ok(json.rides[0].travel_time_s < json.travel_time_s);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+});
+
 describe("a design with limits", () => {
   const design = `glissade: 1
 name: In-run

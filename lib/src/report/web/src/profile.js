@@ -323,7 +323,8 @@ class Ride {
   result() {
     const { ride, straight } = this.doc;
     const times = [`this track ${ride.travel_time_s.toFixed(3)}\u00a0s`];
-    if (straight) times.push(`straight line ${straight.time_s.at(-1).toFixed(3)}\u00a0s`);
+    const level = (ride.friction ?? "nominal") === "nominal" ? "" : " at nominal friction";
+    if (straight) times.push(`straight line${level} ${straight.time_s.at(-1).toFixed(3)}\u00a0s`);
     return times.join(", ");
   }
 

@@ -9,9 +9,15 @@ function against(time, other) {
   return `${number(Math.abs(percent), 3)}${NO_BREAK}% ${percent > 0 ? "slower" : "faster"} than`;
 }
 
-function timeRemarks({ ride, limits, design }, units) {
+function timeRemarks({ ride, rides, limits, design }, units) {
   if (ride.travel_time_s === null) return ["the body does not arrive"];
   const time = (seconds) => units.text("time", seconds, 5);
+  // Optimum and straight line are those at nominal friction: no ride at another one is to be held against them.
+  const nominal = rides.find(({ friction }) => friction === "nominal");
+  if ((ride.friction ?? "nominal") !== "nominal") {
+    if (nominal.travel_time_s === null) return ["at nominal friction the body does not arrive"];
+    return [`${against(ride.travel_time_s, nominal.travel_time_s)} at nominal friction, ${time(nominal.travel_time_s)}`];
+  }
   const optimum = limits.length > 0 ? "the exact optimum without limits" : "the exact optimum";
   const remarks = [
     ride.optimum_travel_time_s === null ? "the exact optimum is not known here"
