@@ -11,6 +11,7 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -143,6 +144,48 @@ TEST_CASE("curvatures of another sign or unit than the slope angles show are ref
             row.slope_angle = unit * std::round(row.slope_angle / unit);
           }) == "accepted");
     CHECK(changed([&](TabulatedPoint& row) { row.curvature *= 1.05; }) == "accepted");
+  }
+}
+
+TEST_CASE(
+    "a jump of curvature that a table does not say by two rows is seen, wherever it lies between two rows") {
+  const ClothoidSpline track(Angle::from_degrees(50.0), {{4.0, 0.0, 0.0}, {2.0, 0.2, 0.2}, {3.0, 0.0, 0.02}});
+  const auto highest_curvature = [](const Centerline& curve) {
+    double highest = 0.0;
+    for (int i = 0; i <= 20000; ++i) {
+      highest = std::max(highest, std::fabs(curve.direction(i * curve.length() / 20000.0).curvature));
+    }
+    return highest;
+  };
+  REQUIRE(highest_curvature(track) == Approx(0.2));
+  for (const int rows : {45, 90, 181, 360, 997}) {  // 45, 90 and 360 of them have a row at each jump
+    for (const bool before : {false, true}) {
+      INFO(rows << " rows, " << (before ? "with the curvature before a jump" : "with that behind it"));
+      std::vector<TabulatedPoint> table;
+      for (int i = 0; i <= rows; ++i) {
+        const double s = track.length() * i / rows;
+        const CenterlinePoint place = track.at(s);
+        const double near = before && i > 0 ? s - 1e-12 : s;
+        table.push_back({place.x, place.drop, place.slope_angle, track.direction(near).curvature});
+      }
+      const TabulatedCurve again(table);
+      CHECK(highest_curvature(again) <= 0.2 * 1.005);
+      CHECK(again.length() == Approx(track.length()).epsilon(1e-6));
+      CHECK(again.endpoints().run == Approx(track.endpoints().run).epsilon(1e-5));
+      CHECK(again.endpoints().drop == Approx(track.endpoints().drop).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("where curvature does not jump no row is added to those of a table") {
+  for (const Ridden& ridden : curves()) {
+    INFO(ridden.name);
+    const auto rows = table_of(*ridden.curve);
+    std::size_t jumps = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      jumps += rows[i].x == rows[i - 1].x && rows[i].drop == rows[i - 1].drop ? 1U : 0U;
+    }
+    CHECK(TabulatedCurve(rows).breaks().size() == rows.size() - jumps);
   }
 }
 

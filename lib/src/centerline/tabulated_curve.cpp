@@ -152,6 +152,70 @@ std::optional<Turn> turns_otherwise(const std::vector<TabulatedPoint>& rows) {
   return worst;
 }
 
+/// By how much curvature changes per length between a row and the next; none where that is a jump, or without bound.
+std::optional<double> curvature_rate(const TabulatedPoint& a, const TabulatedPoint& b) {
+  const double length = norm(Vec2{b.x - a.x, b.drop - a.drop});
+  const double rate = (b.curvature - a.curvature) / length;
+  return std::isfinite(rate) ? std::optional(rate) : std::nullopt;
+}
+
+/// The rows that say a jump of curvature between rows `at` - 1 and `at`, if their slope angles show one that the table does
+/// not say by two rows: stations have the curvature behind a jump alone. The cubic would swing past both curvatures by
+/// up to a third of the jump, and with it the smallest radius and the highest load of the track.
+std::vector<TabulatedPoint> jump_between(const std::vector<TabulatedPoint>& rows, std::size_t at) {
+  constexpr double kLeastTurn = 1e-6;    // [rad]: by what the jump turns the track from row to row
+  constexpr double kSmoothBeside = 0.1;  // of the jump, over the same length, in the stretches beside it
+  constexpr double kCubicDoes = 0.25;    // nearer to the middle the cubic stays between both curvatures
+  constexpr double kAtTheRow = 0.03;     // share of the stretch
+  const TabulatedPoint& left = rows[at - 1];
+  const TabulatedPoint& right = rows[at];
+  const double length = norm(Vec2{right.x - left.x, right.drop - left.drop});
+  const double jump = right.curvature - left.curvature;
+  if (!std::isfinite(jump) || std::fabs(jump) * length < kLeastTurn) return {};
+  const auto before = at > 1 ? curvature_rate(rows[at - 2], left) : std::nullopt;
+  const auto after = at + 1 < rows.size() ? curvature_rate(right, rows[at + 1]) : std::nullopt;
+  if (!before && !after) return {};
+  for (const auto& rate : {before, after}) {
+    if (rate && std::fabs(*rate) * length > kSmoothBeside * std::fabs(jump)) return {};
+  }
+  // Curvature as slope angles have it in the mean; the jump lies where that is the mean of both sides.
+  const double mean = (left.slope_angle - right.slope_angle) / length;
+  const double share = (right.curvature - mean) / jump;
+  if (share < -kAtTheRow || share > 1.0 + kAtTheRow || std::fabs(share - 0.5) < 0.5 - kCubicDoes) return {};
+  if (share < kAtTheRow) {
+    TabulatedPoint behind = left;
+    behind.curvature = 2.0 * mean - right.curvature;
+    return {behind};
+  }
+  if (share > 1.0 - kAtTheRow) {
+    TabulatedPoint ahead = right;
+    ahead.curvature = 2.0 * mean - left.curvature;
+    return {ahead};
+  }
+  TabulatedPoint ahead = left;
+  const double way = share * length;
+  const double middle = left.slope_angle - 0.5 * left.curvature * way;
+  ahead.x += way * math::cos(middle);
+  ahead.drop += way * math::sin(middle);
+  ahead.slope_angle -= left.curvature * way;
+  TabulatedPoint behind = ahead;
+  behind.curvature = right.curvature;
+  return {ahead, behind};
+}
+
+/// The rows, and those of jumps that only the slope angles show.
+std::vector<TabulatedPoint> with_jumps(const std::vector<TabulatedPoint>& rows) {
+  std::vector<TabulatedPoint> all;
+  all.reserve(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0 && !same_place(rows[i - 1], rows[i]) && !on_one_flight(rows[i - 1], rows[i])) {
+      for (const TabulatedPoint& row : jump_between(rows, i)) all.push_back(row);
+    }
+    all.push_back(rows[i]);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
@@ -222,6 +286,7 @@ TabulatedCurve::TabulatedCurve(std::vector<TabulatedPoint> rows) {
     row.x = side * (row.x - start.x);
     row.drop -= start.drop;
   }
+  rows = with_jumps(rows);
   unbounded_ = !std::isfinite(start.curvature);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (same_place(rows[i - 1], rows[i])) continue;

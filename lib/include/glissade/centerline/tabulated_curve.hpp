@@ -34,10 +34,12 @@ struct TableFault {
 ///
 /// Between rows the slope angle is the cubic that has the angle and curvature of both; in arc length, or in its square
 /// root where curvature has no bound at the start. Arc lengths follow from the chords between rows, places from the
-/// slope angle. Two rows at one place are a jump of curvature. Between two rows that lie on one crest of a parabola with an
-/// upright axis, to rounding, the curve is that parabola: a body that flies along it (N = 0) does so from the table, too.
+/// slope angle. Two rows at one place are a jump of curvature; one that the table does not say so is seen where the slope
+/// angles show it and curvature hardly changes in the stretches beside it. Between two rows that lie on one crest of a
+/// parabola with an upright axis, to rounding, the curve is that parabola: a body that flies along it (N = 0) does so
+/// from the table, too.
 /// Frame: the first row is the start. Where the last row lies to the left of the first, the table is mirrored.
-/// Curve: slope angle and curvature continuous but at jumps; smooth between breaks(), which are the rows.
+/// Curve: slope angle and curvature continuous but at jumps; smooth between breaks(), which are rows and jumps.
 /// Accuracy: fourth order in the distance of the rows; table_of() keeps travel times to kTableAccuracy.
 class TabulatedCurve final : public Centerline {
  public:
