@@ -7,6 +7,7 @@
 
 #include "optimize/changed_bound.hpp"
 #include "optimize/energy_left.hpp"
+#include "optimize/hooked_starts.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/refined_knots.hpp"
 #include "optimize/starts.hpp"
@@ -283,7 +284,8 @@ class Winding {
 
   [[nodiscard]] std::vector<GuessCurve> curves_on(std::size_t way) const {
     std::vector<GuessCurve> all;
-    for (const Curves curves : {&starts, &constant_speed_starts, &winding_starts, &stepped_starts}) {
+    for (const Curves curves :
+         {&starts, &constant_speed_starts, &winding_starts, &stepped_starts, &hooked_starts}) {
       for (GuessCurve& curve : curves(*ways_[way])) all.push_back(std::move(curve));
     }
     return all;
@@ -725,7 +727,14 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
   const bool bends = footing.asks_for_bends() || asking_for_bends(search.best());
-  explanation.certain = !conflict.limits.empty() && (proof || (settled && !bends));
+  // Nor for points to be passed, or straight ends that reach beyond the finish: the ways between them are many, too.
+  const bool points =
+      std::any_of(conflict.limits.begin(), conflict.limits.end(),
+                  [](const StatedLimit& stated) { return stated.limit.id == LimitId::waypoints; });
+  const ScaledProblem& scaled = *search.ways().front();
+  const bool reaches_beyond = scaled.lead_in + scaled.lead_out >= 1.0;
+  explanation.certain =
+      !conflict.limits.empty() && (proof || (settled && !bends && !points && !reaches_beyond));
   if (proof) conflict.why = *proof;
   if (explanation.certain) conflict.text = conflict_text(conflict);
   return explanation;

@@ -181,6 +181,13 @@ class Course {
   void look_again(bool by_footholds) {
     const auto is_optimum = [&] { return best_->found->residual <= options_.tolerance; };
     look_at_promising();
+    if (kept() && !stopped_) {
+      const double known = best_->found->objective;
+      best_ = searcher_.from_hooks(*std::move(best_));
+      stopped_ = best_->stopped;
+      // What else leads to tracks that wind takes longer, and has not led to better ones.
+      if (best_->found->objective < known && is_optimum()) return;
+    }
     if (!kept() || stopped_ || (!by_footholds && is_optimum())) return;
     best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
                          : searcher_.from_scattered(*std::move(best_));

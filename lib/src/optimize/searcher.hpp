@@ -67,6 +67,9 @@ class Searcher {
   /// Where tracks have to wind: the better one of what `best` is and of what the fastest track leads to while caps on the speed,
   /// far from it first, are drawn tight. Neighbouring problems take neighbouring ways.
   [[nodiscard]] Candidate from_loose_caps(Candidate best);
+  /// Where a cap on the speed asks for bends: the better one of what `best` is and of what falls, rides at the cap and hooks
+  /// between them lead to.
+  [[nodiscard]] Candidate from_hooks(Candidate best);
   /// Where tracks wind at a cap on the speed: the same with bends elsewhere between the stretches that lie at the cap, as long
   /// as that pays.
   [[nodiscard]] Candidate with_shifted_bends(Candidate best);
@@ -117,6 +120,8 @@ class Searcher {
   /// From the fastest track over caps far from it to that of the caps themselves. @return none where the way ends before
   [[nodiscard]] std::optional<Tightened> tightened(const std::shared_ptr<const ScaledProblem>& rough,
                                                    const std::vector<std::size_t>& caps);
+  /// On their finest meshes, the best one first.
+  [[nodiscard]] std::vector<Found> tracks_with_hooks(const ScaledProblem& problem);
   /// The best of the tracks with a bend elsewhere, and so on from there. @return none where none is better
   [[nodiscard]] std::optional<Found> bends_shifted(const ScaledProblem& problem, const Found& known);
   /// @return whether a search on a mesh ended in a better track than the best one, which it is then
