@@ -5,6 +5,7 @@
 #include "glissade/optimize/optimize.hpp"
 
 #include "optimize/bound_bracket.hpp"
+#include "optimize/mean_slope.hpp"
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -228,9 +229,146 @@ TEST_CASE("a least load that the slope of the table alone asks for is told as on
   problem.endpoints = {0.0, 46.0};
   problem.limits.exit_speed.lowest = 20.0;  // straight down the slope of the table gives 24 m/s
   const Optimum least = solved(problem);
-  CHECK(least.report.message == "every limit holds, and no track keeps a tighter bound");
+  CHECK(least.report.message == "every limit holds, and no track carries less than the straight line");
   const double load = Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
   CHECK(std::fabs(load / (kGravity * std::cos(11.0 * kDegree)) - 1.0) < 1e-5);
+  // Where no straight line will do, too, a speed that is exceeded holds nothing back, and has no price.
+  problem.limits.entry_slope_angle.lowest = 15.0 * kDegree;
+  OptimizeOptions options;
+  options.time_budget = 2.0;
+  const Optimum bent = optimize(problem, options);
+  REQUIRE(bent.centerline);
+  CHECK(bent.report.exit_speed > 20.1);
+  CHECK(price_of(bent, LimitId::exit_speed) == 0.0);
+}
+
+namespace {
+
+/// From one point to another, to a speed that the straight line between them reaches.
+Problem between_points(ObjectiveKind objective) {
+  Problem problem;
+  problem.gravity = kGravity;
+  problem.endpoints = {10.0, 6.0};
+  problem.body.friction = Friction::from_angle(Angle::from_degrees(11.0));
+  problem.objective.kind = objective;
+  problem.limits.exit_speed.lowest = 7.0;
+  return problem;
+}
+
+void check_is_straight(const Optimum& least) {
+  REQUIRE(least.centerline != nullptr);
+  CHECK(least.report.status == OptimizeStatus::optimal);
+  CHECK(least.report.evaluations == 0);  // it is known, not searched for
+  const Endpoints end = least.centerline->endpoints();
+  CHECK(std::fabs(least.centerline->length() / std::hypot(end.run, end.drop) - 1.0) < 1e-12);
+  CHECK(least.report.active.empty());
+  for (const LimitCheck& check : least.report.checks) {
+    CAPTURE(check.limit.key());
+    CHECK(check.kept());
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "from rest no track carries less at its most than the straight line: where that will do it is the "
+    "answer") {
+  Problem problem = between_points(ObjectiveKind::least_load);
+  problem.limits.smallest_crest_radius = 4.0;
+  problem.limits.smallest_valley_radius = 4.0;
+  const Optimum least = solved(problem);
+  check_is_straight(least);
+  CHECK(least.report.message == "every limit holds, and no track carries less than the straight line");
+  const double load = Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
+  CHECK(std::fabs(load / (kGravity * std::cos(std::atan2(6.0, 10.0))) - 1.0) < 1e-12);
+  // u^2 = 2 g (drop - mu run)
+  const double fall = 6.0 - 10.0 * std::tan(11.0 * kDegree);
+  CHECK(std::fabs(least.report.exit_speed / std::sqrt(2.0 * kGravity * fall) - 1.0) < 1e-9);
+}
+
+TEST_CASE("a body that enters fast may carry less over a crest than on the straight line") {
+  Problem problem = between_points(ObjectiveKind::least_load);
+  problem.body.entry_speed = 4.0;
+  CHECK(least_load_anywhere(problem) == 0.0);
+  problem.limits.concave = true;  // without a crest it may not
+  CHECK(std::fabs(least_load_anywhere(problem) / (kGravity * std::cos(std::atan2(6.0, 10.0))) - 1.0) < 1e-12);
+  check_is_straight(solved(problem));
+}
+
+TEST_CASE("no track carries less than what every track is said to carry") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int problems = testing::thorough() ? 400 : 60;
+  int told = 0;
+  for (int i = 0; i < problems; ++i) {
+    Problem problem;
+    problem.gravity = kGravity;
+    problem.body.entry_speed = i % 2 == 0 ? 0.0 : random.between(0.5, 6.0);
+    problem.limits.concave = i % 3 == 0;
+    // Any track: a straight, a bend to either side, a straight.
+    const double entry = random.between(i % 2 == 0 ? 0.2 : -0.5, 1.4);
+    const double turn = problem.limits.concave ? random.between(-1.5, 0.0) : random.between(-1.5, 1.5);
+    const double exit = std::clamp(entry + turn, -1.4, 1.4);
+    const double bend = random.between(0.5, 4.0);
+    const double lead_in = random.between(0.1, 4.0);
+    const double lead_out = random.between(0.1, 4.0);
+    const double curvature = (entry - exit) / bend;
+    const auto track = std::make_shared<const ClothoidSpline>(
+        Angle::from_radians(entry),
+        std::vector<ClothoidSegment>{
+            {lead_in, 0.0, 0.0}, {bend, curvature, curvature}, {lead_out, 0.0, 0.0}});
+    problem.endpoints = track->endpoints();
+    if (!(problem.endpoints.run > 0.1)) continue;
+    if (i % 5 == 0) problem.limits.lead_in = lead_in;
+    if (i % 7 == 0) problem.limits.lead_out = lead_out;
+    if (i % 4 == 0) problem.finish.kind = FinishKind::level;
+    if (i % 4 == 0) problem.limits.slope_angle.highest = std::max(entry, exit);
+    const Motion motion(track, problem.body, kGravity);
+    if (!motion.arrived()) continue;
+    const double least = least_load_anywhere(problem);
+    CAPTURE(i, entry, exit, bend, lead_in, lead_out, problem.body.entry_speed);
+    CHECK(motion.highest_load().normal_load >= least * (1.0 - 1e-9));
+    if (least > 0.0) ++told;
+  }
+  CHECK(told > problems / 4);
+}
+
+TEST_CASE("the straight line, where it will do, has the least rate of curvature, none") {
+  Problem problem = between_points(ObjectiveKind::least_curvature_rate);
+  problem.limits.slope_angle.highest = 50.0 * kDegree;
+  const Optimum least = solved(problem);
+  check_is_straight(least);
+  CHECK(rate_of(*least.centerline) == 0.0);
+  CHECK(least.report.message ==
+        "every limit holds, and the straight line has no curvature that could change");
+  // So has one of the lines down to a level, or to a plumb line.
+  for (const FinishKind kind : {FinishKind::level, FinishKind::vertical_line}) {
+    problem.finish.kind = kind;
+    const Optimum other = solved(problem);
+    check_is_straight(other);
+    CHECK(rate_of(*other.centerline) == 0.0);
+    CHECK(other.report.exit_speed >= 7.0 * (1.0 - 1e-7));
+  }
+}
+
+TEST_CASE("down to a level the steepest straight line that is allowed carries the least") {
+  Problem problem = between_points(ObjectiveKind::least_load);
+  problem.finish.kind = FinishKind::level;
+  problem.limits.slope_angle.highest = 40.0 * kDegree;
+  const Optimum least = solved(problem);
+  check_is_straight(least);
+  const double load = Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
+  CHECK(std::fabs(load / (kGravity * std::cos(40.0 * kDegree)) - 1.0) < 1e-9);
+}
+
+TEST_CASE("a straight line that does not reach the speed is not the answer") {
+  Problem problem = between_points(ObjectiveKind::least_load);
+  problem.limits.exit_speed.lowest = 9.5;  // the straight line gives 8.92
+  OptimizeOptions options;
+  options.time_budget = 1.0;
+  const Optimum least = optimize(problem, options);
+  CHECK(least.report.evaluations > 0);
+  CHECK(least.report.message.find("straight line") == std::string::npos);
 }
 
 TEST_CASE("a least bound is one: by another way to it a track keeps a little more, and none a little less") {

@@ -1,25 +1,34 @@
 #include "optimize/least_bound.hpp"
 
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/referee/referee.hpp"
 
 #include "optimize/bound_bracket.hpp"
+#include "optimize/mean_slope.hpp"
 #include "optimize/most_reached.hpp"
 #include "optimize/patience.hpp"
+#include "optimize/starts.hpp"
+#include "referee/judgement.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace glissade::optimizer {
 namespace {
 
 constexpr int kMostSearches = 48;        // budget
 constexpr double kSpeedAccuracy = 1e-9;  // of the speed wanted; accuracy
+constexpr double kSpeedReached = 1e-6;   // of the speed wanted: ten times the accuracy of a limit
 // The least bound is looked at from so far below: a search that lost its way at it would show there.
 constexpr double kNeighbour = 1e-4;  // taste
 
@@ -42,18 +51,14 @@ class LeastBound {
   }
 
   [[nodiscard]] Optimum found() {
-    Optimum loose = within(asked_.limits.*member_);
-    const bool slow = loose.centerline && loose.report.exit_speed < wanted_ * (1.0 - kSpeedAccuracy);
-    if (!loose.centerline || slow) {
-      // A search that asks for the speed says why it is out of reach, or finds that it is not.
-      Optimum other = asking_for_speed(asked_.limits.*member_);
-      if (!other.centerline)
-        return outlay_.told(slow ? std::move(other) : std::move(loose), asked_.objective);
-      loose = std::move(other);
-    }
-    take(std::move(loose));
+    bracket_.learn(least_known(), Verdict::kept_by_none);
+    const std::optional<Straight> straight = gentlest_straight();
+    if (straight && straight->reached - bracket_.tight <= bracket_.accuracy() * straight->reached)
+      return told(*straight);
+    if (std::optional<Optimum> none = begin(); none && !straight)
+      return outlay_.told(*std::move(none), asked_.objective);
+    if (straight && (!best_.centerline || straight->reached < reached_by(best_.centerline))) take(*straight);
     bracket_.loose = reached_by(best_.centerline);
-    bracket_.learn(least_at_finish(), Verdict::kept_by_none);
     close(std::min(0.95 * bracket_.loose, of_a_short_bend(best_.centerline)));
     for (int round = 0; round < kMostNeighbours && settled_ && !outlay_.ends(); ++round) {
       if (!does_below()) break;
@@ -85,6 +90,101 @@ class LeastBound {
   void take(Optimum optimum) {
     best_ = std::move(optimum);
     best_by_speed_ = best_.report.objective.kind == ObjectiveKind::exit_speed;
+  }
+
+  /// A straight line that keeps every limit, and reaches the speed.
+  struct Straight {
+    CenterlinePtr line;
+    referee::Judgement judgement;
+    double reached = 0.0;  ///< of what is bounded
+  };
+
+  /// A start that needs no search: of the straight lines that the ends leave, the one with the least of what is bounded, and
+  /// of several the fastest.
+  [[nodiscard]] std::optional<Straight> gentlest_straight() const {
+    std::optional<Straight> best;
+    for (const Endpoints& ends : straight_ends()) {
+      const CenterlinePtr line = straight_track(ends);
+      if (asked_.limits.lead_in + asked_.limits.lead_out > line->length()) continue;
+      referee::Judgement judgement = referee::judge_track(asked_, line, referee::kRefereeSamples);
+      if (!judgement.arrived || judgement.worst > options_.limit_tolerance) continue;
+      const double reached = reached_by(line);
+      const bool better = !best || reached < best->reached ||
+                          (reached == best->reached && judgement.travel_time < best->judgement.travel_time);
+      if (better) best = Straight{line, std::move(judgement), reached};
+    }
+    return best;
+  }
+
+  /// As a search finds tracks, so that whatever goes on with one can go on with it.
+  [[nodiscard]] static CenterlinePtr straight_track(const Endpoints& ends) {
+    const StraightLine line(ends);
+    return std::make_shared<ClothoidSpline>(Angle::from_radians(line.slope_angle(0.0)),
+                                            std::vector<ClothoidSegment>{{line.length(), 0.0, 0.0}});
+  }
+
+  /// Ends of straight lines: the one between two points, or a fan of them.
+  [[nodiscard]] std::vector<Endpoints> straight_ends() const {
+    constexpr int kSteps = 64;            // taste
+    constexpr double kNotUpright = 1e-3;  // taste [rad]
+    const Endpoints& given = asked_.endpoints;
+    if (asked_.finish.kind == FinishKind::point) return {given};
+    const bool level = asked_.finish.kind == FinishKind::level;
+    double flattest = level ? kNotUpright : kNotUpright - kRightAngle;
+    double steepest = kRightAngle - kNotUpright;
+    const Limits& limits = asked_.limits;
+    for (const Range& range : {limits.slope_angle, limits.entry_slope_angle, limits.exit_slope_angle}) {
+      if (range.lowest) flattest = std::max(flattest, *range.lowest);
+      if (range.highest) steepest = std::min(steepest, *range.highest);
+    }
+    if (flattest > steepest || (level && !(given.drop > 0.0))) return {};
+    std::vector<Endpoints> all;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double slope = i == kSteps ? steepest : flattest + (steepest - flattest) * i / kSteps;
+      const double run = std::fabs(given.run);
+      all.push_back(level ? Endpoints{given.drop / math::tan(slope), given.drop}
+                          : Endpoints{run, run * math::tan(slope)});
+    }
+    return all;
+  }
+
+  void take(const Straight& straight) {
+    Optimum optimum;
+    optimum.centerline = straight.line;
+    OptimizeReport& report = optimum.report;
+    report.status = OptimizeStatus::optimal;
+    report.objective = asked_.objective;
+    report.travel_time = straight.judgement.travel_time;
+    report.exit_speed = straight.judgement.exit_speed;
+    report.unlimited_travel_time = unlimited_travel_time(asked_);
+    report.finer_mesh_wins = 0.0;
+    take(std::move(optimum));
+  }
+
+  /// The straight line, where nothing has less.
+  Optimum told(const Straight& straight) {
+    take(straight);
+    OptimizeReport& report = best_.report;
+    report.checks = check_limits(asked_, best_.centerline);
+    report.message = name_.id == LimitId::highest_normal_load
+                         ? "every limit holds, and no track carries less than the straight line"
+                         : "every limit holds, and the straight line has no curvature that could change";
+    return outlay_.told(std::move(best_), asked_.objective);
+  }
+
+  /// The first track, by search: the loosest bound.
+  /// @return the end of the search, where there is none
+  [[nodiscard]] std::optional<Optimum> begin() {
+    Optimum loose = within(asked_.limits.*member_);
+    const bool slow = loose.centerline && loose.report.exit_speed < wanted_ * (1.0 - kSpeedAccuracy);
+    if (!loose.centerline || slow) {
+      // A search that asks for the speed says why it is out of reach, or finds that it is not.
+      Optimum other = asking_for_speed(asked_.limits.*member_);
+      if (!other.centerline) return slow ? std::move(other) : std::move(loose);
+      loose = std::move(other);
+    }
+    take(std::move(loose));
+    return std::nullopt;
   }
 
   /// Looks at a bound, by a second way where the first comes to no end.
@@ -140,21 +240,15 @@ class LeastBound {
     }
   }
 
-  /// What no track goes below, shown without a search: where the track ends straight, or without a crest, it carries at
-  /// least the body's weight across the slope there. 0 where nothing is known.
-  [[nodiscard]] double least_at_finish() const {
-    const Limits& limits = asked_.limits;
-    if (name_.id != LimitId::highest_normal_load || !(limits.concave || limits.lead_out > 0.0)) return 0.0;
-    double steepest = kRightAngle;
-    for (const Range& range : {limits.slope_angle, limits.exit_slope_angle}) {
-      if (range.highest) steepest = std::min(steepest, *range.highest);
-    }
-    return asked_.gravity * math::cos(steepest);
+  /// What no track goes below, shown without a search. 0 where nothing is known.
+  [[nodiscard]] double least_known() const {
+    return name_.id == LimitId::highest_normal_load ? least_load_anywhere(asked_) : 0.0;
   }
 
   /// Whether, against expectation, a bound a little below the least does: then goes on from there.
   bool does_below() {
     const double bound = bracket_.loose * (1.0 - kNeighbour);
+    if (!(bound > 0.0)) return false;  // there is none
     if (bound <= bracket_.tight && bracket_.why == Verdict::kept_by_none) return false;
     const double excess = excess_;
     const double price = price_;
@@ -203,13 +297,15 @@ class LeastBound {
 
   /// In units of the bound, which the speed wanted has a price in, too.
   Optimum priced() {
-    if (!best_by_speed_ && !outlay_.ends()) {
+    if (!best_by_speed_ && bracket_.loose > 0.0 && !outlay_.ends()) {
       Optimum again = within(bracket_.loose);
       if (again.centerline && again.report.exit_speed >= wanted_ * (1.0 - kSpeedAccuracy))
         take(std::move(again));
     }
     OptimizeReport& report = best_.report;
-    const double own = best_by_speed_ ? price_in(report) : 0.0;
+    // Where more than the speed wanted is reached it is not the speed that keeps the bound from being tighter.
+    const bool reached = report.exit_speed <= wanted_ * (1.0 + kSpeedReached);
+    const double own = best_by_speed_ && reached ? price_in(report) : 0.0;
     std::erase_if(report.active, [&](const ActiveLimit& active) { return active.limit == name_; });
     if (own > 0.0) {
       for (ActiveLimit& active : report.active) {

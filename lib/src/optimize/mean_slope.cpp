@@ -4,6 +4,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -59,6 +60,38 @@ Problem with_mean_slope_allowed(Problem problem, double tolerance) {
   if (allowed.highest && just_missed(mean - *allowed.highest)) allowed.highest = mean;
   if (allowed.lowest && just_missed(*allowed.lowest - mean)) allowed.lowest = mean;
   return problem;
+}
+
+double least_load_anywhere(const Problem& problem) {
+  const Limits& limits = problem.limits;
+  const bool rests = problem.body.entry_speed == 0.0 && !landing_of(problem.body);
+  const auto slopes_at = [&](const Range& own) {
+    Range slopes{-kRightAngle, kRightAngle};
+    for (const Range* range : {&own, &limits.slope_angle}) {
+      if (range->lowest) slopes.lowest = std::max(*slopes.lowest, *range->lowest);
+      if (range->highest) slopes.highest = std::min(*slopes.highest, *range->highest);
+    }
+    return slopes;
+  };
+  const auto least_across = [&](const Range& slopes) {
+    return problem.gravity * std::min(math::cos(*slopes.lowest), math::cos(*slopes.highest));
+  };
+  Range entry = slopes_at(limits.entry_slope_angle);
+  // Uphill nothing begins to move.
+  if (rests) entry.lowest = std::max(*entry.lowest, 0.0);
+  double least = 0.0;
+  const bool lies_at_start = rests || limits.lead_in > 0.0;
+  if (lies_at_start) least = std::max(least, least_across(entry));
+  if (limits.concave || limits.lead_out > 0.0) {
+    Range exit = slopes_at(limits.exit_slope_angle);
+    if (*entry.lowest >= 0.0) exit.lowest = std::max(*exit.lowest, 0.0);
+    least = std::max(least, least_across(exit));
+  }
+  if (problem.finish.kind != FinishKind::point) return least;
+  const double mean = mean_slope(problem).radians();
+  if (limits.concave || (lies_at_start && *entry.lowest >= -mean))
+    least = std::max(least, problem.gravity * math::cos(mean));
+  return least;
 }
 
 }  // namespace glissade::optimizer
