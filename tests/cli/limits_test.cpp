@@ -417,6 +417,30 @@ TEST_CASE("the summary says what clearances are measured from") {
              Contains("from the centerline"));
 }
 
+TEST_CASE("leads that are longer than what is left are named, with a length that does") {
+  const std::string text =
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 6 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_angle: 11 deg}\n"
+      "centerline: {kind: fastest}\n";
+  const Outcome in = solve(DesignFile(text + "limits: {lead_in: 12 m}\n"));
+  CHECK(in.exit_code == 4);
+  CHECK_THAT(in.errors,
+             Contains("no track was found with lead_in 12 m, which is no shorter than the straight "
+                      "line from start to finish, 11.66 m") &&
+                 Contains("falls 6.63 m or more within lead_in, at least 633 mm below the finish") &&
+                 Contains("there may be a track") && Contains("Try: lead_in: 11.5 m") &&
+                 !Contains("wider limits"));
+  CHECK(solve(DesignFile(text + "limits: {lead_in: 11.5 m}\n")).exit_code == 0);
+  // Down, round, and up again a body of little friction may arrive: nothing says that the limits contradict each other.
+  const Outcome out = solve(DesignFile(text + "limits: {lead_out: 15 m}\n"));
+  CHECK(out.exit_code == 4);
+  CHECK_THAT(out.errors, Contains("no track was found with lead_out 15 m") &&
+                             Contains("begins its lead_out 11.2 m or more below the finish") &&
+                             Contains("Try: lead_out: 11.5 m") && !Contains("lowest_normal_load"));
+  CHECK(solve(DesignFile(text + "limits: {lead_out: 11.5 m}\n")).exit_code == 0);
+}
+
 TEST_CASE("a finish without room for the section is said at once, with what would do") {
   const DesignFile file(kPastBeam);
   // A ceiling 0.4 m above the finish: walls of 0.6 m do not fit under it, whatever the slope there.

@@ -9,9 +9,12 @@
 #include "pipeline/located.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace glissade {
@@ -129,17 +132,92 @@ std::string place_of(const Design& design, const LimitName& limit) {
   }
 }
 
-/// Straight pieces that are longer together than the way from start to finish leave a track only detours.
-std::optional<std::string> long_leads(const Design& design) {
-  if (!design.limits || design.track.free_finish != FinishKind::point) return {};
-  const double leads = design.limits->lead_in + design.limits->lead_out;
-  const double chord = norm(design.track.finish - design.track.start);
-  if (leads < chord) return {};
-  const auto [together, straight] = texts_apart(leads, chord, &length_text);
-  return "lead_in and lead_out are " + together + " together, the straight line from start to finish is " +
-         straight +
-         ": the track would have to turn back on itself, and the body to lose its speed in the bend.";
-}
+/// Straight pieces that are together no shorter than the way from start to finish: only detours have room for them.
+class LongLeads {
+ public:
+  [[nodiscard]] static std::optional<LongLeads> of(const Design& design) {
+    if (!design.limits || design.track.free_finish != FinishKind::point) return {};
+    const LongLeads leads(design);
+    if (leads.in_ + leads.out_ < leads.chord_) return {};
+    return leads;
+  }
+
+  /// @return the key of the longer one
+  [[nodiscard]] std::string key() const { return in_ >= out_ ? "lead_in" : "lead_out"; }
+
+  [[nodiscard]] std::string none_found_text() const {
+    const bool both = in_ > 0.0 && out_ > 0.0;
+    const auto [together, straight] = texts_apart(in_ + out_, chord_, &length_text);
+    std::string text = "no track was found with ";
+    if (both) {
+      text += "lead_in " + length_text(in_) + " and lead_out " + length_text(out_) + ", which are " +
+              together + " together, no shorter than";
+    } else {
+      text += key() + " " + together + ", which is no shorter than";
+    }
+    return text + " the straight line from start to finish, " + straight;
+  }
+
+  /// What is certain: x grows all along a track, so that a long straight piece has to be steep.
+  [[nodiscard]] std::string why_text() const {
+    const double longer = std::max(in_, out_);
+    const bool alone = longer > chord_ && rests_;
+    const double height = std::sqrt(std::max(0.0, longer * longer - run_ * run_));
+    if (alone && in_ > out_) {
+      return "Such a track falls " + length_text(height, 3) + " or more within lead_in, at least " +
+             length_text(height - drop_, 3) + " below the finish, and has to climb from there.";
+    }
+    if (alone) {
+      return "Such a track begins its lead_out " + length_text(height, 3) +
+             " or more below the finish, and has to climb from there.";
+    }
+    return "What is left for such a track is a detour.";
+  }
+
+  /// The longer one made shorter, the longest first: keys and values to try.
+  struct Shorter {
+    Limits limits;
+    std::string text;
+  };
+  [[nodiscard]] std::vector<Shorter> shorter(const Limits& limits) const {
+    constexpr std::array<double, 4> kShares = {0.99, 0.9, 0.7, 0.5};  // taste: of the room there is
+    const double beside = std::min(in_, out_);
+    std::vector<Shorter> all;
+    for (const double share : kShares) {
+      // Where the shorter one alone takes nearly all, neither has a length of its own.
+      const bool fits = beside < 0.5 * chord_;
+      const double room = fits ? chord_ - beside : 0.5 * chord_;
+      const double length = parse_quantity(length_text(share * room, 3), Dimension::length, key());
+      Shorter one{limits, {}};
+      double& longer = in_ >= out_ ? one.limits.lead_in : one.limits.lead_out;
+      longer = length;
+      one.text = key() + ": " + length_text(length);
+      if (!fits) {
+        (in_ >= out_ ? one.limits.lead_out : one.limits.lead_in) = length;
+        one.text = "lead_in: " + length_text(length) + " and lead_out: " + length_text(length);
+      }
+      all.push_back(std::move(one));
+    }
+    return all;
+  }
+
+ private:
+  explicit LongLeads(const Design& design)
+      : in_(design.limits->lead_in),
+        out_(design.limits->lead_out),
+        run_(std::fabs(endpoints_of(design).run)),
+        drop_(endpoints_of(design).drop),
+        chord_(std::sqrt(run_ * run_ + drop_ * drop_)),
+        rests_(design.body.entry_speed == 0.0 && body_of(design).head_wind >= 0.0 &&
+               !landing_of(body_of(design))) {}
+
+  double in_;
+  double out_;
+  double run_;
+  double drop_;
+  double chord_;
+  bool rests_;
+};
 
 /// The bound that would do, as the design file says it.
 std::string relaxation_text(const Design& design, const Relaxation& relaxation) {
@@ -176,7 +254,6 @@ Issue conflict_issue(const Design& design, const OptimizeReport& report) {
       conflict.limits.empty() ? design.where("limits") : place_of(design, conflict.limits.front().limit);
   std::string why = "Even the track that breaks them least still breaks them.";
   if (!conflict.why.empty()) why = conflict.why;
-  if (const auto leads = long_leads(design)) why = *leads;
   return {place, conflict.text, std::move(why), would_do_text(design, conflict)};
 }
 
@@ -263,6 +340,37 @@ Problem problem_of(const Design& design) {
   return problem;
 }
 
+namespace {
+
+/// Where leads leave only detours, and none was found: there may be one, for what a search that starts from none says of
+/// conflicts is no proof. Returns where there is one, or the search was not over.
+void throw_none_with(const LongLeads& leads, const Design& design, OptimizeReport report,
+                     OptimizeOptions options, const RunContext& context) {
+  const bool proven = report.status == OptimizeStatus::infeasible && !report.conflict.why.empty();
+  if (proven || report.ended_early || context.stop.stop_requested()) return;
+  report.status = OptimizeStatus::no_track_found;
+  report.message = leads.none_found_text();
+  report.conflict.text.clear();
+  const std::string would_do = would_do_text(design, report.conflict);
+  std::string hint = would_do.empty() ? "shorter leads" : would_do;
+  constexpr double kShare = 0.25;  // taste: of the time, for each length that may do
+  options.time_budget *= kShare;
+  Problem problem = problem_of(design);
+  for (const LongLeads::Shorter& shorter : leads.shorter(problem.limits)) {
+    problem.limits = shorter.limits;
+    if (!optimize(problem, options, context.stop, context.progress).centerline) continue;
+    hint = shorter.text + ", with which a track was found";
+    break;
+  }
+  throw NoTrackFound(
+      {design.where("limits." + leads.key()), report.message,
+       leads.why_text() + " The search is local: there may be a track that none of its starts leads to.",
+       hint},
+      report);
+}
+
+}  // namespace
+
 Optimum pipeline::search_within_limits(const Design& design, const RunContext& context, int pieces) {
   OptimizeOptions options;
   options.pieces = pieces;
@@ -272,6 +380,8 @@ Optimum pipeline::search_within_limits(const Design& design, const RunContext& c
   });
   rename_finish(design, optimum.report);
   if (optimum.centerline) return optimum;
+  if (const auto leads = LongLeads::of(design))
+    throw_none_with(*leads, design, optimum.report, options, context);
   if (optimum.report.status == OptimizeStatus::infeasible) {
     throw LimitsConflict(conflict_issue(design, optimum.report), optimum.report);
   }
