@@ -77,15 +77,6 @@ std::string exit_text(const Motion& motion) {
   return motion.arrived() ? speed_text(motion.exit_speed()) : "-";
 }
 
-std::vector<std::string> names_of(const std::vector<Entry>& entries) {
-  std::vector<std::string> names;
-  names.reserve(entries.size());
-  for (const Entry& entry : entries) {
-    names.push_back(entry.design.name.empty() ? entry.design.file.stem().string() : entry.design.name);
-  }
-  return names;
-}
-
 /// One row a track; of one that does not exist its name and what is wrong.
 /// @param cells  those behind the name
 template <typename Cells>
@@ -177,7 +168,7 @@ struct HillFacts {
 Table hills_table(const std::vector<Entry>& entries) {
   Row headings = {"Hill",   "HS",    "gamma, alpha",   "r1",           "t",    "drop",
                   "length", "gates", "speed by gates", "highest load", "rules"};
-  return table_of(std::move(headings), entries, names_of(entries),
+  return table_of(std::move(headings), entries, design_names(entries),
                   [](const Design& design, const Track& track) {
                     const HillFacts hill(design, track);
                     return Row{design.hill.size ? length_text(*design.hill.size, 4) : "-",
@@ -195,7 +186,7 @@ Table hills_table(const std::vector<Entry>& entries) {
 
 Table designs_table(const std::vector<Entry>& entries) {
   if (are_hills(entries)) return hills_table(entries);
-  return rides_table("Design", entries, names_of(entries));
+  return rides_table("Design", entries, design_names(entries));
 }
 
 /// Hills as a page sorts them: bare numbers, units in the headings.
@@ -217,7 +208,7 @@ Table hills_page_table(const std::vector<Entry>& entries) {
                   "load [g]",
                   "rules failed",
                   "warned"};
-  return table_of(std::move(headings), entries, names_of(entries),
+  return table_of(std::move(headings), entries, design_names(entries),
                   [](const Design& design, const Track& track) {
                     const HillFacts hill(design, track);
                     const InRunDesign& letters = design.centerline.in_run;
@@ -248,7 +239,7 @@ Table designs_page_table(const std::vector<Entry>& entries) {
   if (are_hills(entries)) return hills_page_table(entries);
   Row headings = {"Design",  "travel time [s]", "exit speed [m/s]", "steepest [deg]",   "highest load [g]",
                   "run [m]", "drop [m]",        "arc length [m]",   "least radius [m]", "limits broken"};
-  return table_of(std::move(headings), entries, names_of(entries), [](const Design&, const Track& track) {
+  return table_of(std::move(headings), entries, design_names(entries), [](const Design&, const Track& track) {
     const Motion& motion = track.motion;
     const auto broken = std::count_if(track.limit_checks.begin(), track.limit_checks.end(),
                                       [](const LimitCheck& check) { return !check.kept(); });
@@ -380,7 +371,7 @@ void write_figures(const CompareArguments& options, const Design& design, const 
   const Table table = several ? designs_page_table(comparison.entries) : comparison.table;
   const auto& rows = table.rows();
   std::vector<std::string> choices;
-  if (several) choices = names_of(comparison.entries);
+  if (several) choices = design_names(comparison.entries);
   write_text(options.html, figure_page_html({comparison.heading,
                                              comparison.task,
                                              figures,

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace glissade::app {
@@ -63,6 +66,14 @@ bool is_searched(const Design& design) {
 
 using Naming = std::function<std::string(const Entry&)>;
 
+std::vector<FigureRide> rides_of(const std::vector<Entry>& entries, const std::vector<std::string>& names) {
+  std::vector<FigureRide> rides;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].track) rides.push_back({names[i], &entries[i].track->motion});
+  }
+  return rides;
+}
+
 std::vector<FigureRide> rides_of(const std::vector<Entry>& entries, const Naming& name) {
   std::vector<FigureRide> rides;
   for (const Entry& entry : entries) {
@@ -78,6 +89,30 @@ std::string friction_name(const Entry& entry) {
 std::string design_name(const Entry& entry) {
   const Design& design = entry.design;
   return design.name.empty() ? design.file.stem().string() : design.name;
+}
+
+/// The last parts of where a design's file lies: "b/chute"; all of them, and the ending, where that is what counts.
+/// @param parts  > 0
+std::string end_of_path(const std::filesystem::path& file, std::size_t parts, bool with_ending) {
+  const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
+  const std::vector<std::filesystem::path> all(whole.begin(), whole.end());
+  std::filesystem::path end;
+  for (std::size_t i = all.size() - std::min(parts, all.size()); i < all.size(); ++i) end /= all[i];
+  return (with_ending ? end : end.replace_extension()).generic_string();
+}
+
+/// As few last parts of each file's path as tell the files apart.
+std::vector<std::string> ends_that_tell(const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kMost = 64;  // deeper no path is told apart
+  std::vector<std::string> ends;
+  for (std::size_t parts = 1; parts <= kMost; ++parts) {
+    for (const bool with_ending : {false, true}) {
+      ends.clear();
+      for (const std::filesystem::path& file : files) ends.push_back(end_of_path(file, parts, with_ending));
+      if (std::set<std::string>(ends.begin(), ends.end()).size() == ends.size()) return ends;
+    }
+  }
+  return ends;
 }
 
 /// Friction angles from none to a little below the mean slope, where from rest nothing arrives any more.
@@ -198,6 +233,26 @@ std::vector<Entry> friction_sweep(const Design& design, const std::vector<Fricti
   return entries;
 }
 
+std::vector<std::string> design_names(const std::vector<Entry>& entries) {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::size_t>> by_name;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    names.push_back(design_name(entries[i]));
+    by_name[names.back()].push_back(i);
+  }
+  for (const auto& [name, same] : by_name) {
+    if (same.size() == 1) continue;
+    std::vector<std::filesystem::path> files;
+    for (const std::size_t i : same) files.push_back(entries[i].design.file);
+    const std::vector<std::string> ends = ends_that_tell(files);
+    for (std::size_t k = 0; k < same.size(); ++k) {
+      const bool named = !entries[same[k]].design.name.empty();
+      names[same[k]] = named ? name + " (" + ends[k] + ")" : ends[k];
+    }
+  }
+  return names;
+}
+
 std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries,
                                   const RunContext& context) {
   const std::vector<FigureRide> rides = rides_of(entries, entry_name);
@@ -223,13 +278,14 @@ namespace {
 
 /// Every profile with its take-off edge at the origin.
 Figure profiles_to_edge(const std::vector<Entry>& entries) {
+  const std::vector<std::string> names = design_names(entries);
   Figure figure{"Profile, from the edge", "x [m]", "z [m]", {}, {}, true};
   constexpr int kPoints = 200;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& entry = entries[i];
     if (!entry.track) continue;
     FigureLine line;
-    line.name = design_name(entry);
+    line.name = names[i];
     line.choice = static_cast<int>(i) + 1;
     const Centerline& track = *entry.track->centerline;
     const Endpoints end = track.endpoints();
@@ -244,12 +300,13 @@ Figure profiles_to_edge(const std::vector<Entry>& entries) {
 }
 
 Figure speeds_by_gate(const std::vector<Entry>& entries) {
+  const std::vector<std::string> names = design_names(entries);
   Figure figure{"Speed at the measuring place", "gate, from the lowest", "speed [m/s]", {}, {}, false};
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& entry = entries[i];
     if (!entry.track || !entry.track->gates) continue;
     FigureLine line;
-    line.name = design_name(entry);
+    line.name = names[i];
     line.choice = static_cast<int>(i) + 1;
     for (const GateRide& ride : entry.track->gates->conditions.front().rides) {
       line.xs.push_back(ride.gate.number);
@@ -272,7 +329,7 @@ bool are_hills(const std::vector<Entry>& entries) {
 }
 
 std::vector<Figure> design_figures(const std::vector<Entry>& entries) {
-  const std::vector<FigureRide> rides = rides_of(entries, design_name);
+  const std::vector<FigureRide> rides = rides_of(entries, design_names(entries));
   std::vector<Figure> figures;
   for (const RideQuantity quantity :
        {RideQuantity::profile, RideQuantity::slope, RideQuantity::speed, RideQuantity::load}) {

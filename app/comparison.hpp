@@ -20,6 +20,10 @@ struct Entry {
 /// @return the kind as the design file names it; "fastest in limits" where it is searched for within them
 [[nodiscard]] std::string entry_name(const Entry& entry);
 
+/// @return what each design is called: by its name or, where it has none, its file. Of those called the same, as much of where
+///         the file lies as tells them apart: "a/chute", "Chute (b/chute)"
+[[nodiscard]] std::vector<std::string> design_names(const std::vector<Entry>& entries);
+
 /// @param make  may throw what a design that cannot be built throws; it becomes the entry's problem
 [[nodiscard]] Entry entry_of(Design design, const std::function<Track(const Design&)>& make);
 

@@ -3,8 +3,12 @@
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -143,4 +147,32 @@ TEST_CASE("hills side by side tell what a planner chooses them by, and a page le
   }
   CHECK(found == 5);
   CHECK_THAT(html, Contains("<tr class=\"choice-2\">"));
+}
+
+TEST_CASE("compare: designs of one file name are told apart by as much of their path as that takes") {
+  const TempDir directory;
+  const auto write = [&](const std::string& file, const std::string& name) {
+    std::filesystem::create_directories((directory.path() / file).parent_path());
+    std::ofstream(directory.path() / file)
+        << "glissade: 1\n"
+        << name << "track: {start: {x: 0 m, z: 6 m}, finish: {x: 10 m, z: 0 m}}\n"
+        << "body: {friction_angle: 11 deg}\ncenterline: {kind: straight}\n";
+    return (directory.path() / file).string();
+  };
+  const std::string first = write("a/x/chute.yaml", "");
+  const std::string second = write("b/x/chute.yaml", "");
+  const std::string third = write("b/slide.yaml", "");
+  const std::string page = (directory.path() / "page.html").string();
+  const Outcome outcome = glissade_run({"compare", first, second, third, "--html", page});
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output,
+             Contains("a/x/chute ") && Contains("b/x/chute ") && Contains("slide ") && !Contains("/slide"));
+  std::ifstream stream(page);
+  const std::string html((std::istreambuf_iterator<char>(stream)), {});
+  CHECK_THAT(html, Contains("a/x/chute") && Contains("b/x/chute"));
+  // Names of their own that are the same, too.
+  const Outcome named = glissade_run(
+      {"compare", write("c/one.yaml", "name: Chute\n"), write("c/two.yaml", "name: Chute\n"), third});
+  CHECK_THAT(named.output, Contains("Chute (one)") && Contains("Chute (two)") && Contains("slide "));
 }
