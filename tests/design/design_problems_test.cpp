@@ -138,6 +138,21 @@ TEST_CASE("start and finish are two points, the finish below") {
   CHECK_THAT(problems_with("x: 5.4 m", "x: 2e9 m"), Contains("x: 2000000000 m is too far from the origin"));
 }
 
+TEST_CASE("one value under the key of a list of frictions is told its own key first") {
+  const auto problems_of_friction = [](const std::string& value) {
+    return problems_with("friction_angle: 17 deg", "friction: " + value);
+  };
+  const std::string list = ", or friction: [{from: 0 m, angle: 3 deg}, {from: 40 m, angle: 8 deg}]";
+  CHECK_THAT(problems_of_friction("0.3"), Contains("friction is a single value, not a list") &&
+                                              Contains("Try: friction_coefficient: 0.3" + list));
+  CHECK_THAT(problems_of_friction("17 deg"), Contains("Try: friction_angle: 17 deg" + list));
+  CHECK_THAT(problems_of_friction("17"), Contains("Try: friction_angle: 17 deg" + list));
+  CHECK_THAT(problems_of_friction("{low: 0.2, nominal: 0.3, high: 0.4}"),
+             Contains("friction is a group of keys, not a list") &&
+                 Contains("Try: friction_coefficient: {low: 0.2, nominal: 0.3, high: 0.4}" + list));
+  CHECK_THAT(problems_of_friction("much"), Contains("Try: [{from: 0 m, angle: 3 deg}"));
+}
+
 TEST_CASE("friction steeper than the mean slope is infeasible, with what would do") {
   CHECK(
       problems_with("17 deg", "48 deg") ==

@@ -1,13 +1,17 @@
 #include "design/read_body.hpp"
 
 #include "glissade/core/air.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/design/body_design.hpp"
 
 #include "design/map_reader.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace glissade::design_file {
 namespace {
@@ -113,9 +117,50 @@ std::optional<FrictionFrom> read_friction_from(const Value& value, Findings& fin
   return FrictionFrom{*from, *friction};
 }
 
+std::optional<double> read_as(const Node& node, Dimension dimension) {
+  if (node.kind != Node::Kind::scalar) return {};
+  try {
+    return parse_quantity(node.scalar, dimension, "");
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// A friction for the whole track that was given under the key of a list, as its own key has it: "friction_coefficient: 0.3".
+/// Empty where it is none.
+std::string friction_meant(const Node& node) {
+  // Larger numbers without a unit are degrees that nobody wrote.
+  constexpr double kLargestCoefficient = 2.0;  // taste
+  const bool range = node.kind == Node::Kind::map;
+  std::vector<const Node*> values;
+  if (!range) values.push_back(&node);
+  for (const Entry& entry : node.entries) values.push_back(&entry.value);
+  const auto all = [&](const auto& is_one) {
+    return !values.empty() && std::all_of(values.begin(), values.end(), is_one);
+  };
+  const bool numbers = all([](const Node* one) { return read_as(*one, Dimension::number).has_value(); });
+  if (!numbers && !all([](const Node* one) { return read_as(*one, Dimension::angle).has_value(); }))
+    return {};
+  const bool coefficients = numbers && all([](const Node* one) {
+                              return *read_as(*one, Dimension::number) <= kLargestCoefficient;
+                            });
+  const std::string unit = numbers && !coefficients ? " deg" : "";
+  std::string shown = node.scalar + unit;
+  if (range) {
+    shown.clear();
+    for (const Entry& entry : node.entries)
+      shown += (shown.empty() ? "{" : ", ") + entry.key + ": " + entry.value.scalar + unit;
+    shown += "}";
+  }
+  return (coefficients ? "friction_coefficient: " : "friction_angle: ") + shown;
+}
+
 void read_friction_list(const Value& value, BodyDesign& body, Findings& findings) {
   constexpr std::string_view kExample = "[{from: 0 m, angle: 3 deg}, {from: 40 m, angle: 8 deg}]";
-  for (const Value& item : as_list(value, kExample, findings)) {
+  // Whoever writes one value means the whole track.
+  const std::string meant = friction_meant(*value.node);
+  const std::string example = (meant.empty() ? "" : meant + ", or friction: ") + std::string(kExample);
+  for (const Value& item : as_list(value, example, findings)) {
     if (const auto change = read_friction_from(item, findings)) body.friction_changes.push_back(*change);
   }
   if (body.friction_changes.empty()) {
