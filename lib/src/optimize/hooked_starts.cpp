@@ -1,32 +1,33 @@
 #include "optimize/hooked_starts.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/units.hpp"
+
+#include "core/float_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 namespace glissade::optimizer {
+namespace hooked {
 namespace {
 
-constexpr double kRightAngle = 0.5 * std::numbers::pi;
-constexpr double kNone = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 /// What the limits leave of slope, curvature, load and speed.
 struct Room {
-  double cap = kNone;       ///< of the squared speed
-  double exit_cap = kNone;  ///< the same at the finish
-  double lowest = -1.45;    ///< slope angles [rad]; taste: a little less than upright
-  double highest = 1.565;   // taste
-  double valley = 60.0;     ///< greatest curvature of a hook [1/chord]; taste: what some thirty pieces follow
-  double crest = kNone;     ///< and of a fall
-  double lightest = 0.0;    ///< loads in g
-  double heaviest = kNone;
-  double bend_load = kNone;  ///< curvature times squared speed
+  double cap = kInfinity;       ///< of the squared speed
+  double exit_cap = kInfinity;  ///< the same at the finish
+  double lowest = -1.45;        ///< slope angles [rad]; taste: a little less than upright
+  double highest = 1.565;       // taste
+  double valley = 60.0;  ///< greatest curvature of a hook [1/chord]; taste: what some thirty pieces follow
+  double crest = kInfinity;  ///< and of a fall
+  double lightest = 0.0;     ///< loads in g
+  double heaviest = kInfinity;
+  double bend_load = kInfinity;  ///< curvature times squared speed
   double entry_lowest = -kRightAngle;
   double entry_highest = kRightAngle;
   double exit_lowest = -kRightAngle;
@@ -40,7 +41,7 @@ Room room_of(const ScaledProblem& problem) {
       if (limit.side <= 0) least = std::max(least, limit.bound);
       if (limit.side >= 0) most = std::min(most, limit.bound);
     };
-    double none = -kNone;
+    double none = -kInfinity;
     if (limit.measure == Measure::speed && limit.side > 0) {
       room.cap = std::min(room.cap, limit.bound * limit.bound);
     } else if (limit.measure == Measure::exit_speed && limit.side >= 0) {
@@ -128,11 +129,11 @@ class Rider {
     for (std::size_t hook = 0;; ++hook) {
       while (state.v.front() < room_.cap * (1.0 - 1e-3)) {
         const double rises = 2.0 * math::sin(state.zeta);
-        const double most = rises > 0.0 ? std::max(1e-4, (room_.cap - state.v.front()) / rises) : kNone;
+        const double most = rises > 0.0 ? std::max(1e-4, (room_.cap - state.v.front()) / rises) : kInfinity;
         if (!goes_on(Piece::fall, most)) return end;
       }
       const bool last = hook >= plan.turns.size();
-      for (double left = last ? kNone : plan.at_cap[hook]; left > 1e-9;) {
+      for (double left = last ? kInfinity : plan.at_cap[hook]; left > 1e-9;) {
         if (!goes_on(Piece::at_cap, left)) return end;
         left -= state.s - before.s;
       }
@@ -223,7 +224,7 @@ class Planner {
 
   struct Found {
     Plan plan;
-    double worth = kNone;  ///< time, and what is broken at the finish
+    double worth = kInfinity;  ///< time, and what is broken at the finish
   };
 
   /// Whether a fall as steep as it may begin, and the ride at the cap behind it, end above the finish.
@@ -248,7 +249,7 @@ class Planner {
         }
       }
     }
-    if (best.worth == kNone) return std::nullopt;
+    if (best.worth == kInfinity) return std::nullopt;
     improve(best);
     return best;
   }
@@ -289,7 +290,7 @@ class Planner {
   }
 
   [[nodiscard]] bool asks_of_exit() const {
-    return room_.exit_cap < kNone || room_.exit_lowest > -kRightAngle || room_.exit_highest < kRightAngle;
+    return room_.exit_cap < kInfinity || room_.exit_lowest > -kRightAngle || room_.exit_highest < kRightAngle;
   }
 
   /// A plan whose hooks turn as far as leads to the finish, in the proportion of its turns.
@@ -395,12 +396,14 @@ class Planner {
 };
 
 }  // namespace
+}  // namespace hooked
 
 std::vector<GuessCurve> hooked_starts(const ScaledProblem& problem) {
   constexpr std::size_t kMostHooks = 4;  // taste
+  using namespace hooked;
   const Room room = room_of(problem);
-  const bool applies = room.cap < kNone && problem.finish == FinishKind::point && problem.changes.empty() &&
-                       !is_smooth(problem) && room.lowest < room.highest;
+  const bool applies = room.cap < kInfinity && problem.finish == FinishKind::point &&
+                       problem.changes.empty() && !is_smooth(problem) && room.lowest < room.highest;
   if (!applies) return {};
   const Planner planner(problem, room);
   if (!planner.asks_for_hooks()) return {};
