@@ -237,7 +237,7 @@ TEST_CASE("round numbers that are exact are no rounding") {
 TEST_CASE("what noise leaves open of the smallest radius is told: the true one is hardly ever outside") {
   Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int draws = testing::thorough() ? 160 : 30;
+  const int draws = testing::thorough() ? 160 : 20;
   int off = 0;
   int untold = 0;
   int outside = 0;
@@ -263,13 +263,15 @@ TEST_CASE("what noise leaves open of the smallest radius is told: the true one i
            << " outside, " << narrow << " narrow");
   CHECK(20 * outside <= draws);
   CHECK(50 * untold <= draws);
-  CHECK(2 * narrow >= draws);  // and the warning is no habit
+  // And the warning is no habit: half of the draws have none, but for two standard deviations of so many tosses of a
+  // coin, each sqrt(draws)/2.
+  CHECK(narrow >= 0.5 * draws - std::sqrt(draws));
 }
 
 TEST_CASE("stations of a spline of clothoids, its joints among them, give that very spline") {
   Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int draws = testing::thorough() ? 6 : 2;
+  const int draws = testing::thorough() ? 6 : 1;
   for (int draw = 0; draw < draws; ++draw) {
     std::vector<ClothoidSegment> segments;
     double curvature = random.between(-0.08, 0.08);
