@@ -1,5 +1,7 @@
 // What the program offers to shells, and each shell asked as a user asks it: by a line that is not finished.
 
+#include "glissade/design/design.hpp"
+
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
@@ -154,14 +156,18 @@ TEST_CASE("completion knows kinds, keys and their words, formats, figures, units
 }
 
 TEST_CASE("every key that completion offers is one that a design file may have") {
-  const TempDir place;
   std::size_t tried = 0;
   for (const std::string& key : offered({"build", "x.yaml", "--set", ""})) {
+    INFO(key);
+    REQUIRE(key.ends_with('='));
+    // What the program does with --set; hundreds of starts of the program would take long: every tenth is one.
+    CHECK_THROWS_WITH(glissade::read_design(shipped("grain_chute"), {{key.substr(0, key.size() - 1), "?"}}),
+                      !Contains("unknown key"));
+    if (tried++ % 10 != 0) continue;
     const Outcome outcome = glissade_run({"solve", shipped("grain_chute"), "--set", key + "?"});
-    INFO(key << "\n" << outcome.errors);
+    INFO(outcome.errors);
     CHECK(outcome.exit_code == 2);
     CHECK_THAT(outcome.errors, !Contains("unknown key"));
-    ++tried;
   }
   CHECK(tried >= 60);
 }
