@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 #include "support/mesh_clearance.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,8 @@ constexpr double kTolerance = 2e-3;  // of the meshes
 
 int problem_count() {
   const char* const asked = std::getenv("GLISSADE_PROBLEMS");
-  return asked != nullptr ? std::max(1, std::atoi(asked)) : 40;
+  if (asked != nullptr) return std::max(1, std::atoi(asked));
+  return testing::thorough() ? 40 : 20;
 }
 
 /// Every clearance of the limits, on the mesh: what it lacks beyond `slack`.

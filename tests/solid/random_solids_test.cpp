@@ -12,6 +12,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/temp_dir.hpp"
+#include "support/thorough.hpp"
 
 #include <cmath>
 #include <memory>
@@ -24,6 +25,7 @@ using namespace glissade;
 namespace {
 
 constexpr int kDesigns = 500;
+constexpr int kQuick = 250;  // elsewhere than in CI
 
 /// One size in [low, high), every order of magnitude as likely as the others.
 double magnitude(testing::Random& random, double low, double high) {
@@ -175,11 +177,12 @@ TEST_CASE("sweep: random designs give a valid solid, in the file too, or an erro
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   const TempDir dir;
+  const int designs = testing::thorough() ? kDesigns : kQuick;
   int solids = 0;
   int trimmed = 0;
   int refused = 0;
   int too_fine_for_stl = 0;
-  for (int i = 0; i < kDesigns; ++i) {
+  for (int i = 0; i < designs; ++i) {
     const RandomDesign design = random_design(random);
     INFO("design " << i << ": " << design.words);
     Solid solid;
@@ -218,7 +221,7 @@ TEST_CASE("sweep: random designs give a valid solid, in the file too, or an erro
   }
   // The designs are worth something only if they meet every kind of outcome.
   CAPTURE(solids, trimmed, refused, too_fine_for_stl);
-  CHECK(solids > kDesigns / 2);
-  CHECK(trimmed > kDesigns / 5);
-  CHECK(refused > kDesigns / 50);
+  CHECK(solids > designs / 2);
+  CHECK(trimmed > designs / 5);
+  CHECK(refused > designs / 50);
 }
