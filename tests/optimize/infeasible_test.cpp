@@ -119,7 +119,7 @@ TEST_CASE(
   // Its own numbers: the problems are those of the other test of random limits.
   testing::Random steps(random.seed());
   int infeasible = 0;
-  for (int i = problems_of(60); i > 0; --i) {
+  for (int i = problems_of(30); i > 0; --i) {
     const Problem problem = random_limited(random);
     const Optimum optimum = optimize(problem);
     if (optimum.centerline) continue;
@@ -138,7 +138,7 @@ TEST_CASE("an independent search finds no room for a whole solid where clearance
   INFO("GLISSADE_SEED=" << random.seed());
   testing::Random steps(random.seed());
   int infeasible = 0;
-  for (int i = problems_of(12); i > 0; --i) {
+  for (int i = problems_of(6); i > 0; --i) {
     const RandomCase made = random_case(random);
     const Optimum optimum = optimize(made.problem);
     if (optimum.centerline) continue;

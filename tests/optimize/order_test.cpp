@@ -284,8 +284,13 @@ TEST_CASE("a cap on the speed that takes bends to keep is kept, down to where it
   problem.limits.slope_angle.highest = 70.0 * kDegree;
   problem.limits.smallest_valley_radius = 0.8;
   problem.limits.smallest_crest_radius = 0.8;
-  problem.limits.speed.highest = 5.87;
-  CHECK(optimize(problem).centerline);
+  // The lower one takes half a minute.
+  for (const double cap : {5.95, 5.87}) {
+    if (cap < 5.95 && !testing::thorough()) continue;
+    problem.limits.speed.highest = cap;
+    CAPTURE(cap);
+    CHECK(optimize(problem).centerline);
+  }
 }
 
 TEST_CASE("ground with a cliff or a gully is no wall") {
