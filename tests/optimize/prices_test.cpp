@@ -228,13 +228,15 @@ void hold_prices(testing::Random random, int problems, Tally& tally) {
 TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   // docs/optimization.md tells what more of them find.
   const bool asked = std::getenv("GLISSADE_PROBLEMS") != nullptr;
-  constexpr int kQuick = 20;
+  constexpr int kQuick = 10;
   constexpr int kThorough = 100;
+  constexpr int kOfEachSeed = 20;
   const int problems = asked ? testing_problems::problem_count() : testing::thorough() ? kThorough : kQuick;
   Tally tally;
   hold_prices(testing::seeded_random(20250305), problems, tally);
   if (testing::thorough() && std::getenv("GLISSADE_SEED") == nullptr) {
-    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) hold_prices(testing::Random(seed), kQuick, tally);
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6})
+      hold_prices(testing::Random(seed), kOfEachSeed, tally);
   }
   CAPTURE(tally.compared, tally.kinks, tally.unclear, tally.loose);
   CHECK(tally.compared > problems / 2);
