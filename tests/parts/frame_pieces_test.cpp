@@ -13,6 +13,7 @@
 #include "parts/refusals.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -318,6 +319,7 @@ TEST_CASE("frame pieces: a frame too heavy for one piece is refused where one is
 
 TEST_CASE("frame pieces: units too short for the frames at their ends are refused with a length that does") {
   PlateOptions options;
+  int combination = 0;
   for (const FlangeSection section : {FlangeSection::flat, FlangeSection::angle}) {
     options.flanges.section = section;
     options.flanges.thickness = 6e-3;
@@ -326,6 +328,9 @@ TEST_CASE("frame pieces: units too short for the frames at their ends are refuse
            {section::Measures{section::Trapezoid{WidthLaw(1.3), 0.4, Angle::from_degrees(25.0), 4e-3}},
             section::Measures{section::UChannel{WidthLaw(0.5), 0.3, 4e-3}},
             section::Measures{section::VChannel{Angle::from_degrees(100.0), 0.4, 0.1, 4e-3}}}) {
+        // Each length with one of the three in turn, elsewhere than in CI.
+        const int number = combination++;
+        if (!testing::thorough() && number % 3 != number / 3 % 3) continue;
         options.split.longest = longest;
         CAPTURE(section, longest, measures.index());
         const ClothoidSpline track(Angle::from_degrees(45.0), {{1.2, 0.3, 0.3}});
