@@ -8,6 +8,7 @@
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -152,19 +153,38 @@ bool is_written(const Base& base, const DesignKey& key, const Beside* beside = n
   return took_effect > 0;
 }
 
+/// @param first  the design to begin with; becomes the last that took the key: it often takes the next one, too
+/// @return whether the key is written back in the designs: in continuous integration all of them are tried, elsewhere they
+///         are until one takes it
+bool is_written(const std::vector<Base>& designs, std::size_t& first, const DesignKey& key,
+                const Beside* beside = nullptr) {
+  bool written = false;
+  const std::size_t from = first;
+  for (std::size_t i = 0; i < designs.size() && (!written || testing::thorough()); ++i) {
+    const std::size_t which = (from + i) % designs.size();
+    if (!is_written(designs[which], key, beside)) continue;
+    written = true;
+    first = which;
+  }
+  return written;
+}
+
 }  // namespace
 
 TEST_CASE("every key of the schema that a design here can take is written back") {
   const std::vector<Base> designs = bases();
   REQUIRE(designs.size() >= 15);
   std::size_t tried = 0;
+  std::size_t first = 0;
   std::string untried;
   for (const DesignKey& key : design_keys()) {
-    bool written = false;
-    for (const Base& base : designs) written = is_written(base, key) || written;
+    const bool is_beside = std::any_of(besides().begin(), besides().end(),
+                                       [&](const Beside& one) { return one.key == key.path; });
+    // That such a key is taken by itself, too, is asked in CI alone.
+    bool written = (!is_beside || testing::thorough()) && is_written(designs, first, key);
     for (const Beside& beside : besides()) {
       if (written || beside.key != key.path) continue;
-      for (const Base& base : designs) written = is_written(base, key, &beside) || written;
+      written = is_written(designs, first, key, &beside);
     }
     if (written) {
       ++tried;
