@@ -10,6 +10,7 @@
 #include "support/catch.hpp"
 #include "support/cycloid_track.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <array>
@@ -507,7 +508,7 @@ namespace {
 /// Greatest distance from the ideal surface over a grid of points in every facet, end faces left out.
 double deviation_by_dense_search(const TriangleMesh& mesh, const Centerline& track,
                                  const CrossSection& section) {
-  constexpr int kGrid = 8;
+  const int grid = testing::thorough() ? 8 : 5;
   const CrossSection::Polygon loop = section.outline(1e-7);
   const CenterlinePoint finish = track.at(track.length());
   const auto on_end_face = [&](Vec3 p) {
@@ -522,10 +523,10 @@ double deviation_by_dense_search(const TriangleMesh& mesh, const Centerline& tra
     const Vec3 c = mesh.vertices[ic];
     // Left and right are mirror images.
     if (on_end_face((1.0 / 3.0) * (a + b + c)) || std::max({a.y, b.y, c.y}) > 1e-9) continue;
-    for (int i = 0; i <= kGrid; ++i) {
-      for (int k = 0; i + k <= kGrid; ++k) {
-        const Vec3 p = (1.0 / kGrid) * (static_cast<double>(i) * a + static_cast<double>(k) * b +
-                                        static_cast<double>(kGrid - i - k) * c);
+    for (int i = 0; i <= grid; ++i) {
+      for (int k = 0; i + k <= grid; ++k) {
+        const Vec3 p = (1.0 / grid) * (static_cast<double>(i) * a + static_cast<double>(k) * b +
+                                       static_cast<double>(grid - i - k) * c);
         worst = std::max(worst, distance_to_outline(loop, {p.y, height_by_search(track, {p.x, p.z}, 400)}));
       }
     }
