@@ -374,19 +374,24 @@ TEST_CASE("a straight line that does not reach the speed is not the answer") {
 TEST_CASE("a least bound is one: by another way to it a track keeps a little more, and none a little less") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int problems = testing::thorough() ? 8 : 2;
-  for (int i = 0; i < problems; ++i) {
+  for (int i = 0; i < 8; ++i) {
+    const double slope = random.between(28.0, 37.0) * kDegree;
+    const double table = random.between(8.0, 12.0) * kDegree;
+    const double speed = random.between(22.0, 28.0);
+    const double above = random.between(1.005, 1.05);
+    // One of each kind alone elsewhere than in CI, and not the first, which takes twice as long as any other.
+    if (i != 2 && i != 3 && !testing::thorough()) continue;
     const bool load = i % 2 == 0;
     Problem problem = in_run(load ? ObjectiveKind::least_load : ObjectiveKind::least_curvature_rate);
-    problem.limits.slope_angle.highest = random.between(28.0, 37.0) * kDegree;
-    problem.limits.exit_slope_angle = Range::fixed(random.between(8.0, 12.0) * kDegree);
-    problem.limits.exit_speed.lowest = random.between(22.0, 28.0);
+    problem.limits.slope_angle.highest = slope;
+    problem.limits.exit_slope_angle = Range::fixed(table);
+    problem.limits.exit_speed.lowest = speed;
     if (!load) problem.limits.highest_curvature_rate.reset();
     Problem lowest = problem;
     lowest.objective.kind = ObjectiveKind::least_drop;
     if (!load) lowest.limits.highest_curvature_rate = 6e-4;
     problem.finish.kind = FinishKind::level;
-    problem.endpoints = {0.0, drop_of(solved(lowest)) * random.between(1.005, 1.05)};
+    problem.endpoints = {0.0, drop_of(solved(lowest)) * above};
     CAPTURE(i, problem.endpoints.drop);
     const Optimum least = solved(problem);
     Problem other = problem;

@@ -119,7 +119,7 @@ TEST_CASE(
   // Its own numbers: the problems are those of the other test of random limits.
   testing::Random steps(random.seed());
   int infeasible = 0;
-  for (int i = problems_of(30); i > 0; --i) {
+  for (int i = problems_of(20); i > 0; --i) {
     const Problem problem = random_limited(random);
     const Optimum optimum = optimize(problem);
     if (optimum.centerline) continue;

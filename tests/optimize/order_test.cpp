@@ -270,8 +270,8 @@ TEST_CASE("a cap on the speed that takes bends to keep is kept, down to where it
   problem.limits.smallest_valley_radius = 1.0;
   problem.limits.smallest_crest_radius = 1.0;
   double before = 0.0;
-  for (const double cap : {6.8, 6.6, 6.4}) {
-    if (cap < 6.6 && !testing::thorough()) continue;
+  for (const double cap : {7.0, 6.8, 6.6, 6.4}) {
+    if (cap < 6.8 && !testing::thorough()) continue;
     problem.limits.speed.highest = cap;
     const Optimum optimum = optimize(problem);
     CAPTURE(cap, optimum.report.brief());

@@ -223,7 +223,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
   // Most of them lift off where the track found flies over rougher ground.
   constexpr int kNeighbours = 80;
   Tally tally;
-  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 5 : 30));
+  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 5 : 15));
   for (int i = 0; i < problems; ++i) {
     const Problem problem = with_changing_friction(random_limited(random), random);
     CAPTURE(i);
@@ -237,7 +237,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
 }
 
 TEST_CASE("random limited problems: three times as many pieces win nothing that matters") {
-  const int count = testing::thorough() ? 60 : 8;
+  const int count = testing::thorough() ? 60 : 4;
   const auto of = [](const Problem& problem, const OptimizeReport& report) {
     if (problem.objective.kind == ObjectiveKind::exit_speed) return -report.exit_speed;
     const double weight =
