@@ -76,14 +76,14 @@ double objective_of(const Problem& problem, const referee::Judgement& verdict) {
   return verdict.travel_time - problem.objective.exit_speed_weight * verdict.exit_speed;
 }
 
-/// Whether a track would have to be slower or longer than those that were found, or pass points: more and other bends might
-/// do, of which no search tries all (docs/optimization.md).
+/// Whether a track would have to be slower or longer than those that were found: more and other bends might do, of which
+/// no search tries all (docs/optimization.md).
 bool asks_for_bends(const OptimizeReport& report) {
   const std::vector<StatedLimit>& limits = report.conflict.limits;
   return std::any_of(limits.begin(), limits.end(), [](const StatedLimit& stated) {
     const LimitName& name = stated.limit;
     const bool speed = name.id == LimitId::speed || name.id == LimitId::exit_speed;
-    return (speed && name.bound != Bound::lowest) || name.id == LimitId::waypoints ||
+    return (speed && name.bound != Bound::lowest) ||
            (name.id == LimitId::arc_length && name.bound != Bound::highest);
   });
 }

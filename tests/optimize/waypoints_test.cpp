@@ -72,4 +72,19 @@ TEST_CASE("a given track that runs back is held to the order of its waypoints") 
   CHECK(worst_miss(check_limits(problem, track)) > 0.5);
 }
 
+TEST_CASE("several waypoints that no search finds a way through are no conflict: more of them may show one") {
+  Problem problem;
+  problem.endpoints = {10.0, 6.0};
+  problem.body.friction = Friction::from_coefficient(0.15);
+  problem.limits.waypoints = {{3.8611525204706716, 3.9861320463697174},
+                              {4.234352649335118, 3.697612749557139},
+                              {4.350617907415895, 4.173226664742665},
+                              {5.392527567609447, 4.52390970570931}};
+  const Optimum optimum = optimize(problem);
+  INFO(optimum.report.message);
+  CHECK(optimum.report.status != OptimizeStatus::infeasible);
+  if (!optimum.centerline)
+    CHECK(optimum.report.message.find("no conflict between them is certain") != std::string::npos);
+}
+
 }  // namespace waypoints_test

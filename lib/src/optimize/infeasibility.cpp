@@ -727,14 +727,14 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
   const bool bends = footing.asks_for_bends() || asking_for_bends(search.best());
-  // Nor for points to be passed, or straight ends that reach beyond the finish: the ways between them are many, too.
-  const bool points =
-      std::any_of(conflict.limits.begin(), conflict.limits.end(),
-                  [](const StatedLimit& stated) { return stated.limit.id == LimitId::waypoints; });
+  // Nor for several points to be passed, or straight ends that reach beyond the finish: the ways between them are many, too.
+  const auto points =
+      std::count_if(conflict.limits.begin(), conflict.limits.end(),
+                    [](const StatedLimit& stated) { return stated.limit.id == LimitId::waypoints; });
   const ScaledProblem& scaled = *search.ways().front();
   const bool reaches_beyond = scaled.lead_in + scaled.lead_out >= 1.0;
   explanation.certain =
-      !conflict.limits.empty() && (proof || (settled && !bends && !points && !reaches_beyond));
+      !conflict.limits.empty() && (proof || (settled && !bends && points < 2 && !reaches_beyond));
   if (proof) conflict.why = *proof;
   if (explanation.certain) conflict.text = conflict_text(conflict);
   return explanation;
