@@ -237,7 +237,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
 }
 
 TEST_CASE("random limited problems: three times as many pieces win nothing that matters") {
-  const int count = testing::thorough() ? 60 : 4;
+  const int count = testing::thorough() ? 60 : 12;
   const auto of = [](const Problem& problem, const OptimizeReport& report) {
     if (problem.objective.kind == ObjectiveKind::exit_speed) return -report.exit_speed;
     const double weight =
@@ -251,12 +251,14 @@ TEST_CASE("random limited problems: three times as many pieces win nothing that 
   int missed = 0;
   for (int i = 0; i < count; ++i) {
     const Problem problem = random_limited(random);
+    // The third takes longer than all others together: CI solves it.
+    if (i == 2 && !testing::thorough()) continue;
     const Optimum usual = optimize(problem);
+    if (usual.report.status != OptimizeStatus::optimal) continue;
     OptimizeOptions many;
     many.pieces = 96;
     const Optimum fine = optimize(problem, many);
-    if (usual.report.status != OptimizeStatus::optimal || fine.report.status != OptimizeStatus::optimal)
-      continue;
+    if (fine.report.status != OptimizeStatus::optimal) continue;
     ++compared;
     const double known = of(problem, fine.report);
     const double slower = (of(problem, usual.report) - known) / std::fabs(known);
