@@ -88,7 +88,7 @@ TEST_CASE("where a fall and a ride at the cap lead down far enough there are no 
 TEST_CASE(
     "a cap far below what the drop gives: no slower than tracks of falls, rides at the cap and hooks by "
     "hand") {
-  // Each the fastest on a coarse grid of lengths at the cap and of equal turns, with hooks of a 300th of the chord as radius.
+  // Each the fastest on a coarse grid of lengths at the cap and of equal turns, whose end is the finish to a 100th of the chord.
   struct Known {
     double run, drop, mu, cap, time;
   };

@@ -185,7 +185,7 @@ class Course {
       const double known = best_->found->objective;
       best_ = searcher_.from_hooks(*std::move(best_));
       stopped_ = best_->stopped;
-      // What else leads to tracks that wind takes longer, and has not led to better ones.
+      // What else leads to tracks that wind takes long: it is for those that hooks do not help.
       if (best_->found->objective < known && is_optimum()) return;
     }
     if (!kept() || stopped_ || (!by_footholds && is_optimum())) return;
