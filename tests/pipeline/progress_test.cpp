@@ -6,6 +6,9 @@
 #include "support/temp_dir.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +30,31 @@ TEST_CASE("the progress of a build goes on from its search to its files") {
   CHECK(fractions.front() == 0.0);
   CHECK(std::is_sorted(fractions.begin(), fractions.end()));
   CHECK(fractions.back() < 1.0);
+}
+
+TEST_CASE("a request to stop is met by a search, and ends a build that is past it") {
+  const Design design = read_design(designs_path("ski_jump_inrun_with_limits.yaml"));
+  const auto built_when = [&](const TempDir& place, std::string_view asked) {
+    std::stop_source source;
+    RunContext context;
+    context.stop = source.get_token();
+    context.progress = [&, asked](std::string_view stage, std::optional<double>) {
+      if (stage == asked) source.request_stop();
+    };
+    return build(design, place.path(), context);
+  };
+  const TempDir place;
+  const Build early = built_when(place, "referee");
+  CHECK(early.track.search->ended_early);
+  CHECK_FALSE(std::filesystem::is_empty(place.path()));
+  const TempDir other;
+  try {
+    static_cast<void>(built_when(other, "riding the track"));
+    FAIL("built to its end");
+  } catch (const Interrupted& error) {
+    CHECK(std::string(error.what()).find("interrupted; nothing was built") != std::string::npos);
+  }
+  CHECK(std::filesystem::is_empty(other.path()));
 }
 
 TEST_CASE("a design without a cross-section that exports csv alone is built: stations and report") {

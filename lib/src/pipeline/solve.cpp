@@ -294,6 +294,30 @@ double highest_floor_wear(const Design& design, const CenterlinePtr& centerline)
   return wear_of(motions).floor.value;
 }
 
+/// While it lives, a request to stop is met by a search; the work then goes on with what that found.
+class SearchGoesOn {
+ public:
+  explicit SearchGoesOn(const RunContext& context) : context_(context) { tell(true); }
+  ~SearchGoesOn() { tell(met_); }
+  void ended(const OptimizeReport& report) { met_ = report.ended_early && context_.stop.stop_requested(); }
+  SearchGoesOn(const SearchGoesOn&) = delete;
+  SearchGoesOn& operator=(const SearchGoesOn&) = delete;
+
+ private:
+  void tell(bool goes_on) const {
+    if (context_.goes_on_after_stop != nullptr) *context_.goes_on_after_stop = goes_on;
+  }
+  const RunContext& context_;
+  bool met_ = false;  ///< later requests end the work
+};
+
+Optimum search_that_may_end(const Design& design, const RunContext& context) {
+  SearchGoesOn goes_on(context);
+  Optimum optimum = search_within_limits(design, context);
+  goes_on.ended(optimum.report);
+  return optimum;
+}
+
 /// The same search for the travel time, which prices what it was given up for.
 std::optional<FastestWithin> fastest_within(Design design, const RunContext& context) {
   const ObjectiveKind kind = design.objective.kind;
@@ -302,7 +326,7 @@ std::optional<FastestWithin> fastest_within(Design design, const RunContext& con
     return {};
   design.objective.kind = ObjectiveKind::travel_time;
   try {
-    const Optimum optimum = search_within_limits(design, context);
+    const Optimum optimum = search_that_may_end(design, context);
     const Motion motion(optimum.centerline, body_of(design), design.gravity);
     if (!motion.arrived()) return {};
     FastestWithin fastest{motion.travel_time(), motion.at(motion.distance()).friction_loss};
@@ -315,25 +339,6 @@ std::optional<FastestWithin> fastest_within(Design design, const RunContext& con
   }
 }
 
-}  // namespace
-
-namespace {
-
-/// While it lives, a request to stop is met by a search; from then on the work goes on with what it found.
-class SearchGoesOn {
- public:
-  explicit SearchGoesOn(const RunContext& context) : context_(context) { tell(true); }
-  ~SearchGoesOn() { tell(context_.stop.stop_requested()); }
-  SearchGoesOn(const SearchGoesOn&) = delete;
-  SearchGoesOn& operator=(const SearchGoesOn&) = delete;
-
- private:
-  void tell(bool goes_on) const {
-    if (context_.goes_on_after_stop != nullptr) *context_.goes_on_after_stop = goes_on;
-  }
-  const RunContext& context_;
-};
-
 /// solve() of a sound design whose hood is known.
 Track solve_settled(const Design& design, const RunContext& context) {
   if (context.progress) context.progress("finding the track", {});
@@ -344,8 +349,8 @@ Track solve_settled(const Design& design, const RunContext& context) {
   if (design.centerline.kind != CenterlineKind::fastest)
     return ride(design, make_centerline(design), context);
   if (!searched) return ride_fastest(design, context);
-  const SearchGoesOn goes_on(context);
-  Optimum optimum = search_within_limits(design, context);
+  Optimum optimum = search_that_may_end(design, context);
+  if (context.progress) context.progress("riding the track", {});
   Track track = ride(design, std::move(optimum.centerline), context);
   track.search = std::move(optimum.report);
   track.fastest_within = fastest_within(design, context);
