@@ -183,6 +183,8 @@ struct Tally {
   int kinks = 0;    ///< between what re-solves win on either side
   int unclear = 0;  ///< re-solves contradict each other
   int loose = 0;    ///< told to be less close than 2 %
+  int winding =
+      0;  ///< problems left out: each of dozens of re-solves takes ten seconds, and ends in another valley
 };
 
 void hold(const ActiveLimit& active, const testing_problems::Differences& differences, Tally& tally) {
@@ -214,6 +216,11 @@ void hold_prices(testing::Random random, int problems, Tally& tally) {
     const Problem problem = testing_problems::with_room_to_give_way(testing_problems::drawn(random));
     const Optimum optimum = optimize(problem);
     if (optimum.report.status != OptimizeStatus::optimal) continue;
+    constexpr int kOfOneValley = 3000;  // others take a tenth of it
+    if (optimum.report.evaluations > kOfOneValley) {
+      ++tally.winding;
+      continue;
+    }
     CAPTURE(i);
     for (const ActiveLimit& active : optimum.report.active) {
       const auto differences = testing_problems::differences_of(problem, optimum, active.limit, active.value,
@@ -229,7 +236,7 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   // docs/optimization.md tells what more of them find.
   const bool asked = std::getenv("GLISSADE_PROBLEMS") != nullptr;
   constexpr int kQuick = 10;
-  constexpr int kThorough = 100;
+  constexpr int kThorough = 60;
   constexpr int kOfEachSeed = 20;
   const int problems = asked ? testing_problems::problem_count() : testing::thorough() ? kThorough : kQuick;
   Tally tally;
@@ -238,11 +245,12 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
     for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6})
       hold_prices(testing::Random(seed), kOfEachSeed, tally);
   }
-  CAPTURE(tally.compared, tally.kinks, tally.unclear, tally.loose);
+  CAPTURE(tally.compared, tally.kinks, tally.unclear, tally.loose, tally.winding);
   CHECK(tally.compared > problems / 2);
   CHECK(tally.kinks <= tally.compared / 10);
   CHECK(tally.unclear <= tally.compared / 4);
   CHECK(tally.loose <= tally.compared / 10);
+  CHECK(tally.winding <= problems / 25);
 }
 
 }  // namespace prices_test
