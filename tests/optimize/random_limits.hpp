@@ -107,13 +107,13 @@ inline Problem random_limited(testing::Random& random) {
   return problem;
 }
 
-/// How many random problems a test takes: GLISSADE_PROBLEMS of the environment; where that is not set 300 in continuous
+/// How many random problems a test takes: GLISSADE_PROBLEMS of the environment; where that is not set 150 in continuous
 /// integration, 60 elsewhere, fewer in a build without optimisation.
 inline int problem_count() {
   const char* const asked = std::getenv("GLISSADE_PROBLEMS");
   if (asked != nullptr) return std::max(1, std::atoi(asked));
 #ifdef NDEBUG
-  return testing::thorough() ? 300 : 60;
+  return testing::thorough() ? 150 : 60;
 #else
   return 40;
 #endif
