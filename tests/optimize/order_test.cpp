@@ -132,7 +132,6 @@ TEST_CASE(
   if (testing::thorough()) {
     all.push_back({3, 298, "without exit_slope_angle.highest"});
     all.push_back({7, 92, "wider arc_length.highest"});
-    all.push_back({8, 26, "without lead_in"});
     all.push_back({8, 352, "without lead_out"});
     all.push_back({8, 352, "wider entry_slope_angle.highest"});
   }

@@ -191,6 +191,25 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "quadratic program: begun once, a gradient that counts more is that of a program with such a gradient") {
+  testing::Random random = testing::seeded_random(20261125);
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 50; ++i) {
+    const auto n = static_cast<std::size_t>(random.between(4.0, 20.0));
+    QuadraticProgram program = random_program(random, n, 2, 60);
+    const Matrix hessian = random_hessian(random, n);
+    const ShiftedCholesky metric(hessian, diagonal_of(hessian));
+    const BegunProgram begun(program, metric, {});
+    const double factor = random.between(1.0, 50.0);
+    const QuadraticSolution again = begun.solve(program.equality_value, program.inequality_value, factor);
+    for (double& entry : program.gradient) entry *= factor;
+    CAPTURE(i, n, factor);
+    REQUIRE(again.status == QuadraticSolution::Status::solved);
+    CHECK(distance_from_minimum(program, hessian, again) < factor * kAccuracy);
+  }
+}
+
 TEST_CASE("quadratic program: more tight rows than unknowns at one corner") {
   // All edges of a pyramid with 40 sides meet at its top, the minimum of -z + (x^2 + y^2 + z^2)/2 within it.
   constexpr std::size_t kSides = 40;

@@ -184,16 +184,18 @@ class ElasticDescent {
 
   /// @param equality_value,inequality_value  of the program's rows
   [[nodiscard]] Step solved_exactly(const Vector& equality_value, const Vector& inequality_value) const {
-    const QuadraticSolution solution = exact_->solve(equality_value, inequality_value);
+    // In a metric that much smaller: the same program with a gradient that much larger, and so are its multipliers.
+    const QuadraticSolution solution = exact_->solve(equality_value, inequality_value, reach_);
     Step step;
     step.is_solved = solution.status == QuadraticSolution::Status::solved;
     if (!step.is_solved) return step;
     step.z = solution.step;
-    step.length = solution.length;
-    step.multipliers.equality = solution.equality;
+    step.length = solution.length / std::sqrt(reach_);
+    for (const double multiplier : solution.equality)
+      step.multipliers.equality.push_back(multiplier / reach_);
     for (const std::size_t i : solution.active) {
       step.multipliers.active.push_back(set_[i]);
-      step.multipliers.inequality.push_back(solution.inequality[i]);
+      step.multipliers.inequality.push_back(solution.inequality[i] / reach_);
     }
     return step;
   }
@@ -253,12 +255,13 @@ class ElasticDescent {
     }
     if (!step_.is_solved) return 0.0;
     if (step_.t == 0.0) price_ = price_above(step_.multipliers);
-    length_ = step_.length / gradient_;
+    length_ = step_.length / (is_elastic_ ? gradient_ : std::sqrt(reach_) * gradient_);
     return price_ * (violation_ - step_.t) - dot(program_.gradient.data(), step_.z.data(), n_) -
            0.5 * step_.length * step_.length;
   }
 
   struct Trial {
+    Vector step;
     State state;
     NearRows near;
     double violation = HUGE_VAL;
@@ -270,6 +273,7 @@ class ElasticDescent {
     add_scaled(z.data(), 1.0, step.data(), n_);
     if (!track_.is_track(z)) return trial;
     ++control_.evaluations;
+    trial.step = step;
     trial.state = rows_.state(z, false);
     trial.near = near_rows(trial.state);
     trial.violation = violation_of(trial.state, trial.near);
@@ -295,6 +299,41 @@ class ElasticDescent {
     return again.is_solved ? tried(again.z) : Trial{};
   }
 
+  /// Twice the way, and again, as long as the sum falls nearly as fast there: a metric made convex tells of a curvature that the
+  /// sum may not have.
+  void go_farther(double now, Trial& trial) const {
+    constexpr double kAsFast = 1.5;  // taste: 2 is the straight line
+    for (;;) {
+      Vector step = trial.step;
+      for (double& way : step) way *= 2.0;
+      Trial farther = tried(step);
+      if (!(now - farther.merit > kAsFast * (now - trial.merit))) return;
+      trial = std::move(farther);
+    }
+  }
+
+  /// What the next exact steps reach, from what share of the last one's promise was kept: with a curvature c in place of the
+  /// metric's 1 it is 2 - c.
+  void set_reach(double share) {
+    constexpr double kLeast = 0.25;    // taste
+    constexpr double kMost = 4.0;      // taste
+    constexpr double kFarthest = 1e3;  // taste
+    const double factor = 1.0 / std::clamp(2.0 - share, 1.0 / kMost, 1.0 / kLeast);
+    reach_ = std::clamp(factor * reach_, 1.0, kFarthest);
+  }
+
+  /// A step was not worth taking: the next one is shorter, or changes the shape less.
+  void step_back() {
+    constexpr double kShorter = 0.125;  // taste
+    was_refused_ = true;
+    if (!is_elastic_ && reach_ > 1.0) {
+      reach_ = std::max(1.0, kShorter * reach_);
+      return;
+    }
+    reach_ = 1.0;
+    stiffen();
+  }
+
   /// The next step is to change the shape less.
   void stiffen() {
     stiffness_ = stiffness_ == 0.0 ? kSoftest * price_ : growth_ * stiffness_;
@@ -318,9 +357,11 @@ class ElasticDescent {
 
   /// Takes the step if it keeps part of its promise, and sets the stiffness of the next one. @return if it did
   [[nodiscard]] bool advance(double promised) {
-    constexpr double kGood = 0.75;        // theory: usual bounds of a trust region
-    constexpr double kWorthwhile = 1e-3;  // theory: usual bounds of a trust region
-    constexpr double kSofter = 0.25;      // taste
+    constexpr double kGood = 0.75;         // theory: usual bounds of a trust region
+    constexpr double kWorthwhile = 1e-3;   // theory: usual bounds of a trust region
+    constexpr double kShort = 1.5;         // taste: a curvature of half the metric's
+    constexpr double kSofter = 0.25;       // taste
+    constexpr double kLittleSofter = 0.5;  // taste: half of that was refused just before
     const double now = merit(state_, violation_);
     Trial trial = tried(step_.z);
     double share = (now - trial.merit) / promised;
@@ -332,11 +373,16 @@ class ElasticDescent {
       }
     }
     if (!(share > kWorthwhile)) {
-      if (add_broken(trial.state)) return false;
-      stiffen();
+      if (!add_broken(trial.state)) step_back();
       return false;
     }
-    if (share >= kGood) stiffness_ = stiffness_ <= kSoftest * price_ ? 0.0 : kSofter * stiffness_;
+    if (!is_elastic_) set_reach(share);
+    if (share >= kShort) go_farther(now, trial);
+    if (share >= kGood) {
+      const double softer = was_refused_ ? kLittleSofter : kSofter;
+      stiffness_ = stiffness_ <= kSoftest * price_ ? 0.0 : softer * stiffness_;
+    }
+    was_refused_ = false;
     growth_ = kHarder;
     known_ = step_.multipliers;
     state_ = std::move(trial.state);
@@ -358,8 +404,10 @@ class ElasticDescent {
   NearRows near_rows_;  ///< there, until they are the set
   double violation_ = 0.0;
   double price_ = kFirstPrice;
-  double stiffness_ = 0.0;   ///< price of changes of shape
-  double growth_ = kHarder;  ///< of the stiffness when a step is refused
+  double stiffness_ = 0.0;    ///< price of changes of shape
+  double growth_ = kHarder;   ///< of the stiffness when a step is refused
+  bool was_refused_ = false;  ///< a step from this point
+  double reach_ = 1.0;        ///< of exact steps: the metric counts that much less
   std::vector<Row> set_;
   QuadraticProgram program_;
   Matrix hessian_;

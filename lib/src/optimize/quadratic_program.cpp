@@ -176,6 +176,10 @@ class DualMethod {
     }
   }
 
+  void scale_gradient(double factor) {
+    for (double& entry : gradient_) entry *= factor;
+  }
+
   /// To the solution from there.
   [[nodiscard]] QuadraticSolution run(const Vector& equality_value, const Vector& inequality_value) {
     equality_value_ = &equality_value;
@@ -385,8 +389,10 @@ BegunProgram::BegunProgram(BegunProgram&&) noexcept = default;
 BegunProgram& BegunProgram::operator=(BegunProgram&&) noexcept = default;
 BegunProgram::~BegunProgram() = default;
 
-QuadraticSolution BegunProgram::solve(const Vector& equality_value, const Vector& inequality_value) const {
+QuadraticSolution BegunProgram::solve(const Vector& equality_value, const Vector& inequality_value,
+                                      double gradient) const {
   Method method = *method_;
+  if (gradient != 1.0) method.scale_gradient(gradient);
   return method.run(equality_value, inequality_value);
 }
 

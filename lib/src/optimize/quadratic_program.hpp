@@ -58,7 +58,9 @@ class BegunProgram {
   ~BegunProgram();
 
   /// @param equality_value,inequality_value  in place of those of the program
-  [[nodiscard]] QuadraticSolution solve(const Vector& equality_value, const Vector& inequality_value) const;
+  /// @param gradient  the program's counts so many times
+  [[nodiscard]] QuadraticSolution solve(const Vector& equality_value, const Vector& inequality_value,
+                                        double gradient = 1.0) const;
 
  private:
   struct Method;
