@@ -84,7 +84,7 @@ TEST_CASE("a track that winds is the same wherever the problem lies and whatever
     int index;
   };
   std::vector<Known> all{{8, 26}};
-  if (testing::thorough()) all.insert(all.end(), {{7, 92}, {8, 245}, {8, 400}});
+  if (testing::thorough()) all.insert(all.end(), {{7, 92}, {8, 245}});
   for (const Known& known : all) {
     std::size_t draw = 0;
     const Problem problem =
@@ -93,7 +93,8 @@ TEST_CASE("a track that winds is the same wherever the problem lies and whatever
     CAPTURE(known.seed, known.index, optimum.report.brief());
     REQUIRE(optimum.report.status == OptimizeStatus::optimal);
     for (const testing_problems::Variation& variation : testing_problems::same_again(problem)) {
-      if (variation.name() == "moved 5,000 km" || testing::thorough())
+      const bool is_larger = variation.name() == "scaled 1e3" && testing::thorough();
+      if (variation.name() == "moved 5,000 km" || is_larger)
         CHECK(compare(variation, optimum.report) == OptimizeStatus::optimal);
     }
   }
