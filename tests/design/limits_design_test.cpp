@@ -193,6 +193,11 @@ TEST_CASE("a track to an edge has a start that is free both ways, or one way") {
              Contains("the start is free both ways, and no exit speed above the entry speed is asked for"));
   CHECK(parse_design(design("edge: {x: 7 m, z: 1 m}", speed + ", waypoints: [[3 m, 3 m]]"), "d.yaml")
             .limits->waypoints.size() == 1);
+  // As start and finish are written.
+  CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}",
+                                speed + ", waypoints: [{x: 3 m, z: 4 m}, {z: 2 m, x: 5 m}]")),
+             Contains("waypoints[0] is a group of keys, not a list") && Contains("[3 m, 4 m]") &&
+                 Contains("[5 m, 2 m]"));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", waypoints: [[8 m, 3 m]]")),
              Contains("waypoints[0] lies 1 m past the edge"));
   CHECK_THAT(problems_of(design(

@@ -104,8 +104,23 @@ std::vector<Value> as_list(const Value& value, std::string_view example, Finding
   return values;
 }
 
+namespace {
+
+/// Of a point: what a file has as `{x: 2 m, z: 4 m}`, as start and finish are written, in the form of a point.
+std::string pair_like(const Node& node) {
+  const bool is_place = node.kind == Node::Kind::map && node.entries.size() == 2 &&
+                        node.entries[0].value.kind == Node::Kind::scalar &&
+                        node.entries[1].value.kind == Node::Kind::scalar;
+  if (!is_place) return "[-200 mm, 250 mm]";
+  const bool turned = node.entries[1].key == "x";
+  const auto scalar = [&](bool first) { return node.entries[first == turned ? 1 : 0].value.scalar; };
+  return "[" + scalar(true) + ", " + scalar(false) + "]";
+}
+
+}  // namespace
+
 std::optional<Vec2> as_point(const Value& value, Findings& findings) {
-  const std::vector<Value> numbers = as_list(value, "[-200 mm, 250 mm]", findings);
+  const std::vector<Value> numbers = as_list(value, pair_like(*value.node), findings);
   if (value.node->kind != Node::Kind::sequence) return {};
   if (numbers.size() != 2) {
     findings.add(value.node->at, value.key_path,
