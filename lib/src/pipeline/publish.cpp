@@ -154,12 +154,8 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   context.progress = progress.of_search();
   Track track = solve(design, context);
   context.progress = progress.of_the_rest();
-  if (context.stop.stop_requested()) {
-    // A search that met the request ended with the best track so far, which is built.
-    if (!track.search || !(track.search->ended_early || track.fastest_within))
-      throw Interrupted({design.file, "interrupted; nothing was built", "", ""});
-    context.stop = {};
-  }
+  // The request to stop has been met: the search ended with the best track so far, which is built.
+  if (track.search && context.stop.stop_requested()) context.stop = {};
   return publish(design, assemble(design, std::move(track), context, options), directory, context, options);
 }
 

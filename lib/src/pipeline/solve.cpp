@@ -298,8 +298,7 @@ double highest_floor_wear(const Design& design, const CenterlinePtr& centerline)
 class SearchGoesOn {
  public:
   explicit SearchGoesOn(const RunContext& context) : context_(context) { tell(true); }
-  ~SearchGoesOn() { tell(met_); }
-  void ended(const OptimizeReport& report) { met_ = report.ended_early && context_.stop.stop_requested(); }
+  ~SearchGoesOn() { tell(context_.stop.stop_requested()); }
   SearchGoesOn(const SearchGoesOn&) = delete;
   SearchGoesOn& operator=(const SearchGoesOn&) = delete;
 
@@ -308,22 +307,21 @@ class SearchGoesOn {
     if (context_.goes_on_after_stop != nullptr) *context_.goes_on_after_stop = goes_on;
   }
   const RunContext& context_;
-  bool met_ = false;  ///< later requests end the work
 };
 
 Optimum search_that_may_end(const Design& design, const RunContext& context) {
-  SearchGoesOn goes_on(context);
-  Optimum optimum = search_within_limits(design, context);
-  goes_on.ended(optimum.report);
-  return optimum;
+  const SearchGoesOn goes_on(context);
+  return search_within_limits(design, context);
 }
 
-/// The same search for the travel time, which prices what it was given up for.
+/// The same search for the travel time, which prices what it was given up for. None where the work was asked to end: what it
+/// found by then would price nothing.
 std::optional<FastestWithin> fastest_within(Design design, const RunContext& context) {
   const ObjectiveKind kind = design.objective.kind;
   if (kind != ObjectiveKind::least_wear && kind != ObjectiveKind::least_peak_wear &&
       kind != ObjectiveKind::even_speed)
     return {};
+  if (context.stop.stop_requested()) return {};
   design.objective.kind = ObjectiveKind::travel_time;
   try {
     const Optimum optimum = search_that_may_end(design, context);
@@ -350,8 +348,11 @@ Track solve_settled(const Design& design, const RunContext& context) {
     return ride(design, make_centerline(design), context);
   if (!searched) return ride_fastest(design, context);
   Optimum optimum = search_that_may_end(design, context);
+  const bool has_met_request = context.stop.stop_requested();
   if (context.progress) context.progress("riding the track", {});
   Track track = ride(design, std::move(optimum.centerline), context);
+  if (context.stop.stop_requested() && !has_met_request)
+    throw Interrupted({design.file, "interrupted after the search", "", ""});
   track.search = std::move(optimum.report);
   track.fastest_within = fastest_within(design, context);
   return track;
