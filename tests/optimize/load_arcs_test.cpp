@@ -7,9 +7,12 @@
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <cmath>
 #include <fstream>
+#include <optional>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +24,121 @@ namespace {
 
 // Of the objective, relative.
 constexpr double kExcess = 1e-6;
+
+/// A track that is ridden at the lowest load first and at the highest one from some place on, by a rule of its own
+/// (Runge and Kutta's, fourth order): which of them is the fastest, no search may be slower by more than it states.
+class TwoLoads {
+ public:
+  explicit TwoLoads(const Problem& problem)
+      : run_(problem.endpoints.run),
+        drop_(problem.endpoints.drop),
+        gravity_(problem.gravity),
+        friction_(problem.body.friction.coefficient()),
+        entry_speed_(problem.body.entry_speed),
+        lowest_(*problem.limits.lowest_normal_load),
+        highest_(*problem.limits.highest_normal_load) {}
+
+  /// @return none where no such track leads to the finish
+  [[nodiscard]] std::optional<double> least_time() const {
+    constexpr int kAngles = 30;
+    double best = HUGE_VAL;
+    double best_angle = 0.0;
+    const double step = (kSteepest - kFlattest) / kAngles;
+    for (int i = 0; i <= kAngles; ++i) {
+      const double angle = kFlattest + step * i;
+      const double time = least_time_from(angle);
+      if (time < best) {
+        best = time;
+        best_angle = angle;
+      }
+    }
+    if (best == HUGE_VAL) return std::nullopt;
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    double low = best_angle - step;
+    double high = best_angle + step;
+    while (high - low > 1e-6) {
+      const double left = high - golden * (high - low);
+      const double right = low + golden * (high - low);
+      (least_time_from(left) < least_time_from(right) ? high : low) =
+          least_time_from(left) < least_time_from(right) ? right : left;
+    }
+    return std::min(best, least_time_from(0.5 * (low + high)));
+  }
+
+ private:
+  static constexpr double kFlattest = 0.05;
+  static constexpr double kSteepest = 1.5;
+  static constexpr int kSteps = 200;  ///< of each load
+  struct Place {
+    double x = 0.0, y = 0.0, zeta = 0.0, v = 0.0, time = 0.0;
+  };
+
+  [[nodiscard]] Place rate(const Place& at, double load) const {
+    const double cosine = std::cos(at.zeta);
+    const double sine = std::sin(at.zeta);
+    return {cosine, sine, -(load - gravity_ * cosine) / at.v, 2.0 * (gravity_ * sine - friction_ * load),
+            1.0 / std::sqrt(at.v)};
+  }
+  [[nodiscard]] static Place moved(const Place& at, const Place& rate, double by) {
+    return {at.x + by * rate.x, at.y + by * rate.y, at.zeta + by * rate.zeta, at.v + by * rate.v,
+            at.time + by * rate.time};
+  }
+  [[nodiscard]] Place stepped(const Place& at, double load, double by) const {
+    const Place k1 = rate(at, load);
+    const Place k2 = rate(moved(at, k1, 0.5 * by), load);
+    const Place k3 = rate(moved(at, k2, 0.5 * by), load);
+    const Place k4 = rate(moved(at, k3, by), load);
+    return moved(moved(moved(moved(at, k1, by / 6.0), k2, by / 3.0), k3, by / 3.0), k4, by / 6.0);
+  }
+  /// At the finish's run, the second load taking over after a length. Its y is NaN where it does not get there.
+  [[nodiscard]] Place finish(double angle, double length) const {
+    Place at{0.0, 0.0, angle, entry_speed_ * entry_speed_, 0.0};
+    for (int i = 0; i < kSteps; ++i) at = stepped(at, lowest_, length / kSteps);
+    // The way that is left, as far as known: halved where a step would go past the finish.
+    double by = 2.0 * (run_ - at.x) / kSteps;
+    for (int i = 0; i < 40 * kSteps && by > 1e-15 * run_; ++i) {
+      if (!(at.v > 1e-6) || std::fabs(at.zeta) > 1.55) break;
+      const Place next = stepped(at, highest_, by);
+      if (next.x > run_) {
+        by *= 0.5;
+      } else {
+        at = next;
+      }
+    }
+    if (std::fabs(at.x - run_) > 1e-9 * run_) at.y = NAN;
+    return at;
+  }
+  /// Of the lengths of the first part that lead to the finish.
+  [[nodiscard]] double least_time_from(double angle) const {
+    constexpr int kLengths = 24;
+    const double longest = std::hypot(run_, drop_);
+    double best = HUGE_VAL;
+    double before = finish(angle, 0.0).y - drop_;
+    for (int k = 1; k <= kLengths; ++k) {
+      double low = longest * (k - 1) / kLengths;
+      double high = longest * k / kLengths;
+      const double here = finish(angle, high).y - drop_;
+      if (before * here <= 0.0) {
+        for (int i = 0; i < 50; ++i) {
+          const double middle = 0.5 * (low + high);
+          ((finish(angle, middle).y - drop_) * before > 0.0 ? low : high) = middle;
+        }
+        const Place end = finish(angle, low);
+        if (std::fabs(end.y - drop_) < 1e-8 * drop_) best = std::min(best, end.time);
+      }
+      before = here;
+    }
+    return best;
+  }
+
+  double run_;
+  double drop_;
+  double gravity_;
+  double friction_;
+  double entry_speed_;
+  double lowest_;
+  double highest_;
+};
 
 double objective_of(const Problem& problem, const OptimizeReport& report) {
   return problem.objective.kind == ObjectiveKind::exit_speed ? -report.exit_speed : report.travel_time;
@@ -71,6 +189,49 @@ TEST_CASE("where a load is held a mesh three times as fine wins at most 1e-6") {
     CHECK(optimum.report.status == OptimizeStatus::optimal);
     CHECK(objective_of(problem, optimum.report) - least <= kExcess * std::fabs(least));
   }
+}
+
+TEST_CASE(
+    "between a lowest and a highest load the search is at most 1e-6 above a fall at the one, then a valley "
+    "at the other") {
+  struct Case {
+    Endpoints endpoints;
+    double friction;
+    double entry_speed;
+    double lowest;   ///< [g]
+    double highest;  ///< [g]
+    bool is_best;    ///< no track at a load between the two is faster
+  };
+  std::vector<Case> cases{{{10.0, 5.0}, 0.2, 4.0, 0.2, 1.3, true}, {{20.0, 9.0}, 0.15, 5.0, 0.5, 1.4, true}};
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < (testing::thorough() ? 40 : 2); ++i) {
+    const double run = random.between(4.0, 30.0);
+    const double drop = run * random.between(0.3, 0.9);
+    const double friction = random.between(0.02, 0.25);
+    const double entry_speed = random.between(1.0, 7.0);
+    const double lowest = random.between(0.05, 0.6);
+    cases.push_back({{run, drop}, friction, entry_speed, lowest, random.between(1.15, 1.8), false});
+  }
+  int compared = 0;
+  for (const Case& entry : cases) {
+    Problem problem;
+    problem.endpoints = entry.endpoints;
+    problem.body.friction = Friction::from_coefficient(entry.friction);
+    problem.body.entry_speed = entry.entry_speed;
+    problem.limits.lowest_normal_load = entry.lowest * problem.gravity;
+    problem.limits.highest_normal_load = entry.highest * problem.gravity;
+    const std::optional<double> by_hand = TwoLoads(problem).least_time();
+    if (!by_hand) continue;
+    ++compared;
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(entry.endpoints.run, entry.endpoints.drop, entry.friction, entry.entry_speed, entry.lowest,
+            entry.highest, *by_hand, report.brief());
+    CHECK(report.status == OptimizeStatus::optimal);
+    CHECK(report.travel_time <= *by_hand * (1.0 + kExcess));
+    if (entry.is_best) CHECK(report.travel_time >= *by_hand * (1.0 - kExcess));
+  }
+  CHECK(2 * compared > static_cast<int>(cases.size()));
 }
 
 }  // namespace load_arcs_test

@@ -15,6 +15,8 @@ constexpr double kNearBound = 0.02;  // taste
 // What fine knots may leave to win in a piece, as a share of the objective: with some ten pieces held, a third of
 // the accuracy that is stated for the whole.
 constexpr double kLeft = 3e-8;
+// Along a highest load it is also by how much this is exceeded between two of them, and the whole limit is tightened by that.
+constexpr double kLeftAbove = 5e-9;  // measured: a sixth of that leaves 1e-6 of the time, all together
 // Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong. And so many at least where a
 // body left the track.
 constexpr std::size_t kMostFine = 16;  // budget
@@ -215,7 +217,8 @@ std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& f
     if (!moves(before, *found.track, piece.piece)) continue;
     // The mean of a parabola's distance from its chord is two thirds of the greatest.
     const double loss = 2.0 / 3.0 * piece.price * load_missed(problem, found, before, piece);
-    const double parts = std::sqrt(loss / (kLeft * std::fabs(found.objective)));
+    const double left = problem.limits[piece.limit].side > 0 ? kLeftAbove : kLeft;
+    const double parts = std::sqrt(loss / (left * std::fabs(found.objective)));
     const std::size_t known = fine_count(*found.track, piece.piece);
     const auto wanted = static_cast<std::size_t>(std::ceil(std::max(parts, 1.0)));
     const bool lifts_here = std::any_of(lifts.begin(), lifts.end(), [&](double sigma) {

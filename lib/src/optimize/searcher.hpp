@@ -169,6 +169,10 @@ class Searcher {
   /// Lets the referee judge and mends what it finds, round by round.
   /// @param places  at which limits are held beside the stations from the beginning, of the core's length
   void mend(Candidate& candidate, Found found, const Vector& places = {});
+  /// Where holding limits at further places made an optimum much dearer: that one, or the optimum on a mesh whose pieces are halved
+  /// around these places. A piece of one linear curvature that broke a limit within may keep it at a price that two don't pay.
+  [[nodiscard]] Found cheaper_of(const ScaledProblem& problem, Found next, const Found& found,
+                                 const Mesh& holding);
   /// A curvature that follows the load more closely where a body lifts off.
   /// @return nothing where that takes no further knots, or no optimum is found with them
   [[nodiscard]] std::optional<Found> following_closely(const ScaledProblem& problem, const Found& found,
