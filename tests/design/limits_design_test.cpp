@@ -213,6 +213,13 @@ TEST_CASE("a track to an edge has a start that is free both ways, or one way") {
                  Contains("What rubs on the floor follows from a mass flow."));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}", speed + ", objective: least_load")),
              Contains("objective: least_load, with an end that is free both ways"));
+  CHECK_THAT(
+      problems_of(design("edge: {x: 7 m, z: 1 m}\n  start: {x: free, z: 4 m}", "objective: least_drop")),
+      Contains("objective: least_drop, with a drop that is given, 3 m") &&
+          Contains("It is the least height between start and finish.") && Contains("z: free"));
+  CHECK_THAT(problems_of(design("start: {x: 0 m, z: 6.2 m}\n  finish: {x: 5.4 m, z: 1.1 m}",
+                                "objective: least_drop")),
+             Contains("objective: least_drop, with a drop that is given, 5.1 m"));
   CHECK_THAT(problems_of(design("edge: {x: 7 m, z: 1 m}\n  start: {x: free, z: 4 m}",
                                 "objective: least_curvature_rate")),
              Contains("objective: least_curvature_rate, without a lowest exit_speed"));

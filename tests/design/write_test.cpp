@@ -139,9 +139,10 @@ TEST_CASE("every key is written back") {
   check("{x: 5.4 m, z: 1.1 m}\nbody:", "{x: {highest: -1 m}, z: {lowest: 0 m, highest: 2 m}}" + kSpeed);
   const std::string kEnds = "start: {x: 0 m, z: 6.2 m}\n  finish: {x: 5.4 m, z: 1.1 m}\nbody:";
   check(kEnds, "edge: {x: 7 m, z: 1 m}" + kSpeed);
-  check(kEnds, "edge: {x: 7 m, y: 2 m, z: 1 m}\n  azimuth: 30 deg\n  start: {x: free, z: 4 m}" + kSpeed);
+  const std::string kShort = "\nlimits: {exit_speed: {lowest: 9 m/s}, objective: least_length}\nbody:";
+  check(kEnds, "edge: {x: 7 m, y: 2 m, z: 1 m}\n  azimuth: 30 deg\n  start: {x: free, z: 4 m}" + kShort);
   check(kEnds, "edge: {x: 7 m, z: 1 m}\n  start: {x: 2 m, y: 1 m, z: free}" + kSpeed);
-  check(kEnds, "edge: {x: 7 m, z: 1 m}\n  start: {x: 2 m, z: 3 m}" + kSpeed);
+  check(kEnds, "edge: {x: 7 m, z: 1 m}\n  start: {x: 2 m, z: 3 m}" + kShort);
   check("{kind: fastest}",
         "{kind: points, file: found.csv, columns: [run_m, height_m, slope_angle_deg, curvature_per_m]}");
   check("{kind: fastest}", "{kind: constant-speed, p: 12.3 m^2/s^2}");

@@ -400,8 +400,20 @@ void check_least_bound(const Design& design, Collected& findings) {
   }
 }
 
+/// A height that is given is no less for being made the least.
+void check_least_drop(const Design& design, Collected& findings) {
+  const TrackDesign& track = design.track;
+  if (!fixes_drop(track.free_finish)) return;
+  const char* const free_end = track.free_start ? "start: {x: free, z: free}" : "finish: {x: 5.4 m, z: free}";
+  report(
+      findings, {path("objective"), "track"},
+      {"", "objective: least_drop, with a drop that is given, " + length_text(track.start.z - track.finish.z),
+       "It is the least height between start and finish.", free_end});
+}
+
 void check_objective(const Design& design, Collected& findings) {
   const Objective& objective = design.objective;
+  if (objective.kind == ObjectiveKind::least_drop) check_least_drop(design, findings);
   if (is_least_bound(objective.kind)) check_least_bound(design, findings);
   if (!(objective.exit_speed_weight >= 0.0 && std::isfinite(objective.exit_speed_weight))) {
     report(findings, {path("objective.exit_speed_weight")},
