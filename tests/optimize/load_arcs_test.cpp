@@ -59,8 +59,11 @@ class TwoLoads {
     while (high - low > 1e-6) {
       const double left = high - golden * (high - low);
       const double right = low + golden * (high - low);
-      (least_time_from(left) < least_time_from(right) ? high : low) =
-          least_time_from(left) < least_time_from(right) ? right : left;
+      if (least_time_from(left) < least_time_from(right)) {
+        high = right;
+      } else {
+        low = left;
+      }
     }
     return std::min(best, least_time_from(0.5 * (low + high)));
   }

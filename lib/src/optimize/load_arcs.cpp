@@ -16,7 +16,7 @@ constexpr double kNearBound = 0.02;  // taste
 // the accuracy that is stated for the whole.
 constexpr double kLeft = 3e-8;
 // Along a highest load it is also by how much this is exceeded between two of them, and the whole limit is tightened by that.
-constexpr double kLeftAbove = 5e-9;  // measured: a sixth of that leaves 1e-6 of the time, all together
+constexpr double kLeftAbove = 5e-9;  // measured: with kLeft tracks stay up to 1.6e-6 behind
 // Fine pieces of one piece, at most: beyond that the number of pieces is what is wrong. And so many at least where a
 // body left the track.
 constexpr std::size_t kMostFine = 16;  // budget

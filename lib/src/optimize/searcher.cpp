@@ -647,7 +647,7 @@ Found Searcher::halved(const ScaledProblem& problem, Found found) {
   constexpr int kMostRounds = 6;  // budget
   // Under a limit on the rate of curvature no jump tells where knots belong: halving alone makes prices exact.
   const bool smooth = is_smooth(problem);
-  // Along a highest load halving wins ten to thirty times what one program promises.
+  // Along a highest load halving wins six to forty times what one program promises.
   constexpr double kLeftLoaded = 3e-8;  // measured: what is promised where two rounds more win less than 1e-6
   const double left_at_most = smooth ? 1e-8 : lies_at_highest_load(problem, found) ? kLeftLoaded : 1e-6;
   constexpr double kLostAtMost = 5e-7;      // accuracy: half that of a time
@@ -816,7 +816,7 @@ void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
     control_.stop = stop;
     next.stopped = next.stopped || stopped;
     // Where only short ways are gone, and none was, none will be; nor where no more is asked for than the round before.
-    const bool asks_same = round >= kHoldingRounds && asks_for_no_more(next, found);
+    const bool asks_same = rides_to_end > kHoldingRounds && asks_for_no_more(next, found);
     const bool stays =
         (control_.is_close || asks_same) && !found.stopped && !is_optimum(next) && next.z == found.z;
     found = std::move(next);
