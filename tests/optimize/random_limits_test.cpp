@@ -1,10 +1,11 @@
 // Random mixtures of limits: every result is held against the referee, against its own neighbours, and
-// against re-solves.
+// against re-solves; where there is none, against an independent search.
 
 #include "optimize/random_limits.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 
+#include "optimize/independent_search.hpp"
 #include "referee/judgement.hpp"
 #include "support/catch.hpp"
 #include "support/thorough.hpp"
@@ -114,31 +115,32 @@ struct Tally {
   int admissible = 0;
   int undecided = 0;
   int kept_far_back = 0;
+  int infeasible = 0;  ///< of those that were held against the independent search
 };
 
-/// Holds one answer against the referee and against so many neighbours.
-void hold(const Problem& problem, int neighbours, testing::Random& random, Tally& tally) {
+/// Holds one answer against the referee and against so many neighbours. @return what was found
+OptimizeReport hold(const Problem& problem, int neighbours, testing::Random& random, Tally& tally) {
   const Optimum optimum = optimize(problem);
   CAPTURE(optimum.report.brief());
   const bool none = optimum.report.status == OptimizeStatus::no_track_found;
   tally.undecided += none && !asks_for_bends(optimum.report) ? 1 : 0;
-  if (!optimum.centerline) return;
+  if (!optimum.centerline) return optimum.report;
   ++tally.solved;
   const referee::Judgement verdict = referee::judge_track(problem, optimum.centerline, kReferee);
   CHECK(verdict.arrived);
   CHECK(verdict.worst <= kKept);
   CHECK(verdict.travel_time == optimum.report.travel_time);
-  if (optimum.report.status != OptimizeStatus::optimal) return;
+  if (optimum.report.status != OptimizeStatus::optimal) return optimum.report;
   ++tally.converged;
   const double least = objective_of(problem, verdict);
   const double kept = kept_back(optimum.report);
   CHECK(kept <= kKeptBack * std::fabs(least));
   tally.kept_far_back += kept > kRarelyKeptBack * std::fabs(least) ? 1 : 0;
   // The report tells the nominal friction, at which neighbours are compared.
-  if (problem.objective.worst_case) return;
+  if (problem.objective.worst_case) return optimum.report;
   // Where contact alone holds it back, the answer is the exact optimum, which has its own tests.
   const auto* found = dynamic_cast<const ClothoidSpline*>(optimum.centerline.get());
-  if (found == nullptr) return;
+  if (found == nullptr) return optimum.report;
   const ClothoidSpline& spline = *found;
   const double run = spline.at(spline.length()).x;
   const auto drop =
@@ -179,22 +181,33 @@ void hold(const Problem& problem, int neighbours, testing::Random& random, Tally
     // A neighbour that breaks a limit by 1e-7 may win that much times the limit's price.
     CHECK((!close.arrived || close.worst > 1e-7));
   }
+  return optimum.report;
 }
 
 }  // namespace
 
-TEST_CASE("random limited problems: every limit is kept, and no admissible neighbour is faster") {
+TEST_CASE(
+    "random limited problems: every limit is kept, no admissible neighbour is faster, and an independent "
+    "search finds no "
+    "track where limits are said to contradict each other, and what they would take does") {
   testing::Random random = testing_problems::seeded_for_limited();
   INFO("GLISSADE_SEED=" << random.seed());
+  // Its own numbers: the problems are the same without that search.
+  testing::Random steps(random.seed());
   constexpr int kNeighbours = 12;
   Tally tally;
   const int problems = testing_problems::problem_count();
+  const int searched = testing_problems::problems_of(20);
   for (int i = 0; i < problems; ++i) {
     const Problem problem = random_limited(random);
     CAPTURE(i);
-    hold(problem, kNeighbours, random, tally);
+    const OptimizeReport report = hold(problem, kNeighbours, random, tally);
+    const bool none =
+        report.status == OptimizeStatus::infeasible || report.status == OptimizeStatus::no_track_found;
+    if (i < searched && none) tally.infeasible += testing_problems::hold_none(problem, report, steps) ? 1 : 0;
   }
-  CAPTURE(tally.solved, tally.converged, tally.admissible, tally.undecided);
+  CAPTURE(tally.solved, tally.converged, tally.admissible, tally.undecided, tally.infeasible);
+  CHECK(tally.infeasible > 0);
   // Neither a track nor a contradiction: an answer that has to stay rare.
   CHECK(tally.undecided <= problems / 100);
   CHECK(tally.kept_far_back <= std::max(1, problems / 100));
@@ -223,7 +236,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
   // Most of them lift off where the track found flies over rougher ground.
   constexpr int kNeighbours = 80;
   Tally tally;
-  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 5 : 15));
+  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 7 : 15));
   for (int i = 0; i < problems; ++i) {
     const Problem problem = with_changing_friction(random_limited(random), random);
     CAPTURE(i);
@@ -237,7 +250,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
 }
 
 TEST_CASE("random limited problems: three times as many pieces win nothing that matters") {
-  const int count = testing::thorough() ? 60 : 12;
+  const int count = testing::thorough() ? 40 : 12;
   const auto of = [](const Problem& problem, const OptimizeReport& report) {
     if (problem.objective.kind == ObjectiveKind::exit_speed) return -report.exit_speed;
     const double weight =
