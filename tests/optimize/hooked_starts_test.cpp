@@ -93,9 +93,8 @@ TEST_CASE(
   struct Known {
     double run, drop, mu, cap;
   };
-  std::vector<Known> all{{10.0, 5.0, 0.3, 3.7579}};
-  if (testing::thorough())
-    all.insert(all.end(), {{10.0, 5.0, 0.2, 4.6024}, {10.0, 5.0, 0.3, 4.6973}, {3.0, 4.0, 0.3, 4.6785}});
+  std::vector<Known> all{{10.0, 5.0, 0.3, 4.6973}};
+  if (testing::thorough()) all.insert(all.end(), {{10.0, 5.0, 0.3, 3.7579}, {3.0, 4.0, 0.3, 4.6785}});
   for (const Known& known : all) {
     CAPTURE(known.run, known.drop, known.mu, known.cap);
     const std::optional<double> by_hand =

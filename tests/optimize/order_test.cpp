@@ -11,8 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace order_test {
@@ -35,6 +38,22 @@ OptimizeStatus compare(const testing_problems::Variation& variation, const Optim
   CHECK(slower <= kSame);
   if (variation.order == testing_problems::Order::same) CHECK(slower >= -kSame);
   return changed.report.status;
+}
+
+/// A problem that is known by its numbers, and its answer: in several tests, solved once.
+struct Known {
+  Problem problem;
+  Optimum optimum;
+};
+
+const Known& known(int seed, int index) {
+  static std::map<std::pair<int, int>, Known> all;
+  const auto found = all.find({seed, index});
+  if (found != all.end()) return found->second;
+  std::size_t draw = 0;
+  Problem problem = testing_problems::problem_to_vary(static_cast<std::uint64_t>(seed), index, draw);
+  Optimum optimum = optimize(problem);
+  return all.emplace(std::pair{seed, index}, Known{std::move(problem), std::move(optimum)}).first->second;
 }
 
 /// A tenth of the problems of other tests: each of these is solved some ten times.
@@ -79,18 +98,11 @@ TEST_CASE("mirrored, of another size and elsewhere a problem has the same answer
 
 // Hundreds of descents one after the other: a last digit that differs in one of them leads to another track.
 TEST_CASE("a track that winds is the same wherever the problem lies and whatever its size") {
-  struct Known {
-    int seed;
-    int index;
-  };
-  std::vector<Known> all{{8, 26}};
-  if (testing::thorough()) all.insert(all.end(), {{7, 92}, {8, 245}});
-  for (const Known& known : all) {
-    std::size_t draw = 0;
-    const Problem problem =
-        testing_problems::problem_to_vary(static_cast<std::uint64_t>(known.seed), known.index, draw);
-    const Optimum optimum = optimize(problem);
-    CAPTURE(known.seed, known.index, optimum.report.brief());
+  std::vector<std::pair<int, int>> all{{8, 26}};
+  if (testing::thorough()) all.emplace_back(7, 92);
+  for (const auto& [seed, index] : all) {
+    const auto& [problem, optimum] = known(seed, index);
+    CAPTURE(seed, index, optimum.report.brief());
     REQUIRE(optimum.report.status == OptimizeStatus::optimal);
     for (const testing_problems::Variation& variation : testing_problems::same_again(problem)) {
       const bool is_larger = variation.name() == "scaled 1e3" && testing::thorough();
@@ -121,31 +133,29 @@ TEST_CASE(
     "no lift-off, no rounding next to a crest, no jump beside knots or at a straight end, no entry speed, no "
     "detour for speed, none that is slower than the straight line and no place of a bend makes a search end "
     "elsewhere") {
-  struct Known {
+  struct Changed {
     int seed;
     int index;
     const char* change;
   };
-  std::vector<Known> all{{3, 257, "wider smallest_valley_radius"},  {5, 25, "wider entry_slope_angle.lowest"},
-                         {5, 105, "wider highest_normal_load"},     {7, 149, "without smallest_crest_radius"},
-                         {7, 458, "without smallest_crest_radius"}, {7, 127, "wider lead_out"},
-                         {7, 269, "wider exit_slope_angle.lowest"}, {8, 387, "wider lead_out"}};
+  std::vector<Changed> all{
+      {3, 257, "wider smallest_valley_radius"},  {5, 25, "wider entry_slope_angle.lowest"},
+      {5, 105, "wider highest_normal_load"},     {7, 149, "without smallest_crest_radius"},
+      {7, 458, "without smallest_crest_radius"}, {7, 127, "wider lead_out"},
+      {7, 269, "wider exit_slope_angle.lowest"}, {8, 387, "wider lead_out"}};
   if (testing::thorough()) {
     all.push_back({3, 298, "without exit_slope_angle.highest"});
     all.push_back({7, 92, "wider arc_length.highest"});
     all.push_back({8, 352, "without lead_out"});
     all.push_back({8, 352, "wider entry_slope_angle.highest"});
   }
-  for (const Known& known : all) {
-    std::size_t draw = 0;
-    const Problem problem =
-        testing_problems::problem_to_vary(static_cast<std::uint64_t>(known.seed), known.index, draw);
-    const Optimum optimum = optimize(problem);
-    CAPTURE(known.seed, known.index, optimum.report.brief());
+  for (const Changed& one : all) {
+    const auto& [problem, optimum] = known(one.seed, one.index);
+    CAPTURE(one.seed, one.index, optimum.report.brief());
     REQUIRE(optimum.report.status == OptimizeStatus::optimal);
     int compared = 0;
     for (const testing_problems::Variation& variation : testing_problems::relaxations_of(problem)) {
-      if (variation.name() != known.change) continue;
+      if (variation.name() != one.change) continue;
       CHECK(compare(variation, optimum.report) == OptimizeStatus::optimal);
       ++compared;
     }
@@ -154,18 +164,11 @@ TEST_CASE(
 }
 
 TEST_CASE("a bound that is said to be enough leads to an optimum when it is put in") {
-  struct Known {
-    int seed;
-    int index;
-  };
-  std::vector<Known> all{{8, 254}};
-  if (testing::thorough()) all.insert(all.end(), {{7, 113}, {7, 207}, {8, 101}});
-  for (const Known& known : all) {
-    std::size_t draw = 0;
-    const Problem problem =
-        testing_problems::problem_to_vary(static_cast<std::uint64_t>(known.seed), known.index, draw);
-    const Optimum none = optimize(problem);
-    CAPTURE(known.seed, known.index, none.report.brief());
+  std::vector<std::pair<int, int>> all{{7, 207}};
+  if (testing::thorough()) all.insert(all.end(), {{8, 254}, {8, 101}});
+  for (const auto& [seed, index] : all) {
+    const auto& [problem, none] = known(seed, index);
+    CAPTURE(seed, index, none.report.brief());
     REQUIRE_FALSE(none.centerline);
     const std::vector<testing_problems::Variation> advised =
         testing_problems::as_advised(problem, none.report);

@@ -112,7 +112,7 @@ TEST_CASE("a clearance before the edge that is relaxed never asks for a higher s
   Problem problem = lowest_in_run();
   problem.limits.keep_outs.push_back(bridge(solved(problem), 0.6));
   double before = HUGE_VAL;
-  for (const double clearance : {0.6, 0.3, 0.0}) {
+  for (const double clearance : {0.6, 0.4, 0.0}) {
     problem.limits.keep_outs.front().clearance = clearance;
     const double drop = drop_of(solved(problem));
     CHECK(drop < before * (1.0 + 1e-7));

@@ -238,8 +238,8 @@ TEST_CASE("prices of random problems are what re-solves win, to 2 %") {
   // docs/optimization.md tells what more of them find.
   const bool asked = std::getenv("GLISSADE_PROBLEMS") != nullptr;
   constexpr int kQuick = 10;
-  constexpr int kThorough = 60;
-  constexpr int kOfEachSeed = 20;
+  constexpr int kThorough = 40;
+  constexpr int kOfEachSeed = 14;
   const int problems = asked ? testing_problems::problem_count() : testing::thorough() ? kThorough : kQuick;
   Tally tally;
   hold_prices(testing::seeded_random(20250305), problems, tally);
