@@ -27,7 +27,7 @@ constexpr double kTolerance = 2e-3;  // of the meshes
 int problem_count() {
   const char* const asked = std::getenv("GLISSADE_PROBLEMS");
   if (asked != nullptr) return std::max(1, std::atoi(asked));
-  return testing::thorough() ? 40 : 20;
+  return testing::thorough() ? 40 : 14;
 }
 
 /// Every clearance of the limits, on the mesh: what it lacks beyond `slack`.

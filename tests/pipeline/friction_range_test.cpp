@@ -29,7 +29,7 @@ Design design_with(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a friction range is ridden at its ends, each like a design of that friction on the same track") {
-  const Design design = design_with("limits: {speed: {highest: 7 m/s}, smallest_radius: 1 m}\n");
+  const Design design = design_with("limits: {speed: {highest: 7.4 m/s}, smallest_radius: 1 m}\n");
   const Track track = solve(design);
   const std::vector<LevelRide> rides = track.rides();
   REQUIRE(rides.size() == 3);
@@ -45,7 +45,8 @@ TEST_CASE("a friction range is ridden at its ends, each like a design of that fr
 }
 
 TEST_CASE("every limit on motion tells the friction at which it binds, and reaches what that ride reaches") {
-  const Track track = solve(design_with("limits: {speed: {highest: 7 m/s}, exit_speed: {lowest: 1 m/s}}\n"));
+  const Track track =
+      solve(design_with("limits: {speed: {highest: 7.4 m/s}, exit_speed: {lowest: 1 m/s}}\n"));
   bool highest = false;
   bool exit = false;
   for (const LimitCheck& check : track.limit_checks) {
