@@ -356,7 +356,7 @@ constexpr const char* kPastBeam =
     "body: {friction_angle: 17 deg}\n"
     "limits:\n"
     "  keep_outs:\n"
-    "    - {outline: [[1.2 m, 5 m], [1.6 m, 5 m], [1.6 m, 5.5 m], [1.2 m, 5.5 m]], clearance: 100 mm}\n"
+    "    - {outline: [[1.2 m, 4.9 m], [1.6 m, 4.9 m], [1.6 m, 5.4 m], [1.2 m, 5.4 m]], clearance: 100 mm}\n"
     "cross_section: {kind: u-channel, width: 400 mm, wall_height: 600 mm, thickness: 4 mm}\n"
     "mesh: {tolerance: 2 mm}\n"
     "export: [stl]\n";
