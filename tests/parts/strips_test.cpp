@@ -14,6 +14,7 @@
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -213,7 +214,7 @@ TEST_CASE("strips: a point beside an arc that is all but straight is where it is
 TEST_CASE("strips: random tracks and sections make plates that add up, with no clash") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int run = 0; run < 10; ++run) {
+  for (int run = 0; run < (testing::thorough() ? 10 : 6); ++run) {
     const ClothoidSpline track = testing::random_track(random, {});
     const double t = random.between(2e-3, 8e-3);
     const double high = random.between(0.1, 0.3);

@@ -508,7 +508,7 @@ namespace {
 /// Greatest distance from the ideal surface over a grid of points in every facet, end faces left out.
 double deviation_by_dense_search(const TriangleMesh& mesh, const Centerline& track,
                                  const CrossSection& section) {
-  const int grid = testing::thorough() ? 8 : 5;
+  const int grid = testing::thorough() ? 8 : 4;
   const CrossSection::Polygon loop = section.outline(1e-7);
   const CenterlinePoint finish = track.at(track.length());
   const auto on_end_face = [&](Vec3 p) {
@@ -609,7 +609,7 @@ TEST_CASE("sweep: facets that follow a curve meet at no more than the largest ki
   const CoulombBrachistochrone track(Endpoints{3.0, 2.0}, Friction::from_coefficient(0.2));
   for (const CrossSection& section :
        {CrossSection::u_channel(0.4, 0.1, 0.004), CrossSection::half_pipe(0.4, 0.01)}) {
-    for (const double degrees : {2.0, 0.25}) {
+    for (const double degrees : {2.0, 0.5}) {
       SweepOptions options;
       options.tolerance = 2e-3;
       options.largest_kink = Angle::from_degrees(degrees);
