@@ -15,9 +15,13 @@ const file = path.join(work, "hills.html");
 const designs = readdirSync(hills).filter((name) => name.endsWith(".yaml") && !name.includes("redesign"));
 
 let browser;
+let page; // one for all tests but those that read the page in another way
+let complaints;
+let visit;
 before(async () => {
   execFileSync(process.env.GLISSADE, ["compare", ...designs.map((name) => path.join(hills, name)), "--html", file]);
   browser = await launch({ webgl: false });
+  ({ page, complaints, visit } = await open(browser, file));
 });
 after(async () => {
   await browser.close();
@@ -32,7 +36,7 @@ const lines = (page) => page.evaluate(() => [...document.querySelectorAll("figur
   .filter((line) => getComputedStyle(line).display !== "none").length);
 
 test("a heading sorts by its numbers, up, down and back, by mouse and by keyboard", async () => {
-  const { page, complaints } = await open(browser, file);
+  await visit(file);
   const drop = (await headings(page)).indexOf("drop [m]");
   assert.ok(drop > 0);
   const before = await column(page, drop);
@@ -49,11 +53,10 @@ test("a heading sorts by its numbers, up, down and back, by mouse and by keyboar
   assert.deepEqual(await column(page, drop), before);
   assert.equal(await page.locator("[aria-sort]").count(), 0);
   assert.deepEqual(complaints, []);
-  await page.close();
 });
 
 test("hills without a value come last, whichever way", async () => {
-  const { page } = await open(browser, file);
+  await visit(file);
   const gates = (await headings(page)).indexOf("gates");
   const missing = (await column(page, gates)).filter((text) => text === "-").length;
   assert.ok(missing > 0);
@@ -61,11 +64,10 @@ test("hills without a value come last, whichever way", async () => {
     await heading(page, "gates").click();
     assert.deepEqual((await column(page, gates)).slice(-missing), Array(missing).fill("-"));
   }
-  await page.close();
 });
 
 test("a box takes a hill out of the table and every figure, by mouse and by keyboard, and its address remembers it", async () => {
-  const { page, complaints } = await open(browser, file);
+  await visit(file);
   const all = await lines(page);
   const name = (await column(page, 0))[1];
   await page.locator("label[for=choose-2]").click();
@@ -84,11 +86,10 @@ test("a box takes a hill out of the table and every figure, by mouse and by keyb
   await page.getByRole("button", { name: "show all" }).click();
   assert.equal(await lines(page), all);
   assert.deepEqual(complaints, []);
-  await page.close();
 });
 
 test("a hill that is followed stands out in every figure, and can be left alone", async () => {
-  const { page, complaints } = await open(browser, file);
+  await visit(file);
   await page.locator("tbody th button").nth(2).focus();
   await page.keyboard.press("Enter");
   const faint = await page.evaluate(() => [...document.querySelectorAll("figure svg path.line")].map((line) => [
@@ -98,11 +99,10 @@ test("a hill that is followed stands out in every figure, and can be left alone"
   await page.getByRole("button", { name: "only the followed one" }).click();
   assert.equal((await column(page, 0)).length, 1);
   assert.deepEqual(complaints, []);
-  await page.close();
 });
 
 test("no two hills are drawn alike, and each alike in every figure", async () => {
-  const { page } = await open(browser, file);
+  await visit(file);
   const styles = await page.evaluate(() => [...document.querySelectorAll("figure svg path.line, .choices path")].map((line) => [
     (line.closest("label")?.htmlFor ?? line.getAttribute("class")).match(/\d+/)[0],
     `${line.getAttribute("stroke")} ${line.getAttribute("stroke-dasharray")}`]));
@@ -113,7 +113,6 @@ test("no two hills are drawn alike, and each alike in every figure", async () =>
   }
   assert.equal(style.size, designs.length);
   assert.equal(new Set(style.values()).size, designs.length);
-  await page.close();
 });
 
 test("on a phone nothing runs off the page, names stay while numbers are scrolled, and fingers find the buttons", async () => {
@@ -142,11 +141,10 @@ test("without scripts the boxes still choose", async () => {
 });
 
 test("an address that says nonsense is taken for none", async () => {
-  const { page, complaints } = await open(browser, file);
+  await visit(file);
   await page.goto(`file://${file}#sort=99&without=x.-1.400&follow=zzz`);
   await page.reload();
   assert.equal((await column(page, 0)).length, designs.length);
   assert.equal(await page.locator("[aria-sort]").count(), 0);
   assert.deepEqual(complaints, []);
-  await page.close();
 });
