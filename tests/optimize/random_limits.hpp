@@ -108,12 +108,12 @@ inline Problem random_limited(testing::Random& random) {
 }
 
 /// How many random problems a test takes: GLISSADE_PROBLEMS of the environment; where that is not set 150 in continuous
-/// integration, 60 elsewhere, fewer in a build without optimisation.
+/// integration, 40 elsewhere and in a build without optimisation.
 inline int problem_count() {
   const char* const asked = std::getenv("GLISSADE_PROBLEMS");
   if (asked != nullptr) return std::max(1, std::atoi(asked));
 #ifdef NDEBUG
-  return testing::thorough() ? 150 : 60;
+  return testing::thorough() ? 150 : 40;
 #else
   return 40;
 #endif

@@ -236,7 +236,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
   // Most of them lift off where the track found flies over rougher ground.
   constexpr int kNeighbours = 80;
   Tally tally;
-  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 7 : 15));
+  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 7 : 10));
   for (int i = 0; i < problems; ++i) {
     const Problem problem = with_changing_friction(random_limited(random), random);
     CAPTURE(i);
