@@ -23,7 +23,8 @@ TEST_CASE("an independent search finds no room for a whole solid where clearance
   INFO("GLISSADE_SEED=" << random.seed());
   testing::Random steps(random.seed());
   int infeasible = 0;
-  for (int i = problems_of(6); i > 0; --i) {
+  // Solids take longest.
+  for (int i = testing::thorough() ? 2 * problems_of(6) / 3 : problems_of(6); i > 0; --i) {
     const RandomCase made = random_case(random);
     const Optimum optimum = optimize(made.problem);
     if (optimum.centerline) continue;
